@@ -1,0 +1,40 @@
+#pragma once
+
+#include "messages/node.hpp"
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace roscell {
+
+/// What one actor has done; written by it, read by anyone.
+struct actor_counters {
+  std::string name;
+  std::atomic<uint64_t> id{0};
+  std::atomic<uint64_t> received{0};
+  std::atomic<uint64_t> handled{0};
+  std::atomic<uint64_t> busy_us{0};
+  std::atomic<uint64_t> longest_us{0};
+
+  /// Counts one handled message.
+  void add(uint64_t handling_us);
+};
+
+/// Every live actor that the house function has spawned on one node.
+class actor_directory {
+public:
+  std::shared_ptr<actor_counters> enter(const std::string& name);
+
+  /// The live actors, oldest first.
+  std::vector<actor_row> rows() const;
+
+private:
+  mutable std::mutex mutex_;
+  mutable std::vector<std::weak_ptr<actor_counters>> entries_;
+};
+
+} // namespace roscell

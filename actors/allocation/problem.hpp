@@ -1,0 +1,90 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+/// What an allocation is asked about: plain values, no actors and no JSON.
+/// docs/allocation.md gives the objective, the method and the tie rule.
+namespace roscell::allocation {
+
+/// What a resource offers and how much of it is taken. CPU is in cores, all
+/// memory and disk in MiB. `used` may exceed `capacity`, which counts as full.
+struct amount {
+  double capacity = 0;
+  double used = 0;
+};
+
+/// One GPU of a node. On a unified-memory node its memory is not read: there
+/// the pool is the node's memory.
+struct gpu {
+  int index = 0;
+  amount memory_mib;
+};
+
+using label_map = std::map<std::string, std::string>;
+
+struct node {
+  std::string name;
+  std::string architecture;
+  bool unified_memory = false;
+  amount cpu;
+  amount memory_mib;
+  amount disk_mib;
+  std::vector<gpu> gpus;
+  label_map labels;
+  std::vector<std::string> devices;
+};
+
+/// One deployment option of a step's implementation model.
+struct deployment {
+  std::string name;
+  /// The architectures it runs on; empty means any.
+  std::vector<std::string> architectures;
+  double cpu = 0;
+  double memory_mib = 0;
+  double disk_mib = 0;
+  bool needs_gpu = false;
+  /// 0 unless `needs_gpu`.
+  double gpu_memory_mib = 0;
+  /// Devices and labels which the node must have.
+  std::vector<std::string> devices;
+  label_map labels;
+};
+
+/// One step of the request. The deployments are those of its model, narrowed
+/// to one where the user names a preference.
+struct step {
+  std::string id;
+  std::vector<deployment> deployments;
+  /// Labels which the node must have, whatever the deployment.
+  label_map labels;
+  /// Names of the nodes that have the skill. Names of other nodes are ignored.
+  std::set<std::string> nodes_with_skill;
+};
+
+struct problem {
+  std::vector<node> nodes;
+  /// In the order of the request, which the fractions depend on.
+  std::vector<step> steps;
+  /// Weight of the load term of equation (1).
+  double alpha = 0.1;
+  /// The paper's beta, added for each step that runs on a GPU.
+  double gpu_bonus = -0.01;
+};
+
+/// When to give up the proof and answer with the best that was found.
+struct limits {
+  /// Time for the search; 0 means no limit.
+  std::chrono::milliseconds budget{0};
+  /// Asked before each branch of the search; true ends it. May be empty.
+  std::function<bool()> cancelled;
+  /// The clock the budget is measured with, so that tests need not wait.
+  std::function<std::chrono::steady_clock::time_point()> now =
+      std::chrono::steady_clock::now;
+};
+
+} // namespace roscell::allocation

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace roscell {
+
+/// The most bytes of USER_DATA that we send or look at.
+constexpr std::size_t max_announcement_bytes = 512;
+
+/// What a participant says of itself before anybody has a session with it. It
+/// rides in the USER_DATA of the DDS participant, so it costs no topic.
+///
+/// Wire form: `roscell=1.0;role=coordinator;node=alpha;...`, the `key=value;`
+/// form that ROS 2 uses in the same place. In values, `%`, `;`, `=`, control
+/// bytes and bytes above 0x7e are written as `%` and two hex digits.
+struct announcement {
+  std::string protocol_version = "1.0"; ///< "MAJOR.MINOR" of the sessions.
+  std::string role;                     ///< "coordinator".
+  std::string node;                     ///< Name of the node.
+  std::string cell;                     ///< Name of the cell.
+  std::string session;                  ///< "ip:port" where sessions are taken.
+  std::string uuid;                     ///< Of the node.
+  std::int64_t incarnation = 0;         ///< Raised at every start.
+};
+
+bool operator==(const announcement& x, const announcement& y);
+bool operator!=(const announcement& x, const announcement& y);
+
+/// The wire form of `x`. It never fails; what does not fit into
+/// `max_announcement_bytes` is refused where it is sent.
+std::string encode(const announcement& x);
+
+/// Reads a wire form. Unknown keys are ignored, absent ones stay empty, so
+/// that another protocol version can still be refused by its name. Gives none
+/// for the USER_DATA of strangers: whatever does not start with a version, is
+/// too long, repeats a key or is damaged. Never throws but for lack of memory.
+std::optional<announcement> decode(std::string_view bytes);
+
+} // namespace roscell

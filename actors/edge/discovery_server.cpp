@@ -1,0 +1,205 @@
+#include "actors/edge/discovery_server.hpp"
+
+#include "actors/edge/announcement.hpp"
+#include "actors/edge/discovery_address.hpp"
+#include "actors/edge/discovery_participant.hpp"
+
+#include <algorithm>
+#include <condition_variable>
+#include <mutex>
+#include <set>
+#include <thread>
+#include <utility>
+
+namespace roscell {
+
+namespace {
+
+using eprosima::fastrtps::rtps::DiscoveryProtocol_t;
+
+/// Until Fast DDS's own thread has entered a new client into its database; an
+/// announcement before that would not reach the client.
+constexpr std::chrono::milliseconds greeting_delay{2};
+
+/// How often the server repeats what a client has not acknowledged. Shorter
+/// than Fast DDS's 450 ms because a ROS 2 node's start waits for it.
+constexpr std::int32_t repeat_period_ns = 100'000'000;
+
+/// A ROS 2 node may put all its endpoints into one datagram of full size.
+constexpr std::uint32_t max_server_message_bytes = 65500;
+
+edge_error out_of_bounds(std::string message) {
+  return {error_code::schema_violation, std::move(message), ""};
+}
+
+std::optional<edge_error> check_announcement(const std::string& bytes) {
+  if (bytes.size() <= max_announcement_bytes)
+    return std::nullopt;
+  return out_of_bounds("an announcement of " + std::to_string(bytes.size())
+                       + " bytes is over the limit of "
+                       + std::to_string(max_announcement_bytes));
+}
+
+std::optional<edge_error> check(const cell_server_options& options) {
+  if (options.domain_id > max_domain_id)
+    return out_of_bounds("ROS domain " + std::to_string(options.domain_id)
+                         + " is over " + std::to_string(max_domain_id));
+  if (options.announcement_period >= options.lease)
+    return out_of_bounds("the announcement period must be below the lease");
+  return check_announcement(options.announcement);
+}
+
+/// The port that is free now, or why there is none.
+edge_result<std::uint16_t> free_port(const cell_server_options& options) {
+  auto bound = udp_socket::bind(options.address, options.port);
+  if (auto* error = std::get_if<edge_error>(&bound))
+    return *error;
+  return ntohs(std::get<udp_socket>(bound).local().sin_port);
+}
+
+auto server_attributes(const cell_server_options& options, std::uint16_t port) {
+  participant_settings settings;
+  settings.address = options.address;
+  settings.announcement = options.announcement;
+  settings.lease = options.lease;
+  settings.announcement_period = options.announcement_period;
+  settings.max_message_bytes = max_server_message_bytes;
+  auto result = make_attributes(settings, port);
+  auto prefix = server_prefix(options.server_id);
+  std::copy(prefix.begin(), prefix.end(), result.prefix.value);
+  auto& discovery = result.builtin.discovery_config;
+  discovery.discoveryProtocol = DiscoveryProtocol_t::SERVER;
+  discovery.discoveryServer_client_syncperiod = {0, repeat_period_ns};
+  return result;
+}
+
+} // namespace
+
+class cell_server::impl {
+public:
+  explicit impl(on_sighting callback) : callback_(std::move(callback)) {}
+
+  ~impl() {
+    close();
+  }
+
+  bool open(const cell_server_options& options, std::uint16_t port) {
+    port_ = port;
+    participant_ = rtps_participant::create(
+        options.domain_id, server_attributes(options, port),
+        [this](const sighting& seen) { on_client(seen); });
+    if (participant_ == nullptr)
+      return false;
+    greeter_ = std::thread{[this] { greet(); }};
+    return true;
+  }
+
+  std::uint16_t port() const {
+    return port_;
+  }
+
+  void update_announcement(const std::string& bytes) {
+    if (participant_ != nullptr)
+      participant_->update_announcement(bytes);
+  }
+
+  void close() {
+    {
+      std::lock_guard<std::mutex> lock{mutex_};
+      closing_ = true;
+    }
+    changed_.notify_one();
+    if (greeter_.joinable())
+      greeter_.join();
+    participant_.reset();
+  }
+
+private:
+  void on_client(const sighting& seen) {
+    if (seen.name == probe_name)
+      return;
+    count(seen);
+    if (callback_)
+      callback_(seen);
+  }
+
+  void count(const sighting& seen) {
+    std::lock_guard<std::mutex> lock{mutex_};
+    if (seen.what == sighting::kind::left || seen.what == sighting::kind::lost)
+      clients_.erase(seen.prefix);
+    else if (clients_.insert(seen.prefix).second
+             && clients_.size() <= max_greeted_clients)
+      newcomer_ = true;
+    if (newcomer_)
+      changed_.notify_one();
+  }
+
+  /// Body of the greeting thread.
+  void greet() {
+    auto closing = [this] { return closing_; };
+    std::unique_lock<std::mutex> lock{mutex_};
+    for (;;) {
+      changed_.wait(lock, [this] { return closing_ || newcomer_; });
+      if (changed_.wait_for(lock, greeting_delay, closing))
+        return;
+      newcomer_ = false;
+      lock.unlock();
+      participant_->announce();
+      lock.lock();
+      if (changed_.wait_for(lock, greeting_interval, closing))
+        return;
+    }
+  }
+
+  std::uint16_t port_ = 0;
+  on_sighting callback_;
+  std::unique_ptr<rtps_participant> participant_;
+  std::mutex mutex_; // Guards what follows.
+  std::condition_variable changed_;
+  bool closing_ = false;
+  bool newcomer_ = false;
+  std::set<guid_prefix> clients_;
+  std::thread greeter_;
+};
+
+cell_server::cell_server(std::unique_ptr<impl> x) : impl_(std::move(x)) {}
+
+edge_result<std::unique_ptr<cell_server>>
+cell_server::open(const cell_server_options& options, on_sighting on_client) {
+  if (auto error = check(options))
+    return *std::move(error);
+  // Somebody else can take the port that was free a moment ago.
+  constexpr int attempts = 3;
+  for (int i = 0; i < attempts; ++i) {
+    auto port = free_port(options);
+    if (auto* error = std::get_if<edge_error>(&port))
+      return *error;
+    auto x = std::make_unique<impl>(on_client);
+    if (x->open(options, std::get<std::uint16_t>(port)))
+      return std::unique_ptr<cell_server>{new cell_server(std::move(x))};
+  }
+  return edge_error{error_code::internal,
+                    "Fast DDS does not start a discovery server on "
+                        + options.address,
+                    "its own log says why"};
+}
+
+cell_server::~cell_server() = default;
+
+std::uint16_t cell_server::port() const {
+  return impl_->port();
+}
+
+std::optional<edge_error>
+cell_server::update_announcement(const std::string& bytes) {
+  if (auto error = check_announcement(bytes))
+    return error;
+  impl_->update_announcement(bytes);
+  return std::nullopt;
+}
+
+void cell_server::close() {
+  impl_->close();
+}
+
+} // namespace roscell

@@ -1,0 +1,121 @@
+#pragma once
+
+#include "messages/error_code.hpp"
+
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+
+namespace roscell {
+
+/// What one HTTP server puts up with. The defaults suit a node; tests shorten
+/// them.
+struct http_limits {
+  /// Request line and header fields together; more is answered with 431.
+  size_t header_bytes = 8 * 1024;
+  /// A request's body; more is answered with 413 before it is read.
+  size_t body_bytes = 1024 * 1024;
+  /// From connecting to the first byte.
+  std::chrono::milliseconds first_byte{10'000};
+  /// From a request's first byte to its last.
+  std::chrono::milliseconds whole_request{10'000};
+  /// Between two requests of one connection.
+  std::chrono::milliseconds idle{30'000};
+  /// For writing one reply to a slow reader.
+  std::chrono::milliseconds write{30'000};
+  /// For requests in progress when the server stops, and for a client to read
+  /// the error that ended its connection.
+  std::chrono::milliseconds grace{1'000};
+  /// TCP connections that have not shown the bearer token yet. When one more
+  /// comes, the one that was silent for longest is closed: a crowd of silent
+  /// connections keeps nobody out who speaks at once.
+  size_t strangers = 64;
+  /// TCP connections that have shown it; one more is answered with 503.
+  size_t trusted = 192;
+  /// Connections to the Unix socket; one more is answered with 503.
+  size_t local = 64;
+  /// Sessions; a request for one more is answered with 503.
+  size_t sessions = 1024;
+  /// Bytes that wait for one slow reader of a stream; beyond it the stream is
+  /// cut.
+  size_t stream_bytes = 1024 * 1024;
+};
+
+struct http_request {
+  std::string method; ///< GET or POST.
+  std::string path;   ///< Percent-decoded, begins with '/'.
+  std::map<std::string, std::string> query; ///< Percent-decoded.
+  std::string body;
+  bool local = false; ///< It came by the Unix socket.
+};
+
+struct http_reply {
+  int status = 200;
+  std::string content_type;
+  std::string body;
+};
+
+inline constexpr const char* json_content = "application/json";
+inline constexpr const char* event_stream_content = "text/event-stream";
+
+/// A reply without an end: server-sent events, or a log that is followed.
+/// All methods may be called from any thread, also after the end. Letting go
+/// of the stream closes it.
+class http_stream {
+public:
+  virtual ~http_stream() = default;
+
+  /// Queues some bytes. False if the stream is over. A reader that lets more
+  /// wait than `http_limits::stream_bytes` is cut off, in an event stream
+  /// with an `error` event as the last thing it gets.
+  virtual bool write(std::string chunk) = 0;
+
+  /// Calls `callback` once when the stream is over for whatever reason, on
+  /// the io thread. On this thread at once if the request was answered before
+  /// the stream was made.
+  virtual void on_closed(std::function<void()> callback) = 0;
+
+  /// Ends the stream after what was queued.
+  virtual void close() = 0;
+};
+
+/// Where a reply goes. Implemented by the server, and by fakes in tests.
+class reply_sink {
+public:
+  virtual ~reply_sink() = default;
+  virtual void reply(http_reply reply) = 0;
+  virtual std::shared_ptr<http_stream> stream(std::string content_type) = 0;
+};
+
+/// Answers one request, once: the first answer counts and later ones are
+/// ignored. Copies answer the same request. May be called from any thread,
+/// also after the client has gone. If all copies are dropped without an
+/// answer the client gets status 500.
+class responder {
+public:
+  explicit responder(std::shared_ptr<reply_sink> sink);
+
+  void reply(int status, std::string content_type, std::string body) const;
+
+  /// Answers with the JSON form of an error.
+  void error(int status, error_code code, std::string_view message,
+             std::string_view hint = {}) const;
+
+  /// Answers with status 200 and a body that follows. A stream that is over
+  /// already if the request was answered before.
+  std::shared_ptr<http_stream> stream(std::string content_type) const;
+
+private:
+  struct once;
+  std::shared_ptr<once> once_;
+};
+
+/// Called on the io thread; must return soon.
+using http_handler = std::function<void(http_request, responder)>;
+
+} // namespace roscell

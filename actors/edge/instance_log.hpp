@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace roscell {
+
+/// A part of an instance's log.
+struct log_part {
+  std::string text;        ///< Valid UTF-8; other bytes are replaced.
+  int64_t next_offset = 0; ///< Of the first byte after the part.
+  bool ended = false;      ///< Nothing will follow.
+};
+
+/// Reads the bounded log that an instance's shim keeps in its folder: files
+/// `log.<offset>`, named after the position of their first byte in all that was
+/// ever logged, of which old ones disappear while we read. Blocks on the disk.
+class instance_log {
+public:
+  /// Most bytes of log in one part.
+  static constexpr int64_t max_part_bytes = 64 * 1024;
+
+  static constexpr int64_t default_lines = 20;
+
+  explicit instance_log(std::filesystem::path folder);
+
+  /// Whether there is an instance's folder at all.
+  bool exists() const;
+
+  /// What stands at `offset` and after; the oldest that is still there if that
+  /// is gone, nothing if it is not yet written.
+  log_part read_from(int64_t offset) const;
+
+  /// The last lines, as far as they fit into one part.
+  log_part read_tail(int64_t lines = default_lines) const;
+
+private:
+  struct file {
+    int64_t start = 0;
+    int64_t size = 0;
+  };
+
+  /// Bytes without a gap between them.
+  struct chunk {
+    int64_t from = 0; ///< Offset of the first byte.
+    std::string bytes;
+    int64_t end = 0; ///< Offset behind the last byte of the whole log.
+  };
+
+  std::vector<file> files() const;
+  std::string bytes(const file& x, int64_t from, int64_t most) const;
+  chunk read(int64_t from) const;
+  bool has_ended() const;
+
+  std::filesystem::path folder_;
+};
+
+} // namespace roscell

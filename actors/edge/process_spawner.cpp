@@ -1,0 +1,169 @@
+#include "actors/edge/process_spawner.hpp"
+
+#include "actors/edge/pidfd.hpp"
+#include "actors/edge/utf8.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <spawn.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <utility>
+
+namespace roscell {
+
+namespace {
+
+/// Most of what a program says of its failure.
+constexpr size_t max_words_bytes = 2048;
+
+edge_error failed(const program& what, const std::string& why) {
+  return {error_code::engine_failed,
+          "cannot start '" + what.path.string() + "': " + why,
+          "check that the file is there and can be run by this user"};
+}
+
+/// What posix_spawn does in the child before the program.
+class spawn_setup {
+public:
+  explicit spawn_setup(int output) {
+    ::posix_spawn_file_actions_init(&actions_);
+    ::posix_spawn_file_actions_addopen(&actions_, STDIN_FILENO, "/dev/null",
+                                       O_RDONLY, 0);
+    ::posix_spawn_file_actions_adddup2(&actions_, output, STDOUT_FILENO);
+    ::posix_spawn_file_actions_adddup2(&actions_, output, STDERR_FILENO);
+    ::posix_spawn_file_actions_addclosefrom_np(&actions_, STDERR_FILENO + 1);
+    sigset_t none;
+    sigset_t all;
+    sigemptyset(&none);
+    sigfillset(&all);
+    ::posix_spawnattr_init(&attributes_);
+    ::posix_spawnattr_setsigmask(&attributes_, &none);
+    ::posix_spawnattr_setsigdefault(&attributes_, &all);
+    ::posix_spawnattr_setflags(&attributes_,
+                               POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+  }
+
+  ~spawn_setup() {
+    ::posix_spawnattr_destroy(&attributes_);
+    ::posix_spawn_file_actions_destroy(&actions_);
+  }
+
+  spawn_setup(const spawn_setup&) = delete;
+  spawn_setup& operator=(const spawn_setup&) = delete;
+
+  /// Returns 0 or an error number.
+  int run(const program& what, pid_t& pid) {
+    auto texts = what.arguments;
+    texts.insert(texts.begin(), what.path.string());
+    std::vector<std::string> settings;
+    for (const auto& [name, value] : what.environment)
+      settings.push_back(name + '=' + value);
+    return ::posix_spawn(&pid, what.path.c_str(), &actions_, &attributes_,
+                         pointers(texts).data(), pointers(settings).data());
+  }
+
+private:
+  static std::vector<char*> pointers(std::vector<std::string>& texts) {
+    std::vector<char*> result;
+    for (auto& x : texts)
+      result.push_back(x.data());
+    result.push_back(nullptr);
+    return result;
+  }
+
+  posix_spawn_file_actions_t actions_;
+  posix_spawnattr_t attributes_;
+};
+
+/// Reads until the other end is closed. Returns false when time runs out.
+bool read_words(int fd, std::chrono::milliseconds limit, std::string& words) {
+  using clock = std::chrono::steady_clock;
+  const auto end = clock::now() + limit;
+  for (;;) {
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(
+        end - clock::now());
+    pollfd waited{fd, POLLIN, 0};
+    const int wait_ms = std::max(0, static_cast<int>(left.count()));
+    if (const int n = ::poll(&waited, 1, wait_ms); n == 0)
+      return false;
+    else if (n < 0)
+      continue; // Interrupted.
+    std::array<char, 512> buffer;
+    const auto n = ::read(fd, buffer.data(), buffer.size());
+    if (n < 0 && errno == EINTR)
+      continue;
+    if (n <= 0)
+      return true;
+    const auto room = max_words_bytes - words.size();
+    words.append(buffer.data(), std::min(static_cast<size_t>(n), room));
+  }
+}
+
+/// The exit code of a child that has ended with one other than 0, else 0.
+int failure_code(int pidfd) {
+  if (!has_ended(pidfd))
+    return 0;
+  siginfo_t info{};
+  if (::waitid(P_PIDFD, static_cast<id_t>(pidfd), &info,
+               WEXITED | WNOHANG | WNOWAIT)
+      != 0)
+    return 0;
+  return info.si_code == CLD_EXITED ? info.si_status : 128 + info.si_status;
+}
+
+std::string trimmed(const std::string& words) {
+  const auto end = words.find_last_not_of(" \n\r\t");
+  return valid_utf8(words.substr(0, end == std::string::npos ? 0 : end + 1));
+}
+
+void kill_and_reap(int pidfd) {
+  ::pidfd_send_signal(pidfd, SIGKILL, nullptr, 0);
+  siginfo_t info{};
+  ::waitid(P_PIDFD, static_cast<id_t>(pidfd), &info, WEXITED);
+}
+
+} // namespace
+
+edge_result<spawned_program> spawn_program(const program& what,
+                                           std::chrono::milliseconds limit) {
+  int ends[2] = {-1, -1};
+  if (::pipe2(ends, O_CLOEXEC) != 0)
+    return failed(what, std::strerror(errno));
+  const unique_fd reading{ends[0]};
+  unique_fd writing{ends[1]};
+  spawned_program result;
+  pid_t pid = -1;
+  if (const int error = spawn_setup{writing.get()}.run(what, pid); error != 0)
+    return failed(what, std::strerror(error));
+  writing.reset();
+  // Nobody else reaps our child, so the number is still its own.
+  result.pidfd = unique_fd{::pidfd_open(pid, 0)};
+  if (!result.pidfd) {
+    const std::string why = std::strerror(errno);
+    ::kill(pid, SIGKILL);
+    ::waitpid(pid, nullptr, 0);
+    return failed(what, "pidfd_open: " + why + " (needs Linux 5.3)");
+  }
+  result.identity = identify(pid).value_or(process_identity{pid, 0});
+  std::string words;
+  if (!read_words(reading.get(), limit, words)) {
+    kill_and_reap(result.pidfd.get());
+    return failed(what, "it did not start in time");
+  }
+  const auto code = failure_code(result.pidfd.get());
+  if (code == 0)
+    return result;
+  kill_and_reap(result.pidfd.get());
+  words = trimmed(words);
+  return failed(what, words.empty()
+                          ? "it ended with code " + std::to_string(code)
+                          : words);
+}
+
+} // namespace roscell

@@ -1,0 +1,38 @@
+#pragma once
+
+#include "actors/edge/edge_error.hpp"
+#include "actors/edge/process_identity.hpp"
+
+#include <chrono>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace roscell {
+
+/// A program to be started.
+struct program {
+  std::filesystem::path path;
+  std::vector<std::string> arguments; ///< Without the program itself.
+  std::map<std::string, std::string> environment; ///< All that it will see.
+};
+
+/// A child of ours.
+struct spawned_program {
+  process_identity identity;
+  unique_fd pidfd;
+};
+
+/// Starts a program with no descriptor of ours but its standard streams, no
+/// blocked signal, and /dev/null as input. Waits, `limit` at most, until the
+/// program has closed its output or has ended, for what it writes until then
+/// is why it fails.
+///
+/// Errors: engine_failed, when it cannot be started, ends with a code other
+/// than 0 before it has closed its output, or passes the limit; it is killed
+/// then.
+edge_result<spawned_program> spawn_program(const program& what,
+                                           std::chrono::milliseconds limit);
+
+} // namespace roscell

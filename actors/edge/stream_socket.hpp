@@ -1,0 +1,41 @@
+#pragma once
+
+#include <boost/asio/generic/stream_protocol.hpp>
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+
+/// INTERNAL to this folder: one type for TCP and Unix sockets, so that the
+/// code for connections is compiled once.
+namespace roscell {
+
+using stream_socket = boost::asio::generic::stream_protocol::socket;
+
+struct socket_address {
+  std::string address; ///< Dotted IPv4; empty for a Unix socket.
+  uint16_t port = 0;
+};
+
+/// Opens a TCP socket that forked instances do not inherit.
+void open_tcp(stream_socket& socket);
+
+/// The other end of a connected socket; empty if it is gone already.
+socket_address peer_of(stream_socket& socket);
+
+/// For a TCP socket: does not hold small writes back.
+void send_at_once(stream_socket& socket);
+
+/// For a TCP socket: sends small frames at once, and gives the connection up
+/// when bytes stay unacknowledged for `user_timeout`.
+void tune_for_session(stream_socket& socket,
+                      std::chrono::milliseconds user_timeout);
+
+/// Lets the kernel ask a silent peer, after half a minute, whether it is
+/// still there. For connections that only send and may have nothing to say.
+void keep_alive(stream_socket& socket);
+
+/// Closes without waiting for anything and without an error.
+void close_now(stream_socket& socket);
+
+} // namespace roscell

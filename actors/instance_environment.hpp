@@ -1,0 +1,24 @@
+#pragma once
+
+#include "messages/instance.hpp"
+#include "messages/skill_descriptor.hpp"
+
+#include <chrono>
+#include <map>
+#include <string>
+
+namespace roscell {
+
+/// Silence after which a running skill is taken for hung. Skills say that they
+/// are alive twice in this time, so one lost word does no harm.
+constexpr std::chrono::seconds watchdog_interval{10};
+
+/// What an instance is told by its environment: the contract of
+/// skills/engine/environment.hpp, without NOTIFY_SOCKET, which is the
+/// runtime's. The deployment option's own variables come first and the spec's
+/// replace them; the contract's replace both.
+std::map<std::string, std::string>
+instance_environment(const instance_spec& spec,
+                     const deployment_option& deployment);
+
+} // namespace roscell

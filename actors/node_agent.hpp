@@ -1,0 +1,33 @@
+#pragma once
+
+#include "actors/house.hpp"
+#include "messages/type_ids.hpp"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace roscell {
+
+struct node_agent_config {
+  std::string node; ///< Its name.
+  std::map<std::string, std::string> labels;
+  std::vector<std::string> devices; ///< Offered besides those found.
+  container_supervisor_actor supervisor;
+  resource_probe_actor probe;
+};
+
+/// Answers for the local node what a coordinator asks of it.
+struct node_agent_state {
+  static constexpr const char* name = "node-agent";
+
+  node_agent_config config;
+  uint64_t reports = 0;
+};
+
+/// The local NODE AGENT. Messages: messages/agent.hpp.
+node_agent_actor::behavior_type
+node_agent(node_agent_actor::stateful_pointer<node_agent_state> self,
+           const node_agent_config& config);
+
+} // namespace roscell

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace roscell {
+
+/// How one node is set up. Every default is the one of `roscell node`.
+struct node_config {
+  std::string name; ///< Empty: "node-" and the MAC of the interface.
+  bool coordinator = false;
+  std::string cell;          ///< Empty: the node's own name. Coordinators only.
+  std::string address;       ///< Local IPv4 address that everything binds to.
+  uint16_t http_port = 8420; ///< HTTP, sessions, UDP beat; 0: any free.
+  uint16_t discovery_port = 11811; ///< Discovery server; 0: any free.
+  uint8_t server_id = 0;           ///< Of the discovery server, in its prefix.
+  uint8_t ros_domain_id = 0;
+  std::string join; ///< "ADDR[:PORT]" of a discovery server; empty: none.
+  std::string runtime = "auto"; ///< auto, docker, podman or process.
+  std::filesystem::path data_dir;
+  std::filesystem::path socket; ///< Unix socket; empty: data_dir/node.sock.
+  std::vector<std::filesystem::path> skill_dirs;
+  std::filesystem::path site_token_file; ///< Empty: loopback sessions only.
+  std::filesystem::path shim; ///< roscell-instance-shim; empty: beside us.
+  std::string capacity;       ///< "cpu=2,memory_mib=2048"; empty: all.
+  std::map<std::string, std::string> labels;
+  std::vector<std::string> devices; ///< Offered besides those found.
+  uint64_t log_bytes = 1024 * 1024; ///< Bound of one instance's log.
+};
+
+} // namespace roscell

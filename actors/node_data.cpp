@@ -1,0 +1,178 @@
+#include "actors/node_data.hpp"
+
+#include "actors/edge/crypto.hpp"
+#include "actors/edge/small_file.hpp"
+#include "messages/failure.hpp"
+#include "schemas/decode.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <cstring>
+#include <optional>
+#include <utility>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+namespace roscell {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr size_t min_site_token_bytes = 16;
+constexpr size_t max_token_bytes = 4096;
+
+caf::error to_caf(const edge_error& why) {
+  return fail(why.code, why.message, "", why.hint);
+}
+
+/// A random UUID, version 4 of RFC 4122.
+std::string make_uuid() {
+  auto bytes = random_bytes(16);
+  bytes[6] = static_cast<char>((bytes[6] & 0x0f) | 0x40);
+  bytes[8] = static_cast<char>((bytes[8] & 0x3f) | 0x80);
+  auto hex = to_hex(bytes);
+  for (const size_t dash : {8, 13, 18, 23})
+    hex.insert(dash, "-");
+  return hex;
+}
+
+std::string trim(const std::string& text) {
+  const auto is_space = [](unsigned char c) { return std::isspace(c) != 0; };
+  const auto begin = std::find_if_not(text.begin(), text.end(), is_space);
+  const auto end =
+      std::find_if_not(text.rbegin(), text.rend(), is_space).base();
+  return begin < end ? std::string{begin, end} : std::string{};
+}
+
+/// Writes a new file that only its owner can read.
+caf::error write_secret(const fs::path& path, const std::string& text) {
+  const int fd =
+      ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+  const auto size = static_cast<ssize_t>(text.size());
+  const bool written = fd >= 0 && ::write(fd, text.data(), text.size()) == size
+                       && ::fsync(fd) == 0;
+  const int problem = errno;
+  if (fd >= 0)
+    ::close(fd);
+  if (written)
+    return caf::none;
+  return fail(error_code::internal, "cannot write '" + path.string()
+                                        + "': " + std::strerror(problem));
+}
+
+caf::error load_token(node_data& data, const fs::path& dir) {
+  const auto path = dir / "token";
+  data.token_file = path.string();
+  if (!fs::exists(path))
+    if (auto why = write_secret(path, to_hex(random_bytes(32)) + "\n"))
+      return why;
+  data.token = trim(read_small_file(path, max_token_bytes).value_or(""));
+  if (data.token.empty())
+    return fail(error_code::internal,
+                "cannot read the token in '" + path.string() + "'", "",
+                "remove the file, and the node makes a new one");
+  return caf::none;
+}
+
+caf::error load_site_token(node_data& data, const fs::path& path) {
+  if (path.empty())
+    return caf::none;
+  const auto text = read_small_file(path, max_token_bytes);
+  if (!text)
+    return fail(error_code::unauthorized,
+                "cannot read the site token in '" + path.string() + "'", "",
+                "give --site-token a file of at most 4096 bytes that this user "
+                "can read");
+  data.site_token = trim(*text);
+  if (data.site_token.size() < min_site_token_bytes)
+    return fail(error_code::unauthorized,
+                "the site token in '" + path.string()
+                    + "' is shorter than 16 characters",
+                "", "make one: head -c 32 /dev/urandom | xxd -p -c 64");
+  return caf::none;
+}
+
+/// The records of a table that this version can read. What it cannot read was
+/// written by another version, and is left where it is.
+template <class T>
+std::vector<T> load_records(sqlite_store& database, const std::string& table) {
+  std::vector<T> result;
+  auto loaded = database.load(table);
+  auto* records = std::get_if<std::vector<sqlite_store::record>>(&loaded);
+  if (!records)
+    return result;
+  for (const auto& [key, value] : *records) {
+    const auto document = json::parse(value, nullptr, false);
+    if (document.is_discarded())
+      continue;
+    auto decoded = decode<T>(document);
+    if (auto* x = std::get_if<T>(&decoded))
+      result.push_back(std::move(*x));
+  }
+  return result;
+}
+
+std::optional<json> find_record(sqlite_store& database,
+                                const std::string& key) {
+  auto loaded = database.load("identity");
+  if (auto* records = std::get_if<std::vector<sqlite_store::record>>(&loaded))
+    for (const auto& [name, value] : *records)
+      if (name == key)
+        if (auto document = json::parse(value, nullptr, false);
+            !document.is_discarded())
+          return document;
+  return std::nullopt;
+}
+
+caf::error load_identity(node_data& data, bool coordinator) {
+  auto& database = *data.database;
+  if (const auto known = find_record(database, "node")) {
+    auto decoded = decode<node_identity>(*known);
+    if (auto* identity = std::get_if<node_identity>(&decoded))
+      data.identity = std::move(*identity);
+  }
+  if (data.identity.uuid.empty()) {
+    data.identity.uuid = make_uuid();
+    if (auto why = database.put("identity", "node", json(data.identity).dump()))
+      return to_caf(*why);
+  }
+  if (!coordinator)
+    return caf::none;
+  const auto known = find_record(database, "incarnation");
+  data.incarnation =
+      known && known->is_number_integer() ? known->get<int64_t>() + 1 : 1;
+  if (auto why = database.put("identity", "incarnation",
+                              std::to_string(data.incarnation)))
+    return to_caf(*why);
+  return caf::none;
+}
+
+} // namespace
+
+caf::expected<node_data> open_node_data(const node_config& config) {
+  node_data data;
+  auto lock = directory_lock::take(config.data_dir);
+  if (auto* why = std::get_if<edge_error>(&lock))
+    return to_caf(*why);
+  data.lock = std::make_shared<directory_lock>(
+      std::get<directory_lock>(std::move(lock)));
+  auto database = sqlite_store::open(config.data_dir / "state.db");
+  if (auto* why = std::get_if<edge_error>(&database))
+    return to_caf(*why);
+  data.database = std::make_shared<sqlite_store>(
+      std::get<sqlite_store>(std::move(database)));
+  if (auto why = load_identity(data, config.coordinator))
+    return why;
+  if (auto why = load_token(data, config.data_dir))
+    return why;
+  if (auto why = load_site_token(data, config.site_token_file))
+    return why;
+  data.instances = load_records<instance_row>(*data.database, "instances");
+  data.tasks = load_records<task_record>(*data.database, "tasks");
+  return data;
+}
+
+} // namespace roscell

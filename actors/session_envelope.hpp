@@ -1,0 +1,34 @@
+#pragma once
+
+#include "messages/failure.hpp"
+#include "messages/json_codec.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+/// The frames that pass between a member and its coordinator, as text.
+namespace roscell {
+
+/// Largest frame that a session carries, in and out.
+constexpr size_t max_session_frame_bytes = 1024 * 1024;
+
+enum class envelope_kind { request, reply, notice };
+
+/// A frame that came in. Its body has passed its schema unless `refused`.
+struct session_envelope {
+  envelope_kind kind = envelope_kind::notice;
+  uint64_t id = 0; ///< Of a request or reply.
+  json body;
+  std::optional<failure> refused; ///< What is wrong with the body.
+};
+
+/// Reads one frame. Nothing when not even the envelope can be read, and so
+/// nobody can be told.
+std::optional<session_envelope> read_envelope(std::string_view text);
+
+/// The text of a frame. `id` is of no interest to a notice.
+std::string write_envelope(envelope_kind kind, uint64_t id, json body);
+
+} // namespace roscell

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace roscell {
+
+/// An IPv4 address and a port, as `ADDR:PORT` says them.
+struct socket_address {
+  std::string address;
+  uint16_t port = 0;
+};
+
+/// Reads `ADDR` or `ADDR:PORT`; without a port, `default_port` is taken, and if
+/// that is 0 a port is required. Nothing for any other text.
+std::optional<socket_address> parse_socket_address(std::string_view text,
+                                                   uint16_t default_port = 0);
+
+std::string to_string(const socket_address& x);
+
+} // namespace roscell

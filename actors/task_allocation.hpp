@@ -1,0 +1,30 @@
+#pragma once
+
+#include "messages/allocation_report.hpp"
+#include "messages/coordination.hpp"
+#include "messages/failure.hpp"
+
+#include <chrono>
+#include <variant>
+
+namespace roscell {
+
+/// Longest search for the optimum; after it the best that was found is taken.
+constexpr std::chrono::milliseconds default_allocation_budget{2000};
+
+/// On paper there is time to find the optimum of larger cells.
+constexpr std::chrono::milliseconds offline_allocation_budget{20000};
+
+/// Runs the search of actors/allocation on messages. Errors:
+/// no_feasible_allocation with `rejected` in its details, schema_violation for
+/// numbers that make no sense.
+std::variant<task_plan, failure>
+allocate(const allocate_task& asked,
+         std::chrono::milliseconds budget = default_allocation_budget);
+
+/// The same for a cell on paper, where every node has every skill. Errors: also
+/// those of `resolve_steps`.
+std::variant<task_plan, failure>
+allocate_offline(const plan_document& document);
+
+} // namespace roscell

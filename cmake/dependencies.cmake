@@ -1,0 +1,27 @@
+# Third-party packages, all from Debian 12. docs/decisions.md gives the reasons.
+
+find_package(Threads REQUIRED)
+find_package(OpenSSL REQUIRED)
+find_package(SQLite3 REQUIRED)
+find_package(fastrtps REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(spdlog REQUIRED)
+
+find_path(NLOHMANN_INCLUDE nlohmann/json.hpp REQUIRED)
+find_path(VALIJSON_INCLUDE valijson/validator.hpp REQUIRED)
+find_path(BOOST_BEAST_INCLUDE boost/beast.hpp REQUIRED)
+
+# Debian ships CAF without a CMake package.
+find_path(CAF_INCLUDE caf/all.hpp REQUIRED)
+find_library(CAF_CORE caf_core REQUIRED)
+add_library(caf::core UNKNOWN IMPORTED)
+set_target_properties(caf::core PROPERTIES IMPORTED_LOCATION ${CAF_CORE})
+# Without this, an unregistered message type is a silent error at run time.
+target_compile_definitions(caf::core INTERFACE CAF_ENABLE_TYPE_ID_CHECKS)
+
+# Beast is header-only; its big parts are compiled once, in actors/edge.
+add_library(boost_beast INTERFACE)
+target_compile_definitions(boost_beast INTERFACE
+  BOOST_ASIO_SEPARATE_COMPILATION BOOST_BEAST_SEPARATE_COMPILATION
+  BOOST_ASIO_NO_DEPRECATED)
+target_link_libraries(boost_beast INTERFACE Threads::Threads OpenSSL::Crypto)

@@ -1,0 +1,107 @@
+#pragma once
+
+#include "messages/node.hpp"
+#include "messages/task.hpp"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace roscell {
+
+/// State of a node in a cell registry; only `active` rows are members.
+enum class row_state { reserved, active, departing, lost, expected };
+
+constexpr auto enum_words(row_state) {
+  return std::array<std::string_view, 5>{"reserved", "active", "departing",
+                                         "lost", "expected"};
+}
+
+/// One row of the cell registry.
+struct registry_row {
+  node_identity identity;
+  node_role role = node_role::primary;
+  row_state state = row_state::expected;
+  int64_t since_unix_ms = 0; ///< When `state` was entered.
+  std::string reason;        ///< Why the row is not active.
+  node_resources resources;  ///< As last reported.
+  std::vector<instance_row> instances;
+
+  static constexpr auto fields() {
+    return std::make_tuple(
+        required("identity", &registry_row::identity),
+        required("role", &registry_row::role),
+        required("state", &registry_row::state),
+        required("since_unix_ms", &registry_row::since_unix_ms),
+        optional("reason", &registry_row::reason),
+        required("resources", &registry_row::resources),
+        required("instances", &registry_row::instances));
+  }
+};
+
+struct cell_query {
+  static constexpr const char* type = "cell_query";
+
+  static constexpr auto fields() {
+    return std::make_tuple();
+  }
+};
+
+struct cell_description {
+  static constexpr const char* type = "cell_description";
+  std::string cell;
+  std::string coordinator;      ///< Name of the coordination node.
+  std::string address;          ///< Its HTTP port.
+  std::string discovery_server; ///< "ip:port", what `--join` takes.
+  int64_t incarnation = 0;      ///< Raised at every start of the coordinator.
+  std::vector<registry_row> nodes;
+  std::vector<task_row> tasks;
+
+  static constexpr auto fields() {
+    return std::make_tuple(
+        required("cell", &cell_description::cell),
+        required("coordinator", &cell_description::coordinator),
+        required("address", &cell_description::address),
+        required("discovery_server", &cell_description::discovery_server),
+        required("incarnation", &cell_description::incarnation),
+        required("nodes", &cell_description::nodes),
+        required("tasks", &cell_description::tasks));
+  }
+};
+
+struct cell_list_query {
+  static constexpr const char* type = "cell_list_query";
+
+  static constexpr auto fields() {
+    return std::make_tuple();
+  }
+};
+
+/// One cell as its coordinator announces it.
+struct cell_row {
+  std::string cell;
+  std::string coordinator;
+  std::string address;
+  std::string discovery_server;
+  int64_t size = 0; ///< Active rows, the coordinator included.
+
+  static constexpr auto fields() {
+    return std::make_tuple(
+        required("cell", &cell_row::cell),
+        required("coordinator", &cell_row::coordinator),
+        required("address", &cell_row::address),
+        required("discovery_server", &cell_row::discovery_server),
+        required("size", &cell_row::size));
+  }
+};
+
+struct cell_list {
+  static constexpr const char* type = "cell_list";
+  std::vector<cell_row> cells;
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("cells", &cell_list::cells));
+  }
+};
+
+} // namespace roscell

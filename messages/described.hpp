@@ -1,0 +1,96 @@
+#pragma once
+
+#include <cstddef>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+
+/// One list of fields per struct, from which equality, CAF's `inspect` and the
+/// JSON codec (messages/json_codec.hpp) are all derived, so that a field cannot
+/// be forgotten in one of them. A described struct says
+///
+///     static constexpr auto fields() {
+///       return std::make_tuple(required("task", &task_query::task),
+///                              optional("limit", &task_query::limit));
+///     }
+namespace roscell {
+
+/// How a member appears in JSON.
+enum class presence {
+  required,    ///< Always there.
+  optional,    ///< Left out when equal to the struct's default.
+  nullable,    ///< Always there; `null` when it is negative (an index).
+  one_or_many, ///< An array, or its only element; left out when empty.
+  raw_json,    ///< A string member that holds JSON text; left out when empty.
+};
+
+/// One member of a described struct.
+template <presence Presence, class Struct, class Member>
+struct field {
+  static constexpr presence kind = Presence;
+  const char* name;
+  Member Struct::*member;
+};
+
+template <class S, class M>
+constexpr auto required(const char* name, M S::*member) {
+  return field<presence::required, S, M>{name, member};
+}
+
+template <class S, class M>
+constexpr auto optional(const char* name, M S::*member) {
+  return field<presence::optional, S, M>{name, member};
+}
+
+template <class S, class M>
+constexpr auto nullable(const char* name, M S::*member) {
+  return field<presence::nullable, S, M>{name, member};
+}
+
+template <class S, class M>
+constexpr auto one_or_many(const char* name, M S::*member) {
+  return field<presence::one_or_many, S, M>{name, member};
+}
+
+template <class S, class M>
+constexpr auto raw_json(const char* name, M S::*member) {
+  return field<presence::raw_json, S, M>{name, member};
+}
+
+template <class T, class = void>
+struct is_described : std::false_type {};
+
+template <class T>
+struct is_described<T, std::void_t<decltype(T::fields())>> : std::true_type {};
+
+template <class T>
+using if_described = std::enable_if_t<is_described<std::decay_t<T>>::value>;
+
+/// Calls `visit(field)` for each field of `T`, in order.
+template <class T, class Visitor>
+void for_each_field(Visitor&& visit) {
+  std::apply([&](const auto&... f) { (visit(f), ...); }, T::fields());
+}
+
+/// CAF's view of a described struct.
+template <class Inspector, class T, class = if_described<T>>
+typename Inspector::result_type inspect(Inspector& f, T& x) {
+  return std::apply([&](const auto&... fs) { return f((x.*(fs.member))...); },
+                    T::fields());
+}
+
+template <class T, class = if_described<T>>
+bool operator==(const T& x, const T& y) {
+  return std::apply(
+      [&](const auto&... fs) {
+        return ((x.*(fs.member) == y.*(fs.member)) && ...);
+      },
+      T::fields());
+}
+
+template <class T, class = if_described<T>>
+bool operator!=(const T& x, const T& y) {
+  return !(x == y);
+}
+
+} // namespace roscell

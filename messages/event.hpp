@@ -1,0 +1,30 @@
+#pragma once
+
+#include "messages/json_codec.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace roscell {
+
+/// A fact that has happened on this node. `type` is one of the words that
+/// docs/protocols.md lists: "node_joined", "instance_started", ...
+struct event {
+  static constexpr const char* type = "event";
+  uint64_t sequence = 0; ///< Counts from 1 at every start of the node.
+  int64_t time_unix_ms = 0;
+  std::string what;    ///< The fact, a past participle: "node_joined".
+  std::string subject; ///< Whom it concerns: a node, task or instance.
+  std::string data;    ///< JSON object with the particulars, may be empty.
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("sequence", &event::sequence),
+                           required("time_unix_ms", &event::time_unix_ms),
+                           required("event", &event::what),
+                           required("subject", &event::subject),
+                           raw_json("data", &event::data));
+  }
+};
+
+} // namespace roscell

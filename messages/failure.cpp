@@ -1,0 +1,87 @@
+#include "messages/failure.hpp"
+
+#include <caf/exit_reason.hpp>
+#include <caf/message.hpp>
+#include <caf/sec.hpp>
+
+#include <utility>
+
+namespace roscell {
+
+void to_json(json& j, error_code code) {
+  j = to_word(code);
+}
+
+void from_json(const json& j, error_code& code) {
+  code = error_code_from(j.get_ref<const std::string&>());
+}
+
+json error_reply(const failure& why) {
+  json body = why;
+  if (auto details = body.find("details"); details != body.end()) {
+    json extra = std::move(*details);
+    body.erase(details);
+    body.update(extra);
+  }
+  return {{"type", "error"}, {"error", std::move(body)}};
+}
+
+failure failure_from(const json& reply) {
+  auto body = reply.find("error");
+  if (body == reply.end() || !body->is_object())
+    return {error_code::internal, "the peer sent no error where one was due"};
+  json rest = *body;
+  failure result;
+  result.code = error_code_from(rest.value("code", "internal"));
+  result.message = rest.value("message", "");
+  result.where = rest.value("where", "");
+  result.hint = rest.value("hint", "");
+  for (auto known : {"code", "message", "where", "hint"})
+    rest.erase(known);
+  if (!rest.empty())
+    result.details = rest.dump();
+  return result;
+}
+
+caf::error to_error(const failure& why) {
+  return caf::make_error(why.code, why.message, why.where, why.hint,
+                         why.details);
+}
+
+namespace {
+
+failure from_caf(const caf::error& err) {
+  using caf::sec;
+  if (err == sec::request_timeout)
+    return {error_code::timeout, "no answer came in time", "",
+            "try again; `roscell status` shows who is reachable"};
+  if (err == sec::request_receiver_down)
+    return {error_code::internal, "the part that worked on this has failed", "",
+            "send the request again"};
+  return {error_code::internal, "unexpected error " + caf::to_string(err)};
+}
+
+} // namespace
+
+failure to_failure(const caf::error& err) {
+  if (err.category() != caf::atom("roscell"))
+    return from_caf(err);
+  failure result{static_cast<error_code>(err.code())};
+  const auto& context = err.context();
+  if (context.match_elements<std::string, std::string, std::string,
+                             std::string>()) {
+    result.message = context.get_as<std::string>(0);
+    result.where = context.get_as<std::string>(1);
+    result.hint = context.get_as<std::string>(2);
+    result.details = context.get_as<std::string>(3);
+  }
+  return result;
+}
+
+caf::error fail(error_code code, std::string message, std::string where,
+                std::string hint) {
+  return to_error(
+      {code, std::move(message), std::move(where), std::move(hint), {}});
+}
+
+} // namespace roscell

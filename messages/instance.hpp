@@ -1,0 +1,169 @@
+#pragma once
+
+#include "messages/enum_words.hpp"
+#include "messages/resources.hpp"
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace roscell {
+
+/// One end of a data stream.
+struct io_endpoint {
+  std::string protocol;  ///< "file", "ros2", "video".
+  std::string endpoint;  ///< A topic name, or an absolute path on the node.
+  std::string data_type; ///< "sensor_msgs/msg/Image", "image/png".
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("protocol", &io_endpoint::protocol),
+                           required("endpoint", &io_endpoint::endpoint),
+                           required("data_type", &io_endpoint::data_type));
+  }
+};
+
+/// Everything a node must know to run one instance.
+struct instance_spec {
+  std::string instance; ///< Unique: "<task>-<step>-<8 hex digits>".
+  std::string task;
+  std::string step;
+  std::string operation;
+  std::string model;
+  std::string deployment;
+  std::string skill; ///< Content hash of the skill folder.
+  std::string cell;
+  int gpu = -1; ///< Negative: none.
+  std::vector<io_endpoint> input;
+  std::vector<io_endpoint> output;
+  std::string
+      parameters; ///< JSON object: the model's, overridden by the step's.
+  std::map<std::string, std::string> environment;
+  resource_request resources;
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("instance", &instance_spec::instance),
+                           required("task", &instance_spec::task),
+                           required("step", &instance_spec::step),
+                           required("operation", &instance_spec::operation),
+                           required("model", &instance_spec::model),
+                           required("deployment", &instance_spec::deployment),
+                           required("skill", &instance_spec::skill),
+                           required("cell", &instance_spec::cell),
+                           nullable("gpu", &instance_spec::gpu),
+                           one_or_many("input", &instance_spec::input),
+                           one_or_many("output", &instance_spec::output),
+                           raw_json("parameters", &instance_spec::parameters),
+                           optional("environment", &instance_spec::environment),
+                           required("resources", &instance_spec::resources));
+  }
+};
+
+/// Life of an instance; the diagram is in docs/protocols.md.
+enum class instance_state {
+  pending,
+  building,
+  starting,
+  running,
+  stopping,
+  stopped,
+  failed,
+};
+
+constexpr auto enum_words(instance_state) {
+  return std::array<std::string_view, 7>{"pending", "building", "starting",
+                                         "running", "stopping", "stopped",
+                                         "failed"};
+}
+
+/// True until the instance has ended: it holds its resources.
+constexpr bool is_live(instance_state state) {
+  return state < instance_state::stopped;
+}
+
+/// What is known of one instance.
+struct instance_row {
+  instance_spec spec;
+  std::string node;
+  instance_state state = instance_state::pending;
+  int64_t since_unix_ms = 0; ///< When `state` was entered.
+  std::string status;        ///< The skill's own last STATUS line.
+  std::string container;     ///< The runtime's id: "<pid>:<start time>".
+  std::string image;
+  /// Exit code of an ended instance; 128 + n after signal n; negative: none.
+  int exit_code = -1;
+  std::string reason;   ///< Why it failed or stopped, one sentence.
+  std::string log_tail; ///< Last lines of the log of a failed instance.
+
+  static constexpr auto fields() {
+    return std::make_tuple(
+        required("spec", &instance_row::spec),
+        required("node", &instance_row::node),
+        required("state", &instance_row::state),
+        required("since_unix_ms", &instance_row::since_unix_ms),
+        optional("status", &instance_row::status),
+        optional("container", &instance_row::container),
+        optional("image", &instance_row::image),
+        nullable("exit_code", &instance_row::exit_code),
+        optional("reason", &instance_row::reason),
+        optional("log_tail", &instance_row::log_tail));
+  }
+};
+
+struct instance_query {
+  static constexpr const char* type = "instance_query";
+  std::string instance; ///< Empty: all.
+  std::string task;     ///< Empty: of every task.
+
+  static constexpr auto fields() {
+    return std::make_tuple(optional("instance", &instance_query::instance),
+                           optional("task", &instance_query::task));
+  }
+};
+
+struct instance_description {
+  static constexpr const char* type = "instance_description";
+  std::vector<instance_row> instances;
+
+  static constexpr auto fields() {
+    return std::make_tuple(
+        required("instances", &instance_description::instances));
+  }
+};
+
+/// Asks for a part of an instance's log. The answer waits up to `wait_ms` for
+/// something to be there, which is how a log is followed without polling.
+struct log_query {
+  static constexpr const char* type = "log_query";
+  std::string instance;
+  int64_t offset = -1;    ///< First byte wanted; negative: the last lines.
+  int64_t tail_lines = 0; ///< With a negative offset: how many; 0: the default.
+  int64_t wait_ms = 0;    ///< At most 20,000.
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("instance", &log_query::instance),
+                           optional("offset", &log_query::offset),
+                           optional("tail_lines", &log_query::tail_lines),
+                           optional("wait_ms", &log_query::wait_ms));
+  }
+};
+
+/// A part of a log. Offsets count from the first byte ever written, so they
+/// stay valid when old text is dropped.
+struct log_excerpt {
+  static constexpr const char* type = "log_excerpt";
+  std::string instance;
+  std::string text;        ///< Valid UTF-8; other bytes are replaced.
+  int64_t next_offset = 0; ///< Where the next query goes on.
+  bool ended = false;      ///< Nothing will follow after `next_offset`.
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("instance", &log_excerpt::instance),
+                           required("text", &log_excerpt::text),
+                           required("next_offset", &log_excerpt::next_offset),
+                           required("ended", &log_excerpt::ended));
+  }
+};
+
+} // namespace roscell

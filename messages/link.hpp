@@ -1,0 +1,187 @@
+#pragma once
+
+#include "messages/beat.hpp"
+#include "messages/failure.hpp"
+#include "messages/introspection.hpp"
+#include "messages/node.hpp"
+
+#include <array>
+#include <string>
+
+/// The seam between protocol actors and the wire: one authenticated session.
+/// Production puts a WebSocket behind it, tests a link that loses, delays,
+/// repeats and cuts.
+namespace roscell {
+
+struct send_frame {
+  std::string text;
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("text", &send_frame::text));
+  }
+};
+
+struct frame_received {
+  std::string text;
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("text", &frame_received::text));
+  }
+};
+
+struct send_beat {
+  beat_kind kind = beat_kind::beat;
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("kind", &send_beat::kind));
+  }
+};
+
+struct beat_received {
+  beat_kind kind = beat_kind::beat;
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("kind", &beat_received::kind));
+  }
+};
+
+struct close_session {
+  std::string reason;
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("reason", &close_session::reason));
+  }
+};
+
+/// A fact, the last one of a session.
+struct session_closed {
+  std::string reason;
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("reason", &session_closed::reason));
+  }
+};
+
+/// Who hears of one session. `frame_received` is sent as a request: the next
+/// frames are read once it is answered, which is the back-pressure. All three
+/// come from the session itself, so that an owner of several in a row can tell
+/// them apart by their sender.
+using session_owner_actor = caf::typed_actor<caf::reacts_to<frame_received>,
+                                             caf::reacts_to<beat_received>,
+                                             caf::reacts_to<session_closed>>;
+
+struct own_session {
+  session_owner_actor owner;
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("owner", &own_session::owner));
+  }
+};
+
+/// The SESSION: one connection. It ends after `session_closed`.
+using session_actor = introspected_actor::extend<
+    // Whom to tell; what came before is kept for the owner.
+    caf::reacts_to<own_session>, caf::reacts_to<send_frame>,
+    caf::reacts_to<send_beat>, caf::reacts_to<close_session>,
+    // INTERNAL: from the wire.
+    caf::reacts_to<frame_received>, caf::reacts_to<beat_received>,
+    caf::reacts_to<session_closed>>;
+
+/// A fact for the COORDINATOR: a node has proved that it knows the site token.
+struct session_admitted {
+  session_actor session;
+  node_identity peer;
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("session", &session_admitted::session),
+                           required("peer", &session_admitted::peer));
+  }
+};
+
+/// Opens a session to a coordinator.
+struct open_session {
+  std::string address; ///< "ip:port"
+  node_identity self;
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("address", &open_session::address),
+                           required("self", &open_session::self));
+  }
+};
+
+struct session_opened {
+  session_actor session;
+  std::string cell;
+  std::string coordinator;
+  int64_t incarnation = 0;
+
+  static constexpr auto fields() {
+    return std::make_tuple(
+        required("session", &session_opened::session),
+        required("cell", &session_opened::cell),
+        required("coordinator", &session_opened::coordinator),
+        required("incarnation", &session_opened::incarnation));
+  }
+};
+
+/// INTERNAL to the session connector: an attempt has come to its end.
+struct session_settled {
+  uint64_t attempt = 0;
+  session_opened opened; ///< Its session is invalid if there is a problem.
+  failure problem;
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("attempt", &session_settled::attempt),
+                           required("opened", &session_settled::opened),
+                           required("problem", &session_settled::problem));
+  }
+};
+
+/// The SESSION CONNECTOR. Errors: unreachable, unauthorized, timeout, conflict.
+using session_connector_actor = introspected_actor::extend<
+    caf::replies_to<open_session>::with<session_opened>,
+    caf::reacts_to<session_settled>>;
+
+/// Looks for the discovery server at an address until told to stop.
+struct find_coordinator {
+  std::string address; ///< "ip:port"
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("address", &find_coordinator::address));
+  }
+};
+
+/// Deletes the CLIENT participant: from here on nobody is looked for.
+struct forget_coordinator {
+  static constexpr auto fields() {
+    return std::make_tuple();
+  }
+};
+
+/// A fact: the discovery server has told who coordinates its cell.
+struct coordinator_found {
+  std::string cell;
+  std::string coordinator;
+  std::string address; ///< "ip:port" for sessions.
+  int64_t incarnation = 0;
+
+  static constexpr auto fields() {
+    return std::make_tuple(
+        required("cell", &coordinator_found::cell),
+        required("coordinator", &coordinator_found::coordinator),
+        required("address", &coordinator_found::address),
+        required("incarnation", &coordinator_found::incarnation));
+  }
+};
+
+/// Who hears of coordinators: the membership.
+using discovery_listener_actor =
+    caf::typed_actor<caf::reacts_to<coordinator_found>>;
+
+/// The DISCOVERY edge of a primary node.
+using discovery_actor = introspected_actor::extend<
+    // Errors: unreachable (the local address cannot be used).
+    caf::replies_to<find_coordinator>::with<caf::ok_atom>,
+    caf::reacts_to<forget_coordinator>>;
+
+} // namespace roscell

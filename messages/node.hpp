@@ -1,0 +1,102 @@
+#pragma once
+
+#include "messages/instance.hpp"
+#include "messages/skill.hpp"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace roscell {
+
+enum class node_role { primary, coordinator };
+
+constexpr auto enum_words(node_role) {
+  return std::array<std::string_view, 2>{"primary", "coordinator"};
+}
+
+/// Where a node stands; the diagram is in docs/protocols.md.
+enum class node_state { independent, joining, member, switching, orphaned };
+
+constexpr auto enum_words(node_state) {
+  return std::array<std::string_view, 5>{"independent", "joining", "member",
+                                         "switching", "orphaned"};
+}
+
+/// Who a node is, for good: what it says of itself at every handshake.
+struct node_identity {
+  std::string name;
+  std::string uuid;    ///< Made at the first start, kept in the data directory.
+  int64_t epoch = 0;   ///< Registration epoch, raised before every switch.
+  std::string address; ///< "ip:port" of its HTTP port.
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("name", &node_identity::name),
+                           required("uuid", &node_identity::uuid),
+                           required("epoch", &node_identity::epoch),
+                           required("address", &node_identity::address));
+  }
+};
+
+/// Counters of one actor, as the house function keeps them.
+struct actor_row {
+  std::string name;
+  uint64_t id = 0;
+  uint64_t messages = 0;   ///< Handled so far.
+  uint64_t mailbox = 0;    ///< Waiting now.
+  uint64_t busy_us = 0;    ///< Sum of the handling times.
+  uint64_t longest_us = 0; ///< Longest handling time.
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("name", &actor_row::name),
+                           required("id", &actor_row::id),
+                           required("messages", &actor_row::messages),
+                           required("mailbox", &actor_row::mailbox),
+                           required("busy_us", &actor_row::busy_us),
+                           required("longest_us", &actor_row::longest_us));
+  }
+};
+
+struct node_query {
+  static constexpr const char* type = "node_query";
+  bool actors = false; ///< Also list the node's actors with their counters.
+
+  static constexpr auto fields() {
+    return std::make_tuple(optional("actors", &node_query::actors));
+  }
+};
+
+struct node_description {
+  static constexpr const char* type = "node_description";
+  node_identity identity;
+  node_role role = node_role::primary;
+  node_state state = node_state::independent;
+  std::string version;     ///< Of this program.
+  std::string cell;        ///< Empty: in none.
+  std::string coordinator; ///< Address of the coordinator's HTTP port.
+  std::string runtime;     ///< "process".
+  int64_t started_unix_ms = 0;
+  node_resources resources;
+  std::vector<installed_skill> skills;
+  std::vector<instance_row> instances;
+  std::vector<actor_row> actors;
+
+  static constexpr auto fields() {
+    return std::make_tuple(
+        required("identity", &node_description::identity),
+        required("role", &node_description::role),
+        required("state", &node_description::state),
+        required("version", &node_description::version),
+        optional("cell", &node_description::cell),
+        optional("coordinator", &node_description::coordinator),
+        required("runtime", &node_description::runtime),
+        required("started_unix_ms", &node_description::started_unix_ms),
+        required("resources", &node_description::resources),
+        required("skills", &node_description::skills),
+        required("instances", &node_description::instances),
+        optional("actors", &node_description::actors));
+  }
+};
+
+} // namespace roscell

@@ -1,0 +1,268 @@
+#pragma once
+
+#include "messages/instance.hpp"
+#include "messages/introspection.hpp"
+#include "messages/session.hpp"
+
+#include <map>
+#include <string>
+#include <vector>
+
+/// What a container runtime is asked and what it tells. The `process` runtime
+/// speaks it now; container engines speak the same.
+namespace roscell {
+
+/// Makes the image of a skill ready; at once when it exists already.
+struct prepare_image {
+  std::string skill_dir; ///< Absolute path of the skill folder.
+  std::string skill;     ///< Its content hash.
+  std::vector<std::string> entry_point;
+  std::string base_image; ///< Ignored by the process runtime.
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("skill_dir", &prepare_image::skill_dir),
+                           required("skill", &prepare_image::skill),
+                           required("entry_point", &prepare_image::entry_point),
+                           required("base_image", &prepare_image::base_image));
+  }
+};
+
+struct image_prepared {
+  std::string image; ///< What `start_container` takes.
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("image", &image_prepared::image));
+  }
+};
+
+struct start_container {
+  std::string instance;
+  std::string image;
+  std::vector<std::string> command; ///< Entry point and its arguments.
+  std::map<std::string, std::string> environment;
+  std::map<std::string, std::string> labels; ///< task, instance, cell.
+  resource_request limits;
+
+  static constexpr auto fields() {
+    return std::make_tuple(
+        required("instance", &start_container::instance),
+        required("image", &start_container::image),
+        required("command", &start_container::command),
+        required("environment", &start_container::environment),
+        required("labels", &start_container::labels),
+        required("limits", &start_container::limits));
+  }
+};
+
+struct container_started {
+  std::string container; ///< The runtime's id of it, kept for adoption.
+
+  static constexpr auto fields() {
+    return std::make_tuple(
+        required("container", &container_started::container));
+  }
+};
+
+/// Ends a container: a polite request first, force after the grace time.
+struct stop_container {
+  std::string instance;
+  std::string container; ///< Empty: whatever belongs to the instance.
+  int64_t grace_ms = 5000;
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("instance", &stop_container::instance),
+                           required("container", &stop_container::container),
+                           required("grace_ms", &stop_container::grace_ms));
+  }
+};
+
+/// The container's program has ended. Its log stays.
+struct container_stopped {
+  int exit_code = -1; ///< 128 + n after signal n; negative: not known.
+
+  static constexpr auto fields() {
+    return std::make_tuple(
+        required("exit_code", &container_stopped::exit_code));
+  }
+};
+
+/// Ends by force what still runs of an instance, and drops its log and all
+/// else that the runtime keeps of it.
+struct remove_container {
+  std::string instance;
+  std::string container; ///< Empty: whatever belongs to the instance.
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("instance", &remove_container::instance),
+                           required("container", &remove_container::container));
+  }
+};
+
+struct container_removed {
+  static constexpr auto fields() {
+    return std::make_tuple();
+  }
+};
+
+/// Takes over a container that an earlier run of this node has started.
+struct adopt_container {
+  std::string instance;
+  std::string container; ///< Empty: whatever belongs to the instance.
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("instance", &adopt_container::instance),
+                           required("container", &adopt_container::container));
+  }
+};
+
+struct container_adopted {
+  bool running = false;
+  std::string container; ///< The runtime's id of it; empty: there is none.
+  int exit_code = -1;    ///< Of one that ended meanwhile; negative: not known.
+
+  static constexpr auto fields() {
+    return std::make_tuple(
+        required("running", &container_adopted::running),
+        required("container", &container_adopted::container),
+        required("exit_code", &container_adopted::exit_code));
+  }
+};
+
+/// A fact: the container's program has ended, asked or not.
+struct container_exited {
+  std::string instance;
+  std::string container;
+  int exit_code = -1;
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("instance", &container_exited::instance),
+                           required("container", &container_exited::container),
+                           required("exit_code", &container_exited::exit_code));
+  }
+};
+
+/// A fact: an instance said something on its NOTIFY_SOCKET.
+struct instance_notified {
+  std::string instance;
+  bool ready = false;    ///< READY=1
+  bool alive = false;    ///< WATCHDOG=1
+  bool stopping = false; ///< STOPPING=1
+  std::string status;    ///< STATUS=..., may be empty.
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("instance", &instance_notified::instance),
+                           required("ready", &instance_notified::ready),
+                           required("alive", &instance_notified::alive),
+                           required("stopping", &instance_notified::stopping),
+                           required("status", &instance_notified::status));
+  }
+};
+
+/// Who hears of exits and notifications: the container supervisor.
+using container_listener_actor =
+    caf::typed_actor<caf::reacts_to<container_exited>,
+                     caf::reacts_to<instance_notified>>;
+
+/// The RUNTIME: the only actor that starts and stops programs.
+using runtime_actor = introspected_actor::extend<
+    // Errors: engine_failed (missing or not executable entry point, failed
+    // build).
+    caf::replies_to<prepare_image>::with<image_prepared>,
+    // Errors: engine_failed.
+    caf::replies_to<start_container>::with<container_started>,
+    // Neither fails for a container that is gone already. Errors:
+    // engine_failed (it cannot be killed, its files cannot be removed).
+    caf::replies_to<stop_container>::with<container_stopped>,
+    caf::replies_to<remove_container>::with<container_removed>,
+    caf::replies_to<adopt_container>::with<container_adopted>,
+    // Errors: unknown_task (no log of that instance).
+    caf::replies_to<log_query>::with<log_excerpt>>;
+
+/// INTERNAL to the process runtime: a watched program has ended.
+struct program_ended {
+  std::string instance;
+  std::string container;
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("instance", &program_ended::instance),
+                           required("container", &program_ended::container));
+  }
+};
+
+/// INTERNAL to the process runtime: something was written to a watched log.
+struct log_grown {
+  std::string instance;
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("instance", &log_grown::instance));
+  }
+};
+
+/// The PROCESS RUNTIME: runs skills as supervised processes.
+using process_runtime_actor =
+    runtime_actor::extend<caf::reacts_to<program_ended>,
+                          caf::reacts_to<log_grown>,
+                          // INTERNAL: alarm number N is due.
+                          caf::reacts_to<caf::tick_atom, uint64_t>>;
+
+/// INTERNAL to supervision: bring the instance up, or take it over when an
+/// earlier run of the node has brought it up.
+struct start_instance {
+  static constexpr auto fields() {
+    return std::make_tuple();
+  }
+};
+
+/// INTERNAL to supervision: take it down; repeated requests are harmless.
+struct stop_instance {
+  std::string reason;
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("reason", &stop_instance::reason));
+  }
+};
+
+/// The SKILL INSTANCE: one instance's life, a state machine around a container.
+/// All that comes of it is told to the supervisor as `instance_changed`; the
+/// actor ends with its instance.
+using skill_instance_actor = introspected_actor::extend<
+    caf::reacts_to<start_instance>, caf::reacts_to<stop_instance>,
+    caf::reacts_to<container_exited>, caf::reacts_to<instance_notified>,
+    // INTERNAL: a deadline of phase number N has passed.
+    caf::reacts_to<caf::tick_atom, uint64_t>>;
+
+/// Told of every change of an instance: the membership, or the coordinator.
+using instance_listener_actor =
+    caf::typed_actor<caf::reacts_to<instance_changed>>;
+
+/// Replaces whom the supervisor tells of changes.
+struct listen_to_instances {
+  instance_listener_actor listener;
+
+  static constexpr auto fields() {
+    return std::make_tuple(
+        required("listener", &listen_to_instances::listener));
+  }
+};
+
+/// The CONTAINER SUPERVISOR: owns every skill instance of the node.
+using container_supervisor_actor = introspected_actor::extend<
+    // Replies once the instance runs; the same spec again gets the same answer.
+    // Errors: unknown_operation (no such skill here), unknown_model,
+    // unknown_deployment, engine_failed (with details "instance", "node",
+    // "exit_code", "log_tail"), conflict (the id is in use by another spec, the
+    // node is full, the instance is being removed), schema_violation (the id
+    // cannot be a file name).
+    caf::replies_to<instance_deployment>::with<instance_deployed>,
+    // Replies once all instances of the task are gone; none is no error.
+    // Errors: engine_failed (one cannot be removed).
+    caf::replies_to<instance_removal>::with<instances_removed>,
+    // Errors: unknown_task (no such instance).
+    caf::replies_to<instance_query>::with<instance_description>,
+    caf::replies_to<log_query>::with<log_excerpt>,
+    caf::reacts_to<listen_to_instances>, caf::reacts_to<container_exited>,
+    caf::reacts_to<instance_notified>,
+    // INTERNAL: from a skill instance.
+    caf::reacts_to<instance_changed>>;
+
+} // namespace roscell

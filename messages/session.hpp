@@ -1,0 +1,191 @@
+#pragma once
+
+#include "messages/instance.hpp"
+#include "messages/node.hpp"
+#include "messages/skill.hpp"
+
+#include <array>
+#include <string>
+#include <vector>
+
+/// What a member and its coordinator say to each other over their session.
+/// Every frame is an envelope: a request and its reply share an id, a notice
+/// has none. The handshake's frames are in actors/edge/session_handshake.hpp.
+namespace roscell {
+
+struct session_request {
+  static constexpr const char* type = "session_request";
+  uint64_t id = 0;
+  std::string body; ///< JSON of one message.
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("id", &session_request::id),
+                           raw_json("body", &session_request::body));
+  }
+};
+
+struct session_reply {
+  static constexpr const char* type = "session_reply";
+  uint64_t id = 0;
+  std::string body;
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("id", &session_reply::id),
+                           raw_json("body", &session_reply::body));
+  }
+};
+
+struct session_notice {
+  static constexpr const char* type = "session_notice";
+  std::string body;
+
+  static constexpr auto fields() {
+    return std::make_tuple(raw_json("body", &session_notice::body));
+  }
+};
+
+/// Member to coordinator, first of all: who I am and what I run.
+struct node_registration {
+  static constexpr const char* type = "node_registration";
+  node_identity identity;
+  int64_t incarnation = 0; ///< The coordinator's, as its challenge told.
+  node_resources resources;
+  std::vector<installed_skill> skills;
+  std::vector<instance_row> instances;
+
+  static constexpr auto fields() {
+    return std::make_tuple(
+        required("identity", &node_registration::identity),
+        required("incarnation", &node_registration::incarnation),
+        required("resources", &node_registration::resources),
+        required("skills", &node_registration::skills),
+        required("instances", &node_registration::instances));
+  }
+};
+
+enum class verdict { keep, stop, start };
+
+constexpr auto enum_words(verdict) {
+  return std::array<std::string_view, 3>{"keep", "stop", "start"};
+}
+
+/// What the member shall do with one instance.
+struct instance_verdict {
+  std::string instance;
+  verdict what = verdict::keep;
+  std::vector<instance_spec> spec; ///< One element for `start`, else none.
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("instance", &instance_verdict::instance),
+                           required("verdict", &instance_verdict::what),
+                           one_or_many("spec", &instance_verdict::spec));
+  }
+};
+
+/// Reply to `node_registration`.
+struct node_registered {
+  static constexpr const char* type = "node_registered";
+  std::string cell;
+  std::string coordinator;
+  int64_t incarnation = 0;
+  std::vector<instance_verdict> verdicts;
+
+  static constexpr auto fields() {
+    return std::make_tuple(
+        required("cell", &node_registered::cell),
+        required("coordinator", &node_registered::coordinator),
+        required("incarnation", &node_registered::incarnation),
+        required("verdicts", &node_registered::verdicts));
+  }
+};
+
+/// Member to coordinator: I leave.
+struct node_departure {
+  static constexpr const char* type = "node_departure";
+  std::string reason;
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("reason", &node_departure::reason));
+  }
+};
+
+struct node_departed {
+  static constexpr const char* type = "node_departed";
+
+  static constexpr auto fields() {
+    return std::make_tuple();
+  }
+};
+
+/// Coordinator to member: what do you have, what of it is in use?
+struct resource_query {
+  static constexpr const char* type = "resource_query";
+
+  static constexpr auto fields() {
+    return std::make_tuple();
+  }
+};
+
+struct resource_report {
+  static constexpr const char* type = "resource_report";
+  node_resources resources;
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("resources", &resource_report::resources));
+  }
+};
+
+/// Coordinator to member: run this instance. Repeating it is harmless.
+struct instance_deployment {
+  static constexpr const char* type = "instance_deployment";
+  instance_spec spec;
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("spec", &instance_deployment::spec));
+  }
+};
+
+/// Reply to `instance_deployment`: it runs and said that it is ready.
+struct instance_deployed {
+  static constexpr const char* type = "instance_deployed";
+  instance_row instance;
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("instance", &instance_deployed::instance));
+  }
+};
+
+/// Coordinator to member: remove the instances of a task, or one of them.
+struct instance_removal {
+  static constexpr const char* type = "instance_removal";
+  std::string task;
+  std::string instance; ///< Empty: all of the task.
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("task", &instance_removal::task),
+                           optional("instance", &instance_removal::instance));
+  }
+};
+
+/// Reply to `instance_removal`: they are gone.
+struct instances_removed {
+  static constexpr const char* type = "instances_removed";
+  std::vector<std::string> instances;
+
+  static constexpr auto fields() {
+    return std::make_tuple(
+        required("instances", &instances_removed::instances));
+  }
+};
+
+/// Member to coordinator, a notice: an instance changed its state.
+struct instance_changed {
+  static constexpr const char* type = "instance_changed";
+  instance_row instance;
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("instance", &instance_changed::instance));
+  }
+};
+
+} // namespace roscell

@@ -1,0 +1,137 @@
+#pragma once
+
+#include "messages/instance.hpp"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace roscell {
+
+/// One step of a pipeline: an operation, how to do it, and its data.
+struct task_step {
+  std::string id;
+  std::string operation;
+  std::string model;
+  std::string deployment; ///< Empty: any deployment option of the model.
+  std::vector<io_endpoint> input;
+  std::vector<io_endpoint> output;
+  std::string parameters; ///< JSON object that overrides the model's.
+  std::map<std::string, std::string> labels; ///< Labels the node must have.
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("id", &task_step::id),
+                           required("operation", &task_step::operation),
+                           required("model", &task_step::model),
+                           optional("deployment", &task_step::deployment),
+                           one_or_many("input", &task_step::input),
+                           one_or_many("output", &task_step::output),
+                           raw_json("parameters", &task_step::parameters),
+                           optional("labels", &task_step::labels));
+  }
+};
+
+/// Allocates and starts the steps of a pipeline. Answered by `task_accepted`
+/// once all of them run; a second one with the same body gets the same answer.
+struct task_request {
+  static constexpr const char* type = "task_request";
+  std::string task;
+  std::vector<task_step> pipeline;
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("task", &task_request::task),
+                           required("pipeline", &task_request::pipeline));
+  }
+};
+
+/// Allocates only; answered by `task_plan`.
+struct task_plan_query {
+  static constexpr const char* type = "task_plan_query";
+  std::string task;
+  std::vector<task_step> pipeline;
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("task", &task_plan_query::task),
+                           required("pipeline", &task_plan_query::pipeline));
+  }
+};
+
+/// A placed instance of a step.
+struct placed_instance {
+  std::string step;
+  std::string instance;
+  std::string node;
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("step", &placed_instance::step),
+                           required("instance", &placed_instance::instance),
+                           required("node", &placed_instance::node));
+  }
+};
+
+/// Removes the instances of a task everywhere.
+struct task_termination {
+  static constexpr const char* type = "task_termination";
+  std::string task;
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("task", &task_termination::task));
+  }
+};
+
+struct task_terminated {
+  static constexpr const char* type = "task_terminated";
+  std::string task;
+  std::vector<std::string> instances; ///< Those that were removed.
+  /// Nodes that are away: they remove theirs when they come back.
+  std::vector<std::string> pending_nodes;
+
+  static constexpr auto fields() {
+    return std::make_tuple(
+        required("task", &task_terminated::task),
+        required("instances", &task_terminated::instances),
+        optional("pending_nodes", &task_terminated::pending_nodes));
+  }
+};
+
+enum class task_state { deploying, running, degraded, terminating };
+
+constexpr auto enum_words(task_state) {
+  return std::array<std::string_view, 4>{"deploying", "running", "degraded",
+                                         "terminating"};
+}
+
+/// What is known of one task.
+struct task_row {
+  std::string task;
+  task_state state = task_state::deploying;
+  int64_t submitted_unix_ms = 0;
+  std::vector<instance_row> instances;
+
+  static constexpr auto fields() {
+    return std::make_tuple(
+        required("task", &task_row::task), required("state", &task_row::state),
+        required("submitted_unix_ms", &task_row::submitted_unix_ms),
+        required("instances", &task_row::instances));
+  }
+};
+
+struct task_query {
+  static constexpr const char* type = "task_query";
+  std::string task; ///< Empty: all.
+
+  static constexpr auto fields() {
+    return std::make_tuple(optional("task", &task_query::task));
+  }
+};
+
+struct task_description {
+  static constexpr const char* type = "task_description";
+  std::vector<task_row> tasks;
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("tasks", &task_description::tasks));
+  }
+};
+
+} // namespace roscell

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "messages/json_codec.hpp"
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+/// Words about JSON values, short enough for one line of an error message.
+namespace roscell {
+
+/// Number of characters (code points) of a UTF-8 text.
+size_t character_count(std::string_view utf8);
+
+/// The first `max_characters` of `text` in quotes, escaped as in JSON, with an
+/// ellipsis where something was cut off. Bytes that are no UTF-8 are replaced,
+/// so the result can always be put into a JSON reply.
+std::string in_quotes(std::string_view text, size_t max_characters = 40);
+
+/// What a value is: `the number 7`, `"a b"`, `an array of 3 items`.
+std::string value_words(const json& value);
+
+} // namespace roscell

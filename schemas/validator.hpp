@@ -1,0 +1,47 @@
+#pragma once
+
+#include "messages/json_codec.hpp"
+#include "schemas/schema_error.hpp"
+
+#include <memory>
+#include <string_view>
+#include <vector>
+
+namespace roscell {
+
+struct schema_rule;
+
+/// Checks documents against the embedded schemas. A schema is read when it is
+/// first needed and then kept: a node that never sees a message type does not
+/// pay for it. All members may be called by several threads at once.
+class validator {
+public:
+  /// More errors than this are not collected from one document.
+  static constexpr size_t max_errors = 1000;
+
+  validator();
+  ~validator();
+  validator(const validator&) = delete;
+  validator& operator=(const validator&) = delete;
+
+  /// The validator that the functions in schemas/message_catalogue.hpp share.
+  /// Schemas are constants, so one per process is enough.
+  static const validator& shared();
+
+  /// Every error of `document` against the schema of that name, in the order
+  /// of the schema; none if it is valid. The name is that of an embedded
+  /// schema, anything else throws std::logic_error.
+  std::vector<schema_error> validate(std::string_view schema,
+                                     const json& document) const;
+
+private:
+  struct state;
+
+  std::unique_ptr<state> state_;
+};
+
+/// Checks a document against one rule.
+std::vector<schema_error> validate(const schema_rule& rule,
+                                   const json& document);
+
+} // namespace roscell

@@ -1,0 +1,63 @@
+#pragma once
+
+#include "skills/engine/parameters.hpp"
+
+#include <chrono>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace roscell::engine {
+
+/// One input or output of a step.
+struct stream {
+  std::string protocol;  ///< e.g. `file`, `ros2`
+  std::string endpoint;  ///< what the protocol takes for an address
+  std::string data_type; ///< media type or ROS type name
+};
+
+/// All that a node tells an instance. These environment variables are the
+/// contract between the two, for containers and processes alike:
+///
+/// | variable | value | if absent |
+/// |---|---|---|
+/// | ROSCELL_MODEL | implementation model to run | error |
+/// | ROSCELL_INPUTS | JSON array of 1 to 64 {"protocol", "endpoint",
+///   "data_type"} | error |
+/// | ROSCELL_OUTPUTS | the same, 0 to 64 | error |
+/// | ROSCELL_PARAMETERS | JSON object: the model's parameters with the step's
+///   overrides applied | {} |
+/// | ROSCELL_TASK, ROSCELL_STEP, ROSCELL_INSTANCE, ROSCELL_OPERATION,
+///   ROSCELL_DEPLOYMENT | names | empty |
+/// | ROSCELL_GPU | index of the GPU to use | no GPU |
+/// | NOTIFY_SOCKET | datagram socket of the node in systemd's protocol: a path,
+///   or `@` and an abstract name | nothing is reported |
+/// | WATCHDOG_USEC | the node takes the skill for hung after so many
+///   microseconds without WATCHDOG=1 | no watchdog |
+struct environment {
+  std::string task;
+  std::string step;
+  std::string instance;
+  std::string operation;
+  std::string model;
+  std::string deployment;
+  std::vector<stream> inputs;
+  std::vector<stream> outputs;
+  engine::parameters parameters;
+  std::optional<unsigned> gpu;
+  std::string notify_socket;
+  std::optional<std::chrono::microseconds> watchdog;
+};
+
+/// Returns the value of a variable, or nullptr.
+using variable_lookup = std::function<const char*(const char* name)>;
+
+/// Reads and checks the contract. Throws start_error, whose text names the
+/// variable, when one is missing or makes no sense.
+environment read_environment(const variable_lookup& lookup);
+
+/// Reads the environment of this process.
+environment read_environment();
+
+} // namespace roscell::engine

@@ -1,0 +1,15 @@
+#include "skills/engine/errors.hpp"
+
+namespace roscell::engine {
+
+std::string current_error() {
+  try {
+    throw;
+  } catch (const std::exception& e) {
+    return e.what();
+  } catch (...) {
+    return "an exception that is no std::exception";
+  }
+}
+
+} // namespace roscell::engine

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "skills/engine/handlers.hpp"
+
+#include <string>
+
+namespace roscell::engine {
+
+/// Writes each frame into a file of its own, which appears in the folder only
+/// when it is complete. See file_protocol.hpp.
+class folder_output : public output_handler {
+public:
+  explicit folder_output(const stream_context& output);
+
+  void open() override;
+  void write(const frame& result) override;
+  void close() override;
+
+private:
+  [[noreturn]] void fail(const std::string& temporary, int error) const;
+
+  std::string path_;
+};
+
+/// The file name for a frame: its name without slashes and leading dots, cut
+/// to what file systems take, or its sequence number if it has no name.
+std::string file_name_of(const frame& result);
+
+} // namespace roscell::engine

@@ -1,0 +1,69 @@
+#include "skills/engine/output_ports.hpp"
+
+#include "skills/engine/errors.hpp"
+
+#include <stdexcept>
+
+namespace roscell::engine {
+
+void output_ports::add(const stream& config,
+                       std::unique_ptr<output_handler> handler) {
+  ports_.push_back({config, std::move(handler)});
+}
+
+void output_ports::open() {
+  for (auto& p : ports_)
+    p.handler->open();
+}
+
+void output_ports::begin(const frame& input) {
+  input_ = &input;
+  emitted_ = 0;
+  write_time_ = {};
+}
+
+void output_ports::close() {
+  for (auto& p : ports_) {
+    try {
+      p.handler->close();
+    } catch (...) {
+      failure_ = current_error();
+    }
+  }
+}
+
+void output_ports::write(frame result, std::size_t number) {
+  if (number >= ports_.size())
+    throw std::out_of_range("the executor emits to output "
+                            + std::to_string(number) + ", but the step has "
+                            + std::to_string(ports_.size()) + " outputs");
+  if (!failure_.empty())
+    throw stream_error(failure_);
+  auto& target = ports_[number];
+  fill_in(result, target);
+  auto start = std::chrono::steady_clock::now();
+  try {
+    target.handler->write(result);
+  } catch (...) {
+    failure_ = current_error();
+    throw;
+  }
+  write_time_ += std::chrono::steady_clock::now() - start;
+}
+
+void output_ports::fill_in(frame& result, port& target) {
+  if (result.data_type.empty())
+    result.data_type = target.config.data_type;
+  if (result.time == std::chrono::system_clock::time_point{})
+    result.time = input_->time;
+  // Several results of one input must not share a name: a folder holds one
+  // file per name.
+  if (result.name.empty())
+    result.name = emitted_ == 0 ? input_->name
+                                : input_->name + "." + std::to_string(emitted_);
+  ++emitted_;
+  result.port = input_->port;
+  result.sequence = target.sequence++;
+}
+
+} // namespace roscell::engine

@@ -1,0 +1,58 @@
+#pragma once
+
+#include "skills/engine/executor.hpp"
+#include "skills/engine/handlers.hpp"
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace roscell::engine {
+
+/// The outputs of a skill as its executor sees them: fills in what an emitted
+/// frame leaves open, and hands it to the output handler.
+class output_ports : public emitter {
+public:
+  void add(const stream& config, std::unique_ptr<output_handler> handler);
+
+  /// Throws start_error.
+  void open();
+
+  /// Frames emitted from now on are results of `input`, which must stay alive
+  /// until the next call.
+  void begin(const frame& input);
+
+  /// Time spent in output handlers since `begin`.
+  std::chrono::steady_clock::duration write_time() const noexcept {
+    return write_time_;
+  }
+
+  /// Why an output broke, or empty. Kept here because an executor may catch
+  /// the exception.
+  const std::string& failure() const noexcept {
+    return failure_;
+  }
+
+  /// Closes all outputs; what goes wrong is found in `failure`.
+  void close();
+
+private:
+  struct port {
+    stream config;
+    std::unique_ptr<output_handler> handler;
+    std::uint64_t sequence = 0;
+  };
+
+  void write(frame result, std::size_t number) override;
+  void fill_in(frame& result, port& target);
+
+  std::vector<port> ports_;
+  const frame* input_ = nullptr;
+  std::size_t emitted_ = 0;
+  std::chrono::steady_clock::duration write_time_{};
+  std::string failure_;
+};
+
+} // namespace roscell::engine

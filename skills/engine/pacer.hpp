@@ -1,0 +1,22 @@
+#pragma once
+
+#include "skills/engine/stop_event.hpp"
+
+namespace roscell::engine {
+
+/// Spreads frames in time. Does not catch up after a pause: the distance
+/// between two frames is never shorter than the period.
+class pacer {
+public:
+  /// `rate_hz` is the most frames per second; 0 is no limit.
+  explicit pacer(double rate_hz);
+
+  /// Waits until the next frame is due. Returns false when `stop` was set.
+  bool wait(const stop_event& stop);
+
+private:
+  stop_event::clock::duration period_{};
+  stop_event::clock::time_point due_;
+};
+
+} // namespace roscell::engine

@@ -1,0 +1,67 @@
+#include "skills/engine/registry.hpp"
+
+#include "skills/engine/errors.hpp"
+#include "skills/engine/file_protocol.hpp"
+
+namespace roscell::engine {
+
+namespace {
+
+template <class Factory>
+std::string names(const std::map<std::string, Factory>& factories) {
+  std::string result;
+  for (const auto& [name, make] : factories)
+    result += (result.empty() ? "" : ", ") + name;
+  return result.empty() ? "none" : result;
+}
+
+template <class Factory>
+const Factory& find(const std::map<std::string, Factory>& factories,
+                    const std::string& name, const std::string& what) {
+  auto i = factories.find(name);
+  if (i == factories.end())
+    throw start_error("this skill has no " + what + " '" + name
+                      + "', it knows: " + names(factories)
+                      + "; correct the step or skill.json");
+  return i->second;
+}
+
+} // namespace
+
+registry::registry() {
+  add_file_protocol(*this);
+}
+
+void registry::add_executor(const std::string& model, executor_factory make) {
+  executors_[model] = std::move(make);
+}
+
+void registry::add_input(const std::string& protocol, input_factory make) {
+  inputs_[protocol] = std::move(make);
+}
+
+void registry::add_output(const std::string& protocol, output_factory make) {
+  outputs_[protocol] = std::move(make);
+}
+
+std::unique_ptr<executor>
+registry::make_executor(const environment& env) const {
+  return find(executors_, env.model, "model")(env);
+}
+
+std::unique_ptr<input_handler>
+registry::make_input(const stream_context& input) const {
+  return find(inputs_, input.config.protocol, "input protocol")(input);
+}
+
+std::unique_ptr<output_handler>
+registry::make_output(const stream_context& output) const {
+  return find(outputs_, output.config.protocol, "output protocol")(output);
+}
+
+std::string registry::summary() const {
+  return "models: " + names(executors_) + "; input protocols: " + names(inputs_)
+         + "; output protocols: " + names(outputs_);
+}
+
+} // namespace roscell::engine

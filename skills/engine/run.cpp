@@ -1,0 +1,51 @@
+#include "skills/engine/run.hpp"
+
+#include "skills/engine/primitive_base_engine.hpp"
+#include "skills/engine/signal_watch.hpp"
+
+#include <algorithm>
+#include <iostream>
+
+namespace roscell::engine {
+
+namespace {
+
+/// Writes one line to stderr in one piece. Names from outside may hold any
+/// byte; control characters would forge or split lines of the log.
+void say(const std::string& text) {
+  auto line = "engine: " + text;
+  std::replace_if(
+      line.begin(), line.end(),
+      [](char c) { return static_cast<unsigned char>(c) < ' ' || c == 127; },
+      '?');
+  line += '\n';
+  [[maybe_unused]] auto n = ::write(STDERR_FILENO, line.data(), line.size());
+}
+
+int explain(const registry& parts, bool asked) {
+  (asked ? std::cout : std::cerr)
+      << "This is a ROSCell skill. A node starts it and tells it by "
+         "environment "
+         "variables\nwhat to do, see skills/README.md. It has "
+      << parts.summary() << '\n';
+  return static_cast<int>(asked ? exit_code::done : exit_code::cannot_start);
+}
+
+} // namespace
+
+int run(const registry& parts, int argc, char** argv) {
+  if (argc > 1)
+    return explain(parts, argc == 2 && argv[1] == std::string{"--help"});
+  try {
+    block_stop_signals();
+    auto env = read_environment();
+    primitive_base_engine engine{parts, env, say};
+    signal_watch signals{[&] { engine.request_stop(); }};
+    return static_cast<int>(engine.run());
+  } catch (...) {
+    say("cannot start: " + current_error());
+    return static_cast<int>(exit_code::cannot_start);
+  }
+}
+
+} // namespace roscell::engine

@@ -1,0 +1,21 @@
+// Arbitrary bytes as a skill descriptor.
+#include "messages/skill_descriptor.hpp"
+#include "test/fuzz/fuzz_support.hpp"
+
+using namespace roscell;
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* bytes, size_t size) {
+  const auto document = fuzz::parse(bytes, size);
+  if (!document)
+    return 0;
+  if (auto why = validate_document("skill_descriptor", *document)) {
+    fuzz::check_refusal(*why);
+    return 0;
+  }
+  const auto skill = fuzz::check_decoding<skill_descriptor>(*document);
+  const auto& program = skill.entry_point.front();
+  if (program.front() == '/'
+      || ("/" + program + "/").find("/../") != program.npos)
+    fuzz::found("a program outside of the skill's folder", *document);
+  return 0;
+}

@@ -1,0 +1,262 @@
+#include "test/skills/child_process.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include <csignal>
+#include <fstream>
+#include <sstream>
+
+using namespace roscell::test;
+using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
+using nlohmann::json;
+
+namespace {
+
+const std::string shim = ROSCELL_BINARY_DIR "/bin/roscell-instance-shim";
+
+/// Runs a shell script under the shim, with its records in `dir`.
+struct shim_run {
+  explicit shim_run(const std::string& script, std::size_t log_bytes = 65536,
+                    std::optional<std::size_t> limit_file_bytes = {})
+      : process({shim, "--dir", dir(), "--log-bytes", std::to_string(log_bytes),
+                 "--", "/bin/sh", "-c", script},
+                {{"PATH", "/usr/bin:/bin"}}, limit_file_bytes) {
+    // nop
+  }
+
+  std::string dir() const {
+    return folder / "instance";
+  }
+
+  /// Waits for a file of the instance.
+  bool wait_for(const std::string& name) {
+    auto there = [&](const std::string& path) {
+      return std::ifstream{path}.good();
+    };
+    return wait_in_folder(folder / "", [&] { return there(dir() + "/."); })
+           && wait_in_folder(dir(), [&] { return there(dir() + "/" + name); });
+  }
+
+  bool wait_for_log(const std::string& part) {
+    return wait_in_folder(dir(), [&] {
+      return content_of(dir() + "/log.0").find(part) != std::string::npos;
+    });
+  }
+
+  json exit() const {
+    return json::parse(content_of(dir() + "/exit"), nullptr, false);
+  }
+
+  /// The numbers in `pid`: shim, start time, child.
+  std::vector<unsigned long> pids() const {
+    std::istringstream text{content_of(dir() + "/pid")};
+    std::vector<unsigned long> result(3);
+    text >> result[0] >> result[1] >> result[2];
+    return result;
+  }
+
+  /// Offsets of the log files, in order.
+  std::vector<std::size_t> log_offsets() const {
+    std::vector<std::size_t> result;
+    for (const auto& name : names_in(dir()))
+      if (name.compare(0, 4, "log.") == 0)
+        result.push_back(std::stoul(name.substr(4)));
+    std::sort(result.begin(), result.end());
+    return result;
+  }
+
+  std::string log(std::size_t offset) const {
+    return content_of(dir() + "/log." + std::to_string(offset));
+  }
+
+  temp_folder folder;
+  child_process process;
+};
+
+/// `seq -w 0 9999` and the like: `count` lines of five bytes.
+std::string numbered_lines(int count) {
+  std::string result;
+  for (auto i = 0; i < count; ++i)
+    result += std::to_string(10'000 + i).substr(1) + "\n";
+  return result;
+}
+
+} // namespace
+
+TEST_CASE("the shim records an exit code, the output and the processes") {
+  shim_run run{"echo out; echo err >&2; read x || echo no input; exit 3"};
+  CHECK(run.process.wait() == 0);
+  CHECK(run.exit()["code"] == 3);
+  CHECK(run.exit()["signal"].is_null());
+  CHECK(run.exit()["at_unix_ms"].is_number_unsigned());
+  CHECK(run.log(0) == "out\nerr\nno input\n");
+  CHECK(run.pids()[0] == static_cast<unsigned long>(run.process.pid()));
+  CHECK(run.pids()[1] > 0);
+  CHECK(names_in(run.dir())
+        == std::vector<std::string>{"exit", "log.0", "pid"});
+}
+
+TEST_CASE("the shim records the signal that ended its child") {
+  shim_run run{"kill -9 $$"};
+  CHECK(run.process.wait() == 0);
+  CHECK(run.exit()["code"].is_null());
+  CHECK(run.exit()["signal"] == 9);
+}
+
+TEST_CASE("the shim tells why a command could not be run") {
+  temp_folder folder;
+  child_process process{{shim, "--dir", folder / "i", "--log-bytes", "4096",
+                         "--", "/does/not/exist", "x"},
+                        {}};
+  CHECK(process.wait() == 0);
+  CHECK(json::parse(content_of(folder / "i/exit"))["code"] == 127);
+  CHECK_THAT(content_of(folder / "i/log.0"),
+             Contains("/does/not/exist") && Contains("No such file"));
+}
+
+TEST_CASE("the shim runs the command in the folder it is told") {
+  temp_folder folder;
+  folder.write("here", "found\n");
+  child_process process{{shim, "--dir", folder / "i", "--log-bytes", "4096",
+                         "--cwd", folder / "", "--", "/bin/cat", "here"},
+                        {}};
+  CHECK(process.wait() == 0);
+  CHECK(content_of(folder / "i/log.0") == "found\n");
+}
+
+TEST_CASE("the start time on record is that of the shim's process") {
+  shim_run run{"read x < /dev/null; exec sleep 1000"};
+  REQUIRE(run.wait_for("pid"));
+  auto stat = content_of("/proc/" + std::to_string(run.pids()[0]) + "/stat");
+  std::istringstream fields{stat.substr(stat.rfind(')') + 2)};
+  std::string field;
+  for (auto i = 3; i <= 22; ++i)
+    fields >> field;
+  CHECK(field == std::to_string(run.pids()[1]));
+  run.process.signal(SIGTERM);
+  CHECK(run.process.wait() == 0);
+  CHECK(run.exit()["signal"] == SIGTERM);
+}
+
+TEST_CASE("the log is bounded, and its files carry their absolute offsets") {
+  shim_run run{"seq -w 0 9999", 4096};
+  CHECK(run.process.wait() == 0);
+  auto all = numbered_lines(10'000);
+  auto offsets = run.log_offsets();
+  REQUIRE(offsets.size() == 2);
+  CHECK(offsets[0] % 2048 == 0);
+  CHECK(offsets[1] == offsets[0] + 2048);
+  CHECK(run.log(offsets[0]) == all.substr(offsets[0], 2048));
+  CHECK(run.log(offsets[1]) == all.substr(offsets[1]));
+}
+
+TEST_CASE("a log that exists is continued at its absolute offset") {
+  temp_folder folder;
+  std::vector<std::string> command{shim,   "--dir", folder / "i", "--log-bytes",
+                                   "4096", "--",    "/bin/echo",  "hello"};
+  child_process first{command, {}};
+  CHECK(first.wait() == 0);
+  child_process second{command, {}};
+  CHECK(second.wait() == 0);
+  CHECK(names_in(folder / "i")
+        == std::vector<std::string>{"exit", "log.0", "log.6", "pid"});
+  child_process third{command, {}};
+  CHECK(third.wait() == 0);
+  CHECK(names_in(folder / "i")
+        == std::vector<std::string>{"exit", "log.12", "log.6", "pid"});
+}
+
+TEST_CASE("a log that cannot be written never holds the child back") {
+  // No file can grow beyond 1000 bytes, as on a disk that is full.
+  shim_run run{"seq -w 0 9999 && exit 5", 65536, 1000};
+  CHECK(run.process.wait() == 0);
+  CHECK(run.exit()["code"] == 5);
+  CHECK(run.log(0) == numbered_lines(10'000).substr(0, 1000));
+}
+
+TEST_CASE("SIGTERM to the shim reaches the whole process group") {
+  shim_run run{"sleep 1000 & trap 'echo asked; exit 7' TERM; echo up; wait"};
+  REQUIRE(run.wait_for("pid"));
+  REQUIRE(run.wait_for_log("up"));
+  run.process.signal(SIGTERM);
+  CHECK(run.process.wait() == 0);
+  CHECK(run.exit()["code"] == 7);
+  CHECK(run.log(0) == "up\nasked\n");
+}
+
+TEST_CASE("SIGQUIT to the shim kills what ignores SIGTERM") {
+  shim_run run{"trap '' TERM; echo up; while :; do sleep 1000; done"};
+  REQUIRE(run.wait_for("pid"));
+  REQUIRE(run.wait_for_log("up"));
+  run.process.signal(SIGTERM);
+  run.process.signal(SIGQUIT);
+  CHECK(run.process.wait() == 0);
+  CHECK(run.exit()["signal"] == SIGKILL);
+}
+
+TEST_CASE("nothing that the child started outlives it") {
+  // One in the group of the child, one that has left it; both hold the pipe.
+  shim_run run{"sleep 1000 & echo $!; setsid sleep 1000 & echo $!; exit 0"};
+  CHECK(run.process.wait() == 0);
+  CHECK(run.exit()["code"] == 0);
+  std::istringstream log{run.log(0)};
+  pid_t pid = 0;
+  auto count = 0;
+  while (log >> pid) {
+    ++count;
+    CHECK(::kill(pid, 0) != 0);
+  }
+  CHECK(count == 2);
+}
+
+TEST_CASE("the child dies with its shim") {
+  shim_run run{"echo up; exec sleep 1000"};
+  REQUIRE(run.wait_for("pid"));
+  REQUIRE(run.wait_for_log("up"));
+  auto child = static_cast<pid_t>(run.pids()[2]);
+  run.process.signal(SIGKILL);
+  CHECK(wait_for_end(child));
+  CHECK_FALSE(std::ifstream{run.dir() + "/exit"}.good());
+}
+
+TEST_CASE("the shim and its child survive the process that started them") {
+  temp_folder folder;
+  auto dir = folder / "i";
+  // `cat` ends, and then the parent kills itself, when the shim has closed the
+  // output it was given. It does so once its records are there.
+  child_process parent{
+      {"/bin/sh", "-c",
+       "{ " + shim + " --dir " + dir
+           + " --log-bytes 4096 -- /bin/sleep 1000 & } | cat; kill -9 $$"},
+      {{"PATH", "/usr/bin:/bin"}}};
+  CHECK(parent.wait() == -SIGKILL);
+  std::istringstream text{content_of(dir + "/pid")};
+  pid_t pid = 0;
+  REQUIRE(text >> pid);
+  CHECK(::kill(pid, 0) == 0);
+  CHECK(content_of(dir + "/exit").empty());
+  ::kill(pid, SIGTERM);
+  CHECK(wait_for_end(pid));
+  CHECK(json::parse(content_of(dir + "/exit"))["signal"] == SIGTERM);
+}
+
+TEST_CASE("the shim explains a wrong command line") {
+  for (const auto& arguments : std::vector<std::vector<std::string>>{
+           {shim},
+           {shim, "--dir", "/tmp/x", "--", "/bin/true"},
+           {shim, "--dir", "/tmp/x", "--log-bytes", "4096", "--"},
+           {shim, "--dir", "/tmp/x", "--log-bytes", "4k", "--", "/bin/true"},
+           {shim, "--dir", "/tmp/x", "--log-bytes", "-1", "--", "/bin/true"}}) {
+    child_process process{arguments, {}};
+    CHECK(process.wait() == 2);
+    CHECK_THAT(process.output(), StartsWith("usage: "));
+  }
+  child_process process{{shim, "--dir", "/no/such/parent", "--log-bytes",
+                         "4096", "--", "/bin/true"},
+                        {}};
+  CHECK(process.wait() == 1);
+  CHECK_THAT(process.output(), Contains("/no/such/parent"));
+}

@@ -1,0 +1,215 @@
+#pragma once
+
+#include "test/fixture.hpp"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+/// The seam at which tests lose, delay, repeat and cut: two session actors that
+/// are the two ends of one wire. Everything random comes from one seed.
+namespace roscell::test {
+
+/// What a wire does to what passes. Probabilities are per frame or beat.
+struct wire_faults {
+  double lose_beat = 0;
+  double repeat_beat = 0;
+  double lose_frame = 0; ///< TCP never does; whoever survives it is robust.
+  double repeat_frame = 0;
+  double cut = 0;       ///< The frame is lost and the connection with it.
+  bool reorder = false; ///< Frames may overtake each other.
+  std::chrono::milliseconds longest_delay{0};
+};
+
+/// One connection, shared by its two ends and the test.
+struct wire {
+  std::mt19937& random;
+  const wire_faults& faults;
+  std::array<session_actor, 2> ends;
+  std::array<std::chrono::steady_clock::time_point, 2> last_arrival;
+  /// Nothing passes and nobody is told: a cable pulled out.
+  bool silent = false;
+  bool open = true;
+  /// Frames that wait for the end of the silence, with their receivers.
+  std::vector<std::pair<size_t, std::string>> held;
+  size_t frames = 0;
+  size_t beats = 0;
+
+  wire(std::mt19937& randomness, const wire_faults& what)
+      : random(randomness), faults(what) {}
+
+  bool happens(double probability) {
+    return probability > 0
+           && std::uniform_real_distribution<double>{}(random) < probability;
+  }
+
+  std::chrono::milliseconds delay() {
+    const auto longest = faults.longest_delay.count();
+    return std::chrono::milliseconds{
+        longest == 0 ? 0 : static_cast<int64_t>(random() % (longest + 1))};
+  }
+};
+
+using wire_ptr = std::shared_ptr<wire>;
+
+/// One end of a wire.
+struct wire_end_state {
+  static constexpr const char* name = "wire-end";
+
+  wire_ptr link;
+  size_t index = 0;
+  session_owner_actor owner;
+  std::vector<std::string> kept; ///< Frames from before there was an owner.
+  std::string end_reason;        ///< Set when it ended before it had one.
+};
+
+namespace wire_steps {
+
+using self_pointer = session_actor::stateful_pointer<wire_end_state>;
+
+/// Ends this end; its owner is told.
+inline void end(self_pointer self, const std::string& reason) {
+  auto& st = self->state;
+  if (!st.owner) {
+    st.end_reason = reason;
+    return;
+  }
+  self->send(st.owner, session_closed{reason});
+  self->quit();
+}
+
+/// Ends the other end, after what is on its way to it.
+inline void end_other(self_pointer self, const std::string& reason) {
+  auto& link = *self->state.link;
+  if (!std::exchange(link.open, false) || link.silent)
+    return;
+  const auto other = 1 - self->state.index;
+  const auto now = self->clock().now();
+  const auto when = std::max(now, link.last_arrival[other]) - now;
+  self->delayed_send(link.ends[other], when, session_closed{reason});
+}
+
+/// Lets one frame arrive at the other end.
+inline void pass(self_pointer self, const std::string& text) {
+  auto& link = *self->state.link;
+  const auto other = 1 - self->state.index;
+  const auto now = self->clock().now();
+  auto when = now + link.delay();
+  if (!link.faults.reorder)
+    when = std::max(when, link.last_arrival[other]);
+  link.last_arrival[other] = std::max(when, link.last_arrival[other]);
+  self->delayed_send(link.ends[other], when - now, frame_received{text});
+}
+
+inline void send_out(self_pointer self, const std::string& text) {
+  auto& link = *self->state.link;
+  ++link.frames;
+  if (!link.open)
+    return;
+  if (link.silent) {
+    link.held.emplace_back(1 - self->state.index, text);
+    return;
+  }
+  if (link.happens(link.faults.cut)) {
+    end_other(self, "the connection broke");
+    end(self, "the connection broke");
+    return;
+  }
+  if (link.happens(link.faults.lose_frame))
+    return;
+  pass(self, text);
+  if (link.happens(link.faults.repeat_frame))
+    pass(self, text);
+}
+
+inline void send_out(self_pointer self, beat_kind kind) {
+  auto& link = *self->state.link;
+  ++link.beats;
+  if (!link.open || link.silent || link.happens(link.faults.lose_beat))
+    return;
+  const auto times = link.happens(link.faults.repeat_beat) ? 2 : 1;
+  for (auto i = 0; i < times; ++i)
+    self->delayed_send(link.ends[1 - self->state.index], link.delay(),
+                       beat_received{kind});
+}
+
+inline void take_owner(self_pointer self, const session_owner_actor& owner) {
+  auto& st = self->state;
+  st.owner = owner;
+  self->monitor(owner);
+  // What a kernel does for a program that was killed.
+  self->set_down_handler([self](const caf::down_msg&) {
+    end_other(self, "the peer has ended");
+    self->quit();
+  });
+  for (auto& text : std::exchange(st.kept, {}))
+    self->send(owner, frame_received{std::move(text)});
+  if (!st.end_reason.empty())
+    end(self, st.end_reason);
+}
+
+inline void come_in(self_pointer self, const frame_received& frame) {
+  auto& st = self->state;
+  if (st.owner)
+    self->send(st.owner, frame);
+  else
+    st.kept.push_back(frame.text);
+}
+
+} // namespace wire_steps
+
+inline session_actor::behavior_type wire_end(wire_steps::self_pointer self,
+                                             wire_ptr link, size_t index) {
+  using namespace wire_steps;
+  self->state.link = std::move(link);
+  self->state.index = index;
+  return {
+      [self](const state_query&) {
+        return state_of({{"end", "wire"}});
+      },
+      [self](const own_session& x) { take_owner(self, x.owner); },
+      [self](const send_frame& x) { send_out(self, x.text); },
+      [self](const send_beat& x) { send_out(self, x.kind); },
+      [self](const close_session& x) {
+        end_other(self, x.reason);
+        self->quit();
+      },
+      [self](const frame_received& x) { come_in(self, x); },
+      [self](const beat_received& x) {
+        if (self->state.owner)
+          self->send(self->state.owner, x);
+      },
+      [self](const session_closed& x) { end(self, x.reason); },
+  };
+}
+
+/// Makes a wire and its two ends.
+inline wire_ptr make_wire(caf::actor_system& system, const house& context,
+                          std::mt19937& random, const wire_faults& faults) {
+  auto result = std::make_shared<wire>(random, faults);
+  for (size_t i = 0; i < 2; ++i)
+    result->ends[i] = roscell::spawn(system, context, wire_end, result, i);
+  return result;
+}
+
+/// Breaks the connection; both ends are told at once.
+inline void cut(wire& x) {
+  x.open = false;
+  for (auto& end : x.ends)
+    caf::anon_send(end, session_closed{"the connection broke"});
+}
+
+/// Ends a silence: what was held back arrives.
+inline void heal(wire& x) {
+  x.silent = false;
+  for (auto& [receiver, text] : std::exchange(x.held, {}))
+    caf::anon_send(x.ends[receiver], frame_received{std::move(text)});
+}
+
+} // namespace roscell::test

@@ -1,0 +1,62 @@
+#include "test/messages/sample.hpp"
+
+namespace roscell::test {
+
+namespace {
+
+/// What a field must look like whose text follows a rule of its own. Of the
+/// letters 'N', 'H' and 'S' in it, N becomes the number, H 64 and S 16 digits.
+constexpr std::pair<std::string_view, std::string_view> forms[] = {
+    {"uuid", "00000000-0000-4000-8000-00000000000N"},
+    {"address", "10.0.0.7:N"},
+    {"discovery_server", "10.0.0.8:N"},
+    {"node_description.coordinator", "10.0.0.9:N"},
+    {"hash", "H"},
+    {"skill", "H"},
+    {"nonce", "H"},
+    {"proof", "H"},
+    {"session", "S"},
+    {"session_hello.version", "1.N"},
+    {"session_challenge.version", "1.N"},
+    {"devices", "/dev/video_N"},
+    {"volumes", "/srv/models_N:/models:ro"},
+    {"entry_point", "bin/program_N"},
+    {"endpoint", "/scene_N/image"},
+    {"data_type", "image/x-N"},
+    {"data_types", "image/x-N"},
+    {"parameters", R"({"level":N})"},
+    {"data", R"({"level":N})"},
+    {"body", R"({"level":N,"type":"resource_query"})"},
+    {"code", "conflict"},
+};
+
+std::string_view form_of(std::string_view type, std::string_view field) {
+  const auto full = std::string{type} + "." + std::string{field};
+  std::string_view result = "value_N";
+  for (const auto& [name, form] : forms) {
+    if (name == full)
+      return form;
+    if (name == field)
+      result = form;
+  }
+  return result;
+}
+
+} // namespace
+
+std::string sample_text(std::string_view type, std::string_view field,
+                        int number) {
+  std::string result;
+  const auto last = static_cast<char>('0' + number % 10);
+  for (auto c : form_of(type, field)) {
+    if (c == 'N')
+      result += std::to_string(number);
+    else if (c == 'H' || c == 'S')
+      result += std::string(c == 'H' ? 63 : 15, 'a') + last;
+    else
+      result += c;
+  }
+  return result;
+}
+
+} // namespace roscell::test

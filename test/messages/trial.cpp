@@ -1,0 +1,113 @@
+#include "test/messages/trial.hpp"
+
+#include "actors/edge/session_frames.hpp"
+#include "messages/allocation_report.hpp"
+#include "messages/cell.hpp"
+#include "messages/event.hpp"
+#include "messages/session.hpp"
+#include "schemas/decode.hpp"
+#include "schemas/document.hpp"
+#include "test/messages/member_count.hpp"
+#include "test/messages/sample.hpp"
+
+#include <utility>
+
+namespace roscell::test {
+
+namespace {
+
+template <class T>
+bool decodes(const json& document) {
+  return std::holds_alternative<T>(decode<T>(document));
+}
+
+template <class T>
+bool survives(const json& document, const T& sample) {
+  auto parsed = parse_document(document.dump());
+  if (!std::holds_alternative<json>(parsed))
+    return false;
+  auto result = decode<T>(std::get<json>(parsed));
+  return std::holds_alternative<T>(result) && std::get<T>(result) == sample;
+}
+
+template <class T>
+json encoded(const T& sample) {
+  if constexpr (has_message_type<T>::value)
+    return message_json(sample);
+  else
+    return sample;
+}
+
+template <class T>
+trial try_part(std::string name) {
+  trial result;
+  result.name = std::move(name);
+  result.members = member_count<T>();
+  result.fields = std::tuple_size_v<decltype(T::fields())>;
+  const auto full = sampler{extent::full}.make<T>();
+  result.full = encoded(full);
+  result.full_survives = survives(result.full, full);
+  const auto least = sampler{extent::least}.make<T>();
+  result.least = encoded(least);
+  result.least_survives = survives(result.least, least);
+  result.decodes = decodes<T>;
+  return result;
+}
+
+template <class... Ts>
+void try_messages(std::vector<trial>& result) {
+  (result.push_back(try_part<Ts>(Ts::type)), ...);
+}
+
+} // namespace
+
+std::vector<trial> message_trials() {
+  std::vector<trial> result;
+  try_messages<cell_query, cell_list_query, task_request, task_plan_query,
+               task_query, task_termination, instance_query, log_query,
+               node_query, skill_query>(result);
+  try_messages<cell_description, cell_list, task_accepted, task_plan,
+               task_description, task_terminated, instance_description,
+               log_excerpt, node_description, skill_list, event>(result);
+  try_messages<session_request, session_reply, session_notice,
+               node_registration, node_registered, node_departure,
+               node_departed, resource_query, resource_report,
+               instance_deployment, instance_deployed, instance_removal,
+               instances_removed, instance_changed>(result);
+  try_messages<session_hello, session_challenge, session_proof,
+               session_accepted>(result);
+  result.push_back(try_part<skill_descriptor>("skill_descriptor"));
+  result.push_back(try_part<plan_document>("plan_document"));
+  return result;
+}
+
+std::vector<trial> part_trials() {
+  return {
+      try_part<amount>("amount"),
+      try_part<gpu_resources>("gpu_resources"),
+      try_part<node_resources>("node_resources"),
+      try_part<resource_request>("resource_request"),
+      try_part<io_endpoint>("io_endpoint"),
+      try_part<instance_spec>("instance_spec"),
+      try_part<instance_row>("instance_row"),
+      try_part<node_identity>("node_identity"),
+      try_part<actor_row>("actor_row"),
+      try_part<registry_row>("registry_row"),
+      try_part<cell_row>("cell_row"),
+      try_part<port_description>("port_description"),
+      try_part<deployment_option>("deployment_option"),
+      try_part<implementation_model>("implementation_model"),
+      try_part<installed_skill>("installed_skill"),
+      try_part<skill_row>("skill_row"),
+      try_part<task_step>("task_step"),
+      try_part<placed_instance>("placed_instance"),
+      try_part<task_row>("task_row"),
+      try_part<allocation_score>("allocation_score"),
+      try_part<resource_fractions>("resource_fractions"),
+      try_part<step_allocation>("step_allocation"),
+      try_part<rejected_candidate>("rejected_candidate"),
+      try_part<instance_verdict>("instance_verdict"),
+  };
+}
+
+} // namespace roscell::test

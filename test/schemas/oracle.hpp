@@ -1,0 +1,12 @@
+#pragma once
+
+#include "messages/json_codec.hpp"
+
+#include <string>
+
+namespace roscell::test {
+
+/// What valijson, another implementation of Draft 7, thinks of a document.
+bool oracle_accepts(const std::string& schema, const json& document);
+
+} // namespace roscell::test

@@ -1,0 +1,31 @@
+#include "schemas/text_excerpt.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace roscell;
+
+TEST_CASE("a quoted text is escaped as in JSON") {
+  CHECK(in_quotes("a\"b\n") == R"("a\"b\n")");
+}
+
+TEST_CASE("a long text is cut between characters") {
+  CHECK(in_quotes(u8"äöü", 2) == u8"\"äö\"...");
+  CHECK(in_quotes(u8"äöü", 3) == u8"\"äöü\"");
+}
+
+TEST_CASE("bytes that are no UTF-8 are replaced") {
+  CHECK_NOTHROW(json(in_quotes("a\xff")).dump());
+  CHECK_NOTHROW(json(in_quotes("\x80\x80")).dump());
+}
+
+TEST_CASE("a value is told in few words") {
+  CHECK(value_words(nullptr) == "null");
+  CHECK(value_words(true) == "true");
+  CHECK(value_words(-7) == "the number -7");
+  CHECK(value_words(0.5) == "the number 0.5");
+  CHECK(value_words("a b") == R"("a b")");
+  CHECK(value_words(json::array()) == "an array of 0 items");
+  CHECK(value_words({{"a", 1}}) == "an object of 1 member");
+  auto words = value_words(std::string(80, 'x'));
+  CHECK(words == '"' + std::string(40, 'x') + "\"... (80 characters)");
+}

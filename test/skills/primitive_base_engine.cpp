@@ -1,0 +1,263 @@
+#include "skills/engine/primitive_base_engine.hpp"
+
+#include "test/skills/support.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <stdexcept>
+
+using namespace roscell::engine;
+using namespace roscell::test;
+using Catch::Matchers::Contains;
+
+namespace {
+
+/// Gives the numbers from 1 to the one in its endpoint, and then ends, or
+/// waits for the stop if the protocol is "live".
+struct counter : input_handler {
+  explicit counter(const stream_context& c) : config(c.config) {
+    // nop
+  }
+
+  void open() override {
+    if (config.endpoint == "closed")
+      throw start_error("the counter is closed");
+  }
+
+  void run(frame_sink& sink, const stop_event& stop) override {
+    if (config.endpoint == "broken")
+      throw stream_error("the counter broke");
+    for (auto i = 1; i <= std::stoi(config.endpoint); ++i) {
+      frame f;
+      f.payload = std::to_string(i);
+      f.name = "n" + f.payload;
+      sink.push(std::move(f), when_full::wait);
+    }
+    if (config.protocol == "live")
+      stop.wait();
+  }
+
+  stream config;
+};
+
+/// What happened in a test, in order.
+struct journal {
+  std::string text;
+  std::string said;
+  frame last;
+};
+
+/// Writes payloads into a journal.
+struct recorder : output_handler {
+  recorder(journal& j, const stream_context& c) : log(j), config(c.config) {
+    // nop
+  }
+
+  void open() override {
+    log.text += "open ";
+  }
+
+  void write(const frame& result) override {
+    if (config.endpoint == "full")
+      throw stream_error("the recorder is full");
+    log.text += result.payload + " ";
+    log.last = result;
+  }
+
+  void close() override {
+    log.text += "close";
+  }
+
+  journal& log;
+  stream config;
+};
+
+/// Emits its input; fails at payloads that the parameter `bad` contains.
+struct repeater : executor {
+  repeater(journal& j, const environment& env)
+      : log(j), bad(env.parameters.text("bad", "")),
+        times(env.parameters.count("times", 1, 0, 9)),
+        port(env.parameters.count("port", 0, 0, 9)) {
+    if (bad == "constructor")
+      throw std::runtime_error("no model file");
+  }
+
+  void process(const frame& input, emitter& output) override {
+    if (bad.find(input.payload) != std::string::npos)
+      throw std::runtime_error("bad frame");
+    for (std::uint64_t i = 0; i < times; ++i)
+      output.emit(input.payload, port);
+  }
+
+  void release() override {
+    log.text += "release ";
+    if (bad == "release")
+      throw std::runtime_error("stuck");
+  }
+
+  journal& log;
+  std::string bad;
+  std::uint64_t times;
+  std::size_t port;
+};
+
+struct fixture {
+  fixture() {
+    for (const auto* protocol : {"finite", "live"})
+      parts.add_input(protocol, [](const stream_context& c) {
+        return std::make_unique<counter>(c);
+      });
+    parts.add_output("journal", [this](const stream_context& c) {
+      return std::make_unique<recorder>(log, c);
+    });
+    parts.add_executor("repeat", [this](const environment& e) {
+      return std::make_unique<repeater>(log, e);
+    });
+    env.model = "repeat";
+    env.inputs = {{"finite", "3", "number"}};
+    env.outputs = {{"journal", "j", "digits"}};
+  }
+
+  exit_code run(nlohmann::json options = nlohmann::json::object()) {
+    env.parameters = parameters{std::move(options)};
+    primitive_base_engine engine{parts, env, [this](const std::string& line) {
+                                   log.said += line + "\n";
+                                 }};
+    auto result = engine.run();
+    status = engine.status();
+    return result;
+  }
+
+  registry parts;
+  environment env;
+  journal log;
+  std::string status;
+};
+
+} // namespace
+
+TEST_CASE_METHOD(fixture,
+                 "an engine moves all frames and ends with its input") {
+  CHECK(run() == exit_code::done);
+  CHECK(log.text == "open 1 2 3 release close");
+  CHECK(log.said.empty());
+  CHECK_THAT(status, Contains("frames=3 dropped=0 failed=0 median_us="));
+}
+
+TEST_CASE_METHOD(fixture,
+                 "an engine fills in what an emitted frame leaves open") {
+  CHECK(run({{"times", 2}}) == exit_code::done);
+  CHECK(log.text == "open 1 1 2 2 3 3 release close");
+  CHECK(log.last.data_type == "digits");
+  CHECK(log.last.name == "n3.1");
+  CHECK(log.last.sequence == 5);
+}
+
+TEST_CASE_METHOD(fixture, "an executor may emit nothing") {
+  CHECK(run({{"times", 0}}) == exit_code::done);
+  CHECK(log.text == "open release close");
+}
+
+TEST_CASE_METHOD(fixture, "an engine joins several inputs and outputs") {
+  env.inputs = {{"finite", "2", "n"}, {"finite", "2", "n"}};
+  env.outputs.push_back({"journal", "k", "digits"});
+  CHECK(run({{"port", 1}}) == exit_code::done);
+  CHECK_THAT(status, Contains("frames=4 "));
+  CHECK_THAT(log.text, Contains("release closeclose"));
+}
+
+TEST_CASE_METHOD(fixture,
+                 "a frame that fails is said, and the next one follows") {
+  CHECK(run({{"bad", "2"}}) == exit_code::done);
+  CHECK(log.text == "open 1 3 release close");
+  CHECK(log.said == "frame 'n2' failed (1 in a row): bad frame\n");
+  CHECK_THAT(status, Contains("frames=3 dropped=0 failed=1"));
+}
+
+TEST_CASE_METHOD(fixture, "too many failures in a row end the skill") {
+  env.inputs[0].endpoint = "9";
+  CHECK(run({{"bad", "2 45 789"}, {"max_failures", 3}})
+        == exit_code::executor_failed);
+  CHECK(log.text == "open 1 3 6 release close");
+  CHECK_THAT(log.said, Contains("giving up after 3 failures in a row"));
+}
+
+TEST_CASE_METHOD(fixture,
+                 "emitting to an output that is not there is a failure") {
+  CHECK(run({{"port", 1}}) == exit_code::done);
+  CHECK_THAT(log.said, Contains("output 1, but the step has 1 outputs"));
+}
+
+TEST_CASE_METHOD(fixture, "an output that breaks ends the skill") {
+  env.outputs[0].endpoint = "full";
+  CHECK(run() == exit_code::stream_failed);
+  CHECK(log.said == "output broke: the recorder is full\n");
+  CHECK(log.text == "open release close");
+}
+
+TEST_CASE_METHOD(fixture, "an input that breaks ends the skill") {
+  env.inputs.push_back({"finite", "broken", "n"});
+  env.inputs[0].protocol = "live";
+  CHECK(run() == exit_code::stream_failed);
+  CHECK_THAT(log.said, Contains("input 1 broke: the counter broke"));
+  CHECK_THAT(log.text, Contains("release close"));
+}
+
+TEST_CASE_METHOD(fixture, "a release that fails shows in the exit code") {
+  CHECK(run({{"bad", "release"}}) == exit_code::executor_failed);
+  CHECK_THAT(log.said, Contains("release failed: stuck"));
+  CHECK_THAT(log.text, Contains("close"));
+}
+
+TEST_CASE_METHOD(fixture, "a part that cannot be made or opened is named") {
+  auto said_by = [&](const nlohmann::json& options = nlohmann::json::object()) {
+    log.said.clear();
+    CHECK(run(options) == exit_code::cannot_start);
+    CHECK_THAT(log.said, Contains("cannot start: "));
+    return log.said;
+  };
+  CHECK_THAT(said_by({{"bad", "constructor"}}), Contains("no model file"));
+  env.inputs[0].endpoint = "closed";
+  CHECK_THAT(said_by(), Contains("the counter is closed"));
+  env.inputs[0].protocol = "telepathy";
+  CHECK_THAT(said_by(), Contains("no input protocol 'telepathy'")
+                            && Contains("file, finite, live"));
+  env.outputs[0].protocol = "telepathy";
+  CHECK_THAT(said_by(), Contains("no output protocol 'telepathy'")
+                            && Contains("file, journal"));
+  env.model = "yolo";
+  CHECK_THAT(said_by(), Contains("no model 'yolo'") && Contains("repeat"));
+}
+
+TEST_CASE_METHOD(fixture, "a step must not feed itself") {
+  env.outputs[0] = env.inputs[0];
+  CHECK(run() == exit_code::cannot_start);
+  CHECK_THAT(log.said, Contains("both an input and an output"));
+}
+
+TEST_CASE_METHOD(fixture, "a stop before the start ends the skill cleanly") {
+  env.inputs[0].protocol = "live";
+  primitive_base_engine engine{parts, env, [](const std::string&) {}};
+  engine.request_stop();
+  CHECK(engine.run() == exit_code::done);
+  CHECK(log.text == "open release close");
+}
+
+TEST_CASE_METHOD(fixture, "an engine tells its node of its start and its end") {
+  temp_folder folder;
+  notify_receiver node{folder / "notify"};
+  env.notify_socket = folder / "notify";
+  CHECK(run() == exit_code::done);
+  CHECK(node.receive() == "READY=1");
+  CHECK_THAT(node.receive().value_or(""),
+             Contains("STOPPING=1\nSTATUS=frames=3 "));
+}
+
+TEST_CASE_METHOD(fixture, "a skill that cannot start is never ready") {
+  temp_folder folder;
+  notify_receiver node{folder / "notify"};
+  env.notify_socket = folder / "notify";
+  env.inputs[0].endpoint = "closed";
+  CHECK(run() == exit_code::cannot_start);
+  CHECK_FALSE(node.receive_now());
+}

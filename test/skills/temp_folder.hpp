@@ -1,0 +1,105 @@
+#pragma once
+
+#include "skills/engine/inotify_watch.hpp"
+
+#include <poll.h>
+#include <sys/inotify.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+/// Files for the tests of skills and of the instance shim. Every wait is for
+/// an event, and ends with a failure after `patience`.
+namespace roscell::test {
+
+using steady = std::chrono::steady_clock;
+
+constexpr std::chrono::seconds patience{20};
+
+/// A folder that is removed with all it holds.
+class temp_folder {
+public:
+  temp_folder() {
+    auto pattern =
+        (std::filesystem::temp_directory_path() / "roscell-test-XXXXXX")
+            .string();
+    if (::mkdtemp(pattern.data()) == nullptr)
+      throw std::runtime_error("cannot make a temporary folder");
+    path_ = pattern;
+  }
+
+  ~temp_folder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+
+  temp_folder(const temp_folder&) = delete;
+  temp_folder& operator=(const temp_folder&) = delete;
+
+  /// The path of `name` in the folder.
+  std::string operator/(const std::string& name) const {
+    return path_ + "/" + name;
+  }
+
+  void write(const std::string& name, const std::string& content) const {
+    std::ofstream{*this / name, std::ios::binary} << content;
+  }
+
+  void append(const std::string& name, const std::string& content) const {
+    std::ofstream{*this / name, std::ios::binary | std::ios::app} << content;
+  }
+
+private:
+  std::string path_;
+};
+
+/// The whole content, or an empty text if there is no such file.
+inline std::string content_of(const std::string& path) {
+  std::ostringstream result;
+  result << std::ifstream{path, std::ios::binary}.rdbuf();
+  return result.str();
+}
+
+/// The names in a folder, sorted.
+inline std::vector<std::string> names_in(const std::string& path) {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator{path})
+    names.push_back(entry.path().filename());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+/// Waits until `fd` is readable.
+inline bool wait_readable(int fd, steady::time_point deadline = steady::now()
+                                                                + patience) {
+  using namespace std::chrono;
+  pollfd waited{fd, POLLIN, 0};
+  auto left = duration_cast<milliseconds>(deadline - steady::now()).count();
+  auto limit_ms = static_cast<int>(std::max<std::int64_t>(left, 0));
+  return ::poll(&waited, 1, limit_ms) == 1;
+}
+
+/// Waits until `done` is true, looking again at each change in the folder.
+inline bool wait_in_folder(const std::string& folder,
+                           const std::function<bool()>& done) {
+  auto deadline = steady::now() + patience;
+  engine::inotify_watch changes;
+  changes.add(folder, IN_MODIFY | IN_CREATE | IN_MOVED_TO | IN_DELETE);
+  while (!done()) {
+    if (!wait_readable(changes.fd(), deadline))
+      return false;
+    changes.read();
+  }
+  return true;
+}
+
+} // namespace roscell::test

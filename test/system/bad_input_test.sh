@@ -1,0 +1,170 @@
+# What comes from outside and is wrong: a clear error, nothing changed, and the
+# node stays up.
+
+start_alone() {
+  start_node head --coordinator --cell line --interface lo
+  address=$(get head /v1/node | jq -r .identity.address)
+  token=$(cat "$scratch/head/token")
+}
+
+# refusal JSON: sends it and prints the error code.
+refusal() {
+  to head request - <<< "$1" > "$scratch/refusal.json" 2> "$scratch/stderr"
+  local code=$?
+  [[ $code -eq 1 ]] || fail "exit code $code for: $1"
+  jq -r .error.code "$scratch/refusal.json"
+}
+
+still_up() {
+  expect "health" "$(get head /healthz | jq -r .status)" ok
+  expect "tasks" "$(get head /v1/tasks | jq '.tasks | length')" 0
+}
+
+test_bad_requests_are_refused_with_their_code() {
+  start_alone
+  expect "no JSON" "$(refusal '{"type":')" malformed_json
+  expect "unknown type" "$(refusal '{"type":"make_coffee"}')" unknown_type
+  expect "schema" "$(refusal '{"type":"task_request","task":7}')" \
+    schema_violation
+  expect "all at once" "$(jq '.error.errors | length' "$scratch/refusal.json")" 2
+  expect "unknown task" \
+    "$(refusal '{"type":"task_termination","task":"none"}')" unknown_task
+  expect "unknown operation" "$(refusal "$(echo_task a \
+    | jq -c '.pipeline[0].operation = "sing"')")" unknown_operation
+  expect "unknown model" "$(refusal "$(echo_task a \
+    | jq -c '.pipeline[0].model = "opera"')")" unknown_model
+  expect "unknown deployment" "$(refusal "$(echo_task a \
+    | jq -c '.pipeline[0].deployment = "stage"')")" unknown_deployment
+  expect "where" "$(jq -r .error.where "$scratch/refusal.json")" \
+    /pipeline/0/deployment
+  expect "no room" "$(refusal "$(echo_task a \
+    | jq -c '.pipeline[0].labels = {"place": "moon"}')")" no_feasible_allocation
+  expect "explained" \
+    "$(jq '.error.rejected | length' "$scratch/refusal.json")" 1
+  still_up
+}
+
+test_a_request_that_is_too_large_or_too_deep_is_refused() {
+  start_alone
+  head -c 100000000 /dev/zero | tr '\0' ' ' > "$scratch/large"
+  expect "100 MB" "$(curl -sS --max-time "$deadline_s" \
+    -H "Authorization: Bearer $token" --data-binary @"$scratch/large" \
+    -o /dev/null -w '%{http_code}' "http://$address/v1/requests")" 413
+  python3 -c 'print("[" * 100000 + "]" * 100000)' > "$scratch/deep"
+  expect "depth" "$(refusal "$(cat "$scratch/deep")")" malformed_json
+  still_up
+}
+
+test_tcp_requests_need_the_bearer_token() {
+  start_alone
+  expect "no token" "$(curl -sS -o "$scratch/body" -w '%{http_code}' \
+    "http://$address/v1/node")" 401
+  expect "its code" "$(jq -r .error.code "$scratch/body")" unauthorized
+  expect "wrong token" "$(curl -sS -o /dev/null -w '%{http_code}' \
+    -H 'Authorization: Bearer nonsense' "http://$address/v1/node")" 401
+  expect "right token" "$(curl -sS -o /dev/null -w '%{http_code}' \
+    -H "Authorization: Bearer $token" "http://$address/v1/node")" 200
+}
+
+test_a_thousand_silent_connections_lock_nobody_out() {
+  start_alone
+  python3 - "${address%:*}" "${address#*:}" > "$scratch/crowd" << 'PY' &
+import signal, socket, sys
+crowd = []
+for _ in range(1000):
+    s = socket.socket()
+    s.settimeout(5)
+    try:
+        s.connect((sys.argv[1], int(sys.argv[2])))
+        crowd.append(s)
+    except OSError:
+        pass
+print(len(crowd), flush=True)
+signal.pause()
+PY
+  crowd=$!
+  timeout "$deadline_s" tail -n +1 -f "$scratch/crowd" | head -n 1 > /dev/null
+  expect "by TCP" "$(curl -sS --max-time "$deadline_s" -o /dev/null \
+    -w '%{http_code}' -H "Authorization: Bearer $token" \
+    "http://$address/v1/node")" 200
+  still_up
+  files=$(ls "/proc/${pid[head]}/fd" | wc -l)
+  [[ $files -lt 300 ]] || fail "the node holds $files descriptors"
+  kill "$crowd"
+}
+
+test_a_port_or_a_data_directory_in_use_is_named() {
+  start_alone
+  "$ROSCELL" node --name other --data-dir "$scratch/other" --interface lo \
+    --port "${address#*:}" 2> "$scratch/stderr"
+  expect "exit code" $? 1
+  grep -q "${address#*:}" "$scratch/stderr" || fail "$(cat "$scratch/stderr")"
+  "$ROSCELL" node --name again --data-dir "$scratch/head" --interface lo \
+    --port 0 2> "$scratch/stderr"
+  expect "exit code" $? 1
+  grep -q "$scratch/head" "$scratch/stderr" || fail "$(cat "$scratch/stderr")"
+}
+
+test_a_wrong_site_token_is_refused_and_told() {
+  make_site_token
+  start_node head --coordinator --cell line --interface lo \
+    --site-token "$scratch/site.token"
+  server=$(discovery_of head)
+  echo "another-secret-of-enough-length" > "$scratch/wrong.token"
+  start_node arm --interface lo --join "$server" \
+    --site-token "$scratch/wrong.token"
+  await arm '.event == "join_refused"' > "$scratch/refused.json"
+  expect "rows" "$(get head /v1/cell | jq '.nodes | length')" 1
+}
+
+# broken_skill SCRIPT: a skill folder whose program is that script.
+broken_skill() {
+  rm "$skills/echo/bin/echo"
+  [[ -z $1 ]] && return
+  printf '#!/bin/sh\n%s\n' "$1" > "$skills/echo/bin/echo"
+  chmod +x "$skills/echo/bin/echo"
+}
+
+test_a_skill_that_exits_at_once_is_told_with_its_code_and_last_lines() {
+  broken_skill 'echo "no camera at /dev/video7" >&2; exit 42'
+  start_alone
+  expect "code" "$(refusal "$(echo_task a)")" engine_failed
+  expect "exit code" "$(jq -r .error.exit_code "$scratch/refusal.json")" 42
+  jq -r .error.log_tail "$scratch/refusal.json" | grep -q 'no camera' \
+    || fail "$(cat "$scratch/refusal.json")"
+  still_up
+  expect "instances" "$(get head /v1/instances | jq '.instances | length')" 0
+}
+
+test_a_missing_entry_point_is_named() {
+  broken_skill ''
+  start_alone
+  expect "code" "$(refusal "$(echo_task a)")" engine_failed
+  jq -r .error.message "$scratch/refusal.json" | grep -q 'bin/echo' \
+    || fail "$(cat "$scratch/refusal.json")"
+  still_up
+}
+
+test_a_bad_descriptor_is_told_and_the_others_stay() {
+  cp -r "$skills/echo" "$skills/bad"
+  jq '.models[0].deployments[0].resources.cpu = -1' \
+    "$skills/echo/skill.json" > "$skills/bad/skill.json"
+  start_alone
+  await head '.data.where == "/models/0/deployments/0/resources/cpu"' > /dev/null
+  expect "skills" "$(get head /v1/skills | jq '.skills | length')" 1
+}
+
+test_if_one_step_fails_the_others_are_rolled_back() {
+  cp -r "$skills/echo" "$skills/good"
+  jq '.operation = "good"' "$skills/echo/skill.json" > "$skills/good/skill.json"
+  broken_skill 'exit 3'
+  start_alone
+  request=$(echo_task a | jq -c '.pipeline += [.pipeline[0]]
+    | .pipeline[0].operation = "good" | .pipeline[1].id = "other"
+    | .pipeline[1].output.endpoint += "2"')
+  expect "code" "$(refusal "$request")" engine_failed
+  jq -r .error.message "$scratch/refusal.json" | grep -q "other" \
+    || fail "the error does not name the step: $(cat "$scratch/refusal.json")"
+  expect "instances" "$(get head /v1/instances | jq '.instances | length')" 0
+  still_up
+}

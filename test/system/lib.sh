@@ -1,0 +1,188 @@
+# What the system tests share: real nodes as processes, alone on loopback or in
+# network namespaces. Nothing here polls: nodes tell when they are ready, and
+# changes are read from the event stream, each with a deadline.
+
+: "${ROSCELL_BUILD:?the build directory}"
+ROSCELL=$ROSCELL_BUILD/bin/roscell
+deadline_s=${ROSCELL_DEADLINE_S:-60}
+
+fail() {
+  echo "    $*" >&2
+  exit 1
+}
+
+skip() {
+  echo "$*" > "$scratch/skipped"
+  exit 77
+}
+
+need_namespaces() {
+  [[ $(id -u) -eq 0 ]] || skip "network namespaces need root"
+  ip netns add "roscell-probe-$$" 2>/dev/null \
+    || skip "network namespaces cannot be made here"
+  ip netns del "roscell-probe-$$"
+}
+
+# start_node NAME [OPTION...]: starts a node and waits until it is ready. Its
+# process id is in ${pid[NAME]}. $inside may hold a command prefix such as
+# `ip netns exec NAME`.
+declare -A pid
+inside=()
+discovery_port=0
+start_node() {
+  local name=$1 ready=$scratch/$1.ready
+  shift
+  rm -f "$ready"
+  mkfifo "$ready"
+  exec {ready_fd}<> "$ready"
+  "${inside[@]}" "$ROSCELL" node --name "$name" --data-dir "$scratch/$name" \
+    --port 0 --discovery-port "$discovery_port" --skills "$skills" --runtime process \
+    --ready-fd 5 "$@" 5> "$ready" 2>> "$scratch/$name.log" &
+  pid[$name]=$!
+  echo "${pid[$name]}" >> "$scratch/pids"
+  # The node's end, ready or not, ends the wait too.
+  { tail --pid="${pid[$name]}" -f /dev/null; echo gone > "$ready"; } &
+  local said=
+  read -r -t "$deadline_s" said <&"$ready_fd" || true
+  exec {ready_fd}<&-
+  [[ -n $said && $said != gone ]] \
+    || fail "node $name did not start: $(tail -3 "$scratch/$name.log")"
+}
+
+# The skills that nodes of a test have. They ask for no CPU, so that a test does
+# not depend on what else this machine is doing.
+use_skills() {
+  skills=$scratch/skills
+  cp -r "$ROSCELL_BUILD/skills" "$skills"
+  ask_no_cpu "$skills/echo"
+}
+
+ask_no_cpu() {
+  local text
+  text=$(jq '.models[].deployments[].resources.cpu = 0' "$1/skill.json")
+  echo "$text" > "$1/skill.json"
+}
+
+# to NAME COMMAND...: a client command, spoken to that node.
+to() {
+  local name=$1 command=$2
+  shift 2
+  "$ROSCELL" "$command" --to "$scratch/$name/node.sock" "$@"
+}
+
+# get NAME PATH: the JSON of a REST path, by the node's Unix socket.
+get() {
+  curl -sS --max-time "$deadline_s" \
+    --unix-socket "$scratch/$1/node.sock" "http://node$2"
+}
+
+discovery_of() {
+  get "$1" /v1/cell | jq -r .discovery_server
+}
+
+# await NAME FILTER [SINCE]: waits until an event of that node matches the jq
+# filter, and prints it.
+await() {
+  local line stream reader end=$((SECONDS + deadline_s))
+  exec {stream}< <(exec "$ROSCELL" events --to "$scratch/$1/node.sock" \
+                     --since "${3:-0}" -o json 2> "$scratch/events.err")
+  reader=$!
+  while read -r -t $((end - SECONDS)) line <&"$stream"; do
+    if jq -e "$2" <<< "$line" > /dev/null; then
+      kill "$reader"
+      exec {stream}<&-
+      echo "$line"
+      return
+    fi
+  done
+  kill "$reader" 2>/dev/null
+  fail "no event of $1 with: $2 $(cat "$scratch/events.err")"
+}
+
+await_joined() {
+  await "$1" ".event == \"node_joined\" and .subject == \"$2\"" "${3:-0}" \
+    > /dev/null
+}
+
+row_state() {
+  get "$1" /v1/cell \
+    | jq -r ".nodes[] | select(.identity.name == \"$2\") | .state"
+}
+
+# stop_node NAME [SIGNAL]: ends a node and waits for its end.
+stop_node() {
+  kill "-${2:-TERM}" "${pid[$1]}"
+  timeout "$deadline_s" tail --pid="${pid[$1]}" -f /dev/null \
+    || fail "node $1 did not end"
+}
+
+# echo_task TASK [NODE]: a request that runs the echo skill, following a file.
+echo_task() {
+  mkdir -p "$scratch/data"
+  touch "$scratch/data/$1.in"
+  jq -n --arg task "$1" --arg dir "$scratch/data" --arg node "${2:-}" '
+    {type: "task_request", task: $task, pipeline: [
+      {id: "say", operation: "echo", model: "plain",
+       input: {protocol: "file", endpoint: ($dir + "/" + $task + ".in"),
+               data_type: "text/plain"},
+       output: {protocol: "file", endpoint: ($dir + "/" + $task + ".out"),
+                data_type: "text/plain"}}
+      + (if $node == "" then {} else {labels: {place: $node}} end)]}'
+}
+
+# expect WHAT ACTUAL EXPECTED
+expect() {
+  [[ $2 == "$3" ]] || fail "$1: expected '$3', got '$2'"
+}
+
+# bridge_hosts COUNT: that many hosts in namespaces on one bridge, named
+# rc$$-1 ..., with the addresses 10.231.7.1 ... on eth0.
+hosts=()
+bridge_hosts() {
+  need_namespaces
+  bridge=rcb$$
+  ip link add "$bridge" type bridge mcast_snooping 0
+  ip link set "$bridge" up
+  for ((i = 1; i <= $1; ++i)); do
+    local host=rc$$-$i
+    hosts+=("$host")
+    ip netns add "$host"
+    ip link add "rcv$$-$i" type veth peer name eth0 netns "$host"
+    ip link set "rcv$$-$i" master "$bridge" up
+    ip -n "$host" addr add "10.231.7.$i/24" dev eth0
+    ip -n "$host" link set eth0 up
+    ip -n "$host" link set lo up
+    ip -n "$host" route add default dev eth0
+  done
+}
+
+# start_on HOST_NUMBER NAME [OPTION...]: a node on one of these hosts.
+start_on() {
+  local host=${hosts[$(($1 - 1))]} number=$1 name=$2
+  shift 2
+  inside=(ip netns exec "$host")
+  start_node "$name" --interface "10.231.7.$number" \
+    --site-token "$scratch/site.token" "$@"
+  inside=()
+}
+
+make_site_token() {
+  head -c 32 /dev/urandom | od -An -tx1 | tr -d ' \n' > "$scratch/site.token"
+}
+
+# Everything that a test has started or made goes with it.
+clean_up() {
+  local what
+  [[ -f $scratch/pids ]] && while read -r what; do
+    kill -CONT "$what" 2>/dev/null
+    kill -KILL "$what" 2>/dev/null
+  done < "$scratch/pids"
+  for what in "$scratch"/*/instances/*/pid; do
+    [[ -f $what ]] && kill -QUIT "$(cut -d' ' -f1 "$what")" 2>/dev/null
+  done
+  for what in "${hosts[@]}"; do
+    ip netns del "$what" 2>/dev/null
+  done
+  [[ -n ${bridge:-} ]] && ip link del "$bridge" 2>/dev/null
+  jobs -p | xargs -r kill 2>/dev/null
+}

@@ -1,0 +1,33 @@
+#!/usr/bin/env bash
+# Installs what building and testing ROSCell needs, on Debian 12. Quiet and
+# quick when everything is there already.
+set -euo pipefail
+
+packages=(
+  # To build: docs/decisions.md gives the reason for each.
+  g++ cmake ninja-build ccache pkg-config
+  libcaf-dev libfastrtps-dev nlohmann-json3-dev libvalijson-dev
+  libboost-dev libssl-dev libsqlite3-dev libcli11-dev libspdlog-dev catch2
+)
+if [[ "${1:-}" == --with-tests ]]; then
+  packages+=(
+    # To check: format, lint and fuzzers; namespaces, HTTP and JSON in scripts.
+    clang clang-format clang-tidy libclang-rt-14-dev libfuzzer-14-dev
+    iproute2 jq curl procps python3-minimal
+  )
+fi
+
+missing=()
+for package in "${packages[@]}"; do
+  status=$(dpkg-query -W -f='${db:Status-Abbrev}' "$package" 2>/dev/null || true)
+  [[ $status == ii* ]] || missing+=("$package")
+done
+[[ ${#missing[@]} -eq 0 ]] && exit 0
+
+sudo=()
+[[ $(id -u) -eq 0 ]] || sudo=(sudo)
+echo "installing: ${missing[*]}"
+export DEBIAN_FRONTEND=noninteractive
+"${sudo[@]}" apt-get update -qq
+"${sudo[@]}" apt-get install -y -qq --no-install-recommends "${missing[@]}" \
+  >/dev/null

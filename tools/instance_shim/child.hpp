@@ -1,0 +1,25 @@
+#pragma once
+
+#include "tools/instance_shim/options.hpp"
+
+#include <signal.h>
+#include <sys/types.h>
+
+namespace roscell::shim {
+
+/// Starts the command in a process group of its own. It dies with the shim,
+/// reads from /dev/null, and writes to `output`. If it cannot be started, the
+/// reason goes to `output` and the child ends with code 127. Returns the
+/// process id, or -1 with errno set.
+pid_t start_child(const options& o, int output);
+
+/// Reaps all children that have ended. Returns whether `child` was among
+/// them; then `wait_status` is set and its process group has been killed.
+bool reap(pid_t child, int& wait_status);
+
+/// Kills all descendants that are left, also those that have moved to another
+/// process group. Waits at most a moment for their end; `signals` is the
+/// shim's descriptor for SIGCHLD.
+void kill_leftovers(pid_t child, int signals);
+
+} // namespace roscell::shim

@@ -1,0 +1,146 @@
+#include "tools/instance_shim/log_files.hpp"
+
+#include <dirent.h>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+namespace roscell::shim {
+
+namespace {
+
+/// `log.` and a 64-bit number.
+struct file_name {
+  explicit file_name(std::uint64_t offset) {
+    std::snprintf(text, sizeof(text), "log.%llu",
+                  static_cast<unsigned long long>(offset));
+  }
+
+  char text[32];
+};
+
+/// Returns whether `name` is that of a log file, and its offset.
+bool parse(const char* name, std::uint64_t& offset) {
+  if (std::strncmp(name, "log.", 4) != 0 || name[4] < '0' || name[4] > '9')
+    return false;
+  char* end = nullptr;
+  offset = std::strtoull(name + 4, &end, 10);
+  return *end == '\0';
+}
+
+std::uint64_t size_of(int directory, const char* name) {
+  struct stat info {};
+  if (::fstatat(directory, name, &info, 0) != 0)
+    return 0;
+  return static_cast<std::uint64_t>(info.st_size);
+}
+
+} // namespace
+
+log_files::log_files(int directory, std::uint64_t max_bytes)
+    : directory_(directory), max_file_bytes_(max_bytes / 2) {
+  find_newest();
+  ensure_open();
+}
+
+log_files::~log_files() {
+  if (file_ >= 0)
+    ::close(file_);
+}
+
+void log_files::write(const char* data, std::size_t size) {
+  note_loss();
+  auto done = append(data, size);
+  lost_bytes_ += size - done;
+}
+
+void log_files::drop_older() {
+  if (has_older_)
+    ::unlinkat(directory_, file_name{older_start_}.text, 0);
+  has_older_ = false;
+}
+
+/// Keeps the newest file of an earlier run as the older one of this run.
+void log_files::find_newest() {
+  auto copy = ::openat(directory_, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  auto* folder = copy < 0 ? nullptr : ::fdopendir(copy);
+  if (folder == nullptr)
+    return;
+  while (const auto* entry = ::readdir(folder)) {
+    std::uint64_t offset = 0;
+    if (!parse(entry->d_name, offset))
+      continue;
+    auto newer = !has_older_ || offset > older_start_;
+    auto victim = newer ? older_start_ : offset;
+    if (has_older_)
+      ::unlinkat(directory_, file_name{victim}.text, 0);
+    if (newer)
+      older_start_ = offset;
+    has_older_ = true;
+  }
+  ::closedir(folder);
+  if (!has_older_)
+    return;
+  start_ = older_start_ + size_of(directory_, file_name{older_start_}.text);
+  // An empty file is continued, for a new one would have the same name.
+  has_older_ = start_ != older_start_;
+}
+
+bool log_files::ensure_open() {
+  if (file_ < 0)
+    file_ = ::openat(directory_, file_name{start_}.text,
+                     O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0640);
+  return file_ >= 0;
+}
+
+void log_files::rotate() {
+  if (file_ >= 0)
+    ::close(file_);
+  file_ = -1;
+  // The oldest goes first, so that the bound holds at every moment.
+  drop_older();
+  older_start_ = start_;
+  has_older_ = true;
+  start_ += size_;
+  size_ = 0;
+}
+
+/// Returns how many bytes were written.
+std::size_t log_files::append(const char* data, std::size_t size) {
+  std::size_t done = 0;
+  while (done < size) {
+    if (size_ >= max_file_bytes_)
+      rotate();
+    if (!ensure_open())
+      return done;
+    auto most = std::min<std::uint64_t>(size - done, max_file_bytes_ - size_);
+    auto n = ::write(file_, data + done, most);
+    if (n < 0 && errno == EINTR)
+      continue;
+    if (n <= 0)
+      return done;
+    done += static_cast<std::size_t>(n);
+    size_ += static_cast<std::uint64_t>(n);
+  }
+  return done;
+}
+
+void log_files::note_loss() {
+  if (lost_bytes_ == 0)
+    return;
+  char line[96];
+  auto size = std::snprintf(line, sizeof(line),
+                            "\n[shim: %llu bytes of log were lost, the disk "
+                            "was full]\n",
+                            static_cast<unsigned long long>(lost_bytes_));
+  if (append(line, static_cast<std::size_t>(size)) > 0)
+    lost_bytes_ = 0;
+}
+
+} // namespace roscell::shim

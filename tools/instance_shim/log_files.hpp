@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace roscell::shim {
+
+/// A log of bounded size. Its files are named `log.<offset>`, where the offset
+/// is the position of the file's first byte in all that was ever logged; the
+/// two newest are kept, each of at most half the bound. Never waits and never
+/// fails: what cannot be written is lost, and a line in the log says how much
+/// as soon as one can be written.
+class log_files {
+public:
+  /// Continues the log in the folder `directory`, an open descriptor that must
+  /// stay open, or begins one.
+  log_files(int directory, std::uint64_t max_bytes);
+
+  ~log_files();
+
+  log_files(const log_files&) = delete;
+  log_files& operator=(const log_files&) = delete;
+
+  void write(const char* data, std::size_t size);
+
+  /// Gives up the older file, to make room for something more important.
+  void drop_older();
+
+private:
+  void find_newest();
+  bool ensure_open();
+  void rotate();
+  std::size_t append(const char* data, std::size_t size);
+  void note_loss();
+
+  const int directory_;
+  const std::uint64_t max_file_bytes_;
+  int file_ = -1;
+  std::uint64_t start_ = 0;
+  std::uint64_t size_ = 0;
+  std::uint64_t older_start_ = 0;
+  bool has_older_ = false;
+  std::uint64_t lost_bytes_ = 0;
+};
+
+} // namespace roscell::shim

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <functional>
+
+namespace CLI {
+class App;
+} // namespace CLI
+
+/// Each function adds one command, or a family of them, to the command line.
+/// When such a command is parsed, it puts what is to be done into `chosen`;
+/// that returns the exit code, or throws command_error or refused.
+namespace roscell::cli {
+
+using action = std::function<int()>;
+
+void add_node_command(CLI::App& app, action& chosen);
+void add_request_command(CLI::App& app, action& chosen);
+void add_plan_command(CLI::App& app, action& chosen);
+
+/// status, cells, nodes, tasks, instances, skills.
+void add_show_commands(CLI::App& app, action& chosen);
+
+void add_events_command(CLI::App& app, action& chosen);
+void add_logs_command(CLI::App& app, action& chosen);
+void add_completion_command(CLI::App& app, action& chosen);
+
+/// All of them, with help that names the exit codes.
+void set_up(CLI::App& app, action& chosen);
+
+} // namespace roscell::cli

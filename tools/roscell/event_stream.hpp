@@ -1,0 +1,42 @@
+#pragma once
+
+#include "messages/event.hpp"
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace roscell::cli {
+
+/// Puts the lines of a text/event-stream together to events. Unknown fields,
+/// comments, and data that is no event are skipped, so that a newer node can
+/// say more than this program knows.
+class event_stream {
+public:
+  /// Takes one line without its end. Returns the event that it completes.
+  std::optional<event> add_line(std::string_view line);
+
+private:
+  std::string data_;
+};
+
+/// One line for people: time, number, fact, subject and the particulars as
+/// "key=value". No line end.
+std::string event_line(const event& e);
+
+/// Headings above such lines.
+std::string event_heading();
+
+/// The particulars of an event as "key=value", one blank between them.
+std::string event_particulars(const event& e);
+
+/// The text at `key` in an event's particulars; empty if there is none.
+std::string event_text(const event& e, const char* key);
+
+/// What an event means to somebody who waits for `task`, in lines such as
+/// "step poses: starting on arm-1". None if it does not concern the task.
+std::vector<std::string> progress_lines(const event& e,
+                                        const std::string& task);
+
+} // namespace roscell::cli

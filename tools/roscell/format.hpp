@@ -1,0 +1,53 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+/// Numbers, times and foreign text as the tables show them, and the option
+/// values that carry a unit.
+namespace roscell::cli {
+
+/// At most `decimals` digits after the point and no trailing zeros; "-" for a
+/// value that is not finite.
+std::string format_number(double value, int decimals = 2);
+
+/// So many significant digits, for numbers of any size: "0.25", "1.895e-07".
+std::string format_significant(double value, int digits);
+
+/// An amount in MiB without its unit: whole numbers from 10 on, one decimal
+/// below.
+std::string format_mib(double mib);
+
+/// The two largest units: "42s", "3m05s", "2h10m", "5d03h". Less than nothing
+/// is "0s".
+std::string format_age(std::chrono::milliseconds age);
+
+/// The age of what happened at `since_unix_ms`; "-" for a time that is not
+/// known (0), "0s" for one to come, because the clocks of two machines differ.
+std::string format_since(int64_t since_unix_ms, int64_t now_unix_ms);
+
+/// Local time: "2026-11-21 14:03:07.250".
+std::string format_time(int64_t unix_ms);
+
+/// Bytes of `text` that are safe in one line of a terminal: control characters
+/// and what is not UTF-8 are shown as '?'.
+std::string printable(std::string_view text);
+
+/// Columns that `text` takes: its code points.
+size_t display_width(std::string_view text);
+
+/// The first `width` columns of `text`, the last of them an ellipsis when
+/// something is cut off.
+std::string shortened(std::string_view text, size_t width);
+
+/// Bytes of "1048576", "64KiB", "1MiB" or "2GiB". Throws
+/// std::invalid_argument for anything else.
+uint64_t parse_bytes(std::string_view text);
+
+/// Milliseconds of "30", "2.5" (seconds), "500ms", "2m" or "1h". Throws
+/// std::invalid_argument for anything else, for zero, and for more than a day.
+std::chrono::milliseconds parse_duration(std::string_view text);
+
+} // namespace roscell::cli

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "messages/introspection.hpp"
+
+#include <caf/actor_system.hpp>
+
+#include <string>
+
+namespace roscell::cli {
+
+/// Writes the facts of a node to the log of this process, for people who read
+/// it or the service manager's journal: what concerns the cell in sentences,
+/// losses and failures as warnings. Ends with `events`.
+void start_journal(caf::actor_system& system, const event_log_actor& events);
+
+/// How loud a fact is told.
+enum class loudness { debug, info, warning };
+
+loudness loudness_of(const event& e);
+
+/// A fact in one line: "joined cell 'lab' of 'arm-1'".
+std::string journal_line(const event& e);
+
+} // namespace roscell::cli

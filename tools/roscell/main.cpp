@@ -1,0 +1,5 @@
+#include "tools/roscell/run.hpp"
+
+int main(int argc, char** argv) {
+  return roscell::cli::run(argc, argv);
+}

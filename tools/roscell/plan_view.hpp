@@ -1,0 +1,17 @@
+#pragma once
+
+#include "messages/allocation_report.hpp"
+#include "tools/roscell/table.hpp"
+
+#include <string>
+
+namespace roscell::cli {
+
+/// An allocation for people: a row per step, the score, and who was rejected.
+std::string plan_view(const task_plan& plan, const text_style& style);
+
+/// Who was rejected for which step and why; "no rejected candidates" if empty.
+std::string rejected_view(const std::vector<rejected_candidate>& rejected,
+                          const text_style& style);
+
+} // namespace roscell::cli

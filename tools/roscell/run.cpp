@@ -1,0 +1,53 @@
+#include "tools/roscell/run.hpp"
+
+#include "tools/roscell/commands.hpp"
+#include "tools/roscell/exit_code.hpp"
+#include "tools/roscell/node_client.hpp"
+#include "tools/roscell/terminal.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <new>
+
+namespace roscell::cli {
+
+namespace {
+
+/// Does what was chosen, and tells of what went wrong.
+int perform(const action& chosen) {
+  try {
+    return chosen();
+  } catch (const refused& e) {
+    if (e.as_json)
+      print(pretty(e.reply));
+    else
+      print_refusal(e.reply);
+    return exit_refused;
+  } catch (const command_error& e) {
+    print_error(e.what(), e.hint);
+    return e.code;
+  } catch (const json::exception& e) {
+    print_error(std::string{"the answer is none of this version: "} + e.what(),
+                "compare `roscell --version` here and there");
+    return exit_unreachable;
+  } catch (const std::bad_alloc&) {
+    print_error("out of memory");
+    return exit_refused;
+  }
+}
+
+} // namespace
+
+int run(int argc, char** argv) {
+  CLI::App app;
+  action chosen;
+  set_up(app, chosen);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e) == 0 ? exit_done : exit_usage;
+  }
+  return perform(chosen);
+}
+
+} // namespace roscell::cli

@@ -1,0 +1,47 @@
+#include "tools/roscell/commands.hpp"
+
+#include <CLI/CLI.hpp>
+
+namespace roscell::cli {
+
+namespace {
+
+constexpr auto exit_codes_and_examples = R"(Exit codes:
+  0  done
+  1  refused; the node's JSON error is on standard output
+  2  wrong usage
+  3  no node could be reached
+
+Environment:
+  ROSCELL_TO     node to talk to: unix:/path, /path, or host[:port]
+  ROSCELL_TOKEN  bearer token for TCP
+  NO_COLOR       set to anything for output without colours
+
+Examples:
+  roscell node --coordinator --interface eth0
+  roscell node --interface eth0 --join 192.168.1.10
+  roscell request task.json
+  roscell tasks --watch
+`roscell COMMAND --help` explains a command and shows how it is used.)";
+
+} // namespace
+
+void set_up(CLI::App& app, action& chosen) {
+  app.name("roscell");
+  app.description("Cells of robots, edge boxes and cloud hosts.");
+  app.footer(exit_codes_and_examples);
+  app.set_version_flag("--version", "roscell " ROSCELL_VERSION,
+                       "Print the version and exit");
+  app.set_help_flag("-h,--help", "Print this help and exit");
+  app.require_subcommand(1);
+  app.get_formatter()->column_width(34);
+  add_node_command(app, chosen);
+  add_request_command(app, chosen);
+  add_plan_command(app, chosen);
+  add_show_commands(app, chosen);
+  add_events_command(app, chosen);
+  add_logs_command(app, chosen);
+  add_completion_command(app, chosen);
+}
+
+} // namespace roscell::cli
