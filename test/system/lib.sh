@@ -135,25 +135,31 @@ expect() {
   [[ $2 == "$3" ]] || fail "$1: expected '$3', got '$2'"
 }
 
-# bridge_hosts COUNT: that many hosts in namespaces on one bridge, named
-# rc$$-1 ..., with the addresses 10.231.7.1 ... on eth0.
+# bridge_hosts COUNT: that many hosts in namespaces on one bridge, with the
+# addresses 10.231.7.1 ... on eth0; host_link N is the bridge's end of a host's
+# cable. The names carry this test's own process id, because the kernel removes
+# the interfaces of an earlier test's namespaces only some time after them.
 hosts=()
 bridge_hosts() {
   need_namespaces
-  bridge=rcb$$
+  bridge=rcb$BASHPID
   ip link add "$bridge" type bridge mcast_snooping 0
   ip link set "$bridge" up
   for ((i = 1; i <= $1; ++i)); do
-    local host=rc$$-$i
+    local host=${bridge/rcb/rc}-$i
     hosts+=("$host")
     ip netns add "$host"
-    ip link add "rcv$$-$i" type veth peer name eth0 netns "$host"
-    ip link set "rcv$$-$i" master "$bridge" up
+    ip link add "$(host_link "$i")" type veth peer name eth0 netns "$host"
+    ip link set "$(host_link "$i")" master "$bridge" up
     ip -n "$host" addr add "10.231.7.$i/24" dev eth0
     ip -n "$host" link set eth0 up
     ip -n "$host" link set lo up
     ip -n "$host" route add default dev eth0
   done
+}
+
+host_link() {
+  echo "${bridge/rcb/rcv}-$1"
 }
 
 # start_on HOST_NUMBER NAME [OPTION...]: a node on one of these hosts.

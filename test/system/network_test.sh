@@ -32,11 +32,11 @@ test_a_node_off_this_host_is_refused_without_a_site_token() {
 
 test_a_host_that_is_cut_off_is_lost_and_comes_back_as_the_same_member() {
   start_hosts
-  ip link set "rcv$$-2" down
+  ip link set "$(host_link 2)" down
   await head '.event == "node_lost" and .subject == "arm"' > "$scratch/lost.json"
   await arm '.event == "coordinator_lost"' > /dev/null
   expect "the other member" "$(row_state head belt)" active
-  ip link set "rcv$$-2" up
+  ip link set "$(host_link 2)" up
   await_joined head arm "$(jq .sequence "$scratch/lost.json")"
   expect "the row" "$(row_state head arm)" active
 }
