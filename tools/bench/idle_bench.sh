@@ -9,7 +9,7 @@ ROSCELL_BUILD=$(realpath "${1:?usage: tools/bench/idle_bench.sh BUILD_DIR [SECON
 span_s=${2:-60}
 scratch=$(mktemp -d /tmp/roscell-bench.XXXXXX)
 . test/system/lib.sh
-trap 'clean_up; rm -rf "$scratch"' EXIT
+trap 'clean_up 2> /dev/null; rm -rf "$scratch"' EXIT
 use_skills
 
 figure() {
