@@ -24,6 +24,7 @@ public:
 
 private:
   std::vector<std::string> list() const;
+  bool is_left_out(const std::string& name) const;
   bool push_all(frame_sink& sink, const stop_event& stop);
   bool push_file(const std::string& name, frame_sink& sink,
                  const stop_event& stop);
@@ -33,6 +34,7 @@ private:
 
   const std::string path_;
   const file_options options_;
+  const bool images_only_;
   const say_function say_;
   pacer pacer_;
   std::optional<inotify_watch> changes_;
