@@ -39,5 +39,5 @@ foreach(part core imgproc imgcodecs videoio)
   add_library(opencv::${part} UNKNOWN IMPORTED)
   set_target_properties(opencv::${part} PROPERTIES
     IMPORTED_LOCATION ${OPENCV_${part}}
-    INTERFACE_SYSTEM_INCLUDE_DIRECTORIES ${OPENCV_INCLUDE})
+    INTERFACE_INCLUDE_DIRECTORIES ${OPENCV_INCLUDE})
 endforeach()

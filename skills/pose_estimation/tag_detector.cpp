@@ -111,7 +111,7 @@ std::vector<tag_detection> tag_detector::detect(const gray_view& image) {
     zarray_get(found.get(), i, &one);
     result.push_back(to_detection(*one));
   }
-  std::sort(result.begin(), result.end(),
+  std::stable_sort(result.begin(), result.end(),
             [](const auto& a, const auto& b) { return a.id < b.id; });
   return result;
 }
