@@ -55,7 +55,7 @@ void draw_overlay(const frame_result& result, double tag_size_m,
   canvas drawing{target};
   auto width_px = line_width(target);
   for (const auto& tag : result.tags) {
-    draw_outline(tag.detection.corners, width_px, drawing);
+    draw_outline(tag.detection.camera_corners(), width_px, drawing);
     draw_id(tag.detection, drawing);
     if (tag.pose && camera)
       draw_axes(*tag.pose, tag_size_m / 2, *camera, width_px, drawing);

@@ -204,7 +204,7 @@ pose_estimator::find_tags(const ros2::image_view& image,
   for (auto& tag : detector_.detect(to_gray(image, gray_buffer_))) {
     std::optional<tag_pose> pose;
     if (camera)
-      pose = estimate_pose(tag.corners, tag_size_m_, *camera);
+      pose = estimate_pose(tag.camera_corners(), tag_size_m_, *camera);
     result.tags.push_back({std::move(tag), pose});
   }
   result.processing_time = std::chrono::steady_clock::now() - start;

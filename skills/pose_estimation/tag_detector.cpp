@@ -60,6 +60,13 @@ detector_options detector_options::of(const engine::parameters& options) {
   return result;
 }
 
+tag_corners tag_detection::camera_corners() const {
+  auto result = corners;
+  for (auto& corner : result)
+    corner -= Eigen::Vector2d{0.5, 0.5};
+  return result;
+}
+
 struct tag_detector::library {
   explicit library(const std::string& family_name)
       : family(make_tag_family(family_name)),
@@ -112,7 +119,7 @@ std::vector<tag_detection> tag_detector::detect(const gray_view& image) {
     result.push_back(to_detection(*one));
   }
   std::stable_sort(result.begin(), result.end(),
-            [](const auto& a, const auto& b) { return a.id < b.id; });
+                   [](const auto& a, const auto& b) { return a.id < b.id; });
   return result;
 }
 

@@ -37,7 +37,8 @@ struct detector_options {
   static detector_options of(const engine::parameters& options);
 };
 
-/// A tag in an image. Coordinates are those of the library and of apriltag_ros.
+/// A tag in an image. Pixels are counted as the library and apriltag_ros do it:
+/// the upper left corner of the image is (0, 0).
 struct tag_detection {
   int id = 0;
   int hamming = 0; ///< Bits that were corrected.
@@ -46,6 +47,10 @@ struct tag_detection {
   tag_corners corners;
   /// 3x3, row by row: from the tag's square [-1, 1] x [-1, 1] to pixels.
   std::array<double, 9> homography{};
+
+  /// The corners as cameras are calibrated, where not the corner but the middle
+  /// of the upper left pixel is (0, 0).
+  tag_corners camera_corners() const;
 };
 
 /// The AprilTag 3 library.
