@@ -26,10 +26,14 @@ void draw_outline(const tag_corners& corners, double width_px, canvas& target) {
                 i == 0 ? magenta : yellow);
 }
 
-void draw_id(const tag_detection& tag, canvas& target) {
-  auto side = (tag.corners[1] - tag.corners[0]).norm();
-  auto dot_px = std::clamp(static_cast<int>(side / 24), 1, 8);
-  target.number(tag.centre, static_cast<unsigned>(tag.id), dot_px, white);
+/// Between the middle, where the axes begin, and the bottom edge.
+void draw_id(int id, const tag_corners& corners, canvas& target) {
+  Eigen::Vector2d bottom = (corners[0] + corners[1]) / 2;
+  Eigen::Vector2d top = (corners[2] + corners[3]) / 2;
+  auto side = (corners[1] - corners[0]).norm();
+  auto dot_px = std::clamp(static_cast<int>(side / 32), 1, 8);
+  target.number(bottom * 0.75 + top * 0.25, static_cast<unsigned>(id), dot_px,
+                white);
 }
 
 void draw_axes(const tag_pose& pose, double length_m,
@@ -55,8 +59,9 @@ void draw_overlay(const frame_result& result, double tag_size_m,
   canvas drawing{target};
   auto width_px = line_width(target);
   for (const auto& tag : result.tags) {
-    draw_outline(tag.detection.camera_corners(), width_px, drawing);
-    draw_id(tag.detection, drawing);
+    auto corners = tag.detection.camera_corners();
+    draw_outline(corners, width_px, drawing);
+    draw_id(tag.detection.id, corners, drawing);
     if (tag.pose && camera)
       draw_axes(*tag.pose, tag_size_m / 2, *camera, width_px, drawing);
   }

@@ -53,17 +53,6 @@ std::string to_line(const frame_result& result) {
   return to_json(result).dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
-ros2::image_view view(const vision::picture& source, ros2::header header) {
-  return {std::move(header),
-          source.height,
-          source.width,
-          vision::encoding_name(source.format),
-          0,
-          static_cast<std::uint32_t>(source.step()),
-          source.pixels.data(),
-          source.pixels.size()};
-}
-
 } // namespace
 
 pose_estimator::pose_estimator(const engine::environment& env)

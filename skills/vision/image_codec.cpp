@@ -90,6 +90,17 @@ const char* encoding_name(pixel_format format) {
   return format == pixel_format::mono8 ? "mono8" : "bgr8";
 }
 
+ros2::image_view view(const picture& source, ros2::header header) {
+  return {std::move(header),
+          source.height,
+          source.width,
+          encoding_name(source.format),
+          0,
+          static_cast<std::uint32_t>(source.step()),
+          source.pixels.data(),
+          source.pixels.size()};
+}
+
 picture decode_picture(std::string_view file, pixel_format wanted) {
   if (begins_with(file, png_signature))
     return decode_png(file, wanted);

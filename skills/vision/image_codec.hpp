@@ -1,5 +1,7 @@
 #pragma once
 
+#include "skills/ros2/messages/image_view.hpp"
+
 #include <cstddef>
 #include <cstdint>
 #include <stdexcept>
@@ -26,6 +28,10 @@ struct picture {
     return std::size_t{width} * static_cast<std::size_t>(format);
   }
 };
+
+/// The picture as a ROS message without a copy of its pixels, which must live
+/// as long as the result.
+ros2::image_view view(const picture& source, ros2::header header);
 
 /// Bytes that are no picture, or one that is too large. The text is for people.
 struct image_error : std::runtime_error {
