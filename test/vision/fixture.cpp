@@ -84,6 +84,11 @@ rendered_scene render(const scenes::scene_options& options) {
   return result;
 }
 
+const rendered_scene& four_tags() {
+  static const auto scene = render(small_scene(4));
+  return scene;
+}
+
 pose_difference difference(const ros2::transform& found,
                            const scenes::placed_tag& truth) {
   const auto& t = found.translation;

@@ -91,6 +91,9 @@ scenes::scene_options small_scene(unsigned tags, std::uint64_t seed = 1);
 
 rendered_scene render(const scenes::scene_options& options);
 
+/// The same small scene again and again; rendering it takes seconds under ASan.
+const rendered_scene& four_tags();
+
 /// How far a transform is from the true pose of a tag.
 struct pose_difference {
   double distance_percent;

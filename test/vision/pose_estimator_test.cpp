@@ -83,7 +83,7 @@ TEST_CASE("poses are those that the scene was rendered from") {
 }
 
 TEST_CASE("the detection array is filled in as apriltag_ros does") {
-  auto scene = render(small_scene(4));
+  const auto& scene = four_tags();
   bench b{{image_type, info_type}, {detections_type}, tag_size};
   b.calibrate(1, scene.info());
   b.see(0, scene);
@@ -108,7 +108,7 @@ TEST_CASE("the detection array is filled in as apriltag_ros does") {
 }
 
 TEST_CASE("a line of JSON tells all about an image") {
-  auto scene = render(small_scene(4));
+  const auto& scene = four_tags();
   bench b{{image_type, info_type}, {lines_type}, tag_size};
   b.calibrate(1, scene.info());
   b.see(0, scene);
@@ -130,7 +130,7 @@ TEST_CASE("a line of JSON tells all about an image") {
 }
 
 TEST_CASE("an annotated picture shows the image with the tags marked") {
-  auto scene = render(small_scene(4));
+  const auto& scene = four_tags();
   bench b{{image_type, info_type}, {picture_type}, tag_size};
   b.calibrate(1, scene.info());
   b.see(0, scene);
@@ -154,7 +154,7 @@ TEST_CASE("an annotated picture shows the image with the tags marked") {
 }
 
 TEST_CASE("several scenes in one instance keep to their own outputs") {
-  auto first = render(small_scene(4, 1));
+  const auto& first = four_tags();
   auto options = small_scene(6, 2);
   options.focal_px = 420;
   auto second = render(options);
@@ -174,7 +174,7 @@ TEST_CASE("several scenes in one instance keep to their own outputs") {
 }
 
 TEST_CASE("missing CameraInfo is said once, and once that it came") {
-  auto scene = render(small_scene(4));
+  const auto& scene = four_tags();
   bench b{
       {image_type, info_type}, {transforms_type, detections_type}, tag_size};
   for (auto i = 0; i < 4; ++i)
@@ -200,7 +200,7 @@ TEST_CASE("missing CameraInfo is said once, and once that it came") {
 }
 
 TEST_CASE("bad CameraInfo is said once each time it changes") {
-  auto scene = render(small_scene(4));
+  const auto& scene = four_tags();
   bench b{{image_type, info_type}, {transforms_type}, tag_size};
   auto see_with = [&](const ros2::camera_info& info) {
     for (auto i = 0; i < 3; ++i) {
@@ -227,7 +227,7 @@ TEST_CASE("bad CameraInfo is said once each time it changes") {
 }
 
 TEST_CASE("intrinsics from parameters go before CameraInfo") {
-  auto scene = render(small_scene(4));
+  const auto& scene = four_tags();
   auto k = scene.info().k;
   json options{{"tag_size_m", 0.16},
                {"fx", k[0]},
@@ -242,7 +242,7 @@ TEST_CASE("intrinsics from parameters go before CameraInfo") {
 }
 
 TEST_CASE("without any intrinsics the first image says so") {
-  auto scene = render(small_scene(4));
+  const auto& scene = four_tags();
   bench b{{image_type}, {transforms_type}, tag_size};
   b.see(0, scene);
   b.see(0, scene);
@@ -251,7 +251,7 @@ TEST_CASE("without any intrinsics the first image says so") {
 }
 
 TEST_CASE("a broken image file is said once and skipped") {
-  auto scene = render(small_scene(4));
+  const auto& scene = four_tags();
   bench b{{picture_type}, {lines_type}, tag_size};
   auto good = vision::encode_png(scene.picture);
   auto see = [&](const std::string& content, const std::string& name) {
@@ -267,7 +267,7 @@ TEST_CASE("a broken image file is said once and skipped") {
 }
 
 TEST_CASE("an image message whose sizes lie fails and changes nothing") {
-  auto scene = render(small_scene(4));
+  const auto& scene = four_tags();
   bench b{{image_type}, {lines_type}, tag_size};
   auto message = scene.image();
   auto see = [&](const std::string& payload) {

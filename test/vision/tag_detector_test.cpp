@@ -105,7 +105,7 @@ TEST_CASE("each family is found by its name, with corners within a pixel") {
 }
 
 TEST_CASE("rows may be longer than the image is wide") {
-  auto scene = test::render(test::small_scene(4));
+  const auto& scene = test::four_tags();
   const auto& picture = scene.picture;
   constexpr auto step = 700U;
   std::vector<std::uint8_t> padded(std::size_t{step} * picture.height, 77);
@@ -119,7 +119,7 @@ TEST_CASE("rows may be longer than the image is wide") {
 }
 
 TEST_CASE("detection leaves the image as it was, also when it blurs") {
-  auto scene = test::render(test::small_scene(4));
+  const auto& scene = test::four_tags();
   auto before = scene.picture.pixels;
   detector_options options;
   options.decimation = GENERATE(1.0F, 2.0F);

@@ -21,6 +21,16 @@ T deserialize(std::string_view payload) {
   return result;
 }
 
+std::optional<time> stamp_of(std::string_view payload) {
+  try {
+    time result;
+    cdr_reader{payload}.read(result);
+    return result;
+  } catch (const cdr_error&) {
+    return std::nullopt;
+  }
+}
+
 template <>
 std::string serialize(const image& x) {
   return serialize(image_view{x.header, x.height, x.width, x.encoding,

@@ -9,6 +9,7 @@
 #include "skills/ros2/messages/std_msgs.hpp"
 #include "skills/ros2/messages/tf2_msgs.hpp"
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -26,6 +27,9 @@ std::string serialize(const T& message);
 /// checked against what is left of it before memory is taken. Throws cdr_error.
 template <class T>
 T deserialize(std::string_view payload);
+
+/// The stamp of a message that begins with a Header; none if it has none.
+std::optional<time> stamp_of(std::string_view payload);
 
 template <>
 std::string serialize(const image& message);

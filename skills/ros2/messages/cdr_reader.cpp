@@ -68,7 +68,12 @@ std::size_t cdr_reader::read_count(std::size_t least_bytes_of_item) {
 
 std::string_view cdr_reader::take(std::size_t count) {
   std::string_view result{cdr_.getCurrentPosition(), count};
-  cdr_.jump(count);
+  if (count > 0) {
+    // Fast CDR aligns what follows a byte that was read, but not a jump.
+    char last = 0;
+    cdr_.jump(count - 1);
+    cdr_ >> last;
+  }
   return result;
 }
 

@@ -8,6 +8,12 @@ namespace roscell::ros2 {
 
 using eprosima::fastcdr::Cdr;
 
+namespace {
+
+constexpr std::size_t encapsulation_bytes = 4;
+
+} // namespace
+
 cdr_writer::cdr_writer() : cdr_(buffer_, Cdr::LITTLE_ENDIANNESS, Cdr::DDS_CDR) {
   cdr_.serialize_encapsulation();
 }
@@ -21,7 +27,14 @@ void cdr_writer::write(const std::string& x) {
 void cdr_writer::write_count(std::size_t count) {
   if (count > std::numeric_limits<std::uint32_t>::max())
     throw cdr_error("", std::to_string(count) + " items are too many");
-  cdr_ << static_cast<std::uint32_t>(count);
+  write_scalar(static_cast<std::uint32_t>(count));
+}
+
+/// Fast CDR skips its padding, and so would send what the memory held before.
+void cdr_writer::pad(std::size_t alignment) {
+  auto at = cdr_.getSerializedDataLength() - encapsulation_bytes;
+  for (auto count = Cdr::alignment(at, alignment); count > 0; --count)
+    cdr_ << '\0';
 }
 
 std::string_view cdr_writer::bytes() {

@@ -21,7 +21,7 @@ public:
     if constexpr (is_message<T>::value)
       std::apply([&](auto... f) { (write(x.*f.member), ...); }, T::fields());
     else
-      cdr_ << x;
+      write_scalar(x);
   }
 
   void write(const std::string& x);
@@ -46,6 +46,14 @@ public:
   std::string_view bytes();
 
 private:
+  template <class T>
+  void write_scalar(T x) {
+    pad(sizeof(T));
+    cdr_ << x;
+  }
+
+  void pad(std::size_t alignment);
+
   eprosima::fastcdr::FastBuffer buffer_;
   eprosima::fastcdr::Cdr cdr_;
 };
