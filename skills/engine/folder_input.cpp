@@ -75,14 +75,17 @@ void folder_input::run(frame_sink& sink, const stop_event& stop) {
   if (done_.empty())
     say_("input folder '" + path_ + "' is empty"
          + (options_.follow ? "; waiting for files" : ""));
-  while (options_.loop && !done_.empty()) {
-    done_.clear();
-    if (!push_all(sink, stop))
-      return;
+  while (options_.loop ? begin_again(sink, stop)
+                       : options_.follow && follow(sink, stop)) {
+    // Each turn reads the folder again, or handles the events that came in.
   }
-  while (options_.follow && follow(sink, stop)) {
-    // Each turn handles the events that have come in.
-  }
+}
+
+bool folder_input::begin_again(frame_sink& sink, const stop_event& stop) {
+  if (done_.empty())
+    return options_.follow && follow(sink, stop);
+  done_.clear();
+  return push_all(sink, stop) && !stop.is_set();
 }
 
 std::vector<std::string> folder_input::list() const {

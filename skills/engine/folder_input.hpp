@@ -30,6 +30,7 @@ private:
                  const stop_event& stop);
   bool on_event(const inotify_watch::event& e, frame_sink& sink,
                 const stop_event& stop);
+  bool begin_again(frame_sink& sink, const stop_event& stop);
   bool follow(frame_sink& sink, const stop_event& stop);
 
   const std::string path_;

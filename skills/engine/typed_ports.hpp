@@ -26,10 +26,6 @@ public:
 
   std::size_t of_source(std::size_t k) const;
 
-  bool empty() const noexcept {
-    return ports_.empty();
-  }
-
 private:
   const std::vector<std::size_t> ports_;
 };

@@ -47,6 +47,14 @@ std::string png_name(const std::string& name) {
   return name.empty() ? name : name.substr(0, name.find_last_of('.')) + ".png";
 }
 
+/// "/scene_1/image" becomes "scene_1_image.png".
+std::string live_picture_name(const std::string& endpoint) {
+  auto begin = std::min(endpoint.find_first_not_of('/'), endpoint.size());
+  auto name = endpoint.substr(begin) + ".png";
+  std::replace(name.begin(), name.end(), '/', '_');
+  return name;
+}
+
 std::string to_line(const frame_result& result) {
   using nlohmann::json;
   // Names from outside may hold any byte.
@@ -68,6 +76,8 @@ pose_estimator::pose_estimator(const engine::environment& env,
       tag_size_m_(env.parameters.number("tag_size_m", 0.08, 1e-4, 100)),
       rectified_(env.parameters.flag("rectified", false)),
       frame_id_(env.parameters.text("frame_id", "camera")),
+      picture_rate_hz_(
+          env.parameters.number("picture_rate_hz", 1, 0, 1'000'000)),
       given_(vision::calibration_of(env.parameters)),
       detector_(detector_options::of(env.parameters)), broken_files_(say_) {
   check_types(env);
@@ -109,12 +119,10 @@ void pose_estimator::add_source(const engine::environment& env,
   expects_info = expects_info && !known;
   if (!known && !expects_info)
     known = vision::calibration_beside(input, env.parameters);
-  constexpr auto none = typed_outputs::none;
+  auto is_live = is_image_message(input.data_type) && picture_rate_hz_ > 0;
   sources_.push_back({{input.endpoint, expects_info, rectified_, say_},
-                      none,
-                      none,
-                      none,
-                      none});
+                      is_live ? live_picture_name(input.endpoint) : "",
+                      engine::pacer{picture_rate_hz_}});
   if (known)
     sources_.back().camera.calibrate(*known);
 }
@@ -163,22 +171,33 @@ void pose_estimator::process_image(const ros2::image_view& image,
   auto result = find_tags(image, camera);
   result.frame_name = input.name;
   result.source = number;
-  auto emit = [&](std::size_t port, std::string payload, std::string name) {
+  auto emit = [&](std::size_t port, std::string payload) {
     engine::frame message;
     message.payload = std::move(payload);
-    message.name = std::move(name);
+    message.name = input.name;
     output.emit(std::move(message), port);
   };
   if (source.transforms != typed_outputs::none)
-    emit(source.transforms, ros2::serialize(to_tf_message(result)), input.name);
+    emit(source.transforms, ros2::serialize(to_tf_message(result)));
   if (source.detections != typed_outputs::none)
-    emit(source.detections, ros2::serialize(to_detection_array(result)),
-         input.name);
+    emit(source.detections, ros2::serialize(to_detection_array(result)));
   if (source.lines != typed_outputs::none)
-    emit(source.lines, to_line(result), input.name);
+    emit(source.lines, to_line(result));
   if (source.pictures != typed_outputs::none)
-    emit(source.pictures, vision::encode_png(draw(result, image, camera)),
-         png_name(input.name));
+    emit_picture(source, result, image, camera, output);
+}
+
+void pose_estimator::emit_picture(source& from, const frame_result& result,
+                                  const ros2::image_view& image,
+                                  const std::optional<camera_model>& camera,
+                                  engine::emitter& output) {
+  auto is_live = !from.live_name.empty();
+  if (is_live && !from.picture_pace.take_turn())
+    return;
+  engine::frame message;
+  message.payload = vision::encode_png(draw(result, image, camera));
+  message.name = is_live ? from.live_name : png_name(result.frame_name);
+  output.emit(std::move(message), from.pictures);
 }
 
 frame_result

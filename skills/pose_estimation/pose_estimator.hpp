@@ -3,6 +3,7 @@
 #include "skills/engine/executor.hpp"
 #include "skills/engine/handlers.hpp"
 #include "skills/engine/log_line.hpp"
+#include "skills/engine/pacer.hpp"
 #include "skills/engine/typed_ports.hpp"
 #include "skills/pose_estimation/camera_source.hpp"
 #include "skills/pose_estimation/frame_result.hpp"
@@ -35,6 +36,9 @@ namespace roscell::pose {
 /// | rectified | false | images are rectified: P of CameraInfo counts, and no
 ///   distortion
 /// | frame_id | camera | frame of images that bring none, i.e. of files
+/// | picture_rate_hz | 1 | of a topic or video, at most so many pictures per
+///   second are drawn, each in the place of the one before, so that they do not
+///   fill a disk; 0: every picture under its own name. Files always get all
 ///
 /// A file that is no image is said once and skipped. An image whose message is
 /// broken fails.
@@ -53,10 +57,12 @@ private:
   /// One image input, with what belongs to it.
   struct source {
     camera_source camera;
-    std::size_t transforms;
-    std::size_t detections;
-    std::size_t lines;
-    std::size_t pictures;
+    std::string live_name; ///< Of its pictures, if each replaces the last.
+    engine::pacer picture_pace;
+    std::size_t transforms = engine::typed_outputs::none;
+    std::size_t detections = engine::typed_outputs::none;
+    std::size_t lines = engine::typed_outputs::none;
+    std::size_t pictures = engine::typed_outputs::none;
   };
 
   void add_sources(const engine::environment& env);
@@ -65,6 +71,10 @@ private:
   void process_file(const engine::frame& input, engine::emitter& output);
   void process_image(const ros2::image_view& image, const engine::frame& input,
                      engine::emitter& output);
+  void emit_picture(source& from, const frame_result& result,
+                    const ros2::image_view& image,
+                    const std::optional<camera_model>& camera,
+                    engine::emitter& output);
   frame_result find_tags(const ros2::image_view& image,
                          const std::optional<camera_model>& camera);
   vision::picture draw(const frame_result& result,
@@ -75,6 +85,7 @@ private:
   const double tag_size_m_;
   const bool rectified_;
   const std::string frame_id_;
+  const double picture_rate_hz_;
   /// From the parameters; CameraInfo then does not count.
   const std::optional<ros2::camera_info> given_;
   tag_detector detector_;

@@ -135,7 +135,7 @@ TEST_CASE("an annotated picture shows the image with the tags marked") {
   b.calibrate(1, scene.info());
   b.see(0, scene);
   const auto& frame = b.out.of(0).back();
-  CHECK(frame.name == "frame.png");
+  CHECK(frame.name == "in_0.png");
   auto picture =
       vision::decode_picture(frame.payload, vision::pixel_format::bgr8);
   CHECK(picture.width == 640);
@@ -151,6 +151,26 @@ TEST_CASE("an annotated picture shows the image with the tags marked") {
   auto top = pixel((truth[2] + truth[3]) / 2);
   CHECK((bottom[0] > 150 && bottom[1] < 100 && bottom[2] > 150));
   CHECK((top[0] < 100 && top[1] > 150 && top[2] > 150));
+}
+
+TEST_CASE("pictures of a topic come at their rate and replace each other") {
+  const auto& scene = four_tags();
+  bench slow{{image_type}, {picture_type}, {{"picture_rate_hz", 0.001}}};
+  bench all{{image_type}, {picture_type}, {{"picture_rate_hz", 0}}};
+  bench files{{picture_type}, {picture_type}, {{"picture_rate_hz", 0.001}}};
+  for (auto i = 0; i < 3; ++i) {
+    slow.see(0, scene);
+    all.see(0, scene);
+    files.estimator.process(make_frame(0, picture_type,
+                                       vision::encode_png(scene.picture),
+                                       "photo.jpeg"),
+                            files.out);
+  }
+  CHECK(slow.out.of(0).size() == 1);
+  REQUIRE(all.out.of(0).size() == 3);
+  CHECK(all.out.of(0)[0].name == "frame.png");
+  REQUIRE(files.out.of(0).size() == 3);
+  CHECK(files.out.of(0)[0].name == "photo.png");
 }
 
 TEST_CASE("several scenes in one instance keep to their own outputs") {
