@@ -81,19 +81,23 @@ private:
   posix_spawnattr_t attributes_;
 };
 
-/// Reads until the other end is closed. Returns false when time runs out.
-bool read_words(int fd, std::chrono::milliseconds limit, std::string& words) {
-  using clock = std::chrono::steady_clock;
-  const auto end = clock::now() + limit;
+using deadline = std::chrono::steady_clock::time_point;
+
+/// Waits until there is something to read. Returns false when time runs out.
+bool await_input(int fd, deadline end) {
   for (;;) {
-    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(
-        end - clock::now());
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(
+        end - std::chrono::steady_clock::now());
     pollfd waited{fd, POLLIN, 0};
     const int wait_ms = std::max(0, static_cast<int>(left.count()));
-    if (const int n = ::poll(&waited, 1, wait_ms); n == 0)
-      return false;
-    else if (n < 0)
-      continue; // Interrupted.
+    if (const int n = ::poll(&waited, 1, wait_ms); n >= 0)
+      return n > 0;
+  }
+}
+
+/// Reads until the other end is closed. Returns false when time runs out.
+bool read_words(int fd, deadline end, std::string& words) {
+  while (await_input(fd, end)) {
     std::array<char, 512> buffer;
     const auto n = ::read(fd, buffer.data(), buffer.size());
     if (n < 0 && errno == EINTR)
@@ -103,18 +107,7 @@ bool read_words(int fd, std::chrono::milliseconds limit, std::string& words) {
     const auto room = max_words_bytes - words.size();
     words.append(buffer.data(), std::min(static_cast<size_t>(n), room));
   }
-}
-
-/// The exit code of a child that has ended with one other than 0, else 0.
-int failure_code(int pidfd) {
-  if (!has_ended(pidfd))
-    return 0;
-  siginfo_t info{};
-  if (::waitid(P_PIDFD, static_cast<id_t>(pidfd), &info,
-               WEXITED | WNOHANG | WNOWAIT)
-      != 0)
-    return 0;
-  return info.si_code == CLD_EXITED ? info.si_status : 128 + info.si_status;
+  return false;
 }
 
 std::string trimmed(const std::string& words) {
@@ -151,19 +144,18 @@ edge_result<spawned_program> spawn_program(const program& what,
     return failed(what, "pidfd_open: " + why + " (needs Linux 5.3)");
   }
   result.identity = identify(pid).value_or(process_identity{pid, 0});
+  const auto end = std::chrono::steady_clock::now() + limit;
   std::string words;
-  if (!read_words(reading.get(), limit, words)) {
+  if (!read_words(reading.get(), end, words)) {
     kill_and_reap(result.pidfd.get());
     return failed(what, "it did not start in time");
   }
-  const auto code = failure_code(result.pidfd.get());
-  if (code == 0)
+  if (words.empty())
     return result;
+  // Files are closed before the end of a process can be seen.
+  await_input(result.pidfd.get(), end);
   kill_and_reap(result.pidfd.get());
-  words = trimmed(words);
-  return failed(what, words.empty()
-                          ? "it ended with code " + std::to_string(code)
-                          : words);
+  return failed(what, trimmed(words));
 }
 
 } // namespace roscell

@@ -73,11 +73,13 @@ void use_servers(dds::WireProtocolConfigQos& wire,
         udp_locator(server.address, server.port));
     discovery.m_DiscoveryServers.push_back(remote);
   }
-  // With addresses of our own Fast DDS opens no multicast ones.
-  auto port = 7400 + 250 * config.domain_id + 10 + 2 * first_place;
-  wire.builtin.metatrafficUnicastLocatorList.push_back(
-      udp_locator(address, port));
-  wire.default_unicast_locator_list.push_back(udp_locator(address, port + 1));
+  // With addresses of our own Fast DDS opens no multicast ones. Discovery and
+  // messages share a port, so that a writer's farewell does not overtake its
+  // last message.
+  auto at = udp_locator(address,
+                        7400 + 250 * config.domain_id + 10 + 2 * first_place);
+  wire.builtin.metatrafficUnicastLocatorList.push_back(at);
+  wire.default_unicast_locator_list.push_back(at);
 }
 
 /// What readers and writers have in common.
