@@ -66,33 +66,6 @@ void in_field(const char* name, Read read) {
   }
 }
 
-ros2::camera_info parse_calibration(const std::string& text) {
-  auto document = YAML::Load(text);
-  if (!document.IsMap())
-    throw std::runtime_error("is no calibration");
-  ros2::camera_info result;
-  in_field("image_width",
-           [&] { result.width = document["image_width"].as<std::uint32_t>(); });
-  in_field("image_height", [&] {
-    result.height = document["image_height"].as<std::uint32_t>();
-  });
-  in_field("camera_matrix",
-           [&] { read_numbers(document["camera_matrix"], result.k); });
-  set_intrinsics(result, result.k[0], result.k[4], result.k[2], result.k[5]);
-  if (auto node = document["distortion_coefficients"])
-    in_field("distortion_coefficients", [&] {
-      result.d.resize(std::min<std::size_t>(node["data"].size(), 16));
-      read_numbers(node, result.d);
-    });
-  result.distortion_model =
-      document["distortion_model"].as<std::string>(model_of(result.d.size()));
-  if (auto node = document["rectification_matrix"])
-    in_field("rectification_matrix", [&] { read_numbers(node, result.r); });
-  if (auto node = document["projection_matrix"])
-    in_field("projection_matrix", [&] { read_numbers(node, result.p); });
-  return result;
-}
-
 std::optional<std::string> find_file(const engine::stream& input,
                                      const engine::parameters& options) {
   auto named = options.text("camera_file", "");
@@ -132,6 +105,33 @@ calibration_of(const engine::parameters& options) {
   result.d = distortion_of(values);
   result.distortion_model =
       options.text("distortion_model", model_of(result.d.size()));
+  return result;
+}
+
+ros2::camera_info parse_calibration(const std::string& text) {
+  auto document = YAML::Load(text);
+  if (!document.IsMap())
+    throw std::runtime_error("is no calibration");
+  ros2::camera_info result;
+  in_field("image_width",
+           [&] { result.width = document["image_width"].as<std::uint32_t>(); });
+  in_field("image_height", [&] {
+    result.height = document["image_height"].as<std::uint32_t>();
+  });
+  in_field("camera_matrix",
+           [&] { read_numbers(document["camera_matrix"], result.k); });
+  set_intrinsics(result, result.k[0], result.k[4], result.k[2], result.k[5]);
+  if (auto node = document["distortion_coefficients"])
+    in_field("distortion_coefficients", [&] {
+      result.d.resize(std::min<std::size_t>(node["data"].size(), 16));
+      read_numbers(node, result.d);
+    });
+  result.distortion_model =
+      document["distortion_model"].as<std::string>(model_of(result.d.size()));
+  if (auto node = document["rectification_matrix"])
+    in_field("rectification_matrix", [&] { read_numbers(node, result.r); });
+  if (auto node = document["projection_matrix"])
+    in_field("projection_matrix", [&] { read_numbers(node, result.p); });
   return result;
 }
 

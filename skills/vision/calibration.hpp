@@ -25,9 +25,12 @@ namespace roscell::vision {
 std::optional<ros2::camera_info>
 calibration_of(const engine::parameters& options);
 
-/// Reads a calibration as camera_calibration and camera_info_manager write it
-/// in YAML; JSON with the same names is a part of YAML. Throws start_error,
-/// naming the file and what is wrong in it.
+/// The calibration in a text as camera_calibration and camera_info_manager
+/// write it in YAML; JSON with the same names is a part of YAML. Throws
+/// std::runtime_error, naming what is wrong.
+ros2::camera_info parse_calibration(const std::string& text);
+
+/// Reads such a text. Throws start_error, naming the file and what is wrong.
 ros2::camera_info read_calibration(const std::string& path);
 
 /// The calibration beside the images of an input: if its endpoint is a folder,
