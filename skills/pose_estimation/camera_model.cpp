@@ -110,4 +110,33 @@ Eigen::Vector2d camera_model::undistort(const Eigen::Vector2d& pixel) const {
   return to_pixel(direction);
 }
 
+ros2::camera_info describe_sent_images(ros2::camera_info info) {
+  // Zero means the whole image, and zero binning none.
+  const auto& part = info.roi;
+  if (part.width != 0 && part.height != 0) {
+    info.width = part.width;
+    info.height = part.height;
+    info.k[2] -= part.x_offset;
+    info.k[5] -= part.y_offset;
+    info.p[2] -= part.x_offset;
+    info.p[6] -= part.y_offset;
+  }
+  auto across = std::max(info.binning_x, 1U);
+  auto down = std::max(info.binning_y, 1U);
+  info.width /= across;
+  info.height /= down;
+  for (auto i : {0, 2}) {
+    info.k[i] /= across;
+    info.p[i] /= across;
+  }
+  for (auto i : {4, 5})
+    info.k[i] /= down;
+  for (auto i : {5, 6})
+    info.p[i] /= down;
+  info.roi = {};
+  info.binning_x = 0;
+  info.binning_y = 0;
+  return info;
+}
+
 } // namespace roscell::pose

@@ -65,4 +65,9 @@ private:
   bool distorted_ = false;
 };
 
+/// A CameraInfo describes the camera's full resolution, and apart from that
+/// which part of it is sent and how coarsely. Returns one that describes the
+/// images as they are sent, as image_geometry::PinholeCameraModel has it.
+ros2::camera_info describe_sent_images(ros2::camera_info info);
+
 } // namespace roscell::pose

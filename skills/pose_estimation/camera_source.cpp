@@ -19,7 +19,8 @@ std::string size(std::uint32_t width, std::uint32_t height) {
 
 } // namespace
 
-void camera_source::calibrate(const ros2::camera_info& info) {
+void camera_source::calibrate(const ros2::camera_info& sent) {
+  auto info = describe_sent_images(sent);
   // It comes with every image, and hardly ever changes.
   if (info_ && same_calibration(*info_, info))
     return;

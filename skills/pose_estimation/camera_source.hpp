@@ -22,7 +22,7 @@ public:
   }
 
   /// Takes the camera's calibration, the first one or a new one.
-  void calibrate(const ros2::camera_info& info);
+  void calibrate(const ros2::camera_info& sent);
 
   /// The model for an image of this size. Nothing if there is none: no
   /// CameraInfo yet, a bad one, or one of another size.

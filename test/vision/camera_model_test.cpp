@@ -89,3 +89,28 @@ TEST_CASE("CameraInfo that gives no model is explained with its remedy") {
   info.distortion_model = "";
   CHECK(problem_of(info) == "none");
 }
+
+TEST_CASE("binning and region of interest are part of the description") {
+  auto info = raw_camera();
+  info.width = 640;
+  info.height = 480;
+  CHECK(describe_sent_images(info) == info);
+  // The right half, of which each pixel is four of the sensor.
+  info.roi.x_offset = 320;
+  info.roi.y_offset = 0;
+  info.roi.width = 320;
+  info.roi.height = 480;
+  info.binning_x = 2;
+  info.binning_y = 2;
+  auto sent = describe_sent_images(info);
+  CHECK(sent.width == 160);
+  CHECK(sent.height == 240);
+  for (auto rectified : {false, true}) {
+    auto whole = model_of(raw_camera(), rectified);
+    auto part = model_of(sent, rectified);
+    Eigen::Vector3d point{0.1, 0.2, 1};
+    auto pixel = whole.project(point);
+    CHECK(part.project(point).isApprox(
+        Eigen::Vector2d{(pixel.x() - 320) / 2, pixel.y() / 2}));
+  }
+}

@@ -13,17 +13,26 @@
 
 namespace roscell::comparison {
 
+namespace {
+
+/// Throws std::runtime_error.
+void watch_folder(int fd, const std::string& folder) {
+  constexpr auto growing = IN_MODIFY | IN_CREATE | IN_MOVED_TO;
+  if (::inotify_add_watch(fd, folder.c_str(), growing) < 0)
+    throw std::runtime_error("cannot watch '" + folder
+                             + "': " + std::strerror(errno));
+}
+
+} // namespace
+
 file_watch::file_watch(const std::vector<std::string>& paths)
     : fd_(::inotify_init1(IN_CLOEXEC | IN_NONBLOCK)) {
-  for (const auto& path : paths) {
-    auto folder = std::filesystem::absolute(path).parent_path().string();
-    if (::inotify_add_watch(fd_, folder.c_str(),
-                            IN_MODIFY | IN_CREATE | IN_MOVED_TO)
-        >= 0)
-      continue;
-    auto reason = std::string{std::strerror(errno)};
+  try {
+    for (const auto& path : paths)
+      watch_folder(fd_, std::filesystem::absolute(path).parent_path());
+  } catch (...) {
     ::close(fd_);
-    throw std::runtime_error("cannot watch '" + folder + "': " + reason);
+    throw;
   }
 }
 

@@ -51,9 +51,9 @@ public:
 
   /// Nothing if the tags do not fit.
   std::optional<std::vector<placed_tag>> place(double nearest_m) {
-    std::vector<double> distances;
-    for (auto i = 0U; i < options_.tags; ++i)
-      distances.push_back(between(nearest_m, options_.farthest_m));
+    std::vector<double> distances(options_.tags);
+    for (auto& distance_m : distances)
+      distance_m = between(nearest_m, options_.farthest_m);
     // The large ones first, as long as there is room.
     std::sort(distances.begin(), distances.end());
     for (auto distance_m : distances)
