@@ -1,5 +1,6 @@
 #include "skills/ros2/gap_counter.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace roscell::ros2 {
@@ -11,7 +12,7 @@ constexpr std::size_t max_writers = 1024;
 
 } // namespace
 
-std::uint64_t gap_counter::add(const guid& writer, std::int64_t number) {
+std::uint64_t gap_counter::add(const guid& writer, std::uint64_t number) {
   auto known = last_.find(writer);
   if (known == last_.end()) {
     if (last_.size() >= max_writers)
@@ -20,7 +21,7 @@ std::uint64_t gap_counter::add(const guid& writer, std::int64_t number) {
     return 0;
   }
   auto last = std::exchange(known->second, std::max(known->second, number));
-  return number > last ? static_cast<std::uint64_t>(number - last - 1) : 0;
+  return number > last ? number - last - 1 : 0;
 }
 
 } // namespace roscell::ros2

@@ -13,10 +13,10 @@ class gap_counter {
 public:
   /// Message `number` of `writer` was read. Returns how many of the same writer
   /// are missing before it; none before the first.
-  std::uint64_t add(const guid& writer, std::int64_t number);
+  std::uint64_t add(const guid& writer, std::uint64_t number);
 
 private:
-  std::map<guid, std::int64_t> last_;
+  std::map<guid, std::uint64_t> last_;
 };
 
 } // namespace roscell::ros2

@@ -16,10 +16,6 @@ namespace {
 using clock = std::chrono::system_clock;
 using eprosima::fastrtps::types::ReturnCode_t;
 
-bool is_power_of_two(std::uint64_t x) {
-  return x != 0 && (x & (x - 1)) == 0;
-}
-
 } // namespace
 
 topic_input::topic_input(const engine::stream_context& input,
@@ -109,11 +105,13 @@ void topic_input::deliver(engine::frame input, const dds::SampleInfo& info) {
 
 /// Says it less and less often, so that a bad network does not fill the log.
 void topic_input::count_lost(std::uint64_t more) {
-  for (auto i = lost_ + 1; i <= lost_ + more; ++i)
-    if (is_power_of_two(i))
-      context_.say("input '" + context_.config.endpoint + "' has lost "
-                   + std::to_string(i) + " messages on the way");
+  auto before = lost_;
   lost_ += more;
+  // True when the number has got another binary digit.
+  if ((before ^ lost_) > before)
+    context_.say("input '" + context_.config.endpoint + "' has lost "
+                 + std::to_string(lost_)
+                 + " messages on the way; see skills/README.md, large images");
 }
 
 } // namespace roscell::ros2
