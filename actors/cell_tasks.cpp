@@ -251,8 +251,9 @@ caf::result<intent_recorded> hold_resources(self_pointer self,
   reply.specs = intent.specs;
   for (auto& spec : reply.specs) {
     spec.cell = st.setup.cell;
+    // No skill may choose another cell's discovery server.
     for (const auto& [name, value] : st.setup.environment)
-      spec.environment.emplace(name, value);
+      spec.environment[name] = value;
   }
   entry->record.specs = reply.specs;
   entry->record.nodes = intent.nodes;

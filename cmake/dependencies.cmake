@@ -25,3 +25,19 @@ target_compile_definitions(boost_beast INTERFACE
   BOOST_ASIO_SEPARATE_COMPILATION BOOST_BEAST_SEPARATE_COMPILATION
   BOOST_ASIO_NO_DEPRECATED)
 target_link_libraries(boost_beast INTERFACE Threads::Threads OpenSSL::Crypto)
+
+# For the skills that look at images. OpenCV's CMake package would ask for all
+# of its parts; the few that are used are found one by one.
+find_path(EIGEN_INCLUDE Eigen/Core PATH_SUFFIXES eigen3 REQUIRED)
+find_library(APRILTAG_LIBRARY apriltag REQUIRED)
+find_library(PNG_LIBRARY png REQUIRED)
+find_library(TURBOJPEG_LIBRARY turbojpeg REQUIRED)
+find_library(YAML_CPP_LIBRARY yaml-cpp REQUIRED)
+find_path(OPENCV_INCLUDE opencv2/core.hpp PATH_SUFFIXES opencv4 REQUIRED)
+foreach(part core imgproc imgcodecs videoio)
+  find_library(OPENCV_${part} opencv_${part} REQUIRED)
+  add_library(opencv::${part} UNKNOWN IMPORTED)
+  set_target_properties(opencv::${part} PROPERTIES
+    IMPORTED_LOCATION ${OPENCV_${part}}
+    INTERFACE_INCLUDE_DIRECTORIES ${OPENCV_INCLUDE})
+endforeach()

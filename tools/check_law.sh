@@ -21,6 +21,8 @@ refuse actors 'skills/|tools/|test/'
 refuse actors/edge 'actors/[a-z_]+\.hpp|actors/(allocation|handlers)/|caf/'
 refuse actors/allocation 'messages/|schemas/|caf/|nlohmann/|actors/([a-z_]+\.hpp|edge/|handlers/)'
 refuse skills 'messages/|schemas/|actors/|tools/|test/|caf/'
+refuse tools/render_scenes 'skills/|actors/'
+refuse tools/compare_poses 'skills/|actors/'
 refuse tools/instance_shim 'actors/|messages/|schemas/|skills/|caf/'
 
 # loads PROGRAM PATTERN: the program must not need a library that matches.
@@ -35,6 +37,11 @@ loads() {
 if [[ $# -gt 0 ]]; then
   loads "$1/bin/roscell" 'libopencv|libapriltag'
   loads "$1/skills/echo/bin/echo" 'libcaf|libfastrtps|libopencv'
+  # OpenCV's codecs would bring 118 MB into a container's image, its video
+  # input 218 MB.
+  loads "$1/skills/image_source/bin/image_source" 'libcaf|libopencv'
+  loads "$1/skills/pose_estimation/bin/pose_estimation" 'libcaf|libopencv'
+  loads "$1/skills/video_source/bin/video_source" 'libcaf'
 fi
 
 # Waiting is for events; a loop that sleeps wakes an idle robot.

@@ -8,6 +8,10 @@ packages=(
   g++ cmake ninja-build ccache pkg-config
   libcaf-dev libfastrtps-dev nlohmann-json3-dev libvalijson-dev
   libboost-dev libssl-dev libsqlite3-dev libcli11-dev libspdlog-dev catch2
+  # For the skills that look at images. OpenCV's parts instead of all of it.
+  libapriltag-dev libeigen3-dev libpng-dev libturbojpeg0-dev libyaml-cpp-dev
+  libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev
+  libopencv-videoio-dev
 )
 if [[ "${1:-}" == --with-tests ]]; then
   packages+=(

@@ -11,10 +11,12 @@ namespace roscell::engine {
 /// The `file` protocol. An endpoint is an absolute path.
 ///
 /// As an input, a folder gives each regular file in it, in the order of names,
-/// as one frame; names that begin with a dot are left out. A regular file
-/// gives each line as one frame if the data type is a text type, and else its
-/// whole content as one frame. Nothing is lost: the input waits until the
-/// executor has room. A frame larger than `max_frame_mib` is skipped and said.
+/// as one frame; names that begin with a dot are left out, and if the data type
+/// is an image's, so are the descriptions that lie beside images (.json, .yaml,
+/// .yml, .txt, .md). A regular file gives each line as one frame if the data
+/// type is a text type, and else its whole content as one frame. Nothing is
+/// lost: the input waits until the executor has room. A frame larger than
+/// `max_frame_mib` is skipped and said.
 ///
 /// As an output, an existing folder or a path that ends with '/' gets one file
 /// per frame, named after the frame, which appears only when it is complete.
@@ -25,6 +27,7 @@ namespace roscell::engine {
 /// |---|---|---|
 /// | follow | true | wait for more lines and files, until stopped; else the
 ///   skill ends by itself when everything is processed |
+/// | loop | false | a folder begins again after its last file, until stopped
 /// | rate_hz | 0 | most frames per second of an input; 0 is no limit |
 /// | max_frame_mib | 64 | largest frame that is read |
 ///

@@ -36,7 +36,7 @@ int read_up_to(int fd, std::size_t most, std::string& content) {
 } // namespace
 
 file_options read_file_options(const parameters& options) {
-  return {options.flag("follow", true),
+  return {options.flag("follow", true), options.flag("loop", false),
           options.number("rate_hz", 0, 0, 1'000'000),
           options.count("max_frame_mib", 64, 1, 65536) * 1024 * 1024};
 }

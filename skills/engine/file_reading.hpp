@@ -14,6 +14,7 @@ namespace roscell::engine {
 /// The parameters of the `file` protocol's inputs.
 struct file_options {
   bool follow;
+  bool loop;
   double rate_hz;
   std::size_t max_frame_bytes;
 };

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <iterator>
 #include <memory>
 #include <unordered_set>
 
@@ -21,6 +22,21 @@ bool is_hidden(const std::string& name) {
   return name.empty() || name.front() == '.';
 }
 
+/// What people and tools put beside images: calibrations, licences, truths.
+bool is_description(const std::string& name) {
+  auto dot = name.find_last_of('.');
+  if (dot == std::string::npos)
+    return false;
+  auto extension = name.substr(dot);
+  constexpr const char* known[] = {".json", ".yaml", ".yml", ".txt", ".md"};
+  return std::find(std::begin(known), std::end(known), extension)
+         != std::end(known);
+}
+
+bool is_image_type(const std::string& data_type) {
+  return data_type.compare(0, 6, "image/") == 0;
+}
+
 struct folder_closer {
   void operator()(DIR* folder) const {
     ::closedir(folder);
@@ -31,7 +47,8 @@ struct folder_closer {
 
 folder_input::folder_input(const stream_context& input)
     : path_(input.config.endpoint), options_(read_file_options(input.options)),
-      say_(input.say), pacer_(options_.rate_hz) {
+      images_only_(is_image_type(input.config.data_type)), say_(input.say),
+      pacer_(options_.rate_hz) {
   // nop
 }
 
@@ -58,9 +75,17 @@ void folder_input::run(frame_sink& sink, const stop_event& stop) {
   if (done_.empty())
     say_("input folder '" + path_ + "' is empty"
          + (options_.follow ? "; waiting for files" : ""));
-  while (options_.follow && follow(sink, stop)) {
-    // Each turn handles the events that have come in.
+  while (options_.loop ? begin_again(sink, stop)
+                       : options_.follow && follow(sink, stop)) {
+    // Each turn reads the folder again, or handles the events that came in.
   }
+}
+
+bool folder_input::begin_again(frame_sink& sink, const stop_event& stop) {
+  if (done_.empty())
+    return options_.follow && follow(sink, stop);
+  done_.clear();
+  return push_all(sink, stop) && !stop.is_set();
 }
 
 std::vector<std::string> folder_input::list() const {
@@ -70,10 +95,14 @@ std::vector<std::string> folder_input::list() const {
                        + "': " + std::strerror(errno));
   std::vector<std::string> names;
   while (const auto* entry = ::readdir(folder.get()))
-    if (!is_hidden(entry->d_name))
+    if (!is_left_out(entry->d_name))
       names.emplace_back(entry->d_name);
   std::sort(names.begin(), names.end());
   return names;
+}
+
+bool folder_input::is_left_out(const std::string& name) const {
+  return is_hidden(name) || (images_only_ && is_description(name));
 }
 
 bool folder_input::push_all(frame_sink& sink, const stop_event& stop) {
@@ -118,7 +147,7 @@ bool folder_input::on_event(const inotify_watch::event& e, frame_sink& sink,
   // The kernel lost events, because the executor is far behind.
   if ((e.mask & IN_Q_OVERFLOW) != 0)
     return push_all(sink, stop);
-  if (is_hidden(e.name))
+  if (is_left_out(e.name))
     return true;
   if ((e.mask & (IN_MOVED_FROM | IN_DELETE)) != 0) {
     done_.erase(e.name);

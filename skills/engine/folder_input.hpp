@@ -24,15 +24,18 @@ public:
 
 private:
   std::vector<std::string> list() const;
+  bool is_left_out(const std::string& name) const;
   bool push_all(frame_sink& sink, const stop_event& stop);
   bool push_file(const std::string& name, frame_sink& sink,
                  const stop_event& stop);
   bool on_event(const inotify_watch::event& e, frame_sink& sink,
                 const stop_event& stop);
+  bool begin_again(frame_sink& sink, const stop_event& stop);
   bool follow(frame_sink& sink, const stop_event& stop);
 
   const std::string path_;
   const file_options options_;
+  const bool images_only_;
   const say_function say_;
   pacer pacer_;
   std::optional<inotify_watch> changes_;

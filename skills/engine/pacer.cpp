@@ -22,4 +22,12 @@ bool pacer::wait(const stop_event& stop) {
   return true;
 }
 
+bool pacer::take_turn() {
+  auto now = stop_event::clock::now();
+  if (now + period_ / 4 < due_)
+    return false;
+  due_ = std::max(due_, now) + period_;
+  return true;
+}
+
 } // namespace roscell::engine

@@ -14,6 +14,11 @@ public:
   /// Waits until the next frame is due. Returns false when `stop` was set.
   bool wait(const stop_event& stop);
 
+  /// Takes the turn of the next frame if it is due, give or take a quarter of
+  /// the period, or else returns false: for live inputs, which cannot wait but
+  /// leave out what comes too early.
+  bool take_turn();
+
 private:
   stop_event::clock::duration period_{};
   stop_event::clock::time_point due_;

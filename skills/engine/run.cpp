@@ -1,25 +1,17 @@
 #include "skills/engine/run.hpp"
 
+#include "skills/engine/log_line.hpp"
 #include "skills/engine/primitive_base_engine.hpp"
 #include "skills/engine/signal_watch.hpp"
 
-#include <algorithm>
 #include <iostream>
 
 namespace roscell::engine {
 
 namespace {
 
-/// Writes one line to stderr in one piece. Names from outside may hold any
-/// byte; control characters would forge or split lines of the log.
 void say(const std::string& text) {
-  auto line = "engine: " + text;
-  std::replace_if(
-      line.begin(), line.end(),
-      [](char c) { return static_cast<unsigned char>(c) < ' ' || c == 127; },
-      '?');
-  line += '\n';
-  [[maybe_unused]] auto n = ::write(STDERR_FILENO, line.data(), line.size());
+  log_line("engine: " + text);
 }
 
 int explain(const registry& parts, bool asked) {

@@ -372,7 +372,7 @@ installed_skill echo_skill() {
     option.base_image = "debian:bookworm-slim";
     option.architectures = {"amd64"};
     option.resources = {static_cast<double>(cores), 100, 10};
-    option.environment = {{"OMP_NUM_THREADS", "1"}};
+    option.environment = {{"OMP_NUM_THREADS", "1"}, {"ROS_DOMAIN_ID", "8"}};
     model.deployments.push_back(option);
   }
   result.models = {model};

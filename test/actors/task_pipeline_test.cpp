@@ -82,6 +82,7 @@ TEST_CASE_METHOD(three_nodes, "An instance is told all that it needs to know",
   CHECK(spec.gpu == -1);
   CHECK(json::parse(spec.parameters) == json{{"shout", false}, {"times", 5}});
   CHECK(spec.environment.at("OMP_NUM_THREADS") == "1");
+  // The cell's, although the deployment option has one of its own.
   CHECK(spec.environment.at("ROS_DOMAIN_ID") == "7");
   REQUIRE(spec.input.size() == 1);
   CHECK(spec.input[0].endpoint == "/data/in");

@@ -206,3 +206,43 @@ TEST_CASE("an unusable input is refused with its path") {
   CHECK_THROWS_WITH(make(folder / "in", R"({"rate_hz":-1})"),
                     Contains("rate_hz"));
 }
+
+TEST_CASE("a folder of images leaves out the descriptions beside them") {
+  temp_folder folder;
+  for (const auto* name : {"a.png", "camera.json", "calibration.yaml", "c.yml",
+                           "licence.txt", "README.md", "z"})
+    folder.write(name, name);
+  running_input images{make(folder / "", once, "image/png")};
+  CHECK(images.wait() == "ended");
+  CHECK(images.sink().policies().size() == 2);
+  CHECK(payload(images, 0) == "a.png");
+  CHECK(payload(images, 1) == "z");
+  running_input all{make(folder / "", once)};
+  CHECK(all.wait() == "ended");
+  CHECK(all.sink().policies().size() == 7);
+}
+
+TEST_CASE("a folder in a loop begins again, with what is there then") {
+  temp_folder folder;
+  folder.write("a", "1");
+  folder.write("b", "2");
+  running_input input{
+      make(folder / "", R"({"follow":false,"loop":true,"rate_hz":1000})")};
+  CHECK(payload(input, 0) == "1");
+  CHECK(payload(input, 1) == "2");
+  CHECK(payload(input, 2) == "1");
+  CHECK(payload(input, 3) == "2");
+  std::filesystem::remove(folder / "a");
+  std::filesystem::remove(folder / "b");
+  CHECK(input.wait() == "ended");
+}
+
+TEST_CASE("an empty folder in a loop ends, or waits for files") {
+  temp_folder folder;
+  running_input input{make(folder / "", R"({"follow":false,"loop":true})")};
+  CHECK(input.wait() == "ended");
+  running_input waiting{make(folder / "", R"({"loop":true,"rate_hz":1000})")};
+  folder.write("a", "1");
+  CHECK(payload(waiting, 0) == "1");
+  CHECK(payload(waiting, 1) == "1");
+}

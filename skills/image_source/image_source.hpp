@@ -1,0 +1,71 @@
+#pragma once
+
+#include "skills/engine/executor.hpp"
+#include "skills/engine/handlers.hpp"
+#include "skills/engine/typed_ports.hpp"
+#include "skills/ros2/messages/sensor_msgs.hpp"
+#include "skills/vision/broken_files.hpp"
+#include "skills/vision/image_codec.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace roscell::source {
+
+/// Makes a camera out of pictures: PNG and JPEG files, or a video.
+///
+/// Inputs: pictures (image/png, image/jpeg by protocol `file`, or
+/// sensor_msgs/msg/Image by protocol `video`). Outputs, by data type:
+/// sensor_msgs/msg/Image and sensor_msgs/msg/CameraInfo; the k-th input feeds
+/// the k-th output of each type. Image and CameraInfo of a picture bear the
+/// same stamp: when it is sent, or when the video gave it.
+///
+/// Intrinsics come from the parameters fx, fy, cx, cy, or from a calibration
+/// beside the pictures (see vision/calibration.hpp); without both, CameraInfo
+/// is all zero but for its size, as ROS has it for a camera that is not
+/// calibrated. Further parameters, beside `rate_hz` and `loop` of the protocol:
+///
+/// | parameter | default | meaning |
+/// |---|---|---|
+/// | encoding | mono8 | of the images: mono8 or bgr8
+/// | frame_id | camera | frame of the images
+///
+/// A file that is no picture is said once and skipped.
+class image_source : public engine::executor {
+public:
+  explicit image_source(const engine::environment& env);
+
+  /// `say` gets the lines for people.
+  image_source(const engine::environment& env, engine::say_function say);
+
+  void process(const engine::frame& input, engine::emitter& output) override;
+
+  void release() override;
+
+private:
+  /// One input, with what belongs to it.
+  struct camera {
+    std::string name;
+    std::optional<ros2::camera_info> calibration;
+    std::size_t images = engine::typed_outputs::none;
+    std::size_t infos = engine::typed_outputs::none;
+    bool size_said = false;
+  };
+
+  void add_camera(const engine::environment& env, const engine::stream& input);
+  void process_file(const engine::frame& input, camera& eye,
+                    engine::emitter& output);
+  void emit_info(camera& eye, const ros2::header& header, std::uint32_t width,
+                 std::uint32_t height, const engine::frame& input,
+                 engine::emitter& output);
+
+  const engine::say_function say_;
+  const std::string frame_id_;
+  const vision::pixel_format format_;
+  vision::broken_files broken_files_;
+  std::vector<camera> cameras_;
+};
+
+} // namespace roscell::source

@@ -1,0 +1,10 @@
+#include "skills/engine/run.hpp"
+#include "skills/image_source/image_source.hpp"
+#include "skills/ros2/protocol.hpp"
+
+int main(int argc, char** argv) {
+  roscell::engine::registry parts;
+  parts.add_executor<roscell::source::image_source>("folder");
+  roscell::ros2::add_ros2_protocol(parts);
+  return roscell::engine::run(parts, argc, argv);
+}

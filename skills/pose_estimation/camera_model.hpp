@@ -1,0 +1,73 @@
+#pragma once
+
+#include "skills/ros2/messages/sensor_msgs.hpp"
+
+#include <Eigen/Core>
+
+#include <array>
+#include <string>
+#include <variant>
+
+namespace roscell::pose {
+
+/// How a camera maps directions to pixels. The camera frame is ROS's optical
+/// frame: x to the right, y down, z forward, metres.
+class camera_model {
+public:
+  /// Without distortion. Focal lengths and principal point in pixels.
+  camera_model(double fx, double fy, double cx, double cy)
+      : focal_{fx, fy}, centre_{cx, cy} {
+    // nop
+  }
+
+  /// The model that a CameraInfo describes, or in one line what is wrong with
+  /// it. Of a raw image, K and the distortion count (plumb_bob and
+  /// rational_polynomial); of a rectified one P, as in apriltag_ros.
+  static std::variant<camera_model, std::string>
+  of(const ros2::camera_info& info, bool rectified);
+
+  /// The pixel at which a pinhole camera without distortion sees `point`.
+  Eigen::Vector2d project(const Eigen::Vector3d& point) const;
+
+  /// Where the pixel would be without distortion. Inverts equations (1) of
+  /// OpenCV's calib3d by fixed-point iteration, as cv::undistortPoints does.
+  Eigen::Vector2d undistort(const Eigen::Vector2d& pixel) const;
+
+  /// Where distortion puts the pixel of a pinhole camera.
+  Eigen::Vector2d distort(const Eigen::Vector2d& pixel) const;
+
+  const Eigen::Vector2d& focal() const noexcept {
+    return focal_;
+  }
+
+  /// Of an undistorted pixel, on the plane at distance 1.
+  Eigen::Vector2d normalize(const Eigen::Vector2d& pixel) const {
+    return (pixel - centre_).cwiseQuotient(focal_);
+  }
+
+private:
+  /// What distortion adds to and multiplies a direction with.
+  struct bend {
+    double radial;
+    Eigen::Vector2d tangential;
+  };
+
+  bend bend_at(const Eigen::Vector2d& direction) const;
+
+  Eigen::Vector2d to_pixel(const Eigen::Vector2d& direction) const {
+    return direction.cwiseProduct(focal_) + centre_;
+  }
+
+  Eigen::Vector2d focal_;
+  Eigen::Vector2d centre_;
+  /// k1, k2, p1, p2, k3, k4, k5, k6, in OpenCV's order.
+  std::array<double, 8> distortion_{};
+  bool distorted_ = false;
+};
+
+/// A CameraInfo describes the camera's full resolution, and apart from that
+/// which part of it is sent and how coarsely. Returns one that describes the
+/// images as they are sent, as image_geometry::PinholeCameraModel has it.
+ros2::camera_info describe_sent_images(ros2::camera_info info);
+
+} // namespace roscell::pose

@@ -1,0 +1,49 @@
+#pragma once
+
+#include "skills/engine/handlers.hpp"
+#include "skills/pose_estimation/camera_model.hpp"
+
+#include <optional>
+#include <string>
+
+namespace roscell::pose {
+
+/// What is known of the camera behind one image input. Says once, with the
+/// remedy, why its images give no poses, and once when they do again.
+class camera_source {
+public:
+  /// `name` is what a person calls the camera, e.g. the image's endpoint.
+  /// `expects_info` is whether a CameraInfo input belongs to it.
+  camera_source(std::string name, bool expects_info, bool rectified,
+                engine::say_function say)
+      : name_(std::move(name)), expects_info_(expects_info),
+        rectified_(rectified), say_(std::move(say)) {
+    // nop
+  }
+
+  /// Takes the camera's calibration, the first one or a new one.
+  void calibrate(const ros2::camera_info& sent);
+
+  /// The model for an image of this size. Nothing if there is none: no
+  /// CameraInfo yet, a bad one, or one of another size.
+  std::optional<camera_model> model_for(std::uint32_t width,
+                                        std::uint32_t height);
+
+private:
+  std::string problem_with(std::uint32_t width, std::uint32_t height) const;
+  void report(const std::string& problem);
+
+  const std::string name_;
+  const bool expects_info_;
+  const bool rectified_;
+  const engine::say_function say_;
+  std::optional<ros2::camera_info> info_;
+  std::optional<camera_model> model_;
+  /// Why the last calibration gave no model.
+  std::string fault_;
+  /// What was said last; empty when all is well.
+  std::string said_;
+  unsigned early_images_ = 0;
+};
+
+} // namespace roscell::pose

@@ -1,0 +1,93 @@
+#include "skills/pose_estimation/frame_result.hpp"
+
+#include <algorithm>
+
+namespace roscell::pose {
+
+namespace {
+
+using nlohmann::json;
+
+ros2::april_tag_point to_point(const Eigen::Vector2d& pixel) {
+  return {pixel.x(), pixel.y()};
+}
+
+json to_json(const Eigen::Vector2d& pixel) {
+  return {pixel.x(), pixel.y()};
+}
+
+json to_json(const tag_pose& pose) {
+  const auto& p = pose.position;
+  const auto& q = pose.orientation;
+  return {{"position", {p.x(), p.y(), p.z()}},
+          {"orientation", {q.x(), q.y(), q.z(), q.w()}},
+          {"reprojection_error_px", pose.reprojection_error_px}};
+}
+
+json to_json(const found_tag& tag, const std::string& family) {
+  auto corners = json::array();
+  for (const auto& corner : tag.detection.corners)
+    corners.push_back(to_json(corner));
+  return {{"family", family},
+          {"id", tag.detection.id},
+          {"hamming", tag.detection.hamming},
+          {"decision_margin", tag.detection.decision_margin},
+          {"centre_px", to_json(tag.detection.centre)},
+          {"corners_px", corners},
+          {"pose", tag.pose ? to_json(*tag.pose) : json{}}};
+}
+
+ros2::transform to_transform(const tag_pose& pose) {
+  const auto& p = pose.position;
+  const auto& q = pose.orientation;
+  return {{p.x(), p.y(), p.z()}, {q.x(), q.y(), q.z(), q.w()}};
+}
+
+} // namespace
+
+ros2::tf_message to_tf_message(const frame_result& result) {
+  ros2::tf_message message;
+  for (const auto& tag : result.tags)
+    if (tag.pose)
+      message.transforms.push_back(
+          {result.header,
+           result.family + ":" + std::to_string(tag.detection.id),
+           to_transform(*tag.pose)});
+  return message;
+}
+
+ros2::april_tag_detection_array to_detection_array(const frame_result& result) {
+  ros2::april_tag_detection_array message;
+  message.header = result.header;
+  for (const auto& tag : result.tags) {
+    ros2::april_tag_detection one;
+    one.family = result.family;
+    one.id = tag.detection.id;
+    one.hamming = tag.detection.hamming;
+    one.decision_margin = tag.detection.decision_margin;
+    one.centre = to_point(tag.detection.centre);
+    std::transform(tag.detection.corners.begin(), tag.detection.corners.end(),
+                   one.corners.begin(), to_point);
+    one.homography = tag.detection.homography;
+    message.detections.push_back(std::move(one));
+  }
+  return message;
+}
+
+json to_json(const frame_result& result) {
+  auto tags = json::array();
+  for (const auto& tag : result.tags)
+    tags.push_back(to_json(tag, result.family));
+  using milliseconds = std::chrono::duration<double, std::milli>;
+  const auto& stamp = result.header.stamp;
+  return {{"frame", result.frame_name},
+          {"source", result.source},
+          {"frame_id", result.header.frame_id},
+          {"stamp", stamp.sec + stamp.nanosec * 1e-9},
+          {"width", result.width},
+          {"height", result.height},
+          {"processing_ms", milliseconds{result.processing_time}.count()},
+          {"tags", tags}};
+}
+
+} // namespace roscell::pose

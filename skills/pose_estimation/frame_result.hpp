@@ -1,0 +1,53 @@
+#pragma once
+
+#include "skills/pose_estimation/tag_detector.hpp"
+#include "skills/ros2/messages/apriltag_msgs.hpp"
+#include "skills/ros2/messages/tf2_msgs.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace roscell::pose {
+
+/// A tag that was found, with its pose if the camera is known.
+struct found_tag {
+  tag_detection detection;
+  std::optional<tag_pose> pose;
+};
+
+/// All that one image gave.
+struct frame_result {
+  std::string frame_name; ///< What a person calls the image, e.g. its file.
+  std::size_t source = 0; ///< Number of the image input.
+  ros2::header header;    ///< Of the image.
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  std::string family;
+  std::vector<found_tag> tags;
+  std::chrono::nanoseconds processing_time{};
+};
+
+/// One transform from the camera to each tag with a pose; the child frame is
+/// named like `tag36h11:7`.
+ros2::tf_message to_tf_message(const frame_result& result);
+
+/// Filled in as apriltag_ros does.
+ros2::april_tag_detection_array to_detection_array(const frame_result& result);
+
+/// One object per image; lengths in metres, pixels where it says px:
+///
+///     { "frame": "frame_000.png", "source": 0, "frame_id": "camera",
+///       "stamp": 1700000000.5, "width": 640, "height": 480,
+///       "processing_ms": 3.2, "tags": [ { "family": "tag36h11", "id": 7,
+///       "hamming": 0, "decision_margin": 71.3, "centre_px": [x, y],
+///       "corners_px": [[x, y], ...], "pose": { "position": [x, y, z],
+///       "orientation": [x, y, z, w], "reprojection_error_px": 0.1 } } ] }
+///
+/// `pose` is null when the camera is not known.
+nlohmann::json to_json(const frame_result& result);
+
+} // namespace roscell::pose

@@ -1,0 +1,231 @@
+#include "skills/pose_estimation/pose_estimator.hpp"
+
+#include "skills/engine/errors.hpp"
+#include "skills/pose_estimation/overlay.hpp"
+#include "skills/ros2/messages/cdr.hpp"
+#include "skills/vision/calibration.hpp"
+
+#include <algorithm>
+
+namespace roscell::pose {
+
+namespace {
+
+using engine::start_error;
+using engine::typed_outputs;
+
+bool is_camera_info(const engine::stream& input) {
+  return input.data_type == ros2::camera_info::type_name;
+}
+
+bool is_image_message(const std::string& data_type) {
+  return data_type == ros2::image::type_name;
+}
+
+void check_types(const engine::environment& env) {
+  for (const auto& in : env.inputs)
+    if (!is_camera_info(in) && !is_image_message(in.data_type)
+        && in.data_type.compare(0, 6, "image/") != 0)
+      throw start_error("input '" + in.endpoint + "' has the type '"
+                        + in.data_type
+                        + "'; this skill takes sensor_msgs/msg/Image, "
+                          "image/png, image/jpeg and sensor_msgs/msg/"
+                          "CameraInfo");
+  for (const auto& out : env.outputs)
+    if (out.data_type != ros2::tf_message::type_name
+        && out.data_type != ros2::april_tag_detection_array::type_name
+        && out.data_type != "application/json" && out.data_type != "image/png")
+      throw start_error("output '" + out.endpoint + "' has the type '"
+                        + out.data_type
+                        + "'; this skill gives tf2_msgs/msg/TFMessage, "
+                          "apriltag_msgs/msg/AprilTagDetectionArray, "
+                          "application/json and image/png");
+}
+
+/// "photo.jpg" becomes "photo.png".
+std::string png_name(const std::string& name) {
+  return name.empty() ? name : name.substr(0, name.find_last_of('.')) + ".png";
+}
+
+/// "/scene_1/image" becomes "scene_1_image.png".
+std::string live_picture_name(const std::string& endpoint) {
+  auto begin = std::min(endpoint.find_first_not_of('/'), endpoint.size());
+  auto name = endpoint.substr(begin) + ".png";
+  std::replace(name.begin(), name.end(), '/', '_');
+  return name;
+}
+
+std::string to_line(const frame_result& result) {
+  using nlohmann::json;
+  // Names from outside may hold any byte.
+  return to_json(result).dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
+} // namespace
+
+pose_estimator::pose_estimator(const engine::environment& env)
+    : pose_estimator(env, [](const std::string& line) {
+        engine::log_line("pose_estimation: " + line);
+      }) {
+  // nop
+}
+
+pose_estimator::pose_estimator(const engine::environment& env,
+                               engine::say_function say)
+    : say_(std::move(say)),
+      tag_size_m_(env.parameters.number("tag_size_m", 0.08, 1e-4, 100)),
+      rectified_(env.parameters.flag("rectified", false)),
+      frame_id_(env.parameters.text("frame_id", "camera")),
+      picture_rate_hz_(
+          env.parameters.number("picture_rate_hz", 1, 0, 1'000'000)),
+      given_(vision::calibration_of(env.parameters)),
+      detector_(detector_options::of(env.parameters)), broken_files_(say_) {
+  check_types(env);
+  add_sources(env);
+}
+
+void pose_estimator::add_sources(const engine::environment& env) {
+  source_of_port_.resize(env.inputs.size());
+  std::size_t images = 0;
+  std::size_t infos = 0;
+  for (std::size_t i = 0; i < env.inputs.size(); ++i)
+    source_of_port_[i] = is_camera_info(env.inputs[i]) ? infos++ : images++;
+  if (images == 0 || infos > images)
+    throw start_error("the step has " + std::to_string(images) + " image and "
+                      + std::to_string(infos)
+                      + " CameraInfo inputs; give each image input at most one "
+                        "CameraInfo");
+  for (std::size_t i = 0; i < env.inputs.size(); ++i)
+    if (!is_camera_info(env.inputs[i]))
+      add_source(env, i, source_of_port_[i] < infos);
+  auto count = sources_.size();
+  typed_outputs transforms{env.outputs, ros2::tf_message::type_name, count};
+  typed_outputs detections{env.outputs,
+                           ros2::april_tag_detection_array::type_name, count};
+  typed_outputs lines{env.outputs, "application/json", count};
+  typed_outputs pictures{env.outputs, "image/png", count};
+  for (std::size_t k = 0; k < count; ++k) {
+    sources_[k].transforms = transforms.of_source(k);
+    sources_[k].detections = detections.of_source(k);
+    sources_[k].lines = lines.of_source(k);
+    sources_[k].pictures = pictures.of_source(k);
+  }
+}
+
+void pose_estimator::add_source(const engine::environment& env,
+                                std::size_t port, bool expects_info) {
+  const auto& input = env.inputs[port];
+  auto known = given_;
+  expects_info = expects_info && !known;
+  if (!known && !expects_info)
+    known = vision::calibration_beside(input, env.parameters);
+  auto is_live = is_image_message(input.data_type) && picture_rate_hz_ > 0;
+  sources_.push_back({{input.endpoint, expects_info, rectified_, say_},
+                      is_live ? live_picture_name(input.endpoint) : "",
+                      engine::pacer{picture_rate_hz_}});
+  if (known)
+    sources_.back().camera.calibrate(*known);
+}
+
+void pose_estimator::process(const engine::frame& input,
+                             engine::emitter& output) {
+  if (input.data_type == ros2::camera_info::type_name) {
+    if (given_)
+      return;
+    auto& camera = sources_.at(source_of_port_.at(input.port)).camera;
+    camera.calibrate(ros2::deserialize<ros2::camera_info>(input.payload));
+  } else if (is_image_message(input.data_type)) {
+    process_image(ros2::view_image(input.payload), input, output);
+  } else {
+    process_file(input, output);
+  }
+}
+
+void pose_estimator::release() {
+  // Everything is given back by destructors.
+}
+
+void pose_estimator::process_file(const engine::frame& input,
+                                  engine::emitter& output) {
+  const auto& source = sources_.at(source_of_port_.at(input.port));
+  auto wanted = source.pictures == typed_outputs::none
+                    ? vision::pixel_format::mono8
+                    : vision::pixel_format::bgr8;
+  vision::picture picture;
+  try {
+    picture = vision::decode_picture(input.payload, wanted);
+  } catch (const vision::image_error& e) {
+    broken_files_.skip(input.name, e.what());
+    return;
+  }
+  process_image(view(picture, {ros2::to_time(input.time), frame_id_}), input,
+                output);
+}
+
+void pose_estimator::process_image(const ros2::image_view& image,
+                                   const engine::frame& input,
+                                   engine::emitter& output) {
+  auto number = source_of_port_.at(input.port);
+  auto& source = sources_.at(number);
+  auto camera = source.camera.model_for(image.width, image.height);
+  auto result = find_tags(image, camera);
+  result.frame_name = input.name;
+  result.source = number;
+  auto emit = [&](std::size_t port, std::string payload) {
+    engine::frame message;
+    message.payload = std::move(payload);
+    message.name = input.name;
+    output.emit(std::move(message), port);
+  };
+  if (source.transforms != typed_outputs::none)
+    emit(source.transforms, ros2::serialize(to_tf_message(result)));
+  if (source.detections != typed_outputs::none)
+    emit(source.detections, ros2::serialize(to_detection_array(result)));
+  if (source.lines != typed_outputs::none)
+    emit(source.lines, to_line(result));
+  if (source.pictures != typed_outputs::none)
+    emit_picture(source, result, image, camera, output);
+}
+
+void pose_estimator::emit_picture(source& from, const frame_result& result,
+                                  const ros2::image_view& image,
+                                  const std::optional<camera_model>& camera,
+                                  engine::emitter& output) {
+  auto is_live = !from.live_name.empty();
+  if (is_live && !from.picture_pace.take_turn())
+    return;
+  engine::frame message;
+  message.payload = vision::encode_png(draw(result, image, camera));
+  message.name = is_live ? from.live_name : png_name(result.frame_name);
+  output.emit(std::move(message), from.pictures);
+}
+
+frame_result
+pose_estimator::find_tags(const ros2::image_view& image,
+                          const std::optional<camera_model>& camera) {
+  auto start = std::chrono::steady_clock::now();
+  frame_result result;
+  result.header = image.header;
+  result.width = image.width;
+  result.height = image.height;
+  result.family = detector_.family();
+  for (auto& tag : detector_.detect(to_gray(image, gray_buffer_))) {
+    std::optional<tag_pose> pose;
+    if (camera)
+      pose = estimate_pose(tag.camera_corners(), tag_size_m_, *camera);
+    result.tags.push_back({std::move(tag), pose});
+  }
+  result.processing_time = std::chrono::steady_clock::now() - start;
+  return result;
+}
+
+vision::picture
+pose_estimator::draw(const frame_result& result, const ros2::image_view& image,
+                     const std::optional<camera_model>& camera) const {
+  vision::picture picture{image.width, image.height, vision::pixel_format::bgr8,
+                          to_bgr(image)};
+  draw_overlay(result, tag_size_m_, camera, picture);
+  return picture;
+}
+
+} // namespace roscell::pose

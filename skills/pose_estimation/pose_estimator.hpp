@@ -1,0 +1,99 @@
+#pragma once
+
+#include "skills/engine/executor.hpp"
+#include "skills/engine/handlers.hpp"
+#include "skills/engine/log_line.hpp"
+#include "skills/engine/pacer.hpp"
+#include "skills/engine/typed_ports.hpp"
+#include "skills/pose_estimation/camera_source.hpp"
+#include "skills/pose_estimation/frame_result.hpp"
+#include "skills/vision/broken_files.hpp"
+#include "skills/vision/image_codec.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace roscell::pose {
+
+/// Finds AprilTags in images and tells where they are.
+///
+/// Inputs: images (sensor_msgs/msg/Image, image/png, image/jpeg) and CameraInfo
+/// (sensor_msgs/msg/CameraInfo); the k-th CameraInfo input belongs to the k-th
+/// image input. Outputs, by data type: tf2_msgs/msg/TFMessage,
+/// apriltag_msgs/msg/AprilTagDetectionArray, application/json (see
+/// `frame_result`) and image/png (see `draw_overlay`); the k-th image input
+/// feeds the k-th output of each type, or its only one.
+///
+/// Intrinsics come from the parameters fx, fy, cx, cy (see
+/// vision/calibration.hpp), else from CameraInfo, else from a calibration
+/// beside the images. Further parameters, beside those of `detector_options`:
+///
+/// | parameter | default | meaning |
+/// |---|---|---|
+/// | tag_size_m | 0.08 | width of a tag's black border, corner to corner
+/// | rectified | false | images are rectified: P of CameraInfo counts, and no
+///   distortion
+/// | frame_id | camera | frame of images that bring none, i.e. of files
+/// | picture_rate_hz | 1 | of a topic or video, at most so many pictures per
+///   second are drawn, each in the place of the one before, so that they do not
+///   fill a disk; 0: every picture under its own name. Files always get all
+///
+/// A file that is no image is said once and skipped. An image whose message is
+/// broken fails.
+class pose_estimator : public engine::executor {
+public:
+  explicit pose_estimator(const engine::environment& env);
+
+  /// `say` gets the lines for people.
+  pose_estimator(const engine::environment& env, engine::say_function say);
+
+  void process(const engine::frame& input, engine::emitter& output) override;
+
+  void release() override;
+
+private:
+  /// One image input, with what belongs to it.
+  struct source {
+    camera_source camera;
+    std::string live_name; ///< Of its pictures, if each replaces the last.
+    engine::pacer picture_pace;
+    std::size_t transforms = engine::typed_outputs::none;
+    std::size_t detections = engine::typed_outputs::none;
+    std::size_t lines = engine::typed_outputs::none;
+    std::size_t pictures = engine::typed_outputs::none;
+  };
+
+  void add_sources(const engine::environment& env);
+  void add_source(const engine::environment& env, std::size_t port,
+                  bool expects_info);
+  void process_file(const engine::frame& input, engine::emitter& output);
+  void process_image(const ros2::image_view& image, const engine::frame& input,
+                     engine::emitter& output);
+  void emit_picture(source& from, const frame_result& result,
+                    const ros2::image_view& image,
+                    const std::optional<camera_model>& camera,
+                    engine::emitter& output);
+  frame_result find_tags(const ros2::image_view& image,
+                         const std::optional<camera_model>& camera);
+  vision::picture draw(const frame_result& result,
+                       const ros2::image_view& image,
+                       const std::optional<camera_model>& camera) const;
+
+  const engine::say_function say_;
+  const double tag_size_m_;
+  const bool rectified_;
+  const std::string frame_id_;
+  const double picture_rate_hz_;
+  /// From the parameters; CameraInfo then does not count.
+  const std::optional<ros2::camera_info> given_;
+  tag_detector detector_;
+  std::vector<source> sources_;
+  /// By input port: the number of its source.
+  std::vector<std::size_t> source_of_port_;
+  std::vector<std::uint8_t> gray_buffer_;
+  vision::broken_files broken_files_;
+};
+
+} // namespace roscell::pose

@@ -1,0 +1,126 @@
+#include "skills/pose_estimation/tag_detector.hpp"
+
+#include "skills/engine/errors.hpp"
+#include "skills/pose_estimation/tag_family.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+namespace roscell::pose {
+
+namespace {
+
+using detector_ptr =
+    std::unique_ptr<apriltag_detector_t, void (*)(apriltag_detector_t*)>;
+using detections_ptr = std::unique_ptr<zarray_t, void (*)(zarray_t*)>;
+
+/// The library thresholds in tiles of 4 pixels and reads out of bounds when an
+/// image has not even one; no tag is as small as this.
+constexpr auto least_side_px = 16.0F;
+
+/// The library's table holds every code with up to `wrong_bits` bits changed,
+/// in 48 bytes each, and the library ends the process when memory is short.
+void check_table(const apriltag_family_t& family, int wrong_bits) {
+  constexpr std::uint64_t most_entries = 2'000'000;
+  std::uint64_t bits = family.nbits;
+  std::uint64_t changes = 1;
+  changes += wrong_bits > 0 ? bits : 0;
+  changes += wrong_bits > 1 ? bits * (bits - 1) / 2 : 0;
+  if (family.ncodes * changes > most_entries)
+    throw engine::start_error("parameter 'max_hamming' is too large for the "
+                              + std::to_string(family.ncodes) + " tags of "
+                              + family.name + "; make it smaller");
+}
+
+tag_detection to_detection(const apriltag_detection_t& found) {
+  tag_detection result;
+  result.id = found.id;
+  result.hamming = found.hamming;
+  result.decision_margin = found.decision_margin;
+  result.centre = {found.c[0], found.c[1]};
+  for (auto i = 0; i < 4; ++i)
+    result.corners[i] = {found.p[i][0], found.p[i][1]};
+  std::copy_n(found.H->data, 9, result.homography.begin());
+  return result;
+}
+
+} // namespace
+
+detector_options detector_options::of(const engine::parameters& options) {
+  detector_options result;
+  result.family = options.text("family", result.family);
+  result.decimation = static_cast<float>(
+      options.number("decimation", result.decimation, 1, 16));
+  result.blur =
+      static_cast<float>(options.number("blur", result.blur, -10, 10));
+  result.threads = static_cast<int>(options.count("threads", 1, 1, 64));
+  result.refine = options.flag("refine", result.refine);
+  result.sharpening = options.number("sharpening", result.sharpening, 0, 10);
+  result.max_hamming = static_cast<int>(options.count("max_hamming", 0, 0, 2));
+  return result;
+}
+
+tag_corners tag_detection::camera_corners() const {
+  auto result = corners;
+  for (auto& corner : result)
+    corner -= Eigen::Vector2d{0.5, 0.5};
+  return result;
+}
+
+struct tag_detector::library {
+  explicit library(const std::string& family_name)
+      : family(make_tag_family(family_name)),
+        detector(apriltag_detector_create(), apriltag_detector_destroy) {
+    // nop
+  }
+
+  // The detector uses the family until its end.
+  tag_family family;
+  detector_ptr detector;
+};
+
+tag_detector::tag_detector(const detector_options& options)
+    : options_(options), library_(std::make_unique<library>(options.family)) {
+  check_table(*library_->family, options_.max_hamming);
+  auto& detector = *library_->detector;
+  detector.quad_decimate = options_.decimation;
+  detector.quad_sigma = options_.blur;
+  detector.nthreads = options_.threads;
+  detector.refine_edges = options_.refine;
+  detector.decode_sharpening = options_.sharpening;
+  apriltag_detector_add_family_bits(&detector, library_->family.get(),
+                                    options_.max_hamming);
+}
+
+tag_detector::~tag_detector() = default;
+
+std::vector<tag_detection> tag_detector::detect(const gray_view& image) {
+  auto side = static_cast<float>(std::min(image.width, image.height));
+  if (side / options_.decimation < least_side_px)
+    return {};
+  // The library's type has no const; it writes only when it blurs the image
+  // itself instead of a smaller one.
+  auto* pixels = const_cast<std::uint8_t*>(image.data);
+  if (options_.blur != 0 && options_.decimation <= 1) {
+    copy_.assign(image.data,
+                 image.data + std::size_t{image.step} * image.height);
+    pixels = copy_.data();
+  }
+  image_u8_t wrapped{static_cast<std::int32_t>(image.width),
+                     static_cast<std::int32_t>(image.height),
+                     static_cast<std::int32_t>(image.step), pixels};
+  detections_ptr found{
+      apriltag_detector_detect(library_->detector.get(), &wrapped),
+      apriltag_detections_destroy};
+  std::vector<tag_detection> result;
+  for (auto i = 0; i < zarray_size(found.get()); ++i) {
+    apriltag_detection_t* one = nullptr;
+    zarray_get(found.get(), i, &one);
+    result.push_back(to_detection(*one));
+  }
+  std::stable_sort(result.begin(), result.end(),
+                   [](const auto& a, const auto& b) { return a.id < b.id; });
+  return result;
+}
+
+} // namespace roscell::pose

@@ -1,0 +1,18 @@
+#include "skills/ros2/messages/builtin_interfaces.hpp"
+
+namespace roscell::ros2 {
+
+using namespace std::chrono;
+
+time to_time(system_clock::time_point when) {
+  auto whole = floor<seconds>(when);
+  return {static_cast<std::int32_t>(whole.time_since_epoch().count()),
+          static_cast<std::uint32_t>(nanoseconds{when - whole}.count())};
+}
+
+system_clock::time_point to_time_point(const time& stamp) {
+  return system_clock::time_point{duration_cast<system_clock::duration>(
+      seconds{stamp.sec} + nanoseconds{stamp.nanosec})};
+}
+
+} // namespace roscell::ros2

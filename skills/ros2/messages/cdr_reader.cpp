@@ -1,0 +1,80 @@
+#include "skills/ros2/messages/cdr_reader.hpp"
+
+namespace roscell::ros2 {
+
+namespace {
+
+using eprosima::fastcdr::Cdr;
+
+/// Senders may fill a payload up to a multiple of 4.
+constexpr std::size_t max_padding = 3;
+
+/// Before the message: CDR_BE or CDR_LE, and two bytes without a meaning (RTPS
+/// 2.3, 10.2.1.2).
+std::string_view check_encapsulation(std::string_view payload) {
+  if (payload.size() < 4 || payload[0] != 0 || (payload[1] & ~1) != 0)
+    throw cdr_error("encapsulation", "this is no plain CDR");
+  return payload;
+}
+
+} // namespace
+
+cdr_reader::cdr_reader(std::string_view payload)
+    : size_(check_encapsulation(payload).size()),
+      // Fast CDR takes no constant bytes, but only writes when asked to.
+      buffer_(const_cast<char*>(payload.data()), payload.size()),
+      cdr_(buffer_, Cdr::DEFAULT_ENDIAN, Cdr::DDS_CDR) {
+  cdr_.read_encapsulation();
+}
+
+void cdr_reader::read(std::string& x) {
+  // The count includes a final zero. Some write an empty string as nothing.
+  auto text = take(read_count(1));
+  if (!text.empty() && text.back() != '\0')
+    throw cdr_error("", "the text does not end with a zero");
+  x.assign(text.data(), text.empty() ? 0 : text.size() - 1);
+}
+
+std::string_view cdr_reader::read_bytes(const char* name) {
+  std::string_view result;
+  read_inside(name, [&] { result = take(read_count(1)); });
+  return result;
+}
+
+void cdr_reader::finish() {
+  if (left() > max_padding)
+    throw cdr_error("", std::to_string(left())
+                            + " bytes are left behind the last field");
+}
+
+cdr_error cdr_reader::inside(const std::string& outer, const cdr_error& e) {
+  const auto* dot = e.field().empty() || e.field().front() == '[' ? "" : ".";
+  return {outer + dot + e.field(), e.problem()};
+}
+
+std::size_t cdr_reader::left() const {
+  return size_ - cdr_.getSerializedDataLength();
+}
+
+std::size_t cdr_reader::read_count(std::size_t least_bytes_of_item) {
+  std::uint32_t count = 0;
+  read_scalar([&] { cdr_ >> count; });
+  if (count > left() / least_bytes_of_item)
+    throw cdr_error("", "its length " + std::to_string(count)
+                            + " is too much for the " + std::to_string(left())
+                            + " bytes that are left");
+  return count;
+}
+
+std::string_view cdr_reader::take(std::size_t count) {
+  std::string_view result{cdr_.getCurrentPosition(), count};
+  if (count > 0) {
+    // Fast CDR aligns what follows a byte that was read, but not a jump.
+    char last = 0;
+    cdr_.jump(count - 1);
+    cdr_ >> last;
+  }
+  return result;
+}
+
+} // namespace roscell::ros2

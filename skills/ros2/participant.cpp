@@ -1,0 +1,158 @@
+#include "skills/ros2/participant.hpp"
+
+#include "skills/engine/errors.hpp"
+#include "skills/ros2/names.hpp"
+#include "skills/ros2/participant_qos.hpp"
+#include "skills/ros2/serialized_type.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace roscell::ros2 {
+
+namespace {
+
+using engine::start_error;
+
+void erase(std::vector<guid>& from, const guid& x) {
+  from.erase(std::remove(from.begin(), from.end(), x), from.end());
+}
+
+/// Those who come later read the last one.
+topic_qos graph_qos() {
+  topic_qos result;
+  result.transient_local = true;
+  result.depth = 1;
+  return result;
+}
+
+} // namespace
+
+guid to_guid(const eprosima::fastrtps::rtps::GUID_t& x) {
+  guid result{};
+  auto* end = std::copy(std::begin(x.guidPrefix.value),
+                        std::end(x.guidPrefix.value), result.begin());
+  std::copy(std::begin(x.entityId.value), std::end(x.entityId.value), end);
+  return result;
+}
+
+void participant::deleter::operator()(dds::DomainParticipant* x) const {
+  x->delete_contained_entities();
+  dds::DomainParticipantFactory::get_instance()->delete_participant(x);
+}
+
+participant::participant(participant_config config)
+    : config_(std::move(config)) {
+  const auto nobody = dds::StatusMask::none();
+  participant_.reset(
+      dds::DomainParticipantFactory::get_instance()->create_participant(
+          config_.domain_id, to_participant_qos(config_), nullptr, nobody));
+  if (!participant_)
+    throw start_error("Fast DDS does not create a participant in ROS domain "
+                      + std::to_string(config_.domain_id)
+                      + "; its message is above this one");
+  subscriber_ = participant_->create_subscriber(dds::SUBSCRIBER_QOS_DEFAULT);
+  publisher_ = participant_->create_publisher(dds::PUBLISHER_QOS_DEFAULT);
+  graph_writer_ =
+      make_writer(find_topic(graph_topic, graph_type), graph_qos(), nullptr);
+  node_.participant = to_guid(participant_->guid());
+  node_.name = config_.node_name;
+  publish_graph();
+}
+
+dds::DataReader* participant::add_reader(const std::string& topic,
+                                         const std::string& type,
+                                         const topic_qos& qos,
+                                         dds::DataReaderListener* listener) {
+  auto* result = subscriber_->create_datareader(
+      find_topic(dds_topic_name(topic), dds_type_name(type)),
+      to_reader_qos(qos), listener);
+  if (result == nullptr)
+    throw start_error("Fast DDS does not create a reader of '" + topic + "'");
+  std::lock_guard guard{mutex_};
+  node_.readers.push_back(to_guid(result->guid()));
+  publish_graph();
+  return result;
+}
+
+dds::DataWriter* participant::add_writer(const std::string& topic,
+                                         const std::string& type,
+                                         const topic_qos& qos,
+                                         dds::DataWriterListener* listener) {
+  auto* result = make_writer(
+      find_topic(dds_topic_name(topic), dds_type_name(type)), qos, listener);
+  std::lock_guard guard{mutex_};
+  node_.writers.push_back(to_guid(result->guid()));
+  publish_graph();
+  return result;
+}
+
+void participant::remove(dds::DataReader* reader) {
+  {
+    std::lock_guard guard{mutex_};
+    erase(node_.readers, to_guid(reader->guid()));
+    publish_graph();
+  }
+  subscriber_->delete_datareader(reader);
+}
+
+void participant::remove(dds::DataWriter* writer) {
+  {
+    std::lock_guard guard{mutex_};
+    erase(node_.writers, to_guid(writer->guid()));
+    publish_graph();
+  }
+  publisher_->delete_datawriter(writer);
+}
+
+dds::Topic* participant::find_topic(const std::string& name,
+                                    const std::string& type) {
+  if (auto* known = participant_->lookup_topicdescription(name)) {
+    if (known->get_type_name() != type)
+      throw start_error("this step uses the topic '" + name
+                        + "' with two types, '" + known->get_type_name()
+                        + "' and '" + type + "'");
+    return static_cast<dds::Topic*>(known);
+  }
+  if (participant_->find_type(type).empty())
+    dds::TypeSupport{new serialized_type(type)}.register_type(
+        participant_.get());
+  auto* result = participant_->create_topic(name, type, dds::TOPIC_QOS_DEFAULT);
+  if (result == nullptr)
+    throw start_error("Fast DDS does not create the topic '" + name + "'");
+  return result;
+}
+
+dds::DataWriter* participant::make_writer(dds::Topic* topic,
+                                          const topic_qos& qos,
+                                          dds::DataWriterListener* listener) {
+  auto* result =
+      publisher_->create_datawriter(topic, to_writer_qos(qos), listener);
+  if (result == nullptr)
+    throw start_error("Fast DDS does not create a writer of '"
+                      + topic->get_name() + "'");
+  return result;
+}
+
+void participant::publish_graph() {
+  auto message = serialize(node_, config_.gid_bytes);
+  graph_writer_->write(&message);
+}
+
+shared_participant::shared_participant(engine::variable_lookup lookup)
+    : lookup_(std::move(lookup)) {
+  // nop
+}
+
+std::shared_ptr<participant>
+shared_participant::get(const engine::parameters& options) {
+  auto result = participant_.lock();
+  if (!result) {
+    result = std::make_shared<participant>(
+        read_participant_config(lookup_, options));
+    participant_ = result;
+  }
+  return result;
+}
+
+} // namespace roscell::ros2

@@ -1,0 +1,81 @@
+#pragma once
+
+#include "skills/ros2/graph.hpp"
+#include "skills/ros2/participant_config.hpp"
+#include "skills/ros2/topic_qos.hpp"
+
+#include <fastdds/dds/domain/DomainParticipant.hpp>
+#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
+#include <fastdds/dds/publisher/DataWriter.hpp>
+#include <fastdds/dds/publisher/DataWriterListener.hpp>
+#include <fastdds/dds/publisher/Publisher.hpp>
+#include <fastdds/dds/subscriber/DataReader.hpp>
+#include <fastdds/dds/subscriber/DataReaderListener.hpp>
+#include <fastdds/dds/subscriber/Subscriber.hpp>
+#include <fastdds/dds/topic/Topic.hpp>
+
+#include <memory>
+#include <mutex>
+#include <string>
+
+/// INTERNAL to this folder.
+namespace roscell::ros2 {
+
+namespace dds = eprosima::fastdds::dds;
+
+guid to_guid(const eprosima::fastrtps::rtps::GUID_t& x);
+
+/// A ROS 2 node without ROS 2: a DDS participant that others take for one. It
+/// speaks by UDP only, because shared memory does not reach from one container
+/// into another, and fails there without a word.
+class participant {
+public:
+  /// Throws engine::start_error.
+  explicit participant(participant_config config);
+
+  /// The names are those of ROS 2. The listener must live until `remove`.
+  /// Throws engine::start_error.
+  dds::DataReader* add_reader(const std::string& topic, const std::string& type,
+                              const topic_qos& qos,
+                              dds::DataReaderListener* listener);
+  dds::DataWriter* add_writer(const std::string& topic, const std::string& type,
+                              const topic_qos& qos,
+                              dds::DataWriterListener* listener);
+
+  /// Waits for the listener's call that is under way. Not to be called by it.
+  void remove(dds::DataReader* reader);
+  void remove(dds::DataWriter* writer);
+
+private:
+  struct deleter {
+    void operator()(dds::DomainParticipant* x) const;
+  };
+
+  dds::Topic* find_topic(const std::string& name, const std::string& type);
+  dds::DataWriter* make_writer(dds::Topic* topic, const topic_qos& qos,
+                               dds::DataWriterListener* listener);
+  void publish_graph();
+
+  const participant_config config_;
+  std::unique_ptr<dds::DomainParticipant, deleter> participant_;
+  dds::Subscriber* subscriber_ = nullptr;
+  dds::Publisher* publisher_ = nullptr;
+  dds::DataWriter* graph_writer_ = nullptr;
+  std::mutex mutex_; // Guards what the graph shows.
+  graph_node node_;
+};
+
+/// Gives all ports of a skill the same participant, made for the first one.
+class shared_participant {
+public:
+  explicit shared_participant(engine::variable_lookup lookup);
+
+  /// Throws engine::start_error. To be called from one thread.
+  std::shared_ptr<participant> get(const engine::parameters& options);
+
+private:
+  const engine::variable_lookup lookup_;
+  std::weak_ptr<participant> participant_;
+};
+
+} // namespace roscell::ros2

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "skills/ros2/participant_config.hpp"
+#include "skills/ros2/topic_qos.hpp"
+
+#include <fastdds/dds/domain/qos/DomainParticipantQos.hpp>
+#include <fastdds/dds/publisher/qos/DataWriterQos.hpp>
+#include <fastdds/dds/subscriber/qos/DataReaderQos.hpp>
+
+/// INTERNAL to this folder: our settings in the words of Fast DDS.
+namespace roscell::ros2 {
+
+/// Throws engine::start_error when a discovery server cannot be reached.
+eprosima::fastdds::dds::DomainParticipantQos
+to_participant_qos(const participant_config& config);
+
+eprosima::fastdds::dds::DataReaderQos to_reader_qos(const topic_qos& qos);
+
+eprosima::fastdds::dds::DataWriterQos to_writer_qos(const topic_qos& qos);
+
+} // namespace roscell::ros2

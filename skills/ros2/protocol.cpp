@@ -1,0 +1,29 @@
+#include "skills/ros2/protocol.hpp"
+
+#include "skills/ros2/topic_input.hpp"
+#include "skills/ros2/topic_output.hpp"
+
+#include <cstdlib>
+#include <memory>
+
+namespace roscell::ros2 {
+
+void add_ros2_protocol(engine::registry& target) {
+  add_ros2_protocol(target, [](const char* name) -> const char* {
+    return std::getenv(name);
+  });
+}
+
+void add_ros2_protocol(engine::registry& target,
+                       const engine::variable_lookup& lookup) {
+  ::setenv("SKIP_DEFAULT_XML", "1", 1);
+  auto shared = std::make_shared<shared_participant>(lookup);
+  target.add_input("ros2", [shared](const engine::stream_context& input) {
+    return std::make_unique<topic_input>(input, shared);
+  });
+  target.add_output("ros2", [shared](const engine::stream_context& output) {
+    return std::make_unique<topic_output>(output, shared);
+  });
+}
+
+} // namespace roscell::ros2

@@ -1,0 +1,117 @@
+#include "skills/ros2/topic_input.hpp"
+
+#include "skills/ros2/messages/cdr.hpp"
+#include "skills/ros2/names.hpp"
+#include "skills/ros2/status_words.hpp"
+
+#include <fastdds/dds/subscriber/SampleInfo.hpp>
+
+#include <algorithm>
+#include <utility>
+
+namespace roscell::ros2 {
+
+namespace {
+
+using clock = std::chrono::system_clock;
+using eprosima::fastrtps::types::ReturnCode_t;
+
+} // namespace
+
+topic_input::topic_input(const engine::stream_context& input,
+                         std::shared_ptr<shared_participant> shared)
+    : context_(input), qos_(reader_qos(input.config.endpoint,
+                                       input.config.data_type, input.options)),
+      has_header_(begins_with_header(input.config.data_type)),
+      shared_(std::move(shared)) {
+  // nop
+}
+
+topic_input::~topic_input() {
+  if (reader_ != nullptr)
+    participant_->remove(reader_);
+}
+
+void topic_input::open() {
+  participant_ = shared_->get(context_.options);
+  reader_ = participant_->add_reader(context_.config.endpoint,
+                                     context_.config.data_type, qos_, this);
+}
+
+void topic_input::run(engine::frame_sink& sink,
+                      const engine::stop_event& stop) {
+  {
+    std::lock_guard guard{mutex_};
+    for (auto& input : early_)
+      sink.push(std::move(input), engine::when_full::drop_oldest);
+    early_.clear();
+    sink_ = &sink;
+  }
+  stop.wait();
+  std::lock_guard guard{mutex_};
+  sink_ = nullptr;
+}
+
+void topic_input::on_data_available(dds::DataReader* reader) {
+  std::string payload;
+  dds::SampleInfo info;
+  while (reader->take_next_sample(&payload, &info) == ReturnCode_t::RETCODE_OK)
+    if (info.valid_data)
+      deliver(make_frame(std::exchange(payload, {}), info), info);
+}
+
+void topic_input::on_subscription_matched(
+    dds::DataReader*, const dds::SubscriptionMatchedStatus& status) {
+  context_.say(matched_words(context_.config.endpoint, "writer",
+                             status.current_count,
+                             status.current_count_change));
+}
+
+void topic_input::on_requested_incompatible_qos(
+    dds::DataReader*, const dds::RequestedIncompatibleQosStatus& status) {
+  context_.say(incompatible_words(context_.config.endpoint, "writer",
+                                  status.last_policy_id));
+}
+
+engine::frame topic_input::make_frame(std::string payload,
+                                      const dds::SampleInfo& info) {
+  engine::frame result;
+  result.time = clock::time_point{std::chrono::duration_cast<clock::duration>(
+      std::chrono::nanoseconds{info.source_timestamp.to_ns()})};
+  if (has_header_)
+    if (auto stamp = stamp_of(payload))
+      result.time = to_time_point(*stamp);
+  result.payload = std::move(payload);
+  result.name =
+      context_.config.endpoint.substr(1) + '-'
+      + std::to_string(info.sample_identity.sequence_number().to64long());
+  std::replace(result.name.begin(), result.name.end(), '/', '_');
+  return result;
+}
+
+void topic_input::deliver(engine::frame input, const dds::SampleInfo& info) {
+  const auto& identity = info.sample_identity;
+  std::lock_guard guard{mutex_};
+  count_lost(gaps_.add(to_guid(identity.writer_guid()),
+                       identity.sequence_number().to64long()));
+  if (sink_ != nullptr) {
+    sink_->push(std::move(input), engine::when_full::drop_oldest);
+    return;
+  }
+  early_.push_back(std::move(input));
+  if (early_.size() > static_cast<std::size_t>(qos_.depth))
+    early_.pop_front();
+}
+
+/// Says it less and less often, so that a bad network does not fill the log.
+void topic_input::count_lost(std::uint64_t more) {
+  auto before = lost_;
+  lost_ += more;
+  // True when the number has got another binary digit.
+  if ((before ^ lost_) > before)
+    context_.say("input '" + context_.config.endpoint + "' has lost "
+                 + std::to_string(lost_)
+                 + " messages on the way; see skills/README.md, large images");
+}
+
+} // namespace roscell::ros2

@@ -1,0 +1,57 @@
+#pragma once
+
+#include "skills/engine/handlers.hpp"
+#include "skills/ros2/gap_counter.hpp"
+#include "skills/ros2/participant.hpp"
+
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <string>
+
+namespace roscell::ros2 {
+
+/// Reads a topic. Each message is one frame, pushed by the thread of Fast DDS
+/// that received it; when the executor is behind, the oldest frame is dropped.
+/// Its time is the header's stamp, or else when it was sent; its name is the
+/// topic and the writer's number of it, e.g. "scene_1_image-12".
+class topic_input : public engine::input_handler,
+                    private dds::DataReaderListener {
+public:
+  topic_input(const engine::stream_context& input,
+              std::shared_ptr<shared_participant> shared);
+
+  ~topic_input() override;
+
+  void open() override;
+  void run(engine::frame_sink& sink, const engine::stop_event& stop) override;
+
+private:
+  void on_data_available(dds::DataReader* reader) override;
+  void on_subscription_matched(
+      dds::DataReader* reader,
+      const dds::SubscriptionMatchedStatus& status) override;
+  void on_requested_incompatible_qos(
+      dds::DataReader* reader,
+      const dds::RequestedIncompatibleQosStatus& status) override;
+
+  engine::frame make_frame(std::string payload, const dds::SampleInfo& info);
+  void deliver(engine::frame input, const dds::SampleInfo& info);
+  void count_lost(std::uint64_t more);
+
+  const engine::stream_context context_;
+  const topic_qos qos_;
+  const bool has_header_;
+  const std::shared_ptr<shared_participant> shared_;
+  std::shared_ptr<participant> participant_;
+  dds::DataReader* reader_ = nullptr;
+  // Guards what follows. Fast DDS may hold its reader's lock around a call of
+  // the listener, so nobody calls the reader while holding this one.
+  std::mutex mutex_;
+  engine::frame_sink* sink_ = nullptr;
+  std::deque<engine::frame> early_; // What came before there was a sink.
+  gap_counter gaps_;
+  std::uint64_t lost_ = 0;
+};
+
+} // namespace roscell::ros2

@@ -1,0 +1,77 @@
+#include "skills/ros2/topic_output.hpp"
+
+#include "skills/engine/errors.hpp"
+#include "skills/ros2/status_words.hpp"
+
+#include <utility>
+
+namespace roscell::ros2 {
+
+namespace {
+
+using eprosima::fastrtps::types::ReturnCode_t;
+
+const eprosima::fastrtps::Duration_t close_limit{2, 0};
+
+} // namespace
+
+topic_output::topic_output(const engine::stream_context& output,
+                           std::shared_ptr<shared_participant> shared)
+    : context_(output),
+      qos_(writer_qos(output.config.endpoint, output.config.data_type,
+                      output.options)),
+      shared_(std::move(shared)) {
+  // nop
+}
+
+topic_output::~topic_output() {
+  if (writer_ != nullptr)
+    participant_->remove(writer_);
+}
+
+void topic_output::open() {
+  participant_ = shared_->get(context_.options);
+  writer_ = participant_->add_writer(context_.config.endpoint,
+                                     context_.config.data_type, qos_, this);
+}
+
+void topic_output::write(const engine::frame& result) {
+  const auto& [protocol, topic, type] = context_.config;
+  if (result.data_type != type)
+    throw engine::stream_error("a '" + result.data_type
+                               + "' cannot be written to the topic '" + topic
+                               + "' of type '" + type + "'");
+  // Fast DDS reads the message only, but takes no constant.
+  auto* data = const_cast<std::string*>(&result.payload);
+  auto outcome =
+      writer_->write(data, eprosima::fastrtps::rtps::c_InstanceHandle_Unknown);
+  if (outcome == ReturnCode_t::RETCODE_TIMEOUT)
+    context_.say("output '" + topic + "': '" + result.name
+                 + "' was not sent, because the network is too slow");
+  else if (outcome != ReturnCode_t::RETCODE_OK)
+    throw engine::stream_error("Fast DDS refuses '" + result.name
+                               + "' for the topic '" + topic
+                               + "'; is its payload a serialized message?");
+}
+
+void topic_output::close() {
+  if (writer_->wait_for_acknowledgments(close_limit)
+      != ReturnCode_t::RETCODE_OK)
+    context_.say("output '" + context_.config.endpoint
+                 + "': a reader did not confirm the last messages");
+}
+
+void topic_output::on_publication_matched(
+    dds::DataWriter*, const dds::PublicationMatchedStatus& status) {
+  context_.say(matched_words(context_.config.endpoint, "reader",
+                             status.current_count,
+                             status.current_count_change));
+}
+
+void topic_output::on_offered_incompatible_qos(
+    dds::DataWriter*, const dds::OfferedIncompatibleQosStatus& status) {
+  context_.say(incompatible_words(context_.config.endpoint, "reader",
+                                  status.last_policy_id));
+}
+
+} // namespace roscell::ros2

@@ -1,0 +1,130 @@
+#include "skills/vision/image_codec.hpp"
+
+#include <png.h>
+#include <turbojpeg.h>
+
+#include <memory>
+
+namespace roscell::vision {
+
+namespace {
+
+constexpr std::string_view png_signature{"\x89PNG\r\n\x1a\n", 8};
+constexpr std::string_view jpeg_signature{"\xff\xd8\xff", 3};
+
+struct png_closer {
+  void operator()(png_image* image) const {
+    png_image_free(image);
+  }
+};
+
+struct jpeg_closer {
+  void operator()(void* decoder) const {
+    tjDestroy(decoder);
+  }
+};
+
+bool begins_with(std::string_view bytes, std::string_view signature) {
+  return bytes.substr(0, signature.size()) == signature;
+}
+
+picture make_picture(std::uint64_t width, std::uint64_t height,
+                     pixel_format format) {
+  if (width * height > max_picture_pixels)
+    throw image_error("it has " + std::to_string(width) + " x "
+                      + std::to_string(height) + " pixels, more than "
+                      + std::to_string(max_picture_pixels));
+  picture result;
+  result.width = static_cast<std::uint32_t>(width);
+  result.height = static_cast<std::uint32_t>(height);
+  result.format = format;
+  result.pixels.resize(result.step() * result.height);
+  return result;
+}
+
+/// By libpng's simplified interface, which needs no longjmp.
+picture decode_png(std::string_view file, pixel_format wanted) {
+  png_image header{};
+  header.version = PNG_IMAGE_VERSION;
+  std::unique_ptr<png_image, png_closer> closer{&header};
+  if (png_image_begin_read_from_memory(&header, file.data(), file.size()) == 0)
+    throw image_error(std::string{"broken PNG: "} + header.message);
+  header.format =
+      wanted == pixel_format::mono8 ? PNG_FORMAT_GRAY : PNG_FORMAT_BGR;
+  auto result = make_picture(header.width, header.height, wanted);
+  const png_color white{255, 255, 255};
+  if (png_image_finish_read(&header, &white, result.pixels.data(), 0, nullptr)
+      == 0)
+    throw image_error(std::string{"broken PNG: "} + header.message);
+  return result;
+}
+
+picture decode_jpeg(std::string_view file, pixel_format wanted) {
+  std::unique_ptr<void, jpeg_closer> decoder{tjInitDecompress()};
+  const auto* bytes = reinterpret_cast<const unsigned char*>(file.data());
+  auto size = static_cast<unsigned long>(file.size());
+  auto check = [&](int status) {
+    if (status != 0)
+      throw image_error(std::string{"broken JPEG: "}
+                        + tjGetErrorStr2(decoder.get()));
+  };
+  int width = 0;
+  int height = 0;
+  int subsampling = 0;
+  int colours = 0;
+  check(tjDecompressHeader3(decoder.get(), bytes, size, &width, &height,
+                            &subsampling, &colours));
+  auto result = make_picture(static_cast<std::uint64_t>(width),
+                             static_cast<std::uint64_t>(height), wanted);
+  // A progressive file of a few bytes may ask for hours of work.
+  constexpr auto flags = TJFLAG_LIMITSCANS;
+  check(tjDecompress2(
+      decoder.get(), bytes, size, result.pixels.data(), width, 0, height,
+      wanted == pixel_format::mono8 ? TJPF_GRAY : TJPF_BGR, flags));
+  return result;
+}
+
+} // namespace
+
+const char* encoding_name(pixel_format format) {
+  return format == pixel_format::mono8 ? "mono8" : "bgr8";
+}
+
+ros2::image_view view(const picture& source, ros2::header header) {
+  return {std::move(header),
+          source.height,
+          source.width,
+          encoding_name(source.format),
+          0,
+          static_cast<std::uint32_t>(source.step()),
+          source.pixels.data(),
+          source.pixels.size()};
+}
+
+picture decode_picture(std::string_view file, pixel_format wanted) {
+  if (begins_with(file, png_signature))
+    return decode_png(file, wanted);
+  if (begins_with(file, jpeg_signature))
+    return decode_jpeg(file, wanted);
+  throw image_error("it is neither PNG nor JPEG");
+}
+
+std::string encode_png(const picture& source) {
+  png_image header{};
+  header.version = PNG_IMAGE_VERSION;
+  header.width = source.width;
+  header.height = source.height;
+  header.format =
+      source.format == pixel_format::mono8 ? PNG_FORMAT_GRAY : PNG_FORMAT_BGR;
+  header.flags = PNG_IMAGE_FLAG_FAST;
+  auto size = PNG_IMAGE_PNG_SIZE_MAX(header);
+  std::string result(size, '\0');
+  if (png_image_write_to_memory(&header, result.data(), &size, 0,
+                                source.pixels.data(), 0, nullptr)
+      == 0)
+    throw image_error(std::string{"cannot write PNG: "} + header.message);
+  result.resize(size);
+  return result;
+}
+
+} // namespace roscell::vision

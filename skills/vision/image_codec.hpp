@@ -1,0 +1,52 @@
+#pragma once
+
+#include "skills/ros2/messages/image_view.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace roscell::vision {
+
+/// 8 bits per channel; the values are the bytes of a pixel.
+enum class pixel_format : std::uint8_t { mono8 = 1, bgr8 = 3 };
+
+/// The name in ROS: "mono8" or "bgr8".
+const char* encoding_name(pixel_format format);
+
+/// A picture whose rows follow each other without gaps.
+struct picture {
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  pixel_format format = pixel_format::mono8;
+  std::vector<std::uint8_t> pixels;
+
+  std::size_t step() const noexcept {
+    return std::size_t{width} * static_cast<std::size_t>(format);
+  }
+};
+
+/// The picture as a ROS message without a copy of its pixels, which must live
+/// as long as the result.
+ros2::image_view view(const picture& source, ros2::header header);
+
+/// Bytes that are no picture, or one that is too large. The text is for people.
+struct image_error : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// A larger picture is refused before memory is taken: a few bytes of PNG may
+/// stand for gigabytes. Twice as much as an 8K camera gives.
+constexpr std::uint64_t max_picture_pixels = 64'000'000;
+
+/// Decodes a PNG or JPEG file; transparency becomes white, more than 8 bits
+/// per channel are cut. Throws image_error.
+picture decode_picture(std::string_view file, pixel_format wanted);
+
+/// Compresses fast rather than well. Throws image_error.
+std::string encode_png(const picture& source);
+
+} // namespace roscell::vision

@@ -1,0 +1,108 @@
+#include "cell_fixture.hpp"
+
+#include "skills/ros2/protocol.hpp"
+
+#include <fastrtps/xmlparser/XMLProfileManager.h>
+
+#include <catch2/catch.hpp>
+
+namespace roscell::test {
+
+namespace {
+
+/// Participants of one process would hand messages to each other without a
+/// socket; instances of a cell are processes of their own.
+void use_sockets() {
+  eprosima::fastrtps::LibrarySettingsAttributes settings;
+  settings.intraprocess_delivery =
+      eprosima::fastrtps::IntraprocessDeliveryType::INTRAPROCESS_OFF;
+  eprosima::fastrtps::xmlparser::XMLProfileManager::library_settings(settings);
+}
+
+std::unique_ptr<cell_server> must_open(std::uint8_t id) {
+  cell_server_options options;
+  options.address = "127.0.0.1";
+  options.port = 0;
+  options.server_id = id;
+  options.announcement = "test";
+  auto result = cell_server::open(options);
+  if (auto* error = std::get_if<edge_error>(&result))
+    FAIL(error->message);
+  return std::get<0>(std::move(result));
+}
+
+} // namespace
+
+engine::say_function logbook::say() {
+  return [this](const std::string& line) {
+    std::lock_guard guard{mutex_};
+    lines_.push_back(line);
+    grown_.notify_all();
+  };
+}
+
+bool logbook::wait_for(const std::string& part) {
+  auto has_it = [&] {
+    return std::any_of(lines_.begin(), lines_.end(), [&](const auto& line) {
+      return line.find(part) != std::string::npos;
+    });
+  };
+  std::unique_lock guard{mutex_};
+  return grown_.wait_for(guard, patience, has_it);
+}
+
+std::vector<std::string> logbook::lines() const {
+  std::lock_guard guard{mutex_};
+  return lines_;
+}
+
+engine::variable_lookup lookup_in(variables values) {
+  auto kept = std::make_shared<const variables>(std::move(values));
+  return [kept](const char* name) -> const char* {
+    auto found = kept->find(name);
+    return found != kept->end() ? found->second.c_str() : nullptr;
+  };
+}
+
+cell::cell(std::uint8_t server_id)
+    : server_id_(server_id), server_(must_open(server_id)) {
+  // nop
+}
+
+variables cell::environment(const std::string& instance) const {
+  return {{"ROS_DOMAIN_ID", "0"},
+          {"ROS_DISCOVERY_SERVER", std::string(server_id_, ';')
+                                       + "127.0.0.1:" + std::to_string(port())},
+          {"ROSCELL_INSTANCE", instance}};
+}
+
+skill::skill(const variables& environment) {
+  use_sockets();
+  ros2::add_ros2_protocol(parts_, lookup_in(environment));
+}
+
+std::unique_ptr<engine::input_handler> skill::input(const std::string& topic,
+                                                    const std::string& type) {
+  return parts_.make_input(context(topic, type));
+}
+
+std::unique_ptr<engine::output_handler> skill::output(const std::string& topic,
+                                                      const std::string& type) {
+  auto result = parts_.make_output(context(topic, type));
+  result->open();
+  return result;
+}
+
+engine::stream_context skill::context(const std::string& topic,
+                                      const std::string& type) {
+  return {{"ros2", topic, type}, engine::parameters{parameters}, log.say()};
+}
+
+engine::frame frame_of(const std::string& type, std::string payload) {
+  engine::frame result;
+  result.data_type = type;
+  result.payload = std::move(payload);
+  return result;
+}
+
+} // namespace roscell::test

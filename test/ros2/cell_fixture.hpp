@@ -1,0 +1,81 @@
+#pragma once
+
+#include "skills/engine/registry.hpp"
+
+#include "actors/edge/discovery_server.hpp"
+
+#include "test/skills/support.hpp"
+
+#include <condition_variable>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+/// Skills' ends of topics, in cells on 127.0.0.1 with real discovery servers.
+namespace roscell::test {
+
+/// Lines said, in order; other threads add to it.
+class logbook {
+public:
+  engine::say_function say();
+
+  /// Waits for a line with `part`.
+  bool wait_for(const std::string& part);
+
+  std::vector<std::string> lines() const;
+
+private:
+  mutable std::mutex mutex_;
+  std::condition_variable grown_;
+  std::vector<std::string> lines_;
+};
+
+using variables = std::map<std::string, std::string>;
+
+/// The lookup of `values`, which it keeps.
+engine::variable_lookup lookup_in(variables values);
+
+/// A cell with its discovery server, as a coordinator runs it.
+class cell {
+public:
+  explicit cell(std::uint8_t server_id);
+
+  /// What the node of this cell tells an instance.
+  variables environment(const std::string& instance) const;
+
+  std::uint16_t port() const {
+    return server_->port();
+  }
+
+private:
+  std::uint8_t server_id_;
+  std::unique_ptr<cell_server> server_;
+};
+
+/// The ends of topics in one skill: what `engine::run` would make.
+class skill {
+public:
+  explicit skill(const variables& environment);
+
+  std::unique_ptr<engine::input_handler> input(const std::string& topic,
+                                               const std::string& type);
+
+  /// An output that is open.
+  std::unique_ptr<engine::output_handler> output(const std::string& topic,
+                                                 const std::string& type);
+
+  nlohmann::json parameters = nlohmann::json::object();
+  logbook log;
+
+private:
+  engine::stream_context context(const std::string& topic,
+                                 const std::string& type);
+
+  engine::registry parts_;
+};
+
+engine::frame frame_of(const std::string& type, std::string payload);
+
+} // namespace roscell::test

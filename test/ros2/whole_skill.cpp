@@ -1,0 +1,94 @@
+#include "cell_fixture.hpp"
+
+#include "skills/engine/primitive_base_engine.hpp"
+#include "skills/ros2/messages/cdr.hpp"
+#include "skills/ros2/protocol.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace roscell;
+using namespace roscell::test;
+
+namespace {
+
+constexpr const char* text = ros2::string::type_name;
+constexpr const char* image = ros2::image::type_name;
+
+/// Says how large an image is.
+class size_teller : public engine::executor {
+public:
+  void process(const engine::frame& input, engine::emitter& output) override {
+    auto x = ros2::view_image(input.payload);
+    output.emit(ros2::serialize(ros2::string{std::to_string(x.width) + "x"
+                                             + std::to_string(x.height)}));
+  }
+
+  void release() override {
+    // Nothing is held.
+  }
+};
+
+/// A skill from image to text, as a node of `home` starts it.
+class running_skill {
+public:
+  explicit running_skill(const cell& home) {
+    const auto lookup = lookup_in(home.environment("teller"));
+    ros2::add_ros2_protocol(parts_, lookup);
+    parts_.add_executor<size_teller>("teller");
+    env_.model = "teller";
+    env_.inputs = {{"ros2", "/image", image}};
+    env_.outputs = {{"ros2", "/size", text}};
+    engine_.emplace(parts_, env_, log.say());
+    thread_ = std::thread{[this] { code_ = engine_->run(); }};
+  }
+
+  ~running_skill() {
+    stop();
+  }
+
+  engine::exit_code stop() {
+    engine_->request_stop();
+    if (thread_.joinable())
+      thread_.join();
+    return code_;
+  }
+
+  logbook log;
+
+private:
+  engine::registry parts_;
+  engine::environment env_;
+  std::optional<engine::primitive_base_engine> engine_;
+  engine::exit_code code_{};
+  std::thread thread_;
+};
+
+std::string gray_image(std::uint32_t height, std::uint32_t width) {
+  std::vector<std::uint8_t> pixels(std::size_t{height} * width);
+  return ros2::serialize(
+      ros2::image{{}, height, width, "mono8", 0, width, pixels});
+}
+
+} // namespace
+
+TEST_CASE("a skill goes on after an image whose sizes lie") {
+  cell home{0};
+  skill camera{home.environment("camera")};
+  skill reader{home.environment("reader")};
+  running_skill teller{home};
+  running_input sizes{reader.input("/size", text)};
+  auto images = camera.output("/image", image);
+  REQUIRE(camera.log.wait_for("a reader has come"));
+  REQUIRE(teller.log.wait_for("'/image': a writer has come"));
+  REQUIRE(teller.log.wait_for("'/size': a reader has come"));
+  auto lie = gray_image(2, 3);
+  lie[24] = 7; // Its width, behind a header without a name.
+  images->write(frame_of(image, lie));
+  images->write(frame_of(image, gray_image(2, 3)));
+  auto got = sizes.sink().wait_for(0);
+  REQUIRE(got);
+  CHECK(ros2::deserialize<ros2::string>(got->payload).data == "3x2");
+  CHECK(teller.log.wait_for("frame 'image-1' failed (1 in a row): field "
+                            "'step': 3 bytes are too few for 7 pixels"));
+  CHECK(teller.stop() == engine::exit_code::done);
+}

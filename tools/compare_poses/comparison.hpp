@@ -1,0 +1,64 @@
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace roscell::comparison {
+
+/// Of a tag in the camera's optical frame.
+struct pose {
+  Eigen::Vector3d position; ///< metres
+  Eigen::Quaterniond orientation;
+};
+
+/// By tag id.
+using true_poses = std::map<int, pose>;
+
+/// By tag id, one pose per frame in which the tag was found.
+using estimated_poses = std::map<int, std::vector<pose>>;
+
+/// How far an estimate is from the truth.
+struct pose_error {
+  /// Distance between the two positions, in percent of the true distance from
+  /// the camera.
+  double distance_percent = 0;
+  double rotation_deg = 0;
+};
+
+pose_error error_of(const pose& estimate, const pose& truth);
+
+/// A true tag and what was estimated of it. Errors are medians over frames.
+struct tag_comparison {
+  int id = 0;
+  pose truth;
+  std::size_t frames = 0; ///< In how many the tag was found; 0: never.
+  pose_error error;
+  pose latest;
+};
+
+struct scene_comparison {
+  std::string name;
+  std::vector<tag_comparison> tags; ///< In the order of ids.
+  std::vector<int> strangers;       ///< Tags that are not in the scene.
+  std::vector<pose_error> errors;   ///< Of each tag in each frame.
+};
+
+scene_comparison compare(std::string name, const true_poses& truth,
+                         const estimated_poses& estimates);
+
+/// What one or more scenes come to.
+struct summary {
+  std::size_t tags = 0;
+  std::size_t found = 0;
+  pose_error median; ///< Over all tags and frames.
+
+  /// Whether every tag was found and neither median is above its limit.
+  bool is_within(const pose_error& limit) const;
+};
+
+summary summarize(const std::vector<scene_comparison>& scenes);
+
+} // namespace roscell::comparison

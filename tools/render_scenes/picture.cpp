@@ -1,0 +1,189 @@
+#include "tools/render_scenes/picture.hpp"
+
+#include "tools/render_scenes/camera.hpp"
+#include "tools/render_scenes/placement.hpp"
+
+#include <apriltag/apriltag.h>
+#include <apriltag/tag16h5.h>
+#include <apriltag/tag25h9.h>
+#include <apriltag/tag36h11.h>
+#include <apriltag/tagStandard41h12.h>
+#include <opencv2/imgproc.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <memory>
+#include <stdexcept>
+
+namespace roscell::scenes {
+
+namespace {
+
+constexpr double black = 25;
+constexpr double white = 225;
+
+struct known_family {
+  const char* name;
+  apriltag_family_t* (*create)();
+  void (*destroy)(apriltag_family_t*);
+};
+
+constexpr known_family families[] = {
+    {"tag36h11", tag36h11_create, tag36h11_destroy},
+    {"tag25h9", tag25h9_create, tag25h9_destroy},
+    {"tag16h5", tag16h5_create, tag16h5_destroy},
+    {"tagStandard41h12", tagStandard41h12_create, tagStandard41h12_destroy},
+};
+
+const known_family& find_family(const std::string& name) {
+  for (const auto& known : families)
+    if (name == known.name)
+      return known;
+  throw std::runtime_error("family '" + name
+                           + "' is none of tag36h11, tag25h9, tag16h5 and "
+                             "tagStandard41h12");
+}
+
+/// The library has no function of its own to free this in Debian.
+struct image_deleter {
+  void operator()(image_u8_t* image) const {
+    std::free(image->buf);
+    std::free(image);
+  }
+};
+
+cv::Mat cells_of(apriltag_family_t* family, unsigned id) {
+  std::unique_ptr<image_u8_t, image_deleter> drawn{
+      apriltag_to_image(family, static_cast<int>(id))};
+  return cv::Mat(drawn->height, drawn->width, CV_8U, drawn->buf,
+                 static_cast<std::size_t>(drawn->stride))
+      .clone();
+}
+
+/// Soft shapes in mid gray, so that a detector has something to reject.
+cv::Mat draw_background(const scene_options& options) {
+  cv::RNG random{options.seed};
+  cv::Mat coarse(options.height / 40 + 2, options.width / 40 + 2, CV_8U);
+  random.fill(coarse, cv::RNG::UNIFORM, 70, 190);
+  cv::Mat result;
+  cv::resize(coarse, result, {options.width, options.height}, 0, 0,
+             cv::INTER_CUBIC);
+  return result;
+}
+
+/// Draws one tag, pixel by pixel of the rectangle around it.
+class tag_drawing {
+public:
+  tag_drawing(const placed_tag& tag, const scene_options& options,
+              const tag_sheet& sheet, const camera& eye)
+      : tag_(tag), size_m_(options.tag_size_m), sheet_(sheet), eye_(eye),
+        inverse_(tag.orientation.conjugate()),
+        // A tag that looks away from the light is darker.
+        light_(0.7
+               + 0.3 * std::abs((inverse_ * tag.position.normalized()).z())) {
+    // nop
+  }
+
+  void draw_into(cv::Mat& scene) const {
+    const auto outline =
+        corners_of(tag_, size_m_ * (1 + 2 * sheet_.margin()), eye_);
+    Eigen::Array2d low = outline[0].array();
+    Eigen::Array2d high = low;
+    for (const auto& corner : outline) {
+      low = low.min(corner.array());
+      high = high.max(corner.array());
+    }
+    // Distortion may bend an edge outwards.
+    constexpr auto bend_px = 8;
+    for (auto y = std::max(0, static_cast<int>(low.y()) - bend_px);
+         y < std::min<int>(scene.rows, static_cast<int>(high.y()) + bend_px);
+         ++y)
+      for (auto x = std::max(0, static_cast<int>(low.x()) - bend_px);
+           x < std::min<int>(scene.cols, static_cast<int>(high.x()) + bend_px);
+           ++x)
+        draw_pixel(scene.at<std::uint8_t>(y, x), x, y);
+  }
+
+private:
+  void draw_pixel(std::uint8_t& pixel, int x, int y) const {
+    constexpr auto rays = 6;
+    auto sum = 0.0;
+    for (auto j = 0; j < rays; ++j)
+      for (auto i = 0; i < rays; ++i) {
+        auto shade =
+            shade_at({x + (i + 0.5) / rays - 0.5, y + (j + 0.5) / rays - 0.5});
+        sum += shade < 0 ? pixel : light_ * (shade == 0 ? black : white);
+      }
+    pixel = cv::saturate_cast<std::uint8_t>(sum / (rays * rays));
+  }
+
+  /// Where the ray of a pixel meets the plane of the tag.
+  int shade_at(const Eigen::Vector2d& pixel) const {
+    Eigen::Vector3d ray = inverse_ * eye_.ray_of(pixel);
+    Eigen::Vector3d origin = inverse_ * -tag_.position;
+    Eigen::Vector3d hit = (origin - ray * (origin.z() / ray.z())) / size_m_;
+    return sheet_.shade(tag_.id, hit.x(), hit.y());
+  }
+
+  const placed_tag& tag_;
+  const double size_m_;
+  const tag_sheet& sheet_;
+  const camera& eye_;
+  const Eigen::Quaterniond inverse_;
+  const double light_;
+};
+
+} // namespace
+
+tag_sheet::tag_sheet(const std::string& family, unsigned tags) {
+  const auto& known = find_family(family);
+  std::unique_ptr<apriltag_family_t, void (*)(apriltag_family_t*)> made{
+      known.create(), known.destroy};
+  if (tags > made->ncodes)
+    throw std::runtime_error(family + " has " + std::to_string(made->ncodes)
+                             + " tags only");
+  border_cells_ = made->width_at_border;
+  for (auto id = 0U; id < tags; ++id)
+    cells_.push_back(cells_of(made.get(), id));
+}
+
+double tag_sheet::margin() const {
+  return (cells_.front().cols / border_cells_ - 1) / 2;
+}
+
+int tag_sheet::shade(int id, double x, double y) const {
+  const auto& cells = cells_[static_cast<std::size_t>(id)];
+  auto column =
+      static_cast<int>(std::floor(x * border_cells_ + cells.cols / 2.0));
+  auto row = static_cast<int>(std::floor(cells.rows / 2.0 - y * border_cells_));
+  if (column < 0 || row < 0 || column >= cells.cols || row >= cells.rows)
+    return -1;
+  return cells.at<std::uint8_t>(row, column) > 127 ? 1 : 0;
+}
+
+cv::Mat draw_scene(const scene_options& options, const tag_sheet& sheet,
+                   const std::vector<placed_tag>& tags) {
+  auto result = draw_background(options);
+  camera eye{options};
+  for (const auto& tag : tags)
+    tag_drawing{tag, options, sheet, eye}.draw_into(result);
+  return result;
+}
+
+cv::Mat expose(const cv::Mat& scene, const scene_options& options,
+               unsigned frame) {
+  cv::Mat light;
+  scene.convertTo(light, CV_32F);
+  if (options.blur_px > 0)
+    cv::GaussianBlur(light, light, {}, options.blur_px);
+  cv::Mat noise(light.size(), CV_32F);
+  cv::RNG random{options.seed * 1'000'003 + frame};
+  random.fill(noise, cv::RNG::NORMAL, 0, options.noise);
+  light += noise;
+  cv::Mat result;
+  light.convertTo(result, CV_8U);
+  return result;
+}
+
+} // namespace roscell::scenes
