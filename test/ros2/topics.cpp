@@ -185,3 +185,11 @@ TEST_CASE("an output that nobody reads closes at once") {
   output->close();
   CHECK(writing.log.lines().empty());
 }
+
+TEST_CASE("a skill can be in the highest ROS domain") {
+  cell home{0};
+  auto environment = home.environment("writer");
+  environment["ROS_DOMAIN_ID"] = "232";
+  skill writing{environment};
+  CHECK(writing.output("/chatter", text) != nullptr);
+}
