@@ -107,6 +107,7 @@ cell_coordinator(self_pointer self, const house& context,
   add_own_row(self);
   restore_tasks(self);
   reconcile_own_node(self);
+  measure_own_node(self);
   self->set_down_handler([self](const caf::down_msg& down) {
     on_pipeline_down(self, down.source);
     on_member_down(self, down.source);

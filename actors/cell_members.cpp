@@ -193,6 +193,25 @@ void reconcile_own_node(self_pointer self) {
           });
 }
 
+void measure_own_node(self_pointer self) {
+  const auto& setup = self->state.setup;
+  if (!setup.agent)
+    return;
+  self->request(setup.agent, resource_timeout, resource_query{})
+      .then(
+          [self](resource_report& x) {
+            auto* own =
+                self->state.registry.find_uuid(self->state.setup.self.uuid);
+            x.resources.name = own->row.identity.name;
+            own->row.resources = std::move(x.resources);
+          },
+          [self](const caf::error& why) {
+            self->state.context.tell("measurement_failed",
+                                     self->state.setup.self.name,
+                                     {{"reason", to_failure(why).message}});
+          });
+}
+
 void on_session_admitted(self_pointer self, const session_admitted& fact) {
   spawn(self->system(), self->state.context, member, fact,
         cell_coordinator_actor{self});

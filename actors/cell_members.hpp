@@ -12,6 +12,9 @@ void add_own_row(coordinator_pointer self);
 /// registration does for other nodes. Called once the tasks are restored.
 void reconcile_own_node(coordinator_pointer self);
 
+/// Asks what this node offers, so that the registry shows it from the start.
+void measure_own_node(coordinator_pointer self);
+
 void on_session_admitted(coordinator_pointer self,
                          const session_admitted& fact);
 caf::result<node_registered> register_member(coordinator_pointer self,

@@ -20,6 +20,12 @@ constexpr std::chrono::seconds store_timeout{5};
 /// Longer than the grace time that an instance has to end by itself.
 constexpr std::chrono::seconds removal_timeout{40};
 
+void tell_store_failed(self_pointer self, const std::string& task,
+                       const caf::error& why) {
+  self->state.context.tell("store_failed", task,
+                           {{"reason", to_failure(why).message}});
+}
+
 /// Writes a record, then calls `done`. A store that fails is told of, and does
 /// not stop the work: a robot with a full disk still has to be commanded.
 void store(
@@ -32,8 +38,7 @@ void store(
                 store_record{"tasks", record.task, json(record).dump()})
       .then([done](const record_stored&) { done(); },
             [self, done, task = record.task](const caf::error& why) {
-              self->state.context.tell("store_failed", task,
-                                       {{"reason", to_failure(why).message}});
+              tell_store_failed(self, task, why);
               done();
             });
 }
@@ -42,7 +47,10 @@ void unstore(self_pointer self, const std::string& task) {
   if (self->state.setup.store)
     self->request(self->state.setup.store, store_timeout,
                   store_record{"tasks", task, ""})
-        .then([](const record_stored&) {}, [](const caf::error&) {});
+        .then([](const record_stored&) {},
+              [self, task](const caf::error& why) {
+                tell_store_failed(self, task, why);
+              });
 }
 
 void grant(self_pointer self, const claim_task& request,

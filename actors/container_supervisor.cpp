@@ -4,6 +4,7 @@
 #include "actors/instance_removal.hpp"
 #include "actors/instance_words.hpp"
 #include "actors/skill_instance.hpp"
+#include "actors/wall_clock.hpp"
 #include "messages/failure.hpp"
 
 #include <caf/result.hpp>
@@ -217,6 +218,7 @@ void on_instance_died(self_pointer self, const std::string& instance,
   if (++x.deaths <= limits::max_deaths)
     return spawn_actor(self, x, true);
   x.row.state = instance_state::failed;
+  x.row.since_unix_ms = unix_now_ms();
   x.row.reason = "its supervision has failed";
   if (st.listener)
     self->send(st.listener, instance_changed{x.row});
@@ -287,9 +289,7 @@ container_supervisor(self_pointer self,
   return {
       [self](const state_query&) { return state_of(summary(self->state)); },
       [self](const instance_deployment& x) { return deploy(self, x.spec); },
-      [self](const instance_removal& x) {
-        return remove_instances(self, x.task);
-      },
+      [self](const instance_removal& x) { return remove_instances(self, x); },
       [self](const instance_query& x) { return describe(self, x); },
       [self](const log_query& x) { return read_log(self, x); },
       [self](const listen_to_instances& x) {

@@ -97,11 +97,12 @@ void trim_ended(self_pointer self) {
 }
 
 caf::result<instances_removed> remove_instances(self_pointer self,
-                                                const std::string& task) {
+                                                const instance_removal& wish) {
   auto& st = self->state;
   pending_removal removal;
   for (const auto& [instance, x] : st.instances)
-    if (x.row.spec.task == task)
+    if (x.row.spec.task == wish.task
+        && (wish.instance.empty() || wish.instance == instance))
       removal.left.insert(instance);
   if (removal.left.empty())
     return instances_removed{};

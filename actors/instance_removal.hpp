@@ -23,8 +23,9 @@ void clean_instance(container_supervisor_pointer self,
 /// Keeps the newest rows of ended instances only.
 void trim_ended(container_supervisor_pointer self);
 
-/// Ends all instances of a task and replies when they are gone.
+/// Ends one instance or all of a task, and replies when they are gone.
 caf::result<instances_removed>
-remove_instances(container_supervisor_pointer self, const std::string& task);
+remove_instances(container_supervisor_pointer self,
+                 const instance_removal& wish);
 
 } // namespace roscell

@@ -42,6 +42,7 @@ void finish_leaving(self_pointer self) {
   st.address.clear();
   st.incarnation = 0;
   st.trouble.clear();
+  st.refusal.clear();
   st.pause.reset();
   for (auto& leaver : std::exchange(st.leavers, {}))
     leaver.deliver(node_departed{});

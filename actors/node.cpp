@@ -17,9 +17,9 @@
 #include "actors/session_connector.hpp"
 #include "actors/socket_address.hpp"
 #include "actors/state_store.hpp"
+#include "schemas/message_catalogue.hpp"
 
 #include <caf/actor_cast.hpp>
-#include <caf/scoped_actor.hpp>
 
 #include <filesystem>
 #include <utility>
@@ -30,11 +30,34 @@ namespace {
 
 constexpr uint16_t default_discovery_port = 11811;
 
-/// The probe may have to wait one second for its second CPU sample.
-constexpr std::chrono::seconds first_report_timeout{5};
-
 caf::error to_caf(const edge_error& why) {
   return fail(why.code, why.message, "", why.hint);
+}
+
+/// Refuses words that would make every message of this node invalid.
+caf::error check_words(const std::string& option,
+                       const node_resources& resources) {
+  const auto errors = document_errors("resource_report",
+                                      message_json(resource_report{resources}));
+  if (errors.empty())
+    return caf::none;
+  return fail(error_code::schema_violation, option + ": " + errors[0].expected);
+}
+
+caf::error check_words(const node_config& config) {
+  node_resources plain;
+  plain.architecture = "amd64";
+  plain.name = config.name;
+  if (auto why = check_words("--name", plain))
+    return why;
+  plain.name = config.cell;
+  if (auto why = check_words("--cell", plain))
+    return why;
+  plain.labels = config.labels;
+  if (auto why = check_words("--label", plain))
+    return why;
+  plain.devices = config.devices;
+  return check_words("--device", plain);
 }
 
 /// Checks the options and fills in what was left out.
@@ -47,6 +70,8 @@ caf::error complete(node_config& config) {
     config.name = mac_node_name(config.address);
   if (config.cell.empty())
     config.cell = config.name;
+  if (auto why = check_words(config))
+    return why;
   if (config.coordinator && !config.join.empty())
     return fail(error_code::schema_violation,
                 "a coordination node does not join another cell", "",

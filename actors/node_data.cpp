@@ -19,6 +19,8 @@ namespace roscell {
 
 namespace {
 
+using records = std::vector<sqlite_store::record>;
+
 namespace fs = std::filesystem;
 
 constexpr size_t min_site_token_bytes = 16;
@@ -97,14 +99,15 @@ caf::error load_site_token(node_data& data, const fs::path& path) {
 
 /// The records of a table that this version can read. What it cannot read was
 /// written by another version, and is left where it is.
+/// Reads what can be read of a table: a record of another version is not worth
+/// a node that does not start.
 template <class T>
-std::vector<T> load_records(sqlite_store& database, const std::string& table) {
-  std::vector<T> result;
+caf::error load_records(sqlite_store& database, const std::string& table,
+                        std::vector<T>& result) {
   auto loaded = database.load(table);
-  auto* records = std::get_if<std::vector<sqlite_store::record>>(&loaded);
-  if (!records)
-    return result;
-  for (const auto& [key, value] : *records) {
+  if (auto* why = std::get_if<edge_error>(&loaded))
+    return to_caf(*why);
+  for (const auto& [key, value] : std::get<records>(loaded)) {
     const auto document = json::parse(value, nullptr, false);
     if (document.is_discarded())
       continue;
@@ -112,25 +115,27 @@ std::vector<T> load_records(sqlite_store& database, const std::string& table) {
     if (auto* x = std::get_if<T>(&decoded))
       result.push_back(std::move(*x));
   }
-  return result;
+  return caf::none;
 }
 
-std::optional<json> find_record(sqlite_store& database,
-                                const std::string& key) {
-  auto loaded = database.load("identity");
-  if (auto* records = std::get_if<std::vector<sqlite_store::record>>(&loaded))
-    for (const auto& [name, value] : *records)
-      if (name == key)
-        if (auto document = json::parse(value, nullptr, false);
-            !document.is_discarded())
-          return document;
-  return std::nullopt;
+/// The document of that key, or null.
+json find_record(const records& table, const std::string& key) {
+  for (const auto& [name, value] : table)
+    if (name == key)
+      if (auto document = json::parse(value, nullptr, false);
+          !document.is_discarded())
+        return document;
+  return nullptr;
 }
 
 caf::error load_identity(node_data& data, bool coordinator) {
   auto& database = *data.database;
-  if (const auto known = find_record(database, "node")) {
-    auto decoded = decode<node_identity>(*known);
+  auto loaded = database.load("identity");
+  if (auto* why = std::get_if<edge_error>(&loaded))
+    return to_caf(*why);
+  const auto& table = std::get<records>(loaded);
+  if (const auto known = find_record(table, "node"); !known.is_null()) {
+    auto decoded = decode<node_identity>(known);
     if (auto* identity = std::get_if<node_identity>(&decoded))
       data.identity = std::move(*identity);
   }
@@ -141,9 +146,8 @@ caf::error load_identity(node_data& data, bool coordinator) {
   }
   if (!coordinator)
     return caf::none;
-  const auto known = find_record(database, "incarnation");
-  data.incarnation =
-      known && known->is_number_integer() ? known->get<int64_t>() + 1 : 1;
+  const auto known = find_record(table, "incarnation");
+  data.incarnation = known.is_number_integer() ? known.get<int64_t>() + 1 : 1;
   if (auto why = database.put("identity", "incarnation",
                               std::to_string(data.incarnation)))
     return to_caf(*why);
@@ -170,8 +174,10 @@ caf::expected<node_data> open_node_data(const node_config& config) {
     return why;
   if (auto why = load_site_token(data, config.site_token_file))
     return why;
-  data.instances = load_records<instance_row>(*data.database, "instances");
-  data.tasks = load_records<task_record>(*data.database, "tasks");
+  if (auto why = load_records(*data.database, "instances", data.instances))
+    return why;
+  if (auto why = load_records(*data.database, "tasks", data.tasks))
+    return why;
   return data;
 }
 

@@ -30,6 +30,16 @@ private:
 /// Everything of a node that is not an actor. It lives as long as the node, and
 /// longer than all actors that use it.
 struct node_edges {
+  node_edges() = default;
+  node_edges(const node_edges&) = delete;
+  node_edges& operator=(const node_edges&) = delete;
+
+  /// What still runs on the io thread uses the sockets, so it ends first.
+  ~node_edges() {
+    if (io)
+      io->stop();
+  }
+
   std::unique_ptr<io_thread> io;
   std::shared_ptr<late_handler> handler = std::make_shared<late_handler>();
   node_sockets sockets;

@@ -94,12 +94,11 @@ caf::result<node_description> describe(self_pointer self,
   return draft->promise;
 }
 
-/// The last step: instances go on, everything else ends.
+/// The last step: instances go on, everything else ends, and the node with it.
 void end_children(self_pointer self) {
   auto& parts = self->state.parts;
   for (auto i = parts.children.rbegin(); i != parts.children.rend(); ++i)
     self->send_exit(*i, caf::exit_reason::user_shutdown);
-  self->quit();
 }
 
 void stop(self_pointer self) {
@@ -118,10 +117,14 @@ void stop(self_pointer self) {
 }
 
 void on_child_down(self_pointer self, const caf::down_msg& down) {
-  if (self->state.stopping)
+  auto& st = self->state;
+  if (--st.open_children == 0)
+    return self->quit(st.end_reason);
+  if (std::exchange(st.stopping, true))
     return;
-  self->quit(fail(error_code::internal,
-                  "a part of the node has died: " + to_string(down.reason)));
+  st.end_reason = fail(error_code::internal, "a part of the node has died: "
+                                                 + to_string(down.reason));
+  end_children(self);
 }
 
 } // namespace
@@ -131,6 +134,7 @@ node_actor::behavior_type node(self_pointer self, const node_parts& parts) {
   self->state.started_unix_ms = unix_now_ms();
   for (const auto& child : parts.children)
     self->monitor(child);
+  self->state.open_children = parts.children.size();
   self->set_down_handler(
       [self](const caf::down_msg& down) { on_child_down(self, down); });
   parts.context.tell("node_started", parts.identity.name,

@@ -32,12 +32,15 @@ struct node_state_data {
   node_parts parts;
   int64_t started_unix_ms = 0;
   bool stopping = false;
+  size_t open_children = 0;
+  caf::error end_reason; ///< None after an orderly stop.
 };
 
 using node_pointer = node_actor::stateful_pointer<node_state_data>;
 
-/// The NODE. Messages: messages/coordination.hpp. A child that dies takes the
-/// node with it: whoever runs it starts it again, and it finds its instances.
+/// The NODE. Messages: messages/coordination.hpp. It ends after its children,
+/// which use its sockets. A child that dies takes the node with it: whoever
+/// runs it starts it again, and it finds its instances.
 node_actor::behavior_type node(node_pointer self, const node_parts& parts);
 
 } // namespace roscell

@@ -83,9 +83,12 @@ caf::result<log_excerpt> read_log(process_runtime_pointer self,
                 "/instance", "`roscell instances` lists them");
   auto excerpt = look(self, query);
   const auto wait_ms = std::clamp<int64_t>(query.wait_ms, 0, max_wait_ms);
-  if (says_something(excerpt) || wait_ms == 0
-      || follower_count(st) >= process_runtime_state::max_followers)
+  if (says_something(excerpt) || wait_ms == 0)
     return excerpt;
+  // An answer without a word would be asked again at once.
+  if (follower_count(st) >= process_runtime_state::max_followers)
+    return fail(error_code::conflict, "too many follow the logs of this node",
+                {}, "ask without following");
   auto promise = self->make_response_promise<log_excerpt>();
   const auto until = self->clock().now() + std::chrono::milliseconds{wait_ms};
   follow(self, query.instance).followers.push_back({query, until, promise});

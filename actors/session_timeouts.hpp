@@ -16,8 +16,9 @@ constexpr session_duration answer_margin{2000};
 /// A measurement that has no CPU sample yet takes a second.
 constexpr session_duration resource_query_timeout{6000};
 
-/// An image may have to be built first.
-constexpr session_duration deployment_timeout{120'000};
+/// An image may have to be built first, then the program starts: longer than
+/// the limits of a skill instance together.
+constexpr session_duration deployment_timeout{12 * 60'000};
 
 /// Instances are given 5 s to end by themselves.
 constexpr session_duration removal_timeout{30'000};

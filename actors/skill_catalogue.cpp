@@ -4,7 +4,7 @@
 #include "actors/edge/small_file.hpp"
 #include "actors/edge/utf8.hpp"
 #include "schemas/document.hpp"
-#include "schemas/validator.hpp"
+#include "schemas/message_catalogue.hpp"
 
 #include <algorithm>
 #include <exception>
@@ -28,45 +28,6 @@ constexpr size_t max_path_bytes = 512;
 /// Errors of one descriptor that are told.
 constexpr size_t max_errors = 20;
 
-/// Whether the path leads to something below the folder it starts in.
-bool stays_inside(const std::string& text) {
-  const fs::path path{text};
-  return path.is_relative() && path.has_filename()
-         && std::none_of(path.begin(), path.end(),
-                         [](const auto& part) { return part == ".."; });
-}
-
-/// Gives the pointer of each name that stood before.
-template <class T>
-std::vector<std::string> repeated(const std::vector<T>& named,
-                                  const std::string& pointer) {
-  std::vector<std::string> result;
-  std::set<std::string> seen;
-  for (size_t i = 0; i < named.size(); ++i)
-    if (!seen.insert(named[i].name).second)
-      result.push_back(pointer + '/' + std::to_string(i) + "/name");
-  return result;
-}
-
-/// What a schema cannot say.
-std::vector<schema_error> check(const skill_descriptor& x) {
-  std::vector<schema_error> result;
-  if (!stays_inside(x.entry_point.at(0)))
-    result.push_back({"/entry_point/0", "expected a program below the skill "
-                                        "folder, got '"
-                                            + x.entry_point[0] + "'"});
-  auto twice = repeated(x.models, "/models");
-  for (size_t i = 0; i < x.models.size(); ++i) {
-    const auto more = repeated(x.models[i].deployments,
-                               "/models/" + std::to_string(i) + "/deployments");
-    twice.insert(twice.end(), more.begin(), more.end());
-  }
-  for (auto& pointer : twice)
-    result.push_back(
-        {std::move(pointer), "expected a name that is not used before"});
-  return result;
-}
-
 /// The descriptor, or what is wrong with it.
 std::variant<skill_descriptor, std::vector<schema_error>>
 read_descriptor(const std::string& text) {
@@ -74,15 +35,11 @@ read_descriptor(const std::string& text) {
   if (const auto* why = std::get_if<failure>(&document))
     return std::vector<schema_error>{{why->where, why->message}};
   const auto& content = std::get<json>(document);
-  auto errors = validator::shared().validate("skill_descriptor", content);
+  auto errors = document_errors("skill_descriptor", content);
   if (!errors.empty())
     return errors;
   try {
-    auto result = content.get<skill_descriptor>();
-    errors = check(result);
-    if (!errors.empty())
-      return errors;
-    return result;
+    return content.get<skill_descriptor>();
   } catch (const std::exception& error) {
     return std::vector<schema_error>{{"", error.what()}};
   }

@@ -59,8 +59,8 @@ void report(self_pointer self) {
   self->send(self->state.config.supervisor, instance_changed{self->state.row});
 }
 
-void enter(self_pointer self, instance_state next,
-           const std::string& reason = {}) {
+void set_state(self_pointer self, instance_state next,
+               const std::string& reason) {
   auto& st = self->state;
   ++st.phase;
   st.deadline.reset();
@@ -69,6 +69,11 @@ void enter(self_pointer self, instance_state next,
   // It may quote a path, which may have any bytes.
   st.row.reason = valid_utf8(reason.substr(0, limits::reason_bytes));
   record_event(self, "instance_changed");
+}
+
+void enter(self_pointer self, instance_state next,
+           const std::string& reason = {}) {
+  set_state(self, next, reason);
   report(self);
 }
 
@@ -85,10 +90,11 @@ store_record record_of(const instance_row& row) {
 }
 
 void finish(self_pointer self, instance_state last, const std::string& reason) {
-  auto& st = self->state;
-  enter(self, last, reason);
+  set_state(self, last, reason);
+  // Before the report, after which the supervisor may remove the record.
   // Without a sender: nobody is left to read the answer.
-  caf::anon_send(st.config.store, record_of(st.row));
+  caf::anon_send(self->state.config.store, record_of(self->state.row));
+  report(self);
   self->quit();
 }
 

@@ -188,7 +188,7 @@ using cell_coordinator_actor = introspected_actor::extend<
     // until it records an outcome or ends. Errors: task_exists, conflict.
     caf::replies_to<claim_task>::with<task_claimed>,
     caf::replies_to<collect_resources>::with<cell_resources>,
-    // Errors: conflict (a member has gone meanwhile, or resources have).
+    // Errors: conflict (a member has gone meanwhile).
     caf::replies_to<record_intent>::with<intent_recorded>,
     caf::replies_to<record_outcome>::with<outcome_recorded>,
     // Errors: unknown_task.

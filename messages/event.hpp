@@ -9,7 +9,7 @@
 namespace roscell {
 
 /// A fact that has happened on this node. `type` is one of the words that
-/// docs/protocols.md lists: "node_joined", "instance_started", ...
+/// docs/protocols.md lists: "node_joined", "instance_changed", ...
 struct event {
   static constexpr const char* type = "event";
   uint64_t sequence = 0; ///< Counts from 1 at every start of the node.

@@ -175,7 +175,8 @@ using runtime_actor = introspected_actor::extend<
     caf::replies_to<stop_container>::with<container_stopped>,
     caf::replies_to<remove_container>::with<container_removed>,
     caf::replies_to<adopt_container>::with<container_adopted>,
-    // Errors: unknown_task (no log of that instance).
+    // Errors: unknown_task (no log of that instance), conflict (too many
+    // wait for more).
     caf::replies_to<log_query>::with<log_excerpt>>;
 
 /// INTERNAL to the process runtime: a watched program has ended.
@@ -254,7 +255,7 @@ using container_supervisor_actor = introspected_actor::extend<
     // node is full, the instance is being removed), schema_violation (the id
     // cannot be a file name).
     caf::replies_to<instance_deployment>::with<instance_deployed>,
-    // Replies once all instances of the task are gone; none is no error.
+    // Replies once they are gone; none is no error.
     // Errors: engine_failed (one cannot be removed).
     caf::replies_to<instance_removal>::with<instances_removed>,
     // Errors: unknown_task (no such instance).

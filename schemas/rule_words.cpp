@@ -20,6 +20,7 @@ std::string join(const std::vector<std::string>& words, const char* last) {
 
 std::string choice_of(const std::vector<std::string>& words) {
   std::vector<std::string> in_quotes;
+  in_quotes.reserve(words.size());
   for (const auto& word : words)
     in_quotes.push_back('"' + word + '"');
   auto prefix = words.size() > 1 ? "one of " : "";

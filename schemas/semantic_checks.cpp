@@ -133,7 +133,8 @@ void check_entry_point(error_list& errors, const place& words) {
   if (programs.empty())
     return;
   auto path = programs.front().text();
-  if (!path.empty() && (path.front() == '/' || climbs(path)))
+  if (!path.empty()
+      && (path.front() == '/' || path.back() == '/' || climbs(path)))
     refuse(errors, programs.front(),
            "the program to be a path below the skill's folder, without '..'");
 }

@@ -18,9 +18,9 @@ refuse() {
 refuse messages 'actors/|schemas/|skills/|tools/|test/'
 refuse schemas 'actors/|skills/|tools/|test/'
 refuse actors 'skills/|tools/|test/'
-refuse actors/edge 'actors/[a-z_]+\.hpp|caf/'
-refuse actors/allocation 'messages/|caf/|nlohmann/|actors/[a-z_]+\.hpp'
-refuse skills 'actors/|tools/|test/|schemas/|caf/'
+refuse actors/edge 'actors/[a-z_]+\.hpp|actors/(allocation|handlers)/|caf/'
+refuse actors/allocation 'messages/|schemas/|caf/|nlohmann/|actors/([a-z_]+\.hpp|edge/|handlers/)'
+refuse skills 'messages/|schemas/|actors/|tools/|test/|caf/'
 refuse tools/instance_shim 'actors/|messages/|schemas/|skills/|caf/'
 
 # loads PROGRAM PATTERN: the program must not need a library that matches.

@@ -1,12 +1,10 @@
 #!/usr/bin/env bash
 # Installs, builds and tests; prints a summary. Fast the second time.
-# Options: --unit, --system or --lint run that part only. --tidy (clang-tidy over
-# every source) and --fuzz (libFuzzer with clang) take long from nothing, so they
-# run only when asked for.
+# Options: --lint, --unit, --system, --fuzz or --tidy run that part only.
 set -uo pipefail
 cd "$(dirname "$0")/.."
 
-fuzz_seconds=${ROSCELL_FUZZ_SECONDS:-15}
+fuzz_seconds=${ROSCELL_FUZZ_SECONDS:-5}
 parts=${1:-all}
 log=build/test-logs
 passed=0 failed=0 skipped=0
@@ -53,8 +51,7 @@ tidy() {
 }
 
 build_fuzz() {
-  configure fuzz -DROSCELL_FUZZ_SECONDS="$fuzz_seconds" \
-    && ninja -C build/fuzz fuzzers
+  cmake --preset fuzz -DROSCELL_FUZZ_SECONDS="$fuzz_seconds" && ninja -C build/fuzz fuzzers
 }
 
 # Counts the test cases of one Catch program; one that does not tell how many it
@@ -72,6 +69,15 @@ unit() {
     tail -n 40 "$log/$name.log"
     ((++failed))
   fi
+}
+
+# Runs one fuzzer from its seeds for a bounded time.
+fuzz() {
+  local name inputs
+  name=$(basename "$1")
+  check "$name" ctest --test-dir build/fuzz -R "^$name\$" --verbose
+  inputs=$(grep -oE 'executed_units: *[0-9]+' "$log/$name.log" | grep -oE '[0-9]+')
+  echo "         $inputs inputs in $fuzz_seconds s"
 }
 
 system() {
@@ -112,15 +118,14 @@ if wants unit; then
   done
 fi
 wants system && system
-[[ $parts == --tidy ]] && check tidy tidy
-if [[ $parts == --fuzz ]]; then
+if wants fuzz; then
+  say "building the fuzzers"
   check build-fuzz build_fuzz
   for program in build/fuzz/bin/*_fuzz; do
-    [[ -x $program ]] || continue
-    name=$(basename "$program")
-    check "$name" ctest --test-dir build/fuzz -R "^$name\$" --output-on-failure
+    [[ -x $program ]] && fuzz "$program"
   done
 fi
+wants tidy && check tidy tidy
 
 for reason in "${skip_reasons[@]}"; do
   echo "$reason"

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Runs clang-tidy on the sources of the product, two at a time.
+"""Runs clang-tidy on the sources of the product, one for each core at a time.
 
 A source that passed is not looked at again until it, a header of ours that it
 includes, or the configuration changes. Usage: tools/tidy.py BUILD_DIR

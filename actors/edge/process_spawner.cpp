@@ -62,6 +62,7 @@ public:
     auto texts = what.arguments;
     texts.insert(texts.begin(), what.path.string());
     std::vector<std::string> settings;
+    settings.reserve(what.environment.size());
     for (const auto& [name, value] : what.environment)
       settings.push_back(name + '=' + value);
     return ::posix_spawn(&pid, what.path.c_str(), &actions_, &attributes_,
@@ -71,6 +72,7 @@ public:
 private:
   static std::vector<char*> pointers(std::vector<std::string>& texts) {
     std::vector<char*> result;
+    result.reserve(texts.size() + 1);
     for (auto& x : texts)
       result.push_back(x.data());
     result.push_back(nullptr);

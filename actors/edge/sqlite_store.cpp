@@ -74,6 +74,14 @@ edge_error meaning(int code, const std::string& file) {
   }
 }
 
+/// SQLite would let everybody read a file that it makes. Where this fails,
+/// SQLite tells why. The descriptor must be closed before SQLite locks the
+/// file, because any close drops the locks of the process.
+void make_private(const std::filesystem::path& file) {
+  const unique_fd made{
+      ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, S_IRUSR | S_IWUSR)};
+}
+
 } // namespace
 
 void sqlite_store::closer::operator()(sqlite3* db) const {
@@ -88,11 +96,7 @@ sqlite_store::sqlite_store(std::filesystem::path file,
 
 edge_result<sqlite_store>
 sqlite_store::open(const std::filesystem::path& file) {
-  // SQLite would let everybody read a file that it makes. Where this fails,
-  // SQLite tells why. It is closed before SQLite locks the file, because any
-  // close drops the locks of the process.
-  unique_fd{
-      ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, S_IRUSR | S_IWUSR)};
+  make_private(file);
   sqlite3* db = nullptr;
   // The handle is there even after a failure, to tell what went wrong.
   const int code =

@@ -17,7 +17,7 @@ constexpr std::chrono::seconds turn_timeout{60};
 constexpr std::chrono::seconds search_timeout{60};
 
 /// Longest wait until an instance runs: an image may have to be built.
-constexpr std::chrono::minutes deployment_timeout{10};
+constexpr std::chrono::minutes deployment_timeout{13};
 
 /// Ending what a failed deployment has started, on every node at once.
 constexpr std::chrono::seconds rollback_timeout{60};

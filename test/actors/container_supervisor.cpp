@@ -233,6 +233,20 @@ TEST_CASE("removing a task leaves nothing of its instances") {
   CHECK(b.row("c").state == instance_state::running);
 }
 
+TEST_CASE("removing one instance leaves the others of its task") {
+  bench b;
+  b.start();
+  b.deploy("a", "t");
+  b.deploy("b", "t");
+  b.say("a");
+  b.say("b");
+  const auto answer =
+      b.ask<instances_removed>(b.supervisor, instance_removal{"t", "a"});
+  b.settle();
+  CHECK(reply(answer).instances == words{"a"});
+  CHECK(b.row("b").state == instance_state::running);
+}
+
 TEST_CASE("removing an unknown task removes nothing and is no error") {
   bench b;
   b.start();

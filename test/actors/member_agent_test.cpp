@@ -42,19 +42,19 @@ TEST_CASE_METHOD(cell_fixture, "a member is a node agent") {
   }
 }
 
-TEST_CASE_METHOD(cell_fixture, "a deployment may take two minutes and no "
+TEST_CASE_METHOD(cell_fixture, "a deployment may take twelve minutes and no "
                                "more") {
   form_cell();
-  node.deployment_takes = 117s;
+  node.deployment_takes = 717s;
   auto slow = time.ask<instance_deployed>(
       member(), instance_deployment{some_spec("t-a-1", "t")});
-  site.pass(118s);
+  site.pass(718s);
   REQUIRE(*slow);
   CHECK((*slow)->engaged());
-  node.deployment_takes = 130s;
+  node.deployment_takes = 730s;
   auto never = time.ask<instance_deployed>(
       member(), instance_deployment{some_spec("t-b-1", "t")});
-  site.pass(117s);
+  site.pass(717s);
   CHECK_FALSE(*never);
   site.pass(2s);
   REQUIRE(*never);

@@ -87,7 +87,7 @@ void add_logs_command(CLI::App& app, action& chosen) {
       ->add_option("--tail", options->tail,
                    "Only the last LINES lines, at most 64 KiB of them; "
                    "without it all that is kept")
-      ->check(CLI::Range(uint64_t{1}, uint64_t{1000000}))
+      ->check(CLI::Range(uint64_t{1}, uint64_t{100'000}))
       ->option_text("LINES");
   command->callback([&chosen, options] {
     chosen = [options] { return show_logs(*options); };

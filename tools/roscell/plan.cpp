@@ -1,7 +1,7 @@
 #include "actors/task_allocation.hpp"
 #include "schemas/decode.hpp"
 #include "schemas/document.hpp"
-#include "schemas/validator.hpp"
+#include "schemas/message_catalogue.hpp"
 #include "tools/roscell/commands.hpp"
 #include "tools/roscell/exit_code.hpp"
 #include "tools/roscell/plan_view.hpp"
@@ -33,9 +33,8 @@ plan_result plan_of(const std::string& text) {
   if (auto* why = std::get_if<failure>(&parsed))
     return *why;
   const auto& document = std::get<json>(parsed);
-  const auto errors = validator::shared().validate("plan_document", document);
-  if (!errors.empty())
-    return to_failure(errors);
+  if (auto why = validate_document("plan_document", document))
+    return std::move(*why);
   auto decoded = decode<plan_document>(document);
   if (auto* why = std::get_if<failure>(&decoded))
     return *why;
