@@ -5,6 +5,7 @@
 #include <fastrtps/utils/IPLocator.h>
 
 #include <algorithm>
+#include <random>
 #include <string_view>
 
 namespace roscell::ros2 {
@@ -61,6 +62,15 @@ void set_server_prefix(eprosima::fastrtps::rtps::GuidPrefix_t& prefix,
   prefix.value[2] = id;
 }
 
+/// Fast DDS makes the GUID of a participant of the process id and 16 random
+/// bits, and processes in containers have the same few process ids.
+std::int32_t make_participant_id() {
+  constexpr std::int32_t lowest = 1000; // Above those that Fast DDS hands out.
+  constexpr std::int32_t highest = 25000;
+  std::random_device source;
+  return std::uniform_int_distribution<std::int32_t>{lowest, highest}(source);
+}
+
 void use_servers(dds::WireProtocolConfigQos& wire,
                  const participant_config& config, const std::string& address) {
   auto& discovery = wire.builtin.discovery_config;
@@ -73,6 +83,9 @@ void use_servers(dds::WireProtocolConfigQos& wire,
         udp_locator(server.address, server.port));
     discovery.m_DiscoveryServers.push_back(remote);
   }
+  wire.participant_id = make_participant_id();
+  // Fast DDS checks the ports that it would derive from domain and id.
+  wire.port.domainIDGain = 0;
   // With addresses of our own Fast DDS opens no multicast ones. Discovery and
   // messages share a port, so that a writer's farewell does not overtake its
   // last message.

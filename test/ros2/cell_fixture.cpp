@@ -19,11 +19,12 @@ void use_sockets() {
   eprosima::fastrtps::xmlparser::XMLProfileManager::library_settings(settings);
 }
 
-std::unique_ptr<cell_server> must_open(std::uint8_t id) {
+std::unique_ptr<cell_server> must_open(std::uint8_t id, std::uint32_t domain) {
   cell_server_options options;
   options.address = "127.0.0.1";
   options.port = 0;
   options.server_id = id;
+  options.domain_id = domain;
   options.announcement = "test";
   auto result = cell_server::open(options);
   if (auto* error = std::get_if<edge_error>(&result))
@@ -64,13 +65,14 @@ engine::variable_lookup lookup_in(variables values) {
   };
 }
 
-cell::cell(std::uint8_t server_id)
-    : server_id_(server_id), server_(must_open(server_id)) {
+cell::cell(std::uint8_t server_id, std::uint32_t domain_id)
+    : server_id_(server_id), domain_id_(domain_id),
+      server_(must_open(server_id, domain_id)) {
   // nop
 }
 
 variables cell::environment(const std::string& instance) const {
-  return {{"ROS_DOMAIN_ID", "0"},
+  return {{"ROS_DOMAIN_ID", std::to_string(domain_id_)},
           {"ROS_DISCOVERY_SERVER", std::string(server_id_, ';')
                                        + "127.0.0.1:" + std::to_string(port())},
           {"ROSCELL_INSTANCE", instance}};

@@ -40,7 +40,7 @@ engine::variable_lookup lookup_in(variables values);
 /// A cell with its discovery server, as a coordinator runs it.
 class cell {
 public:
-  explicit cell(std::uint8_t server_id);
+  explicit cell(std::uint8_t server_id, std::uint32_t domain_id = 0);
 
   /// What the node of this cell tells an instance.
   variables environment(const std::string& instance) const;
@@ -51,6 +51,7 @@ public:
 
 private:
   std::uint8_t server_id_;
+  std::uint32_t domain_id_;
   std::unique_ptr<cell_server> server_;
 };
 

@@ -57,8 +57,9 @@ TEST_CASE("a message reaches the readers of its cell") {
 }
 
 TEST_CASE("two cells with the same topic never see each other's messages") {
-  cell first{1};
-  cell second{2};
+  // In one ROS domain, so that nothing but the servers keeps them apart.
+  cell first{1, 3};
+  cell second{2, 3};
   skill reading_first{first.environment("reader")};
   skill reading_second{second.environment("reader")};
   skill writing_first{first.environment("writer")};
@@ -184,4 +185,15 @@ TEST_CASE("an output that nobody reads closes at once") {
   output->write(text_frame("into the void"));
   output->close();
   CHECK(writing.log.lines().empty());
+}
+
+TEST_CASE("a skill can be in the highest ROS domain") {
+  cell home{0, 232};
+  skill reading{home.environment("reader")};
+  skill writing{home.environment("writer")};
+  running_input input{reading.input("/chatter", text)};
+  auto output = writing.output("/chatter", text);
+  REQUIRE(writing.log.wait_for("has come; now 1"));
+  output->write(text_frame("hello"));
+  CHECK(text_of(input.sink().wait_for(0)) == "hello");
 }
