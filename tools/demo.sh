@@ -1,8 +1,29 @@
 #!/usr/bin/env bash
-# Installs, builds, and runs a task on a cell of four nodes on this machine:
-# what a first look at ROSCell needs. Cleans up after itself.
+# From pictures to robot poses, on a cell of four nodes on this machine: installs,
+# builds, renders four scenes of AprilTags at known poses, lets four cameras and
+# four pose estimators run on the cell, and compares their poses with the truth.
+#
+#   --once         end by itself; exit code 0 only if every tag is found and the
+#                  median errors are at most 1 % of the distance and 2 degrees
+#   --images DIR   instead of the scenes take the PNG or JPEG pictures of DIR,
+#                  with a calibration beside them (camera.json) for poses
+#   --containers   run the skills in containers of Docker or Podman
 set -euo pipefail
 cd "$(dirname "$0")/.."
+
+once=false
+containers=false
+images=
+while [[ $# -gt 0 ]]; do
+  case $1 in
+    --once) once=true ;;
+    --containers) containers=true ;;
+    --images) images=$(realpath "${2:?--images needs a folder}"); shift ;;
+    -h | --help) sed -n '2,11s/^# \{0,1\}//p' "$0"; exit ;;
+    *) echo "demo.sh: unknown option $1 (--help tells more)" >&2; exit 2 ;;
+  esac
+  shift
+done
 
 say() {
   printf '\n== %s\n' "$*"
@@ -10,68 +31,144 @@ say() {
 
 say "installing what is missing"
 tools/install.sh
-command -v jq > /dev/null || { apt-get install -y -qq jq > /dev/null; }
-say "building (once)"
+say "building (the first time takes some minutes)"
 export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1
 [[ -f build/release/build.ninja ]] || cmake --preset release > /dev/null
-ninja -C build/release roscell instance_shim echo_skill | tail -n 1
+ninja -C build/release roscell instance_shim image_source_skill \
+  pose_estimation_skill render_scenes compare_poses | tail -n 1
 
-roscell=$PWD/build/release/bin/roscell
+bin=$PWD/build/release/bin
 dir=$(mktemp -d /tmp/roscell-demo.XXXXXX)
+kept=$PWD/build/demo
+mkdir -p "$dir/out" "$kept"
 nodes=()
+task=
 finish() {
+  trap - EXIT INT TERM
+  [[ -z $task ]] || end_task > /dev/null 2>&1 || true
   kill "${nodes[@]}" 2> /dev/null || true
-  wait 2> /dev/null || true
+  wait "${nodes[@]}" 2> /dev/null || true
+  $containers && . tools/demo_containers.sh stop
   rm -rf "$dir"
 }
 trap finish EXIT
+trap 'exit 130' INT
+trap 'exit 143' TERM
+
+runtime=process
+if $containers; then
+  say "a container engine and the base image of the skills"
+  . tools/demo_containers.sh start
+fi
 
 # start NAME OPTION...: starts a node and waits until it says that it is ready.
 start() {
   local name=$1
   shift
   mkfifo "$dir/$name.ready"
-  "$roscell" node --name "$name" --interface lo --port 0 --discovery-port 0 \
-    --data-dir "$dir/$name" --skills build/release/skills --ready-fd 5 "$@" \
-    5> "$dir/$name.ready" 2> "$dir/$name.log" &
+  "$bin/roscell" node --name "$name" --interface lo --port 0 \
+    --discovery-port 0 --data-dir "$dir/$name" --skills build/release/skills \
+    --capacity cpu=2,memory_mib=2048,disk_mib=4096 --runtime "$runtime" \
+    --ready-fd 5 "$@" 5> "$dir/$name.ready" 2> "$dir/$name.log" &
   nodes+=($!)
   read -r -t 20 _ < "$dir/$name.ready" || { cat "$dir/$name.log"; exit 1; }
 }
 
+# Waits until the cell has that many nodes.
+await_size() {
+  local line events
+  exec {events}< <(exec "$bin/roscell" events --since 0 -o json)
+  local reader=$!
+  while read -r -t 20 line <&"$events"; do
+    [[ $line == *"\"size\":$1"* ]] && break
+  done
+  kill "$reader"
+  exec {events}<&-
+}
+
+# A camera and a pose estimator for each folder of pictures.
+make_request() {
+  local folders=("$@") n
+  for n in "${!folders[@]}"; do
+    jq -n --arg n $((n + 1)) --arg folder "${folders[n]}" --arg out "$dir/out" \
+      --argjson estimation "$estimation" '
+      def ros2($topic; $type):
+        {protocol: "ros2", endpoint: "/scene_\($n)/\($topic)",
+         data_type: "sensor_msgs/msg/\($type)"};
+      {id: "camera_\($n)", operation: "image_source", model: "folder",
+       input: {protocol: "file", endpoint: $folder, data_type: "image/png"},
+       output: [ros2("image"; "Image"), ros2("camera_info"; "CameraInfo")]},
+      {id: "poses_\($n)", operation: "pose_estimation", model: "apriltag3",
+       parameters: $estimation,
+       input: [ros2("image"; "Image"), ros2("camera_info"; "CameraInfo")],
+       output: [
+         {protocol: "ros2", endpoint: "/scene_\($n)/tf",
+          data_type: "tf2_msgs/msg/TFMessage"},
+         {protocol: "file", endpoint: "\($out)/scene_\($n).jsonl",
+          data_type: "application/json"},
+         {protocol: "file", endpoint: "\($out)/pictures",
+          data_type: "image/png"}]}'
+  done | jq -s '{type: "task_request", task: "fleet-poses", pipeline: .}'
+}
+
+end_task() {
+  echo '{"type": "task_termination", "task": "fleet-poses"}' \
+    | "$bin/roscell" request -
+}
+
+if [[ -n $images ]]; then
+  folders=("$images")
+  estimation='{"decimation": 1, "refine": false}'
+else
+  say "four scenes with 4, 8, 24 and 48 tags, rendered at known poses"
+  "$bin/render_scenes" "$dir/scenes"
+  folders=("$dir"/scenes/scene_{1,2,3,4})
+  estimation='{"tag_size_m": 0.16}'
+fi
+
 say "a coordination node and three primary nodes, each a process of its own"
 start head --coordinator --cell demo
 export ROSCELL_TO=$dir/head/node.sock
-server=$("$roscell" cells -o json | jq -r '.. | .discovery_server? // empty' \
-  | head -n 1)
+server=$("$bin/roscell" cells -o json | jq -r '.cells[0].discovery_server')
 for name in arm belt camera; do
   start "$name" --join "$server"
 done
-"$roscell" events --since 0 -o json \
-  | while read -r line; do
-      [[ $line == *'"size":4'* ]] && break
-    done
-"$roscell" nodes
+await_size 4
+"$bin/roscell" nodes
 
-say "one task: two steps, the second reads what the first writes"
-echo "hello from the reader" > "$dir/first.txt"
-cat > "$dir/task.json" << JSON
-{ "type": "task_request", "task": "greeting", "pipeline": [
-  { "id": "first", "operation": "echo", "model": "plain",
-    "parameters": { "prefix": "one: " },
-    "input":  { "protocol": "file", "endpoint": "$dir/first.txt", "data_type": "text/plain" },
-    "output": { "protocol": "file", "endpoint": "$dir/second.txt", "data_type": "text/plain" } },
-  { "id": "second", "operation": "echo", "model": "plain",
-    "parameters": { "prefix": "two: " },
-    "input":  { "protocol": "file", "endpoint": "$dir/second.txt", "data_type": "text/plain" },
-    "output": { "protocol": "file", "endpoint": "$dir/third.txt", "data_type": "text/plain" } } ] }
-JSON
-touch "$dir/second.txt" "$dir/third.txt"
-"$roscell" request "$dir/task.json"
-"$roscell" instances
-say "what came out at the end"
-timeout 20 tail -n +1 -F "$dir/third.txt" 2> /dev/null | head -n 1
+say "one request: a camera and a pose estimator for each scene"
+mkdir -p "$dir/out/pictures"
+make_request "${folders[@]}" > "$dir/request.json"
+task=fleet-poses
+"$bin/roscell" request "$dir/request.json" > "$dir/reply.json" \
+  || { jq -r '.error | .message, .hint' "$dir/reply.json"; exit 1; }
+jq -r '(.allocations[] | "\(.step)  on  \(.node)"),
+  "score \(.score.total), balance \(.score.balance), load \(.score.load)"' \
+  "$dir/reply.json"
+"$bin/roscell" instances
 
-say "one request removes it"
-echo '{"type":"task_termination","task":"greeting"}' | "$roscell" request
-"$roscell" tasks
-say "done"
+lines=()
+for n in "${!folders[@]}"; do
+  lines+=("${folders[n]}" "$dir/out/scene_$((n + 1)).jsonl")
+done
+code=0
+if [[ -n $images ]]; then
+  say "what the estimator sees"
+  timeout 60 tail -n +1 -F "$dir/out/scene_1.jsonl" 2> /dev/null \
+    | { if $once; then head -n 1; else cat; fi; } || true
+elif $once; then
+  say "poses beside the truth"
+  "$bin/compare_poses" --wait 60 --frames 5 "${lines[@]}" || code=$?
+else
+  say "poses beside the truth; Ctrl-C ends"
+  trap - INT
+  "$bin/compare_poses" --watch --last 5 "${lines[@]}" || true
+fi
+cp "$dir"/out/pictures/*.png "$kept" 2> /dev/null \
+  && say "annotated pictures: $kept"
+
+say "one request removes it all"
+end_task
+task=
+"$bin/roscell" instances
+exit "$code"

@@ -12,12 +12,14 @@ packages=(
   libapriltag-dev libeigen3-dev libpng-dev libturbojpeg0-dev libyaml-cpp-dev
   libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev
   libopencv-videoio-dev
+  # For the demo, which reads and writes JSON.
+  jq
 )
 if [[ "${1:-}" == --with-tests ]]; then
   packages+=(
     # To check: format, lint and fuzzers; namespaces, HTTP and JSON in scripts.
     clang clang-format clang-tidy libclang-rt-14-dev libfuzzer-14-dev
-    iproute2 nftables jq curl procps python3-minimal
+    iproute2 nftables curl procps python3-minimal
   )
 fi
 
