@@ -22,6 +22,8 @@ namespace {
 /// Most of what a program says of its failure.
 constexpr size_t max_words_bytes = 2048;
 
+using clock = std::chrono::steady_clock;
+
 edge_error failed(const program& what, const std::string& why) {
   return {error_code::engine_failed,
           "cannot start '" + what.path.string() + "': " + why,
@@ -81,28 +83,33 @@ private:
   posix_spawnattr_t attributes_;
 };
 
-/// Reads until the other end is closed. Returns false when time runs out.
-bool read_words(int fd, std::chrono::milliseconds limit, std::string& words) {
-  using clock = std::chrono::steady_clock;
-  const auto end = clock::now() + limit;
+/// Waits until there is something to read. Returns false when time runs out.
+bool await_readable(int fd, clock::time_point end) {
   for (;;) {
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(
         end - clock::now());
     pollfd waited{fd, POLLIN, 0};
     const int wait_ms = std::max(0, static_cast<int>(left.count()));
-    if (const int n = ::poll(&waited, 1, wait_ms); n == 0)
-      return false;
-    else if (n < 0)
-      continue; // Interrupted.
-    std::array<char, 512> buffer;
+    if (const int n = ::poll(&waited, 1, wait_ms); n >= 0)
+      return n > 0;
+  }
+}
+
+/// Reads until the other end is closed, and keeps so much of it. Returns false
+/// when time runs out.
+bool read_words(int fd, clock::time_point end, size_t max_bytes,
+                std::string& words) {
+  while (await_readable(fd, end)) {
+    std::array<char, 4096> buffer;
     const auto n = ::read(fd, buffer.data(), buffer.size());
     if (n < 0 && errno == EINTR)
       continue;
     if (n <= 0)
       return true;
-    const auto room = max_words_bytes - words.size();
+    const auto room = max_bytes - words.size();
     words.append(buffer.data(), std::min(static_cast<size_t>(n), room));
   }
+  return false;
 }
 
 /// The exit code of a child that has ended with one other than 0, else 0.
@@ -128,42 +135,83 @@ void kill_and_reap(int pidfd) {
   ::waitid(P_PIDFD, static_cast<id_t>(pidfd), &info, WEXITED);
 }
 
-} // namespace
+/// A child whose standard output and error can be read.
+struct speaking_child {
+  spawned_program child;
+  unique_fd output;
+};
 
-edge_result<spawned_program> spawn_program(const program& what,
-                                           std::chrono::milliseconds limit) {
+edge_result<speaking_child> start(const program& what) {
   int ends[2] = {-1, -1};
   if (::pipe2(ends, O_CLOEXEC) != 0)
     return failed(what, std::strerror(errno));
-  const unique_fd reading{ends[0]};
+  speaking_child result;
+  result.output = unique_fd{ends[0]};
   unique_fd writing{ends[1]};
-  spawned_program result;
   pid_t pid = -1;
   if (const int error = spawn_setup{writing.get()}.run(what, pid); error != 0)
     return failed(what, std::strerror(error));
-  writing.reset();
   // Nobody else reaps our child, so the number is still its own.
-  result.pidfd = unique_fd{::pidfd_open(pid, 0)};
-  if (!result.pidfd) {
+  result.child.pidfd = unique_fd{::pidfd_open(pid, 0)};
+  if (!result.child.pidfd) {
     const std::string why = std::strerror(errno);
     ::kill(pid, SIGKILL);
     ::waitpid(pid, nullptr, 0);
     return failed(what, "pidfd_open: " + why + " (needs Linux 5.3)");
   }
-  result.identity = identify(pid).value_or(process_identity{pid, 0});
+  result.child.identity = identify(pid).value_or(process_identity{pid, 0});
+  return result;
+}
+
+/// Why a program has ended with a code other than 0.
+std::string reason(const std::string& words, int code) {
+  const auto said = trimmed(words.substr(0, max_words_bytes));
+  return said.empty() ? "it ended with code " + std::to_string(code) : said;
+}
+
+} // namespace
+
+edge_result<spawned_program> spawn_program(const program& what,
+                                           std::chrono::milliseconds limit) {
+  auto started = start(what);
+  if (auto* error = std::get_if<edge_error>(&started))
+    return std::move(*error);
+  auto& [child, output] = std::get<speaking_child>(started);
   std::string words;
-  if (!read_words(reading.get(), limit, words)) {
-    kill_and_reap(result.pidfd.get());
+  if (!read_words(output.get(), clock::now() + limit, max_words_bytes, words)) {
+    kill_and_reap(child.pidfd.get());
     return failed(what, "it did not start in time");
   }
-  const auto code = failure_code(result.pidfd.get());
+  const auto code = failure_code(child.pidfd.get());
   if (code == 0)
-    return result;
-  kill_and_reap(result.pidfd.get());
-  words = trimmed(words);
-  return failed(what, words.empty()
-                          ? "it ended with code " + std::to_string(code)
-                          : words);
+    return std::move(child);
+  kill_and_reap(child.pidfd.get());
+  return failed(what, reason(words, code));
+}
+
+edge_result<std::string> run_program(const program& what,
+                                     std::chrono::milliseconds limit,
+                                     size_t max_bytes) {
+  auto started = start(what);
+  if (auto* error = std::get_if<edge_error>(&started))
+    return std::move(*error);
+  auto& [child, output] = std::get<speaking_child>(started);
+  const auto end = clock::now() + limit;
+  std::string words;
+  const bool in_time = read_words(output.get(), end, max_bytes, words)
+                       && await_readable(child.pidfd.get(), end);
+  const auto code = failure_code(child.pidfd.get());
+  kill_and_reap(child.pidfd.get());
+  if (!in_time)
+    return edge_error{error_code::timeout,
+                      "'" + what.path.string() + "' did not end within "
+                          + std::to_string(limit.count() / 1000) + " s",
+                      ""};
+  if (code != 0)
+    return edge_error{
+        error_code::engine_failed,
+        "'" + what.path.string() + "' failed: " + reason(words, code), ""};
+  return words;
 }
 
 } // namespace roscell
