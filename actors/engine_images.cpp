@@ -184,12 +184,15 @@ std::string step_of(const json& line) {
   return text.substr(0, max_line_bytes);
 }
 
-void tell_step(self_pointer self, image_work& work, const std::string& step) {
+/// Whether a line tells of more than the engine's own book-keeping.
+bool is_step(const std::string& line) {
+  return line.rfind(" --->", 0) != 0 && line.rfind("Removing ", 0) != 0;
+}
+
+void tell_step(self_pointer self, image_work& work) {
   auto& st = self->state;
-  const auto now = self->clock().now();
-  if (now < work.next_words)
-    return;
-  work.next_words = now + engine_runtime_state::words_interval;
+  const auto step = std::exchange(work.step, {});
+  work.next_words = self->clock().now() + engine_runtime_state::words_interval;
   st.config.context.tell("image_building", work.image, {{"step", step}});
   for (const auto& x : work.waiters)
     self->send(st.listener,
@@ -232,7 +235,19 @@ void on_build_lines(self_pointer self, image_work& work,
     work.log.push_back(step);
     if (work.log.size() > engine_runtime_state::kept_build_lines)
       work.log.pop_front();
-    tell_step(self, work, step);
+    if (is_step(step))
+      work.step = step;
+  }
+  tell_steps(self);
+}
+
+void tell_steps(self_pointer self) {
+  const auto now = self->clock().now();
+  for (auto& [key, work] : self->state.works) {
+    if (!work.step.empty() && now >= work.next_words)
+      tell_step(self, work);
+    else if (!work.step.empty())
+      self->state.timer.set(self, work.next_words);
   }
 }
 

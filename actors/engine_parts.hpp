@@ -13,6 +13,10 @@ caf::result<image_prepared> prepare(engine_runtime_pointer self,
 void on_build_lines(engine_runtime_pointer self, image_work& work,
                     const std::vector<std::string>& lines);
 
+/// Tells of the steps of builds that were kept back, as far as it is time, and
+/// sets the alarm for the others.
+void tell_steps(engine_runtime_pointer self);
+
 // Containers: engine_containers.cpp.
 caf::result<container_started> start(engine_runtime_pointer self,
                                      const start_container& wish);

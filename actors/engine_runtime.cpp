@@ -38,6 +38,7 @@ void on_alarm(self_pointer self) {
   else if (st.next_attempt)
     st.timer.set(self, *st.next_attempt);
   release_followers(self);
+  tell_steps(self);
 }
 
 json describe(const engine_runtime_state& st) {

@@ -60,7 +60,8 @@ struct image_work {
   std::deque<std::string> log;  ///< The last lines of the build.
   std::string error;            ///< What the engine says went wrong.
   bool has_base = false;        ///< The base image was found.
-  alarm::time_point next_words; ///< Not before it is said how it gets on.
+  std::string step;             ///< How it gets on, not told yet.
+  alarm::time_point next_words; ///< Not before is it told.
   alarm::time_point began;
 };
 

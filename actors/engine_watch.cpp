@@ -1,6 +1,7 @@
 #include "actors/engine_parts.hpp"
 #include "messages/failure.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace roscell {
@@ -8,6 +9,9 @@ namespace roscell {
 namespace {
 
 using self_pointer = engine_runtime_pointer;
+
+/// To connect in vain to a socket of this host costs some microseconds.
+constexpr backoff::duration longest_pause{2'000};
 
 /// The filter of this node's containers, for a query.
 std::string filter(const engine_runtime_state& st, json more) {
@@ -35,7 +39,8 @@ void on_events_ended(self_pointer self, const engine_answered& x) {
               : engine_refusal("the container engine gives no events",
                                {x.status, x.body})
                     .message);
-  st.next_attempt = self->clock().now() + st.pause.next();
+  st.next_attempt =
+      self->clock().now() + std::min(st.pause.next(), longest_pause);
   st.timer.set(self, *st.next_attempt);
 }
 

@@ -1,10 +1,10 @@
 #include "actors/edge/engine_exchange.hpp"
 
 #include <boost/asio/buffer.hpp>
+#include <boost/asio/error.hpp>
 #include <boost/asio/local/stream_protocol.hpp>
 #include <boost/asio/write.hpp>
 #include <boost/beast/http/error.hpp>
-#include <boost/beast/http/read.hpp>
 
 #include <cerrno>
 #include <cstring>
@@ -135,16 +135,30 @@ void engine_exchange::write_file() {
 }
 
 void engine_exchange::read() {
-  http::async_read_some(socket_, incoming_, parser_,
-                        [self = shared_from_this()](error ec, size_t) {
-                          if (!self->over_)
-                            self->on_read(ec);
-                        });
+  incoming_.resize(piece_bytes);
+  socket_.async_read_some(boost::asio::buffer(incoming_),
+                          [self = shared_from_this()](error ec, size_t bytes) {
+                            if (!self->over_)
+                              self->on_read(ec, bytes);
+                          });
 }
 
-void engine_exchange::on_read(error ec) {
-  if (ec && ec != http::error::need_buffer)
-    return fail(ec == http::error::end_of_stream
+/// Beast's own reading gives a part of a body only when more has come.
+engine_exchange::error engine_exchange::parse(std::string_view bytes) {
+  error ec;
+  pending_ += bytes;
+  while (!pending_.empty() && !parser_.is_done() && !ec)
+    pending_.erase(0, parser_.put(boost::asio::buffer(pending_), ec));
+  return ec == http::error::need_more ? error{} : ec;
+}
+
+void engine_exchange::on_read(error ec, size_t bytes) {
+  if (!ec)
+    ec = parse({incoming_.data(), bytes});
+  else if (ec == boost::asio::error::eof && parser_.got_some())
+    parser_.put_eof(ec = error{});
+  if (ec)
+    return fail(ec == boost::asio::error::eof
                         || ec == http::error::partial_message
                     ? "it broke the connection"
                     : ec.message());

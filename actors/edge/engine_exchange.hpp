@@ -6,13 +6,12 @@
 #include "actors/edge/unique_fd.hpp"
 
 #include <boost/asio/steady_timer.hpp>
-#include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/http/parser.hpp>
 #include <boost/beast/http/string_body.hpp>
 
 #include <memory>
 #include <string>
-#include <vector>
+#include <string_view>
 
 namespace roscell {
 
@@ -41,7 +40,8 @@ private:
   void write_head();
   void write_file();
   void read();
-  void on_read(error ec);
+  void on_read(error ec, size_t bytes);
+  error parse(std::string_view bytes);
   bool pass_on();
   void finish(engine_answer answer);
   void fail(const std::string& why);
@@ -57,7 +57,8 @@ private:
   unique_fd file_;
   uint64_t file_bytes_ = 0;
   std::string outgoing_;
-  boost::beast::flat_buffer incoming_;
+  std::string incoming_; ///< What is being read.
+  std::string pending_;  ///< Read, but not parsed yet.
   boost::beast::http::response_parser<boost::beast::http::string_body> parser_;
   bool opened_ = false;
   bool over_ = false;

@@ -30,7 +30,7 @@ struct engine_bench {
   engine_client client{io.core(), folder.path("s")};
 };
 
-engine_request get(std::string target) {
+engine_request ask_for(std::string target) {
   engine_request result;
   result.target = std::move(target);
   return result;
@@ -131,7 +131,7 @@ TEST_CASE("errors name the socket and the remedy") {
   const auto path = folder.path("none");
   inbox<engine_answer> answers;
   engine_client{io.core(), path}.request(
-      get("/"), [&](engine_answer x) { answers.put(std::move(x)); });
+      ask_for("/"), [&](engine_answer x) { answers.put(std::move(x)); });
   const auto why = expect_error(answers.take());
   CHECK(why.code == error_code::unreachable);
   CHECK(why.message.find(path) != std::string::npos);
@@ -161,7 +161,7 @@ TEST_CASE("a streamed answer comes as it is sent") {
     who.end();
   }};
   heard h;
-  const auto stream = b.client.stream(get("/events"), h.callbacks());
+  const auto stream = b.client.stream(ask_for("/events"), h.callbacks());
   CHECK(h.said.take() == "open");
   CHECK(h.said.take() == "one\n");
   CHECK(h.said.take() == "end 200");
@@ -175,7 +175,7 @@ TEST_CASE("a stream that breaks is told, one that is refused has its status") {
       who.chunk("one\n");
       who.hang_up();
     }};
-    const auto stream = b.client.stream(get("/events"), h.callbacks());
+    const auto stream = b.client.stream(ask_for("/events"), h.callbacks());
     CHECK(h.said.take() == "open");
     CHECK(h.said.take() == "one\n");
     CHECK(h.said.take() == "error unreachable");
@@ -184,7 +184,7 @@ TEST_CASE("a stream that breaks is told, one that is refused has its status") {
     engine_bench b{[](engine_caller& who, const engine_call_seen&) {
       who.reply(404, "{}");
     }};
-    const auto stream = b.client.stream(get("/events"), h.callbacks());
+    const auto stream = b.client.stream(ask_for("/events"), h.callbacks());
     CHECK(h.said.take() == "end 404");
   }
   SECTION("who has enough ends it") {
@@ -193,7 +193,7 @@ TEST_CASE("a stream that breaks is told, one that is refused has its status") {
       who.open();
       who.chunk("one\n");
     }};
-    const auto stream = b.client.stream(get("/events"), h.callbacks());
+    const auto stream = b.client.stream(ask_for("/events"), h.callbacks());
     CHECK(h.said.take() == "open");
     CHECK(h.said.take() == "one\n");
     CHECK(h.said.take() == "end 200");
@@ -210,7 +210,7 @@ TEST_CASE("a stream that is let go says nothing more and hangs up") {
   }};
   heard h;
   {
-    const auto stream = b.client.stream(get("/events"), h.callbacks());
+    const auto stream = b.client.stream(ask_for("/events"), h.callbacks());
     CHECK(h.said.take() == "open");
     CHECK(h.said.take() == "one\n");
   }
@@ -221,7 +221,7 @@ TEST_CASE("a stream that is let go says nothing more and hangs up") {
 
 TEST_CASE("an engine that does not answer is given up") {
   engine_bench b{[](engine_caller&, const engine_call_seen&) {}};
-  auto request = get("/");
+  auto request = ask_for("/");
   request.limit = 50ms;
   CHECK(expect_error(b.ask(request)).code == error_code::timeout);
 }
@@ -234,7 +234,7 @@ TEST_CASE("an answer without an end is given up") {
       who.chunk(piece);
     who.end();
   }};
-  CHECK(expect_error(b.ask(get("/"))).code == error_code::unreachable);
+  CHECK(expect_error(b.ask(ask_for("/"))).code == error_code::unreachable);
 }
 
 TEST_CASE("the engine that answers first is taken, whatever its name") {

@@ -44,6 +44,11 @@ terminate() {
     | to head request > "$scratch/end.json" || fail "$(cat "$scratch/end.json")"
 }
 
+await_failed() {
+  await head ".event == \"instance_changed\" and .data.state == \"failed\"
+    and .subject == \"$instance\"" > /dev/null
+}
+
 inspect() {
   engine inspect "$container" --format "$1"
 }
@@ -120,8 +125,7 @@ test_a_container_that_ends_while_its_node_is_away_is_told() {
   stop_node head KILL
   engine kill "$container" > /dev/null
   start_node head --coordinator --cell line --interface lo
-  await head '.event == "instance_changed" and .data.state == "failed"' \
-    > /dev/null
+  await_failed
   expect "its exit code" "$(get head "/v1/instances/$instance" \
     | jq '.instances[0].exit_code')" 137
   terminate short
@@ -140,8 +144,7 @@ SCRIPT
   start_node head --coordinator --cell line --interface lo
   run_task doomed
   engine kill "$container" > /dev/null
-  await head '.event == "instance_changed" and .data.state == "failed"' \
-    > /dev/null
+  await_failed
   get head "/v1/instances/$instance" | jq '.instances[0]' > "$scratch/row.json"
   expect "its exit code" "$(jq .exit_code "$scratch/row.json")" 137
   expect "its reason" "$(jq -r .reason "$scratch/row.json")" \
@@ -202,7 +205,7 @@ test_an_engine_that_dies_in_the_middle_of_a_build_is_told() {
   start_node head --coordinator --cell line --interface lo
   echo_task slow | to head request > "$scratch/refusal.json" &
   request=$!
-  await head '.event == "image_building" and (.data.step | test("sleep 600"))' \
+  await head '.event == "image_building" and (.data.step | test("build trigger"))' \
     > /dev/null
   expect "the state" "$(get head /v1/instances | jq -r '.instances[0].state')" \
     building
@@ -230,8 +233,7 @@ test_an_engine_that_dies_in_the_middle_of_a_run_is_told_and_asked_again() {
   says message "$engine_socket"
   # This engine ends its containers when it starts again.
   launch_engine || fail "dockerd did not start again"
-  await head '.event == "instance_changed" and .data.state == "failed"' \
-    > /dev/null
+  await_failed
   expect "trouble" "$(get head "/v1/instances/$instance" \
     | jq -r '.instances[0].trouble // ""')" ""
   terminate cut
@@ -255,8 +257,7 @@ test_containers_that_outlive_their_engine_go_on() {
     | jq -r '.instances[0].state')" running
   echoes tough "with the engine again"
   engine kill "$container" > /dev/null
-  await head '.event == "instance_changed" and .data.state == "failed"' \
-    > /dev/null
+  await_failed
   terminate tough
 }
 

@@ -30,12 +30,13 @@ engine() {
 
 # launch_engine [OPTION...]: starts dockerd and waits until it can be asked.
 launch_engine() {
+  local daemon
   rm -f "$engine_socket"
-  setsid dockerd --data-root "$engine_dir/root" --exec-root "$engine_dir/exec" \
-    -p "$engine_dir/pid" -H "unix://$engine_socket" --bridge=none \
-    --iptables=false --ip6tables=false "$@" > "$engine_dir/log" 2>&1 \
-    < /dev/null &
-  local daemon=$!
+  # No job of the test that starts it: it outlives the test.
+  daemon=$(setsid dockerd --data-root "$engine_dir/root" \
+    --exec-root "$engine_dir/exec" -p "$engine_dir/pid" \
+    -H "unix://$engine_socket" --bridge=none --iptables=false \
+    --ip6tables=false "$@" > "$engine_dir/log" 2>&1 < /dev/null & echo $!)
   grep -m 1 -q 'API listen on' < <(exec timeout "$deadline_s" \
     tail -n +1 --pid="$daemon" -f "$engine_dir/log" 2>/dev/null)
 }
@@ -79,6 +80,8 @@ stop_engine() {
 use_engine() {
   [[ -f $suite/skipped ]] && skip "$(cat "$suite/skipped")"
   [[ -S $engine_socket ]] || fail "$(cat "$suite/before_all.output")"
+  # What a failed test has left.
+  engine ps -aq | xargs -r docker -H "unix://$engine_socket" rm -f > /dev/null
   runtime=docker:$engine_socket
   # The sanitizers' own memory is many times that of the skill.
   local text
