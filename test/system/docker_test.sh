@@ -221,6 +221,7 @@ test_an_engine_that_dies_in_the_middle_of_a_build_is_told() {
 test_an_engine_that_dies_in_the_middle_of_a_run_is_told_and_asked_again() {
   start_alone
   run_task cut
+  program=$(inspect '{{.State.Pid}}')
   end_engine KILL
   await head '.event == "engine_lost"' > /dev/null
   await head '.event == "engine_found" or .event == "engine_lost"' > /dev/null
@@ -231,11 +232,13 @@ test_an_engine_that_dies_in_the_middle_of_a_run_is_told_and_asked_again() {
   # A new task is refused at once, and says why.
   refused other
   says message "$engine_socket"
-  # This engine ends its containers when it starts again.
+  # What happens meanwhile is learnt afterwards.
+  kill -KILL "$program"
   launch_engine || fail "dockerd did not start again"
   await_failed
-  expect "trouble" "$(get head "/v1/instances/$instance" \
-    | jq -r '.instances[0].trouble // ""')" ""
+  get head "/v1/instances/$instance" | jq '.instances[0]' > "$scratch/row.json"
+  expect "its exit code" "$(jq .exit_code "$scratch/row.json")" 137
+  expect "trouble" "$(jq -r '.trouble // ""' "$scratch/row.json")" ""
   terminate cut
   run_task anew
   echoes anew "a line"
