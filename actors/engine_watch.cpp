@@ -91,9 +91,10 @@ void watch_events(self_pointer self) {
   auto& st = self->state;
   st.next_attempt.reset();
   engine_request request;
+  // Podman 4.3 says "die" as Docker does, but filters by its own word.
   request.target = "/events?"
                    + filter(st, {{"type", json::array({"container"})},
-                                 {"event", json::array({"die"})}});
+                                 {"event", json::array({"die", "died"})}});
   request.endless = true;
   auto opened =
       stream_lines(self, std::move(request), [self](const engine_answered& x) {
