@@ -12,6 +12,8 @@ caf::result<request_processed>
 process(pipeline_pointer self, const request_runner& run,
         const std::shared_ptr<const node_services>& services,
         const process_request& request) {
+  // Who has asked is the router; without it nobody waits for the outcome.
+  self->monitor(self->current_sender());
   const auto document = json::parse(request.text);
   self->state.request = document.at("type").get<std::string>();
   auto promise = self->make_response_promise<request_processed>();
@@ -37,6 +39,8 @@ process(pipeline_pointer self, const request_runner& run,
 handler_pipeline_actor::behavior_type
 handler_pipeline(pipeline_pointer self, const request_runner& run,
                  const std::shared_ptr<const node_services>& services) {
+  self->set_down_handler(
+      [self](const caf::down_msg& down) { self->quit(down.reason); });
   return {
       [self](const state_query&) {
         return state_of({{"request", self->state.request},

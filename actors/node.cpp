@@ -240,6 +240,7 @@ caf::expected<running_node> spawn_node(caf::actor_system& system,
     return edges.error();
   }
   running_node result;
+  result.events = context.events;
   result.name = config.name;
   result.http_address = (*edges)->http_address;
   result.socket = (*edges)->socket_path;

@@ -13,7 +13,8 @@ namespace roscell {
 
 /// A node that runs: its root actor and where it can be reached.
 struct running_node {
-  node_actor actor; ///< `stop_node` ends it in order.
+  node_actor actor;       ///< `stop_node` ends it in order.
+  event_log_actor events; ///< The node's facts, for whoever embeds it.
   std::string name;
   std::string http_address;     ///< "ip:port" that was really bound.
   std::string socket;           ///< Path of the Unix socket.

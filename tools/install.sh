@@ -13,7 +13,7 @@ if [[ "${1:-}" == --with-tests ]]; then
   packages+=(
     # To check: format, lint and fuzzers; namespaces, HTTP and JSON in scripts.
     clang clang-format clang-tidy libclang-rt-14-dev libfuzzer-14-dev
-    iproute2 jq curl procps python3-minimal
+    iproute2 nftables jq curl procps python3-minimal
     # Containers, and a base image for them.
     docker.io mmdebstrap
   )

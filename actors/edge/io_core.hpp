@@ -78,7 +78,7 @@ private:
   edge_log log_;
   /// The hint that only one thread runs it would let tasks of other threads
   /// overtake those that this thread has posted to itself.
-  loop context_{1};
+  loop context_;
   std::mutex mutex_;
   bool stopping_ = false;
   std::unordered_map<const io_component*, std::shared_ptr<io_component>>

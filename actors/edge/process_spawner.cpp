@@ -22,8 +22,6 @@ namespace {
 /// Most of what a program says of its failure.
 constexpr size_t max_words_bytes = 2048;
 
-using clock = std::chrono::steady_clock;
-
 edge_error failed(const program& what, const std::string& why) {
   return {error_code::engine_failed,
           "cannot start '" + what.path.string() + "': " + why,
@@ -83,11 +81,13 @@ private:
   posix_spawnattr_t attributes_;
 };
 
+using deadline = std::chrono::steady_clock::time_point;
+
 /// Waits until there is something to read. Returns false when time runs out.
-bool await_readable(int fd, clock::time_point end) {
+bool await_input(int fd, deadline end) {
   for (;;) {
-    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(
-        end - clock::now());
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(
+        end - std::chrono::steady_clock::now());
     pollfd waited{fd, POLLIN, 0};
     const int wait_ms = std::max(0, static_cast<int>(left.count()));
     if (const int n = ::poll(&waited, 1, wait_ms); n >= 0)
@@ -97,9 +97,8 @@ bool await_readable(int fd, clock::time_point end) {
 
 /// Reads until the other end is closed, and keeps so much of it. Returns false
 /// when time runs out.
-bool read_words(int fd, clock::time_point end, size_t max_bytes,
-                std::string& words) {
-  while (await_readable(fd, end)) {
+bool read_words(int fd, deadline end, size_t max_bytes, std::string& words) {
+  while (await_input(fd, end)) {
     std::array<char, 4096> buffer;
     const auto n = ::read(fd, buffer.data(), buffer.size());
     if (n < 0 && errno == EINTR)
@@ -112,10 +111,8 @@ bool read_words(int fd, clock::time_point end, size_t max_bytes,
   return false;
 }
 
-/// The exit code of a child that has ended with one other than 0, else 0.
-int failure_code(int pidfd) {
-  if (!has_ended(pidfd))
-    return 0;
+/// The exit code of a child that has ended; 128 + n after signal n.
+int exit_code(int pidfd) {
   siginfo_t info{};
   if (::waitid(P_PIDFD, static_cast<id_t>(pidfd), &info,
                WEXITED | WNOHANG | WNOWAIT)
@@ -163,12 +160,6 @@ edge_result<speaking_child> start(const program& what) {
   return result;
 }
 
-/// Why a program has ended with a code other than 0.
-std::string reason(const std::string& words, int code) {
-  const auto said = trimmed(words.substr(0, max_words_bytes));
-  return said.empty() ? "it ended with code " + std::to_string(code) : said;
-}
-
 } // namespace
 
 edge_result<spawned_program> spawn_program(const program& what,
@@ -177,16 +168,18 @@ edge_result<spawned_program> spawn_program(const program& what,
   if (auto* error = std::get_if<edge_error>(&started))
     return std::move(*error);
   auto& [child, output] = std::get<speaking_child>(started);
+  const auto end = std::chrono::steady_clock::now() + limit;
   std::string words;
-  if (!read_words(output.get(), clock::now() + limit, max_words_bytes, words)) {
+  if (!read_words(output.get(), end, max_words_bytes, words)) {
     kill_and_reap(child.pidfd.get());
     return failed(what, "it did not start in time");
   }
-  const auto code = failure_code(child.pidfd.get());
-  if (code == 0)
+  if (words.empty())
     return std::move(child);
+  // Files are closed before the end of a process can be seen.
+  await_input(child.pidfd.get(), end);
   kill_and_reap(child.pidfd.get());
-  return failed(what, reason(words, code));
+  return failed(what, trimmed(words));
 }
 
 edge_result<std::string> run_program(const program& what,
@@ -196,21 +189,23 @@ edge_result<std::string> run_program(const program& what,
   if (auto* error = std::get_if<edge_error>(&started))
     return std::move(*error);
   auto& [child, output] = std::get<speaking_child>(started);
-  const auto end = clock::now() + limit;
+  const auto end = std::chrono::steady_clock::now() + limit;
   std::string words;
   const bool in_time = read_words(output.get(), end, max_bytes, words)
-                       && await_readable(child.pidfd.get(), end);
-  const auto code = failure_code(child.pidfd.get());
+                       && await_input(child.pidfd.get(), end);
+  const auto code = exit_code(child.pidfd.get());
   kill_and_reap(child.pidfd.get());
+  const auto name = "'" + what.path.string() + "'";
   if (!in_time)
     return edge_error{error_code::timeout,
-                      "'" + what.path.string() + "' did not end within "
+                      name + " did not end within "
                           + std::to_string(limit.count() / 1000) + " s",
                       ""};
   if (code != 0)
-    return edge_error{
-        error_code::engine_failed,
-        "'" + what.path.string() + "' failed: " + reason(words, code), ""};
+    return edge_error{error_code::engine_failed,
+                      name + " ended with code " + std::to_string(code) + ": "
+                          + trimmed(words.substr(0, max_words_bytes)),
+                      ""};
   return words;
 }
 

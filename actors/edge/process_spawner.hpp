@@ -26,12 +26,11 @@ struct spawned_program {
 
 /// Starts a program with no descriptor of ours but its standard streams, no
 /// blocked signal, and /dev/null as input. Waits, `limit` at most, until the
-/// program has closed its output or has ended, for what it writes until then
-/// is why it fails.
+/// program has closed its output: having written nothing it has started, and
+/// what it has written is why it fails.
 ///
-/// Errors: engine_failed, when it cannot be started, ends with a code other
-/// than 0 before it has closed its output, or passes the limit; it is killed
-/// then.
+/// Errors: engine_failed, when it cannot be started, says why it fails, or
+/// passes the limit; it has ended then.
 edge_result<spawned_program> spawn_program(const program& what,
                                            std::chrono::milliseconds limit);
 

@@ -1,6 +1,10 @@
 #include "actors/edge/sqlite_store.hpp"
 
+#include "actors/edge/unique_fd.hpp"
+
+#include <fcntl.h>
 #include <sqlite3.h>
+#include <sys/stat.h>
 
 #include <cstring>
 
@@ -84,6 +88,11 @@ sqlite_store::sqlite_store(std::filesystem::path file,
 
 edge_result<sqlite_store>
 sqlite_store::open(const std::filesystem::path& file) {
+  // SQLite would let everybody read a file that it makes. Where this fails,
+  // SQLite tells why. It is closed before SQLite locks the file, because any
+  // close drops the locks of the process.
+  unique_fd{
+      ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, S_IRUSR | S_IWUSR)};
   sqlite3* db = nullptr;
   // The handle is there even after a failure, to tell what went wrong.
   const int code =

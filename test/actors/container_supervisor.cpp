@@ -28,12 +28,13 @@ struct bench : virtual_time {
   }
 
   ~bench() {
+    // First, because it would replace a runtime that has ended.
+    if (supervisor)
+      kill(supervisor);
     for (const auto& x : runtimes)
       kill(x);
     kill(config.store);
     kill(listener);
-    if (supervisor)
-      kill(supervisor);
   }
 
   void start() {

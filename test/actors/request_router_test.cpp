@@ -296,6 +296,18 @@ TEST_CASE_METHOD(router_fixture,
   CHECK(error_of(ask(list_query("a", R"(,"extra":1)"))) == "conflict");
 }
 
+TEST_CASE_METHOD(router_fixture, "A router that ends takes its pipelines along",
+                 "[router]") {
+  hold();
+  start();
+  post(list_query("a"));
+  bool ended = false;
+  worker->attach_functor([&] { ended = true; });
+  CHECK_FALSE(ended);
+  time.kill(router);
+  CHECK(ended);
+}
+
 TEST_CASE_METHOD(router_fixture, "A refused request may be tried again",
                  "[router]") {
   hold();

@@ -2,8 +2,11 @@
 
 #include "messages/failure.hpp"
 
+#include <caf/send.hpp>
+
 #include <cstdlib>
 #include <fstream>
+#include <utility>
 
 namespace roscell::test {
 
@@ -77,58 +80,78 @@ caf::result<T> either(const caf::error& error, T value) {
   return value;
 }
 
-caf::result<container_started> start(runtime_actor::pointer self,
+/// A runtime that is also told when to give the answers it has held back: a
+/// promise may be kept only inside its actor.
+using scripted_runtime_actor =
+    runtime_actor::extend<caf::reacts_to<caf::tick_atom, uint64_t>>;
+
+using started_promise = caf::typed_response_promise<container_started>;
+
+void deliver(const runtime_script& script, started_promise promise) {
+  if (script.start_error)
+    promise.deliver(script.start_error);
+  else
+    promise.deliver(container_started{script.container()});
+}
+
+caf::result<container_started> start(scripted_runtime_actor::pointer self,
                                      runtime_script& script,
                                      const start_container& x) {
   script.started.push_back(x);
   auto promise = self->make_response_promise<container_started>();
   if (script.silent)
     script.unanswered.push_back(promise);
-  else if (script.start_error)
-    promise.deliver(script.start_error);
   else
-    promise.deliver(container_started{script.container()});
+    deliver(script, promise);
   return promise;
+}
+
+scripted_runtime_actor::behavior_type
+scripted_runtime(scripted_runtime_actor::pointer self,
+                 const std::shared_ptr<runtime_script>& script) {
+  return {
+      [](const state_query&) { return state_of(json::object()); },
+      [=](const prepare_image& x) {
+        script->prepared.push_back(x);
+        script->instance = caf::actor_cast<caf::actor>(self->current_sender());
+        return either(script->prepare_error, image_prepared{x.skill_dir});
+      },
+      [=](const start_container& x) { return start(self, *script, x); },
+      [=](const stop_container& x) -> caf::result<container_stopped> {
+        script->stopped.push_back(x);
+        if (script->stops_never)
+          return self->make_response_promise<container_stopped>();
+        return either(script->stop_error, container_stopped{script->stop_code});
+      },
+      [=](const remove_container& x) {
+        script->removed.push_back(x);
+        return either(script->remove_error, container_removed{});
+      },
+      [=](const adopt_container& x) {
+        script->adopted.push_back(x);
+        script->instance = caf::actor_cast<caf::actor>(self->current_sender());
+        return either(script->adopt_error, script->adoption);
+      },
+      [=](const log_query& x) {
+        script->queries.push_back(x);
+        return log_excerpt{x.instance, script->log, 0, true};
+      },
+      [=](caf::tick_atom, uint64_t) {
+        for (auto& x : std::exchange(script->unanswered, {}))
+          deliver(*script, x);
+      },
+  };
 }
 
 } // namespace
 
 runtime_actor fake_runtime(caf::actor_system& system,
                            std::shared_ptr<runtime_script> script) {
-  return system.spawn(
-      [script](runtime_actor::pointer self) -> runtime_actor::behavior_type {
-        return {
-            [](const state_query&) { return state_of(json::object()); },
-            [=](const prepare_image& x) {
-              script->prepared.push_back(x);
-              script->instance =
-                  caf::actor_cast<caf::actor>(self->current_sender());
-              return either(script->prepare_error, image_prepared{x.skill_dir});
-            },
-            [=](const start_container& x) { return start(self, *script, x); },
-            [=](const stop_container& x) -> caf::result<container_stopped> {
-              script->stopped.push_back(x);
-              if (script->stops_never)
-                return self->make_response_promise<container_stopped>();
-              return either(script->stop_error,
-                            container_stopped{script->stop_code});
-            },
-            [=](const remove_container& x) {
-              script->removed.push_back(x);
-              return either(script->remove_error, container_removed{});
-            },
-            [=](const adopt_container& x) {
-              script->adopted.push_back(x);
-              script->instance =
-                  caf::actor_cast<caf::actor>(self->current_sender());
-              return script->adoption;
-            },
-            [=](const log_query& x) {
-              script->queries.push_back(x);
-              return log_excerpt{x.instance, script->log, 0, true};
-            },
-        };
-      });
+  auto runtime = system.spawn(scripted_runtime, script);
+  script->answer = [runtime] {
+    caf::anon_send(runtime, caf::tick_atom_v, uint64_t{0});
+  };
+  return runtime;
 }
 
 std::vector<std::string>

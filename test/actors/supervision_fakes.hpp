@@ -56,7 +56,9 @@ struct runtime_script {
   caf::error start_error;
   caf::error stop_error;
   caf::error remove_error;
-  bool silent = false; ///< Prepares and starts, but does not answer.
+  caf::error adopt_error;
+  bool silent =
+      false; ///< Starts, but does not answer until `answer` is called.
   bool stops_never = false;
   container_adopted adoption;
   int stop_code = 143;
@@ -69,6 +71,7 @@ struct runtime_script {
   std::vector<adopt_container> adopted;
   std::vector<log_query> queries;
   std::vector<caf::typed_response_promise<container_started>> unanswered;
+  std::function<void()> answer; ///< Makes it give the answers it has held back.
   caf::actor instance; ///< Who has asked for an image or an adoption last.
 
   /// Id of the container that the last start has made.

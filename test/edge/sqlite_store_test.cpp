@@ -56,6 +56,17 @@ TEST_CASE("keys and values are data and never SQL") {
   CHECK(load(store, evil) == records{{evil, evil}});
 }
 
+TEST_CASE("what a node records is for its owner only") {
+  own_folder folder;
+  auto store = value_of(sqlite_store::open(folder.path() / "state.db"));
+  CHECK_FALSE(store.put("t", "k", "v"));
+  for (const auto* name : {"state.db", "state.db-wal"}) {
+    struct stat about {};
+    REQUIRE(::stat((folder.path() / name).c_str(), &about) == 0);
+    CHECK((about.st_mode & 0777) == 0600);
+  }
+}
+
 TEST_CASE("a store that another program holds is a conflict") {
   own_folder folder;
   const auto file = folder.path() / "state.db";

@@ -164,6 +164,23 @@ host_link() {
   echo "${bridge/rcb/rcv}-$1"
 }
 
+# lose_packets PERCENT: so many of the packets that arrive at each host are lost.
+# By nftables, because kernels without netem are more common than without it.
+lose_packets() {
+  local host
+  for host in "${hosts[@]}"; do
+    ip netns exec "$host" nft -f - 2> /dev/null << RULES ||
+table inet loss {
+  chain arriving {
+    type filter hook input priority 0
+    iifname "eth0" numgen random mod 100 < $1 counter drop
+  }
+}
+RULES
+      skip "this kernel's nftables cannot lose packets"
+  done
+}
+
 # start_on HOST_NUMBER NAME [OPTION...]: a node on one of these hosts.
 start_on() {
   local host=${hosts[$(($1 - 1))]} number=$1 name=$2

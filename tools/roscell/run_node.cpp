@@ -2,6 +2,7 @@
 #include "actors/node.hpp"
 #include "tools/roscell/exit_code.hpp"
 #include "tools/roscell/interface_choice.hpp"
+#include "tools/roscell/journal.hpp"
 #include "tools/roscell/node_options.hpp"
 #include "tools/roscell/readiness.hpp"
 #include "tools/roscell/stop_signals.hpp"
@@ -114,6 +115,7 @@ int run_node(const node_options& options) {
   const auto node = start(system, config);
   node.actor->attach_functor([&signals] { signals.end(); });
   introduce(node, config);
+  start_journal(system, node.events);
   // The start needed memory that running does not.
   malloc_trim(0);
   starter.ready();
