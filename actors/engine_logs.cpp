@@ -1,4 +1,5 @@
 #include "actors/edge/engine_log.hpp"
+#include "actors/engine_containers.hpp"
 #include "actors/engine_parts.hpp"
 #include "actors/instance_id.hpp"
 #include "messages/failure.hpp"

@@ -17,7 +17,7 @@ void on_build_lines(engine_runtime_pointer self, image_work& work,
 /// sets the alarm for the others.
 void tell_steps(engine_runtime_pointer self);
 
-// Containers: engine_containers.cpp.
+// Containers: engine_start.cpp, engine_stop.cpp, engine_adoption.cpp.
 caf::result<container_started> start(engine_runtime_pointer self,
                                      const start_container& wish);
 caf::result<container_stopped> stop(engine_runtime_pointer self,
@@ -27,17 +27,8 @@ caf::result<container_removed> remove(engine_runtime_pointer self,
 caf::result<container_adopted> adopt(engine_runtime_pointer self,
                                      const adopt_container& wish);
 
-/// The container of an instance has ended: tells it, once.
-void on_container_ended(engine_runtime_pointer self,
-                        const std::string& instance, const std::string& id,
-                        int exit_code);
-
 /// Ends by force what belongs to the instance, and asks nobody.
 void discard(engine_runtime_pointer self, const std::string& instance);
-
-/// Of an inspected container. The exit code is negative if it is not known.
-int exit_code_of(const json& container);
-bool is_running(const json& container);
 
 // The stream of events: engine_watch.cpp.
 void watch_events(engine_runtime_pointer self);

@@ -1,3 +1,4 @@
+#include "actors/engine_containers.hpp"
 #include "actors/engine_parts.hpp"
 #include "messages/failure.hpp"
 

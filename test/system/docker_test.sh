@@ -189,6 +189,24 @@ test_a_failed_build_is_told_with_the_end_of_its_log() {
   expect "tasks" "$(get head /v1/tasks | jq '.tasks | length')" 0
 }
 
+test_a_full_disk_of_the_engine_is_told_with_the_remedy() {
+  use_engine
+  # An engine of this test's own, with room for less than the skill.
+  engine_dir=$scratch/engine engine_socket=$scratch/engine.sock
+  mkdir "$engine_dir"
+  mount -t tmpfs -o size=64m tmpfs "$engine_dir" || skip "no tmpfs can be mounted"
+  trap 'stop_engine; umount -l "$scratch/engine"; clean_up' EXIT
+  launch_engine || skip "dockerd does not run on a tmpfs"
+  mkdir "$scratch/root"
+  tar -C "$scratch/root" -c . | engine import - debian:bookworm-slim > /dev/null
+  head -c 100M /dev/urandom > "$skills/echo/large"
+  runtime=docker:$engine_socket
+  start_node head --coordinator --cell line --interface lo
+  refused large
+  says message "no space left on device"
+  says message "free space on the engine's disk"
+}
+
 test_a_base_image_that_cannot_be_had_is_told_with_the_remedy() {
   use_engine
   use_base registry.invalid/none:1
