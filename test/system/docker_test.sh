@@ -301,3 +301,13 @@ test_an_engine_that_is_not_there_is_told_what_to_do() {
   expect "exit code" $? 3
   grep -q "$scratch/none.sock" "$scratch/stderr" || fail "$(cat "$scratch/stderr")"
 }
+
+test_auto_takes_the_engine_that_answers() {
+  use_engine
+  runtime=auto
+  DOCKER_HOST=unix://$engine_socket \
+    start_node head --coordinator --cell line --interface lo
+  expect "the runtime" "$(get head /v1/node | jq -r .runtime)" docker
+  grep -q "instances are run by 'docker': .*$engine_socket" \
+    "$scratch/head.log" || fail "$(cat "$scratch/head.log")"
+}
