@@ -51,7 +51,8 @@ void learn_exit(self_pointer self, const std::string& instance,
   engine_request request;
   request.target = "/containers/" + id + "/json";
   ask_engine(self, std::move(request), [=](const engine_answered& x) {
-    if (!is_lost(x))
+    // The list may be older than the container.
+    if (!is_lost(x) && !is_running(object_of(x)))
       on_container_ended(self, instance, id, exit_code_of(object_of(x)));
   });
 }
