@@ -51,14 +51,26 @@ void learn_exit(self_pointer self, const std::string& instance,
   engine_request request;
   request.target = "/containers/" + id + "/json";
   ask_engine(self, std::move(request), [=](const engine_answered& x) {
-    // The list may be older than the container.
     if (!is_lost(x) && !is_running(object_of(x)))
       on_container_ended(self, instance, id, exit_code_of(object_of(x)));
   });
 }
 
-/// Compares what the engine has with what it should have.
-void reconcile(self_pointer self, const engine_answered& x) {
+using container_ids = std::map<std::string, std::string>;
+
+/// The containers that run as far as is known, by instance.
+container_ids running_containers(const engine_runtime_state& st) {
+  container_ids result;
+  for (const auto& [instance, container] : st.containers)
+    if (!container.settling)
+      result.emplace(instance, container.id);
+  return result;
+}
+
+/// Compares what the engine has with what it should have had when it was
+/// asked.
+void reconcile(self_pointer self, const container_ids& expected,
+               const engine_answered& x) {
   auto& st = self->state;
   const auto list = json::parse(x.body, nullptr, false);
   if (!is_good(x) || !list.is_array())
@@ -67,9 +79,9 @@ void reconcile(self_pointer self, const engine_answered& x) {
   for (const auto& row : list)
     if (row.is_object() && text_at(row, "State") == "running")
       running.insert(text_at(row, "Id"));
-  for (const auto& [instance, container] : st.containers)
-    if (!container.settling && running.count(container.id) == 0)
-      learn_exit(self, instance, container.id);
+  for (const auto& [instance, id] : expected)
+    if (running.count(id) == 0)
+      learn_exit(self, instance, id);
   for (const auto& instance : std::exchange(st.unwanted, {}))
     discard(self, instance);
 }
@@ -81,7 +93,8 @@ void on_events_opened(self_pointer self) {
   engine_request request;
   request.target = "/containers/json?all=true&" + filter(st, json::object());
   ask_engine(self, std::move(request),
-             [self](const engine_answered& x) { reconcile(self, x); });
+             [self, expected = running_containers(st)](
+                 const engine_answered& x) { reconcile(self, expected, x); });
   trouble(self, {});
   for (const auto& adoption : std::exchange(st.waiting_adoptions, {}))
     adoption();
