@@ -158,7 +158,7 @@ json environment_json(const start_container& wish) {
     variables["CUDA_VISIBLE_DEVICES"] = "0";
   json result = json::array();
   for (const auto& [name, value] : variables)
-    result.push_back(name + '=' + value);
+    result.push_back(std::string{name}.append("=").append(value));
   return result;
 }
 

@@ -162,6 +162,7 @@ find_libraries(const fs::path& folder, const fs::path& program) {
     }
   }
   std::vector<shared_library> result;
+  result.reserve(found.size());
   for (auto& [name, x] : found)
     result.push_back(std::move(x));
   return result;

@@ -191,6 +191,21 @@ TEST_CASE("an engine that is lost is told, and what happened meanwhile too") {
   b.script.calls().await("DELETE /containers/roscell-i?force=true&v=true");
 }
 
+TEST_CASE("an engine that goes away in a start leaves nothing running") {
+  engine_bench b;
+  b.script.on("POST /containers/create", 201, R"({"Id":"c1"})");
+  b.script.on(
+      "POST /containers/c1/start",
+      [](engine_caller& who, const engine_call_seen&) { who.hang_up(); });
+  const auto why = b.refusal<container_started>(b.container());
+  CHECK(why.code == error_code::engine_failed);
+  CHECK(why.message.find("went away") != std::string::npos);
+  b.engine = nullptr;
+  b.told.await("trouble");
+  b.begin_engine();
+  b.script.calls().await("DELETE /containers/roscell-i?force=true&v=true");
+}
+
 TEST_CASE("an adoption waits for an engine that is not there yet") {
   engine_bench b;
   b.engine = nullptr;
