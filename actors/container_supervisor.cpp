@@ -103,6 +103,7 @@ caf::result<instance_deployed> begin(self_pointer self,
   x = supervised_instance{};
   x.row.spec = spec;
   x.row.node = self->state.config.node;
+  x.row.trouble = self->state.trouble;
   spawn_actor(self, x, false);
   auto promise = self->make_response_promise<instance_deployed>();
   x.deployers.push_back(promise);
@@ -173,7 +174,8 @@ json summary(const container_supervisor_state& st) {
   return {{"instances", states},
           {"deployments_waiting", deployers},
           {"removals_waiting", st.removals.size()},
-          {"runtime_deaths", st.runtime_deaths}};
+          {"runtime_deaths", st.runtime_deaths},
+          {"runtime_trouble", st.trouble}};
 }
 
 void on_changed(self_pointer self, const instance_row& row) {
@@ -183,8 +185,12 @@ void on_changed(self_pointer self, const instance_row& row) {
     return;
   const bool news =
       row.state != x->row.state || row.since_unix_ms != x->row.since_unix_ms;
-  const auto status = std::exchange(x->row, row).status;
-  x->row.status = status;
+  const auto before = std::exchange(x->row, row);
+  // These two are heard here. A step of the build is no word of the skill.
+  x->row.trouble = before.trouble;
+  if (before.state != instance_state::building
+      || row.state == instance_state::building)
+    x->row.status = before.status;
   if (news && self->state.listener)
     self->send(self->state.listener, instance_changed{x->row});
   if (row.state == instance_state::running) {
@@ -208,6 +214,20 @@ void on_notified(self_pointer self, const instance_notified& fact) {
 void on_exited(self_pointer self, const container_exited& fact) {
   if (auto* x = find_instance(self, fact.instance); x != nullptr && x->actor)
     self->send(x->actor, fact);
+}
+
+void on_troubled(self_pointer self, const std::string& trouble) {
+  auto& st = self->state;
+  if (st.trouble == trouble)
+    return;
+  st.trouble = trouble;
+  for (auto& [instance, x] : st.instances) {
+    if (!is_live(x.row.state) && x.row.trouble.empty())
+      continue;
+    x.row.trouble = is_live(x.row.state) ? trouble : std::string{};
+    if (st.listener)
+      self->send(st.listener, instance_changed{x.row});
+  }
 }
 
 void on_instance_died(self_pointer self, const std::string& instance,
@@ -297,6 +317,7 @@ container_supervisor(self_pointer self,
       },
       [self](const container_exited& x) { on_exited(self, x); },
       [self](const instance_notified& x) { on_notified(self, x); },
+      [self](const runtime_troubled& x) { on_troubled(self, x.message); },
       [self](const instance_changed& x) { on_changed(self, x.instance); },
   };
 }

@@ -60,6 +60,7 @@ struct container_supervisor_state {
   container_supervisor_config config;
   runtime_actor runtime;
   int runtime_deaths = 0;
+  std::string trouble; ///< Of the engine under the runtime; empty: none.
   instance_listener_actor listener;
   std::map<std::string, supervised_instance> instances;
   std::vector<pending_removal> removals;

@@ -94,8 +94,9 @@ class node_builder {
 public:
   node_builder(caf::actor_system& system, node_config config, node_data data,
                house context, std::shared_ptr<node_edges> edges,
-               capacity_bound bound)
-      : system_(system), data_(std::move(data)), bound_(std::move(bound)) {
+               capacity_bound bound, chosen_runtime runtime)
+      : system_(system), data_(std::move(data)), bound_(std::move(bound)),
+        runtime_(std::move(runtime)) {
     parts_.config = std::move(config);
     parts_.context = std::move(context);
     parts_.edges = std::move(edges);
@@ -154,7 +155,8 @@ private:
     supervision.node = config.name;
     supervision.skills = catalogue_;
     supervision.make_runtime =
-        runtime_factory(system_, parts_.context, config, *parts_.edges->io);
+        runtime_factory(system_, parts_.context, config, runtime_,
+                        data_.identity.uuid, *parts_.edges->io);
     supervision.store = store_;
     supervision.restored = data_.instances;
     parts_.services->supervisor = start(container_supervisor, supervision);
@@ -231,6 +233,7 @@ private:
   caf::actor_system& system_;
   node_data data_;
   capacity_bound bound_;
+  chosen_runtime runtime_;
   node_parts parts_;
   shared_skill_catalogue catalogue_;
   state_store_actor store_;
@@ -247,8 +250,10 @@ caf::expected<running_node> spawn_node(caf::actor_system& system,
   auto bound = parse_capacity(config.capacity);
   if (auto* why = std::get_if<edge_error>(&bound))
     return to_caf(*why);
-  if (auto why = check_runtime(config))
-    return why;
+  auto runtime = choose_runtime(config);
+  if (!runtime)
+    return runtime.error();
+  config.runtime = runtime->name;
   auto data = open_node_data(config);
   if (!data)
     return data.error();
@@ -266,9 +271,12 @@ caf::expected<running_node> spawn_node(caf::actor_system& system,
   result.socket = (*edges)->socket_path;
   result.discovery_server = (*edges)->discovery_server;
   result.token_file = data->token_file;
+  result.runtime = runtime->name;
+  result.runtime_reason = runtime->reason;
   node_builder builder{system,           std::move(config),
                        std::move(*data), context,
-                       *edges,           std::get<capacity_bound>(bound)};
+                       *edges,           std::get<capacity_bound>(bound),
+                       *runtime};
   result.actor = builder.build();
   return result;
 }

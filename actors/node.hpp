@@ -20,6 +20,8 @@ struct running_node {
   std::string socket;           ///< Path of the Unix socket.
   std::string discovery_server; ///< "ip:port"; coordinators only.
   std::string token_file;       ///< Bearer token for HTTP over TCP.
+  std::string runtime;          ///< "process", "docker" or "podman".
+  std::string runtime_reason;   ///< Why this one, one sentence.
 };
 
 /// Starts a node inside `system`, which the caller owns and has configured with
@@ -27,7 +29,9 @@ struct running_node {
 /// open. Neither installs signal handlers nor ends the process.
 ///
 /// Errors: conflict (a port or the data directory is in use), unreachable (the
-/// address is not of this host), schema_violation (a bad option, named).
+/// address is not of this host, the container engine that was asked for does
+/// not answer), unauthorized (no permission on the engine's socket),
+/// schema_violation (a bad option, named).
 caf::expected<running_node> spawn_node(caf::actor_system& system,
                                        const node_config& config);
 

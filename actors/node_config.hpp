@@ -19,7 +19,8 @@ struct node_config {
   uint8_t server_id = 0;           ///< Of the discovery server, in its prefix.
   uint8_t ros_domain_id = 0;
   std::string join; ///< "ADDR[:PORT]" of a discovery server; empty: none.
-  std::string runtime = "auto"; ///< auto, docker, podman or process.
+  /// auto, process, docker[:SOCKET] or podman[:SOCKET].
+  std::string runtime = "auto";
   std::filesystem::path data_dir;
   std::filesystem::path socket; ///< Unix socket; empty: data_dir/node.sock.
   std::vector<std::filesystem::path> skill_dirs;

@@ -137,8 +137,9 @@ node_actor::behavior_type node(self_pointer self, const node_parts& parts) {
   self->state.open_children = parts.children.size();
   self->set_down_handler(
       [self](const caf::down_msg& down) { on_child_down(self, down); });
-  parts.context.tell("node_started", parts.identity.name,
-                     {{"address", parts.identity.address}});
+  parts.context.tell(
+      "node_started", parts.identity.name,
+      {{"address", parts.identity.address}, {"runtime", parts.config.runtime}});
   return {
       [self](const state_query&) {
         const auto& st = self->state;

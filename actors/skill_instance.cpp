@@ -42,6 +42,12 @@ std::string sentence(const caf::error& error) {
   return why.hint.empty() ? why.message : why.message + " (" + why.hint + ")";
 }
 
+/// The end of a build's log, which goes along with its failure.
+std::string log_tail_of(const caf::error& error) {
+  const auto details = json::parse(to_failure(error).details, nullptr, false);
+  return details.is_object() ? details.value("log_tail", "") : std::string{};
+}
+
 void record_event(self_pointer self, const char* fact) {
   const auto& st = self->state;
   const auto& row = st.row;
@@ -112,7 +118,9 @@ void conclude(self_pointer self, instance_state last,
   ask<log_excerpt>(
       self, st.config.runtime, limits::disk_limit, query,
       [=](const log_excerpt& log) {
-        self->state.row.log_tail = last_bytes(log.text, limits::log_tail_bytes);
+        if (!log.text.empty())
+          self->state.row.log_tail =
+              last_bytes(log.text, limits::log_tail_bytes);
         finish(self, last, reason);
       },
       [=](const caf::error&) { finish(self, last, reason); });
@@ -191,6 +199,11 @@ void on_built(self_pointer self, const std::string& image,
   wish.labels = {
       {"task", spec.task}, {"instance", spec.instance}, {"cell", spec.cell}};
   wish.limits = spec.resources;
+  wish.gpu = spec.gpu;
+  wish.input = spec.input;
+  wish.output = spec.output;
+  wish.devices = option.devices;
+  wish.volumes = option.volumes;
   ask<container_started>(
       self, st.config.runtime, limits::start_limit, wish,
       [=](const container_started& x) { on_started(self, x.container); },
@@ -211,12 +224,15 @@ void build(self_pointer self) {
   const auto command = folder->skill.descriptor.entry_point;
   ask<image_prepared>(
       self, st.config.runtime, limits::build_limit,
-      prepare_image{folder->path.string(), folder->skill.hash, command,
+      prepare_image{st.row.spec.instance, st.row.spec.operation,
+                    folder->path.string(), folder->skill.hash, command,
                     option->base_image},
       [=, chosen = *option](const image_prepared& x) {
         on_built(self, x.image, command, chosen);
       },
       [=](const caf::error& error) {
+        self->state.row.log_tail =
+            last_bytes(log_tail_of(error), limits::log_tail_bytes);
         conclude(self, instance_state::failed, sentence(error));
       });
 }

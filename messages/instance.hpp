@@ -88,8 +88,11 @@ struct instance_row {
   std::string node;
   instance_state state = instance_state::pending;
   int64_t since_unix_ms = 0; ///< When `state` was entered.
-  std::string status;        ///< The skill's own last STATUS line.
-  std::string container;     ///< The runtime's id: "<pid>:<start time>".
+  /// The skill's own last STATUS line; while `building`, the step of the build.
+  std::string status;
+  /// Why the engine under it cannot be asked at present; empty: it can.
+  std::string trouble;
+  std::string container; ///< The runtime's id of it.
   std::string image;
   /// Exit code of an ended instance; 128 + n after signal n; negative: none.
   int exit_code = -1;
@@ -103,6 +106,7 @@ struct instance_row {
         required("state", &instance_row::state),
         required("since_unix_ms", &instance_row::since_unix_ms),
         optional("status", &instance_row::status),
+        optional("trouble", &instance_row::trouble),
         optional("container", &instance_row::container),
         optional("image", &instance_row::image),
         nullable("exit_code", &instance_row::exit_code),
@@ -137,7 +141,7 @@ struct instance_description {
 struct log_query {
   static constexpr const char* type = "log_query";
   std::string instance;
-  int64_t offset = -1;    ///< First byte wanted; negative: the last lines.
+  int64_t offset = -1;    ///< Where to begin; negative: the last lines.
   int64_t tail_lines = 0; ///< With a negative offset: how many; 0: the default.
   int64_t wait_ms = 0;    ///< At most 20,000.
 
@@ -149,8 +153,10 @@ struct log_query {
   }
 };
 
-/// A part of a log. Offsets count from the first byte ever written, so they
-/// stay valid when old text is dropped.
+/// A part of a log. An offset is a place in all that was ever logged, so it
+/// stays valid when old text is dropped: the process runtime counts bytes, the
+/// engine runtime time. 0 is the beginning; other places come from
+/// `next_offset`.
 struct log_excerpt {
   static constexpr const char* type = "log_excerpt";
   std::string instance;

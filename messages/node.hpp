@@ -75,7 +75,7 @@ struct node_description {
   std::string version;     ///< Of this program.
   std::string cell;        ///< Empty: in none.
   std::string coordinator; ///< Address of the coordinator's HTTP port.
-  std::string runtime;     ///< "process".
+  std::string runtime;     ///< "process", "docker" or "podman".
   int64_t started_unix_ms = 0;
   node_resources resources;
   std::vector<installed_skill> skills;

@@ -9,18 +9,22 @@
 #include <vector>
 
 /// What a container runtime is asked and what it tells. The `process` runtime
-/// speaks it now; container engines speak the same.
+/// and the engine runtime speak it.
 namespace roscell {
 
 /// Makes the image of a skill ready; at once when it exists already.
 struct prepare_image {
+  std::string instance;  ///< For whom; it hears how a build gets on.
+  std::string operation; ///< Names the image.
   std::string skill_dir; ///< Absolute path of the skill folder.
   std::string skill;     ///< Its content hash.
   std::vector<std::string> entry_point;
   std::string base_image; ///< Ignored by the process runtime.
 
   static constexpr auto fields() {
-    return std::make_tuple(required("skill_dir", &prepare_image::skill_dir),
+    return std::make_tuple(required("instance", &prepare_image::instance),
+                           required("operation", &prepare_image::operation),
+                           required("skill_dir", &prepare_image::skill_dir),
                            required("skill", &prepare_image::skill),
                            required("entry_point", &prepare_image::entry_point),
                            required("base_image", &prepare_image::base_image));
@@ -42,6 +46,11 @@ struct start_container {
   std::map<std::string, std::string> environment;
   std::map<std::string, std::string> labels; ///< task, instance, cell.
   resource_request limits;
+  int gpu = -1; ///< Index of the GPU that it may use; negative: none.
+  std::vector<io_endpoint> input;  ///< Files of it can be read,
+  std::vector<io_endpoint> output; ///< and of these written.
+  std::vector<std::string> devices;
+  std::vector<std::string> volumes; ///< "/host/path:/container/path[:ro]".
 
   static constexpr auto fields() {
     return std::make_tuple(
@@ -50,7 +59,12 @@ struct start_container {
         required("command", &start_container::command),
         required("environment", &start_container::environment),
         required("labels", &start_container::labels),
-        required("limits", &start_container::limits));
+        required("limits", &start_container::limits),
+        nullable("gpu", &start_container::gpu),
+        one_or_many("input", &start_container::input),
+        one_or_many("output", &start_container::output),
+        required("devices", &start_container::devices),
+        required("volumes", &start_container::volumes));
   }
 };
 
@@ -158,15 +172,26 @@ struct instance_notified {
   }
 };
 
+/// A fact: the engine under the runtime cannot be asked at present, so what is
+/// known of its containers may be outdated; or it can again.
+struct runtime_troubled {
+  std::string message; ///< Empty: the trouble is over.
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("message", &runtime_troubled::message));
+  }
+};
+
 /// Who hears of exits and notifications: the container supervisor.
 using container_listener_actor =
     caf::typed_actor<caf::reacts_to<container_exited>,
-                     caf::reacts_to<instance_notified>>;
+                     caf::reacts_to<instance_notified>,
+                     caf::reacts_to<runtime_troubled>>;
 
 /// The RUNTIME: the only actor that starts and stops programs.
 using runtime_actor = introspected_actor::extend<
     // Errors: engine_failed (missing or not executable entry point, failed
-    // build).
+    // build: details "log_tail").
     caf::replies_to<prepare_image>::with<image_prepared>,
     // Errors: engine_failed.
     caf::replies_to<start_container>::with<container_started>,
@@ -262,7 +287,7 @@ using container_supervisor_actor = introspected_actor::extend<
     caf::replies_to<instance_query>::with<instance_description>,
     caf::replies_to<log_query>::with<log_excerpt>,
     caf::reacts_to<listen_to_instances>, caf::reacts_to<container_exited>,
-    caf::reacts_to<instance_notified>,
+    caf::reacts_to<instance_notified>, caf::reacts_to<runtime_troubled>,
     // INTERNAL: from a skill instance.
     caf::reacts_to<instance_changed>>;
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "messages/coordination.hpp"
+#include "messages/engine.hpp"
 #include "messages/error_code.hpp"
 #include "messages/storage.hpp"
 
@@ -98,6 +99,13 @@ CAF_BEGIN_TYPE_ID_BLOCK(roscell, caf::first_custom_type_id)
   CAF_ADD_TYPE_ID(roscell, (roscell::instance_notified))
   CAF_ADD_TYPE_ID(roscell, (roscell::program_ended))
   CAF_ADD_TYPE_ID(roscell, (roscell::log_grown))
+  CAF_ADD_TYPE_ID(roscell, (roscell::runtime_troubled))
+  CAF_ADD_TYPE_ID(roscell, (roscell::engine_answered))
+  CAF_ADD_TYPE_ID(roscell, (roscell::engine_streamed))
+  CAF_ADD_TYPE_ID(roscell, (roscell::engine_log_read))
+  CAF_ADD_TYPE_ID(roscell, (roscell::image_planned))
+  CAF_ADD_TYPE_ID(roscell, (roscell::pack_image))
+  CAF_ADD_TYPE_ID(roscell, (roscell::image_packed))
   CAF_ADD_TYPE_ID(roscell, (roscell::start_instance))
   CAF_ADD_TYPE_ID(roscell, (roscell::stop_instance))
   CAF_ADD_TYPE_ID(roscell, (roscell::listen_to_instances))
@@ -148,6 +156,8 @@ CAF_BEGIN_TYPE_ID_BLOCK(roscell, caf::first_custom_type_id)
   CAF_ADD_TYPE_ID(roscell, (roscell::container_listener_actor))
   CAF_ADD_TYPE_ID(roscell, (roscell::runtime_actor))
   CAF_ADD_TYPE_ID(roscell, (roscell::process_runtime_actor))
+  CAF_ADD_TYPE_ID(roscell, (roscell::image_packer_actor))
+  CAF_ADD_TYPE_ID(roscell, (roscell::engine_runtime_actor))
   CAF_ADD_TYPE_ID(roscell, (roscell::skill_instance_actor))
   CAF_ADD_TYPE_ID(roscell, (roscell::instance_listener_actor))
   CAF_ADD_TYPE_ID(roscell, (roscell::container_supervisor_actor))

@@ -20,6 +20,8 @@ if [[ "${1:-}" == --with-tests ]]; then
     # To check: format, lint and fuzzers; namespaces, HTTP and JSON in scripts.
     clang clang-format clang-tidy libclang-rt-14-dev libfuzzer-14-dev
     iproute2 nftables curl procps python3-minimal
+    # Containers, and a base image for them.
+    docker.io mmdebstrap
   )
 fi
 

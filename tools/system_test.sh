@@ -8,6 +8,24 @@ ROSCELL_BUILD=$(realpath "${1:?usage: tools/system_test.sh BUILD_DIR [PATTERN]}"
 pattern=${2:-.}
 passed=0 failed=0 skipped=0
 
+# suite_hook FILE NAME: runs a function of the file once for all of its tests,
+# if it has one. $suite is a folder that they share.
+suite_hook() {
+  [[ -n $1 ]] && grep -q "^$2()" "$1" || return 0
+  (
+    scratch=$suite
+    . test/system/lib.sh
+    . "$1"
+    "$2"
+  ) > "$suite/$2.output" 2>&1
+}
+
+end_suite() {
+  suite_hook "$file" after_all
+  rm -rf "$suite"
+  file=
+}
+
 run_one() {
   local file=$1 test=$2
   scratch=$(mktemp -d /tmp/roscell-test.XXXXXX)
@@ -36,11 +54,18 @@ run_one() {
   rm -rf "$scratch"
 }
 
+file=
+trap '[[ -n $file ]] && end_suite' EXIT
 for file in test/system/*_test.sh; do
+  tests=$(grep -oE '^test_[a-z0-9_]+' "$file" | grep -E "$pattern")
+  [[ -n $tests ]] || continue
   echo "$(basename "$file" _test.sh):"
-  for test in $(grep -oE '^test_[a-z0-9_]+' "$file" | grep -E "$pattern"); do
+  suite=$(mktemp -d /tmp/roscell-suite.XXXXXX)
+  suite_hook "$file" before_all
+  for test in $tests; do
     run_one "$file" "$test"
   done
+  end_suite
 done
 echo "system tests: $passed passed, $failed failed, $skipped skipped"
 [[ $failed -eq 0 ]]

@@ -13,26 +13,34 @@ namespace {
 /// comes in between is merged, or waits in its socket.
 constexpr std::chrono::milliseconds words_pause{20};
 
-void hear(int socket, const child_watch::callbacks& calls) {
+using listener = std::function<void(const notification&)>;
+
+void hear(int socket, const listener& on_notification) {
   const auto words = receive_notifications(socket);
   if (words.ready || words.alive || words.stopping || !words.status.empty())
-    calls.on_notification(words);
+    on_notification(words);
 }
 
 } // namespace
 
+fd_watch watch_notifications(const std::shared_ptr<io_core>& core,
+                             const shared_fd& notify_socket,
+                             listener on_notification) {
+  return {core, notify_socket,
+          [notify_socket, call = std::move(on_notification)] {
+            hear(notify_socket->get(), call);
+            return true;
+          },
+          words_pause};
+}
+
 child_watch::child_watch(const std::shared_ptr<io_core>& core, shared_fd pidfd,
                          shared_fd notify_socket, callbacks calls) {
+  words_ = watch_notifications(core, notify_socket, calls.on_notification);
   const auto shared = std::make_shared<const callbacks>(std::move(calls));
-  words_ = fd_watch{core, notify_socket,
-                    [notify_socket, shared] {
-                      hear(notify_socket->get(), *shared);
-                      return true;
-                    },
-                    words_pause};
   end_ = fd_watch{core, std::move(pidfd), [notify_socket, shared] {
                     // What the program said last must not come after its end.
-                    hear(notify_socket->get(), *shared);
+                    hear(notify_socket->get(), shared->on_notification);
                     shared->on_end();
                     return false;
                   }};

@@ -8,6 +8,13 @@
 
 namespace roscell {
 
+/// Hears what a program says on its NOTIFY_SOCKET, as calls on the io thread,
+/// 50 a second at most.
+fd_watch
+watch_notifications(const std::shared_ptr<io_core>& core,
+                    const shared_fd& notify_socket,
+                    std::function<void(const notification&)> on_notification);
+
 /// Sees the end of a program at once, and hears what it says on its
 /// NOTIFY_SOCKET. Both come as calls on the io thread, the end last.
 class child_watch {

@@ -1,6 +1,7 @@
 #include "actors/edge/http_client.hpp"
 
 #include "actors/edge/client_socket.hpp"
+#include "actors/edge/line_splitter.hpp"
 
 #include <boost/asio/buffer.hpp>
 #include <boost/beast/http/error.hpp>
@@ -141,49 +142,6 @@ private:
   std::string pending_; ///< Read but not parsed yet.
 };
 
-/// Cuts a stream of bytes into lines.
-class line_splitter {
-public:
-  explicit line_splitter(const std::function<bool(std::string_view)>& on_line)
-      : on_line_(on_line) {
-    // nop
-  }
-
-  /// False if the receiver has enough.
-  bool take(std::string_view bytes) {
-    rest_ += bytes;
-    size_t begin = 0;
-    for (auto end = rest_.find('\n'); end != std::string::npos;
-         end = rest_.find('\n', begin)) {
-      if (!pass(std::string_view{rest_}.substr(begin, end - begin)))
-        return false;
-      begin = end + 1;
-    }
-    rest_.erase(0, begin);
-    return true;
-  }
-
-  /// The last line may have no line feed.
-  void finish() {
-    if (!rest_.empty())
-      pass(rest_);
-  }
-
-  bool too_long() const {
-    return rest_.size() > max_line_bytes;
-  }
-
-private:
-  bool pass(std::string_view line) {
-    if (!line.empty() && line.back() == '\r')
-      line.remove_suffix(1);
-    return on_line_(line);
-  }
-
-  const std::function<bool(std::string_view)>& on_line_;
-  std::string rest_;
-};
-
 } // namespace
 
 http_cancel::http_cancel() : fd_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
@@ -224,7 +182,7 @@ http_client::follow(const std::string& path,
   exchange turn{to_, how};
   if (auto failure = turn.send("GET", path, {}))
     return *failure;
-  line_splitter lines{on_line};
+  line_splitter lines{max_line_bytes, on_line};
   auto& reply = turn.reply();
   bool streaming = false;
   while (!reply.is_done()) {

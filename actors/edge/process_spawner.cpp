@@ -97,19 +97,30 @@ bool await_input(int fd, deadline end) {
   }
 }
 
-/// Reads until the other end is closed. Returns false when time runs out.
-bool read_words(int fd, deadline end, std::string& words) {
+/// Reads until the other end is closed, and keeps so much of it. Returns false
+/// when time runs out.
+bool read_words(int fd, deadline end, size_t max_bytes, std::string& words) {
   while (await_input(fd, end)) {
-    std::array<char, 512> buffer;
+    std::array<char, 4096> buffer;
     const auto n = ::read(fd, buffer.data(), buffer.size());
     if (n < 0 && errno == EINTR)
       continue;
     if (n <= 0)
       return true;
-    const auto room = max_words_bytes - words.size();
+    const auto room = max_bytes - words.size();
     words.append(buffer.data(), std::min(static_cast<size_t>(n), room));
   }
   return false;
+}
+
+/// The exit code of a child that has ended; 128 + n after signal n.
+int exit_code(int pidfd) {
+  siginfo_t info{};
+  if (::waitid(P_PIDFD, static_cast<id_t>(pidfd), &info,
+               WEXITED | WNOHANG | WNOWAIT)
+      != 0)
+    return 0;
+  return info.si_code == CLD_EXITED ? info.si_status : 128 + info.si_status;
 }
 
 std::string trimmed(const std::string& words) {
@@ -123,41 +134,81 @@ void kill_and_reap(int pidfd) {
   ::waitid(P_PIDFD, static_cast<id_t>(pidfd), &info, WEXITED);
 }
 
-} // namespace
+/// A child whose standard output and error can be read.
+struct speaking_child {
+  spawned_program child;
+  unique_fd output;
+};
 
-edge_result<spawned_program> spawn_program(const program& what,
-                                           std::chrono::milliseconds limit) {
+edge_result<speaking_child> start(const program& what) {
   int ends[2] = {-1, -1};
   if (::pipe2(ends, O_CLOEXEC) != 0)
     return failed(what, std::strerror(errno));
-  const unique_fd reading{ends[0]};
+  speaking_child result;
+  result.output = unique_fd{ends[0]};
   unique_fd writing{ends[1]};
-  spawned_program result;
   pid_t pid = -1;
   if (const int error = spawn_setup{writing.get()}.run(what, pid); error != 0)
     return failed(what, std::strerror(error));
-  writing.reset();
   // Nobody else reaps our child, so the number is still its own.
-  result.pidfd = unique_fd{::pidfd_open(pid, 0)};
-  if (!result.pidfd) {
+  result.child.pidfd = unique_fd{::pidfd_open(pid, 0)};
+  if (!result.child.pidfd) {
     const std::string why = std::strerror(errno);
     ::kill(pid, SIGKILL);
     ::waitpid(pid, nullptr, 0);
     return failed(what, "pidfd_open: " + why + " (needs Linux 5.3)");
   }
-  result.identity = identify(pid).value_or(process_identity{pid, 0});
+  result.child.identity = identify(pid).value_or(process_identity{pid, 0});
+  return result;
+}
+
+} // namespace
+
+edge_result<spawned_program> spawn_program(const program& what,
+                                           std::chrono::milliseconds limit) {
+  auto started = start(what);
+  if (auto* error = std::get_if<edge_error>(&started))
+    return std::move(*error);
+  auto& [child, output] = std::get<speaking_child>(started);
   const auto end = std::chrono::steady_clock::now() + limit;
   std::string words;
-  if (!read_words(reading.get(), end, words)) {
-    kill_and_reap(result.pidfd.get());
+  if (!read_words(output.get(), end, max_words_bytes, words)) {
+    kill_and_reap(child.pidfd.get());
     return failed(what, "it did not start in time");
   }
   if (words.empty())
-    return result;
+    return std::move(child);
   // Files are closed before the end of a process can be seen.
-  await_input(result.pidfd.get(), end);
-  kill_and_reap(result.pidfd.get());
+  await_input(child.pidfd.get(), end);
+  kill_and_reap(child.pidfd.get());
   return failed(what, trimmed(words));
+}
+
+edge_result<std::string> run_program(const program& what,
+                                     std::chrono::milliseconds limit,
+                                     size_t max_bytes) {
+  auto started = start(what);
+  if (auto* error = std::get_if<edge_error>(&started))
+    return std::move(*error);
+  auto& [child, output] = std::get<speaking_child>(started);
+  const auto end = std::chrono::steady_clock::now() + limit;
+  std::string words;
+  const bool in_time = read_words(output.get(), end, max_bytes, words)
+                       && await_input(child.pidfd.get(), end);
+  const auto code = exit_code(child.pidfd.get());
+  kill_and_reap(child.pidfd.get());
+  const auto name = "'" + what.path.string() + "'";
+  if (!in_time)
+    return edge_error{error_code::timeout,
+                      name + " did not end within "
+                          + std::to_string(limit.count() / 1000) + " s",
+                      ""};
+  if (code != 0)
+    return edge_error{error_code::engine_failed,
+                      name + " ended with code " + std::to_string(code) + ": "
+                          + trimmed(words.substr(0, max_words_bytes)),
+                      ""};
+  return words;
 }
 
 } // namespace roscell

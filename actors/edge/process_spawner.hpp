@@ -34,4 +34,13 @@ struct spawned_program {
 edge_result<spawned_program> spawn_program(const program& what,
                                            std::chrono::milliseconds limit);
 
+/// Runs a program to its end, started as above, and gives what it has written
+/// to its standard output and error, `max_bytes` at most. Waits.
+///
+/// Errors: engine_failed (as above; its words say why), timeout; it is killed
+/// then.
+edge_result<std::string> run_program(const program& what,
+                                     std::chrono::milliseconds limit,
+                                     size_t max_bytes);
+
 } // namespace roscell

@@ -426,3 +426,21 @@ TEST_CASE("live instances are bounded, and so are the rows of ended ones") {
   CHECK(b.rows().size() == live - 8);
   CHECK(b.runtime->removed.size() == 8);
 }
+
+TEST_CASE("an engine's trouble is told of every live instance, and its end") {
+  bench b;
+  b.start();
+  b.deploy("i");
+  b.say("i");
+  caf::anon_send(b.supervisor, runtime_troubled{"the engine is away"});
+  b.settle();
+  CHECK(b.row("i").trouble == "the engine is away");
+  CHECK(b.row("i").state == instance_state::running);
+  CHECK(b.told->last().trouble == "the engine is away");
+  b.deploy("j");
+  CHECK(b.row("j").trouble == "the engine is away");
+  caf::anon_send(b.supervisor, runtime_troubled{});
+  b.settle();
+  CHECK(b.row("i").trouble.empty());
+  CHECK(b.row("j").trouble.empty());
+}

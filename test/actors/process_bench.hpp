@@ -81,6 +81,9 @@ struct process_bench {
             if (x.ready)
               told.put("ready");
           },
+          [](const runtime_troubled&) {
+            // Processes have no engine.
+          },
       };
     });
     restart();

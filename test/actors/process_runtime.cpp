@@ -61,8 +61,13 @@ TEST_CASE("an entry point is checked before anything is started") {
   b.folder.write("skill/bin/plain", "");
   b.folder.write("skill/bin/run", "", true);
   const auto prepare = [&](const std::string& program) {
-    return b.ask<image_prepared>(prepare_image{
-        (b.folder.path() / "skill").string(), "hash", {program}, "image"});
+    return b.ask<image_prepared>(
+        prepare_image{"i",
+                      "echo",
+                      (b.folder.path() / "skill").string(),
+                      "hash",
+                      {program},
+                      "image"});
   };
   CHECK(prepare("bin/run"));
   for (const auto* program : {"bin/none", "bin", "bin/plain"}) {

@@ -142,6 +142,20 @@ TEST_CASE("an image that cannot be made ends the instance without a start") {
   CHECK(b.runtime->started.empty());
 }
 
+TEST_CASE("the end of a failed build's log goes along with the failure") {
+  bench b;
+  b.runtime->prepare_error =
+      to_error({error_code::engine_failed,
+                "the build failed",
+                {},
+                {},
+                R"({"log_tail":"Step 2/5 : COPY opt /opt\n"})"});
+  b.runtime->log.clear();
+  b.start();
+  CHECK(b.told->last().state == instance_state::failed);
+  CHECK(b.told->last().log_tail == "Step 2/5 : COPY opt /opt\n");
+}
+
 TEST_CASE("a start that fails is cleaned up and told") {
   bench b;
   b.runtime->start_error = fail(error_code::engine_failed, "no such file");

@@ -198,6 +198,7 @@ container_supervisor_actor fake_supervisor(caf::actor_system& system,
         [](const listen_to_instances&) {},
         [](const container_exited&) {},
         [](const instance_notified&) {},
+        [](const runtime_troubled&) {},
         [told](const instance_changed& x) { told->rows.push_back(x.instance); },
     };
   });

@@ -152,3 +152,21 @@ TEST_CASE("records of anything else are none") {
   folder.write("exit", R"({"code":0})" + std::string(10'000, ' '));
   CHECK_FALSE(read_exit_record(folder.path()));
 }
+
+TEST_CASE("a program is run to its end, and what it says is bounded") {
+  CHECK(value_of(run_program(shell("echo $GIVEN; echo err >&2"), patience, 100))
+        == "yes\nerr\n");
+  CHECK(value_of(run_program(shell("seq 10000"), patience, 100)).size() == 100);
+}
+
+TEST_CASE("a program that fails, or does not end, is a clear error") {
+  const auto failed =
+      error_of(run_program(shell("echo why; exit 3"), patience, 100));
+  CHECK(failed.message.find("code 3: why") != std::string::npos);
+  const auto late = error_of(run_program(shell("sleep 60"), 50ms, 100));
+  CHECK(late.code == error_code::timeout);
+  // It has closed its output, but has not ended.
+  const auto silent =
+      error_of(run_program(shell("exec >&- 2>&-; sleep 60"), 50ms, 100));
+  CHECK(silent.code == error_code::timeout);
+}

@@ -28,6 +28,7 @@ need_namespaces() {
 # `ip netns exec NAME`.
 declare -A pid
 inside=()
+runtime=process
 discovery_port=0
 start_node() {
   local name=$1 ready=$scratch/$1.ready
@@ -36,7 +37,8 @@ start_node() {
   mkfifo "$ready"
   exec {ready_fd}<> "$ready"
   "${inside[@]}" "$ROSCELL" node --name "$name" --data-dir "$scratch/$name" \
-    --port 0 --discovery-port "$discovery_port" --skills "$skills" --runtime process \
+    --port 0 --discovery-port "$discovery_port" --skills "$skills" \
+    --runtime "$runtime" \
     --ready-fd 5 "$@" 5> "$ready" 2>> "$scratch/$name.log" &
   pid[$name]=$!
   echo "${pid[$name]}" >> "$scratch/pids"

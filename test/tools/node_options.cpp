@@ -157,6 +157,7 @@ TEST_CASE("the command line takes what the design names", "[tools]") {
   CHECK(parses({"tasks", "fleet-poses"}));
   CHECK(parses({"events", "--since", "0", "-n", "5", "-o", "table"}));
   CHECK(parses({"logs", "-f", "--tail", "20", "t-a-1"}));
+  CHECK(parses({"node", "--runtime", "docker:/run/docker.sock"}));
   CHECK(parses({"completion", "bash"}));
 }
 
@@ -170,6 +171,9 @@ TEST_CASE("the command line refuses what cannot be meant", "[tools]") {
   CHECK_FALSE(parses({"node", "--server-id", "256"}));
   CHECK_FALSE(parses({"node", "--domain-id", "233"}));
   CHECK_FALSE(parses({"node", "--runtime", "podmann"}));
+  CHECK_FALSE(parses({"node", "--runtime", "process:/s"}));
+  CHECK_FALSE(parses({"node", "--runtime", "docker:"}));
+  CHECK_FALSE(parses({"node", "--runtime", "docker:relative"}));
   CHECK_FALSE(parses({"request", "--timeout", "0", "f"}));
   CHECK_FALSE(parses({"request", "a", "b"}));
   CHECK_FALSE(parses({"plan"}));

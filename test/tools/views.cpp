@@ -108,6 +108,13 @@ TEST_CASE("a failed instance shows its exit code and why", "[tools]") {
   CHECK(has(text, "     3  no such file\n"));
 }
 
+TEST_CASE("an instance whose engine is away shows that", "[tools]") {
+  auto row = sample_instance();
+  row.status = "frames=12";
+  row.trouble = "the engine is away";
+  CHECK(has(instances_view({{row}}, at(2000)), "  the engine is away\n"));
+}
+
 TEST_CASE("a skill has a row for each deployment option", "[tools]") {
   deployment_option cpu;
   cpu.name = "cpu";

@@ -70,11 +70,24 @@ void add_network(CLI::App& command, node_options& options) {
       ->option_text("FILE");
 }
 
+std::string names_a_runtime(const std::string& text) {
+  const auto colon = text.find(':');
+  const auto name = text.substr(0, colon);
+  const bool is_engine = name == "docker" || name == "podman";
+  if (colon == std::string::npos)
+    return is_engine || name == "auto" || name == "process"
+               ? ""
+               : "not auto, process, docker or podman";
+  return is_engine && text.compare(colon, 2, ":/") == 0
+             ? ""
+             : "not docker:/PATH or podman:/PATH";
+}
+
 void add_resources(CLI::App& command, node_options& options) {
   auto& config = options.config;
   command.add_option("--runtime", config.runtime, "What runs skill instances")
-      ->check(CLI::IsMember({"auto", "docker", "podman", "process"}))
-      ->option_text("auto|docker|podman|process [auto]");
+      ->check(names_a_runtime)
+      ->option_text("auto|process|docker[:SOCKET]|podman[:SOCKET] [auto]");
   command
       .add_option("--skills", options.skill_dirs,
                   "Directory of skill folders, besides DATA_DIR/skills; can be "

@@ -76,6 +76,8 @@ void introduce(const running_node& node, const node_config& config) {
     spdlog::info("cell '{}' has its discovery server on {}",
                  config.cell.empty() ? node.name : config.cell,
                  node.discovery_server);
+  spdlog::info("instances are run by '{}': {}", node.runtime,
+               node.runtime_reason);
   spdlog::info("data directory {}, bearer token {}", config.data_dir.string(),
                node.token_file);
   if (config.site_token_file.empty())

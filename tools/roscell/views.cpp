@@ -38,9 +38,12 @@ std::string or_nothing(const table& t, const char* what,
                         : t.render(style.text);
 }
 
-/// What stands behind an instance's state: why it ended, or what it says.
+/// What stands behind an instance's state: why it ended, why that is not known
+/// at present, or what it says.
 std::string remark(const instance_row& row) {
-  return row.reason.empty() ? row.status : row.reason;
+  if (!row.reason.empty())
+    return row.reason;
+  return row.trouble.empty() ? row.status : row.trouble;
 }
 
 std::string exit_text(int code) {

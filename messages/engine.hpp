@@ -1,0 +1,97 @@
+#pragma once
+
+#include "messages/failure.hpp"
+#include "messages/runtime.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+/// What the parts of the engine runtime say to each other. INTERNAL to it.
+namespace roscell {
+
+/// An engine's answer to call number `call`, or the end of a stream.
+struct engine_answered {
+  uint64_t call = 0;
+  int status = 0; ///< HTTP status; 0: there is no answer, and `why` says why.
+  std::string body;
+  failure why;
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("call", &engine_answered::call),
+                           required("status", &engine_answered::status),
+                           required("body", &engine_answered::body),
+                           required("why", &engine_answered::why));
+  }
+};
+
+/// Lines of a streamed answer; none at all when it has just been opened.
+struct engine_streamed {
+  uint64_t call = 0;
+  std::vector<std::string> lines;
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("call", &engine_streamed::call),
+                           required("lines", &engine_streamed::lines));
+  }
+};
+
+/// A part of a container's log was read, for call number `call`.
+struct engine_log_read {
+  uint64_t call = 0;
+  std::string text;
+  int64_t next_offset = 0;
+  bool is_whole = true; ///< It is all that is there.
+
+  static constexpr auto fields() {
+    return std::make_tuple(
+        required("call", &engine_log_read::call),
+        required("text", &engine_log_read::text),
+        required("next_offset", &engine_log_read::next_offset),
+        required("is_whole", &engine_log_read::is_whole));
+  }
+};
+
+/// Reply to `prepare_image`: how the image is called and made.
+struct image_planned {
+  std::string image; ///< "roscell/<operation>:<hash>"
+  std::string dockerfile;
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("image", &image_planned::image),
+                           required("dockerfile", &image_planned::dockerfile));
+  }
+};
+
+/// Writes the build context of the image that was planned last.
+struct pack_image {
+  static constexpr auto fields() {
+    return std::make_tuple();
+  }
+};
+
+struct image_packed {
+  std::string file; ///< A tar file, which the receiver removes.
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("file", &image_packed::file));
+  }
+};
+
+/// The IMAGE PACKER: looks into one skill folder and packs it.
+using image_packer_actor = introspected_actor::extend<
+    // Errors: engine_failed (missing or not executable entry point, a library
+    // that this host has not).
+    caf::replies_to<prepare_image>::with<image_planned>,
+    // Errors: engine_failed (the disk is full), conflict (nothing is planned).
+    caf::replies_to<pack_image>::with<image_packed>>;
+
+/// The ENGINE RUNTIME: runs skills as containers of Docker or Podman.
+using engine_runtime_actor =
+    runtime_actor::extend<caf::reacts_to<engine_answered>,
+                          caf::reacts_to<engine_streamed>,
+                          caf::reacts_to<engine_log_read>,
+                          // INTERNAL: alarm number N is due.
+                          caf::reacts_to<caf::tick_atom, uint64_t>>;
+
+} // namespace roscell

@@ -1,0 +1,313 @@
+# Skills in containers of a real Docker engine, which these tests start and stop.
+
+. test/system/engine.sh
+
+before_all() {
+  start_engine
+}
+
+after_all() {
+  stop_engine
+}
+
+start_alone() {
+  use_engine
+  start_node head --coordinator --cell line --interface lo
+}
+
+# run_task TASK: deploys the echo skill; its container is in $container.
+run_task() {
+  echo_task "$1" > "$scratch/$1.json"
+  to head request "$scratch/$1.json" > "$scratch/reply.json" \
+    || fail "refused: $(cat "$scratch/reply.json")"
+  instance=$(jq -r '.instances[0].instance' "$scratch/reply.json")
+  container=$(get head "/v1/instances/$instance" \
+    | jq -r '.instances[0].container')
+}
+
+# echoes TASK LINE: the skill writes what it is given.
+echoes() {
+  local line
+  rm -f "$scratch/seen"
+  mkfifo "$scratch/seen"
+  timeout "$deadline_s" tail -n +1 -F "$scratch/data/$1.out" \
+    > "$scratch/seen" 2>/dev/null &
+  echo "$2" >> "$scratch/data/$1.in"
+  while read -r -t "$deadline_s" line; do
+    [[ $line == "$2" ]] && return
+  done < "$scratch/seen"
+  fail "'$2' was not written"
+}
+
+terminate() {
+  jq -n --arg task "$1" '{type: "task_termination", task: $task}' \
+    | to head request > "$scratch/end.json" || fail "$(cat "$scratch/end.json")"
+}
+
+await_failed() {
+  await head ".event == \"instance_changed\" and .data.state == \"failed\"
+    and .subject == \"$instance\"" > /dev/null
+}
+
+inspect() {
+  engine inspect "$container" --format "$1"
+}
+
+test_a_skill_runs_in_a_container_and_its_termination_removes_it() {
+  start_alone
+  expect "the runtime" "$(get head /v1/node | jq -r .runtime)" docker
+  run_task hello
+  expect "the instance" "$(get head "/v1/instances/$instance" \
+    | jq -r '.instances[0].state')" running
+  expect "the container" "$(inspect '{{.State.Running}}')" true
+  echoes hello "a line"
+  expect "its task" "$(inspect '{{index .Config.Labels "roscell.task"}}')" hello
+  expect "its instance" \
+    "$(inspect '{{index .Config.Labels "roscell.instance"}}')" "$instance"
+  expect "its cell" "$(inspect '{{index .Config.Labels "roscell.cell"}}')" line
+  expect "its memory" "$(inspect '{{.HostConfig.Memory}}')" $((1024 << 20))
+  expect "its network" "$(inspect '{{.HostConfig.NetworkMode}}')" host
+  expect "its shared memory" "$(inspect '{{.HostConfig.IpcMode}}')" host
+  expect "its input" "$(inspect '{{range .Mounts}}{{.Source}} {{.RW}},{{end}}' \
+    | tr , '\n' | grep hello.in)" "$scratch/data/hello.in false"
+  to head logs "$instance" > "$scratch/log.txt" || fail "no log"
+  terminate hello
+  [[ -z $(engine ps -aq) ]] || fail "the container is still there"
+  [[ -z $(ls "$scratch/head/notify") ]] || fail "its socket is still there"
+  [[ -z $(ls "$scratch/head/build") ]] || fail "a build context is left"
+  expect "tasks" "$(get head /v1/tasks | jq '.tasks | length')" 0
+}
+
+test_an_image_is_built_once_and_then_reused() {
+  start_alone
+  run_task first
+  image=$(inspect '{{.Config.Image}}')
+  run_task second
+  expect "the image" "$(inspect '{{.Config.Image}}')" "$image"
+  terminate first
+  terminate second
+  # Another skill content is another image, for both at the same time.
+  echo changed > "$skills/echo/note"
+  stop_node head
+  start_node head --coordinator --cell line --interface lo
+  echo_task third | jq -c '.pipeline += [.pipeline[0] | .id = "again"
+    | .output.endpoint += "2"]' | to head request > "$scratch/reply.json" \
+    || fail "refused: $(cat "$scratch/reply.json")"
+  container=$(engine ps -q | head -n 1)
+  [[ $(inspect '{{.Config.Image}}') != "$image" ]] || fail "the same image"
+  expect "their image" "$(engine ps --format '{{.Image}}' | sort -u | wc -l)" 1
+  # Everything up to the acceptance.
+  sed '/"task_accepted"/q' < <(exec "$ROSCELL" events --since 0 -o json \
+    --to "$scratch/head/node.sock" 2>/dev/null) > "$scratch/events"
+  expect "builds" "$(grep -c '"image_built"' "$scratch/events")" 1
+  terminate third
+}
+
+test_a_killed_node_finds_its_containers_again() {
+  start_alone
+  run_task steady
+  stop_node head KILL
+  expect "the container" "$(inspect '{{.State.Running}}')" true
+  start_node head --coordinator --cell line --interface lo
+  await head '.event == "instance_adopted"' > /dev/null
+  expect "its id" "$(get head "/v1/instances/$instance" \
+    | jq -r '.instances[0].container')" "$container"
+  expect "its state" "$(get head "/v1/instances/$instance" \
+    | jq -r '.instances[0].state')" running
+  echoes steady "after the restart"
+  terminate steady
+  [[ -z $(engine ps -aq) ]] || fail "the container is still there"
+}
+
+test_a_container_that_ends_while_its_node_is_away_is_told() {
+  start_alone
+  run_task short
+  stop_node head KILL
+  engine kill "$container" > /dev/null
+  start_node head --coordinator --cell line --interface lo
+  await_failed
+  expect "its exit code" "$(get head "/v1/instances/$instance" \
+    | jq '.instances[0].exit_code')" 137
+  terminate short
+}
+
+test_a_killed_container_is_told_with_its_exit_code_and_last_lines() {
+  use_engine
+  # A word of the skill's, to be found at the end of its log.
+  mv "$skills/echo/bin/echo" "$skills/echo/bin/real"
+  cat > "$skills/echo/bin/echo" << 'SCRIPT'
+#!/bin/sh
+echo "last words"
+exec /opt/roscell/skill/bin/real
+SCRIPT
+  chmod +x "$skills/echo/bin/echo"
+  start_node head --coordinator --cell line --interface lo
+  run_task doomed
+  engine kill "$container" > /dev/null
+  await_failed
+  get head "/v1/instances/$instance" | jq '.instances[0]' > "$scratch/row.json"
+  expect "its exit code" "$(jq .exit_code "$scratch/row.json")" 137
+  expect "its reason" "$(jq -r .reason "$scratch/row.json")" \
+    "it ended by signal 9"
+  jq -r .log_tail "$scratch/row.json" | grep -q "last words" \
+    || fail "$(cat "$scratch/row.json")"
+  to head logs "$instance" | grep -q "last words" || fail "not in its log"
+  terminate doomed
+}
+
+# use_base NAME: the skill's base image.
+use_base() {
+  local text
+  text=$(jq --arg base "$1" '.models[].deployments[].base_image = $base' \
+    "$skills/echo/skill.json")
+  echo "$text" > "$skills/echo/skill.json"
+}
+
+# refused TASK: the refusal of a task, in refusal.json.
+refused() {
+  echo_task "$1" | to head request > "$scratch/refusal.json"
+  expect "exit code" $? 1
+  expect "code" "$(jq -r .error.code "$scratch/refusal.json")" engine_failed
+}
+
+says() {
+  jq -r ".error.$1" "$scratch/refusal.json" | grep -q "$2" \
+    || fail "no '$2' in: $(cat "$scratch/refusal.json")"
+}
+
+test_a_failed_build_is_told_with_the_end_of_its_log() {
+  use_engine
+  # In this one /opt is a file.
+  touch "$scratch/opt"
+  tar -C "$scratch" -c opt | engine import - odd:1 > /dev/null
+  use_base odd:1
+  start_node head --coordinator --cell line --interface lo
+  refused bad
+  says message "cannot be built"
+  says log_tail "COPY opt /opt"
+  expect "containers" "$(engine ps -aq | wc -l)" 0
+  expect "tasks" "$(get head /v1/tasks | jq '.tasks | length')" 0
+}
+
+test_a_full_disk_of_the_engine_is_told_with_the_remedy() {
+  use_engine
+  # An engine of this test's own, with room for less than the skill.
+  engine_dir=$scratch/engine engine_socket=$scratch/engine.sock
+  mkdir "$engine_dir"
+  mount -t tmpfs -o size=64m tmpfs "$engine_dir" || skip "no tmpfs can be mounted"
+  trap 'stop_engine; umount -l "$scratch/engine"; clean_up' EXIT
+  launch_engine || skip "dockerd does not run on a tmpfs"
+  mkdir "$scratch/root"
+  tar -C "$scratch/root" -c . | engine import - debian:bookworm-slim > /dev/null
+  head -c 100M /dev/urandom > "$skills/echo/large"
+  runtime=docker:$engine_socket
+  start_node head --coordinator --cell line --interface lo
+  refused large
+  says message "no space left on device"
+  says message "free space on the engine's disk"
+}
+
+test_a_base_image_that_cannot_be_had_is_told_with_the_remedy() {
+  use_engine
+  use_base registry.invalid/none:1
+  start_node head --coordinator --cell line --interface lo
+  refused bad
+  says message "cannot be built"
+  says message "docker pull registry.invalid/none:1"
+}
+
+test_an_engine_that_dies_in_the_middle_of_a_build_is_told() {
+  use_engine
+  engine import --change 'ONBUILD RUN sleep 600' "$base_tar" slow:1 > /dev/null
+  use_base slow:1
+  start_node head --coordinator --cell line --interface lo
+  echo_task slow | to head request > "$scratch/refusal.json" &
+  request=$!
+  await head '.event == "image_building" and (.data.step | test("build trigger"))' \
+    > /dev/null
+  expect "the state" "$(get head /v1/instances | jq -r '.instances[0].state')" \
+    building
+  end_engine KILL
+  wait "$request"
+  expect "exit code" $? 1
+  says message "went away"
+  launch_engine || fail "dockerd did not start again"
+  await head '.event == "engine_found"' > /dev/null
+  expect "tasks" "$(get head /v1/tasks | jq '.tasks | length')" 0
+}
+
+test_an_engine_that_dies_in_the_middle_of_a_run_is_told_and_asked_again() {
+  start_alone
+  run_task cut
+  program=$(inspect '{{.State.Pid}}')
+  end_engine KILL
+  await head '.event == "engine_lost"' > /dev/null
+  await head '.event == "engine_found" or .event == "engine_lost"' > /dev/null
+  get head "/v1/instances/$instance" | jq '.instances[0]' > "$scratch/row.json"
+  expect "the state" "$(jq -r .state "$scratch/row.json")" running
+  jq -r .trouble "$scratch/row.json" | grep -q "$engine_socket" \
+    || fail "no trouble: $(cat "$scratch/row.json")"
+  # A new task is refused at once, and says why.
+  refused other
+  says message "$engine_socket"
+  # What happens meanwhile is learnt afterwards.
+  kill -KILL "$program"
+  launch_engine || fail "dockerd did not start again"
+  await_failed
+  get head "/v1/instances/$instance" | jq '.instances[0]' > "$scratch/row.json"
+  expect "its exit code" "$(jq .exit_code "$scratch/row.json")" 137
+  expect "trouble" "$(jq -r '.trouble // ""' "$scratch/row.json")" ""
+  terminate cut
+  run_task anew
+  echoes anew "a line"
+  terminate anew
+}
+
+test_containers_that_outlive_their_engine_go_on() {
+  use_engine
+  end_engine
+  launch_engine --live-restore || fail "dockerd did not start again"
+  start_node head --coordinator --cell line --interface lo
+  run_task tough
+  end_engine KILL
+  await head '.event == "engine_lost"' > "$scratch/lost.json"
+  echoes tough "without an engine"
+  launch_engine --live-restore || fail "dockerd did not start again"
+  await head '.event == "engine_found"' > /dev/null
+  expect "the state" "$(get head "/v1/instances/$instance" \
+    | jq -r '.instances[0].state')" running
+  echoes tough "with the engine again"
+  engine kill "$container" > /dev/null
+  await_failed
+  terminate tough
+}
+
+test_a_user_without_permission_on_the_socket_is_told_what_to_do() {
+  use_engine
+  mkdir "$scratch/nobody"
+  chown 65534 "$scratch" "$scratch/nobody"
+  chmod 755 "$suite"
+  setpriv --reuid 65534 --regid 65534 --clear-groups "$ROSCELL" node \
+    --name other --data-dir "$scratch/nobody" --interface lo --port 0 \
+    --runtime "$runtime" 2> "$scratch/stderr"
+  expect "exit code" $? 1
+  grep -q "no permission" "$scratch/stderr" || fail "$(cat "$scratch/stderr")"
+  grep -q "group docker" "$scratch/stderr" || fail "$(cat "$scratch/stderr")"
+}
+
+test_an_engine_that_is_not_there_is_told_what_to_do() {
+  "$ROSCELL" node --name other --data-dir "$scratch/other" --interface lo \
+    --port 0 --runtime "docker:$scratch/none.sock" 2> "$scratch/stderr"
+  expect "exit code" $? 3
+  grep -q "$scratch/none.sock" "$scratch/stderr" || fail "$(cat "$scratch/stderr")"
+}
+
+test_auto_takes_the_engine_that_answers() {
+  use_engine
+  runtime=auto
+  DOCKER_HOST=unix://$engine_socket \
+    start_node head --coordinator --cell line --interface lo
+  expect "the runtime" "$(get head /v1/node | jq -r .runtime)" docker
+  grep -q "instances are run by 'docker': .*$engine_socket" \
+    "$scratch/head.log" || fail "$(cat "$scratch/head.log")"
+}
