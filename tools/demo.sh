@@ -30,7 +30,9 @@ say() {
 }
 
 say "installing what is missing"
-tools/install.sh
+wanted=()
+$containers && wanted=(--containers)
+tools/install.sh "${wanted[@]}"
 say "building (the first time takes some minutes)"
 export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1
 [[ -f build/release/build.ninja ]] || cmake --preset release > /dev/null
@@ -48,17 +50,25 @@ finish() {
   [[ -z $task ]] || end_task > /dev/null 2>&1 || true
   kill "${nodes[@]}" 2> /dev/null || true
   wait "${nodes[@]}" 2> /dev/null || true
-  $containers && . tools/demo_containers.sh stop
+  [[ -z ${engine_socket:-} ]] || stop_engine || true
   rm -rf "$dir"
 }
 trap finish EXIT
 trap 'exit 130' INT
 trap 'exit 143' TERM
 
+# Root gets an engine of the demo's own; others use theirs.
 runtime=process
 if $containers; then
-  say "a container engine and the base image of the skills"
-  . tools/demo_containers.sh start
+  runtime=docker
+  if [[ $(id -u) -eq 0 ]]; then
+    say "a Docker engine, and a plain Debian as the base image of the skills"
+    engine_dir=$dir/engine
+    base_tar=$PWD/build/base-images/bookworm.tar
+    . tools/own_engine.sh
+    start_engine || { cat "$engine_dir.reason"; exit 1; }
+    runtime=docker:$engine_socket
+  fi
 fi
 
 # start NAME OPTION...: starts a node and waits until it says that it is ready.
@@ -66,7 +76,8 @@ start() {
   local name=$1
   shift
   mkfifo "$dir/$name.ready"
-  "$bin/roscell" node --name "$name" --interface lo --port 0 \
+  # In a session of its own: Ctrl-C is for this script, which ends its nodes.
+  setsid "$bin/roscell" node --name "$name" --interface lo --port 0 \
     --discovery-port 0 --data-dir "$dir/$name" --skills build/release/skills \
     --capacity cpu=2,memory_mib=2048,disk_mib=4096 --runtime "$runtime" \
     --ready-fd 5 "$@" 5> "$dir/$name.ready" 2> "$dir/$name.log" &
@@ -152,6 +163,8 @@ for n in "${!folders[@]}"; do
   lines+=("${folders[n]}" "$dir/out/scene_$((n + 1)).jsonl")
 done
 code=0
+# From here on Ctrl-C ends what is shown, not the cleaning up.
+trap : INT
 if [[ -n $images ]]; then
   say "what the estimator sees"
   timeout 60 tail -n +1 -F "$dir/out/scene_1.jsonl" 2> /dev/null \
@@ -161,7 +174,6 @@ elif $once; then
   "$bin/compare_poses" --wait 60 --frames 5 "${lines[@]}" || code=$?
 else
   say "poses beside the truth; Ctrl-C ends"
-  trap - INT
   "$bin/compare_poses" --watch --last 5 "${lines[@]}" || true
 fi
 cp "$dir"/out/pictures/*.png "$kept" 2> /dev/null \

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Installs what building and testing ROSCell needs, on Debian 12. Quiet and
+# Installs what building ROSCell needs, on Debian 12; with --containers a
+# container engine too, with --with-tests also what its tests need. Quiet and
 # quick when everything is there already.
 set -euo pipefail
 
@@ -20,9 +21,11 @@ if [[ "${1:-}" == --with-tests ]]; then
     # To check: format, lint and fuzzers; namespaces, HTTP and JSON in scripts.
     clang clang-format clang-tidy libclang-rt-14-dev libfuzzer-14-dev
     iproute2 nftables curl procps python3-minimal
-    # Containers, and a base image for them.
-    docker.io mmdebstrap
   )
+fi
+if [[ "${1:-}" == --with-tests || "${1:-}" == --containers ]]; then
+  # An engine, and what makes a base image for it.
+  packages+=(docker.io mmdebstrap)
 fi
 
 missing=()
