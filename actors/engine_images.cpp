@@ -147,7 +147,8 @@ void plan(self_pointer self, const std::string& key) {
   auto& work = *find_work(self, key);
   work.packer =
       spawn<caf::detached>(self->system(), st.config.context, image_packer,
-                           st.config.data_dir / "build");
+                           st.config.data_dir / "build",
+                           caf::actor_cast<engine_runtime_actor>(self));
   ask_packer<image_planned>(self, key, plan_limit, work.wish,
                             [=](image_work&, const image_planned& x) {
                               self->state.plans[key] = x.image;

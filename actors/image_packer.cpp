@@ -51,8 +51,12 @@ caf::result<image_packed> pack(self_pointer self) {
 } // namespace
 
 image_packer_actor::behavior_type
-image_packer(self_pointer self, const std::filesystem::path& work_dir) {
+image_packer(self_pointer self, const std::filesystem::path& work_dir,
+             const engine_runtime_actor& owner) {
   self->state.work_dir = work_dir;
+  self->monitor(owner);
+  self->set_down_handler(
+      [self](const caf::down_msg& down) { self->quit(down.reason); });
   return {
       [self](const state_query&) {
         return state_of({{"skill", self->state.content.skill_dir.string()}});

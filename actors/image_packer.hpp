@@ -18,9 +18,10 @@ struct image_packer_state {
   image_content content; ///< Of the image that was planned last.
 };
 
-/// The IMAGE PACKER. Messages: messages/engine.hpp.
+/// The IMAGE PACKER. Messages: messages/engine.hpp. Ends with its owner.
 image_packer_actor::behavior_type
 image_packer(image_packer_actor::stateful_pointer<image_packer_state> self,
-             const std::filesystem::path& work_dir);
+             const std::filesystem::path& work_dir,
+             const engine_runtime_actor& owner);
 
 } // namespace roscell

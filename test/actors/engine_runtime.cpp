@@ -150,6 +150,20 @@ TEST_CASE("an engine that goes away in a build is told, and the image not") {
         != std::string::npos);
 }
 
+TEST_CASE("what makes an image ends with the runtime") {
+  engine_bench b;
+  facts asked;
+  b.script.on("POST /build", [&](engine_caller&, const engine_call_seen&) {
+    asked.put("build"); // Never answered.
+  });
+  caf::anon_send(b.runtime, b.image());
+  asked.take();
+  // The actor system of the bench waits for every actor.
+  b.self->monitor(b.runtime);
+  caf::anon_send_exit(b.runtime, caf::exit_reason::user_shutdown);
+  b.self->receive([](const caf::down_msg&) {});
+}
+
 TEST_CASE("what is adopted is watched, what has ended is told") {
   engine_bench b;
   SECTION("it runs") {
