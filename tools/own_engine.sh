@@ -18,7 +18,7 @@ no_engine_here() {
 make_base_tar() {
   [[ -s $base_tar ]] && return
   mkdir -p "$(dirname "$base_tar")"
-  mmdebstrap --quiet --variant=minbase \
+  mmdebstrap --quiet --variant=minbase --format=tar \
     --dpkgopt='path-exclude=/usr/share/doc/*' \
     --dpkgopt='path-exclude=/usr/share/locale/*' \
     --dpkgopt='path-exclude=/usr/share/man/*' \

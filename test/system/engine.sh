@@ -7,7 +7,8 @@ base_tar=$ROSCELL_BUILD/../base-images/bookworm.tar
 # For a test: skips it if there is no engine, and uses it if there is one.
 use_engine() {
   [[ -f $engine_dir.reason ]] && skip "$(cat "$engine_dir.reason")"
-  [[ -S $engine_socket ]] || fail "$(cat "$suite/before_all.output")"
+  engine image inspect debian:bookworm-slim > /dev/null 2>&1 \
+    || fail "$(cat "$suite/before_all.output")"
   # What a failed test has left.
   engine ps -aq | xargs -r docker -H "unix://$engine_socket" rm -f > /dev/null
   runtime=docker:$engine_socket

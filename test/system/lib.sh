@@ -55,7 +55,8 @@ start_node() {
 # not depend on what else this machine is doing.
 use_skills() {
   skills=$scratch/skills
-  cp -r "$ROSCELL_BUILD/skills" "$skills"
+  mkdir "$skills"
+  cp -r "$ROSCELL_BUILD/skills/echo" "$skills"
   ask_no_cpu "$skills/echo"
 }
 
