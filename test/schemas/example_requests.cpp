@@ -1,4 +1,5 @@
 #include "schemas/document.hpp"
+#include "schemas/message_catalogue.hpp"
 
 #include <catch2/catch.hpp>
 
