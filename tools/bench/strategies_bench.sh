@@ -1,19 +1,22 @@
 #!/usr/bin/env bash
 # Measures the three deployment strategies of docs/examples on a coordinator and
 # four hosts: the time of a frame in each scene, and from a request until all of
-# it runs. One JSON line a figure.
-# Usage: tools/bench/strategies_bench.sh BUILD_DIR [SECONDS [RATE_HZ]]
-#   SECONDS  that each strategy is measured (60)
+# it runs. The strategies take turns, so that all meet the same state of the
+# machine. One JSON line a figure.
+# Usage: tools/bench/strategies_bench.sh BUILD_DIR [SECONDS [ROUNDS [RATE_HZ]]]
+#   SECONDS  that a turn of a strategy is measured (12)
+#   ROUNDS   how often it has its turn (5)
 #   RATE_HZ  pictures per second of a camera (as the files say)
 set -uo pipefail
 cd "$(dirname "$0")/../.."
 export ROSCELL_BUILD
-ROSCELL_BUILD=$(realpath "${1:?usage: tools/bench/strategies_bench.sh BUILD_DIR [SECONDS [RATE_HZ]]}")
-span_s=${2:-60}
-rate_hz=${3:-null}
+ROSCELL_BUILD=$(realpath "${1:?usage: tools/bench/strategies_bench.sh BUILD_DIR [SECONDS [ROUNDS [RATE_HZ]]]}")
+span_s=${2:-12}
+rounds=${3:-5}
+rate_hz=${4:-null}
 scratch=$(mktemp -d /tmp/roscell-bench.XXXXXX)
 . test/system/lib.sh
-trap 'clean_up 2> /dev/null; rm -rf "$scratch"' EXIT
+trap 'exec 2> /dev/null; clean_up; rm -rf "$scratch"' EXIT
 use_skills
 ask_no_cpu "$skills/image_source"
 ask_no_cpu "$skills/pose_estimation"
@@ -48,45 +51,59 @@ await_frame() {
     || fail "no frame in $1"
 }
 
-# frame_times STRATEGY SCENE FIRST_LINE: nearest-rank quantiles of the frames.
-frame_times() {
-  tail -n "+$3" "$scratch/poses/$1/$2.jsonl" \
-    | jq -nc --arg strategy "$1" --arg scene "$2" --argjson span_s "$span_s" '
-      [inputs | {ms: .processing_ms, tags: (.tags | length)}]
-      | (map(.ms) | sort) as $ms
-      | def quantile($q): $ms[($q * length | ceil) - 1];
-      {bench: "strategies", $strategy, $scene, tags: (map(.tags) | max),
-       frames: length, frames_per_s: (length / $span_s),
-       median_ms: quantile(0.5), p95_ms: quantile(0.95),
-       p99_ms: quantile(0.99)}'
-}
-
+# run_strategy STRATEGY: one turn. What is measured begins when each scene has
+# given a frame; it goes to $scratch/STRATEGY.jsonl and $scratch/STRATEGY.SCENE.
 run_strategy() {
-  local strategy=$1 scene begin accepted
+  local strategy=$1 poses=$scratch/poses/$1 scene begin accepted
   local -A first
-  mkdir -p "$scratch/poses/$strategy"
-  request_of "$strategy" > "$scratch/$strategy.json"
+  rm -rf "$poses"
+  mkdir -p "$poses"
+  request_of "$strategy" > "$scratch/task.json"
   begin=$(now_ms)
-  accepted=$(to head request "$scratch/$strategy.json") \
+  accepted=$(to head request "$scratch/task.json") \
     || fail "$strategy was refused: $accepted"
-  jq -c --arg strategy "$strategy" --argjson ms $(($(now_ms) - begin)) '
-    {bench: "strategies", $strategy, instances: (.instances | length),
-     nodes: ([.allocations[].node] | unique | length),
-     request_to_running_ms: $ms}' <<< "$accepted"
-  for scene in scene_{1,2,3,4}; do
-    await_frame "$scratch/poses/$strategy/$scene.jsonl"
+  jq -c --argjson ms $(($(now_ms) - begin)) '
+    {$ms, instances: (.instances | length),
+     nodes: ([.allocations[].node] | unique | length)}' <<< "$accepted" \
+    >> "$scratch/$strategy.jsonl"
+  for scene in "${scenes[@]}"; do
+    await_frame "$poses/$scene.jsonl"
   done
-  for scene in scene_{1,2,3,4}; do
-    first[$scene]=$(($(wc -l < "$scratch/poses/$strategy/$scene.jsonl") + 1))
+  for scene in "${scenes[@]}"; do
+    first[$scene]=$(($(wc -l < "$poses/$scene.jsonl") + 1))
   done
   timeout "$span_s" tail -f /dev/null
   echo "{\"type\":\"task_termination\",\"task\":\"$strategy\"}" \
     | to head request > /dev/null || fail "$strategy was not terminated"
-  for scene in scene_{1,2,3,4}; do
-    frame_times "$strategy" "$scene" "${first[$scene]}"
+  for scene in "${scenes[@]}"; do
+    tail -n "+${first[$scene]}" "$poses/$scene.jsonl" \
+      | jq -c '{ms: .processing_ms, tags: (.tags | length)}' \
+        >> "$scratch/$strategy.$scene"
   done
 }
 
+# A share $q of all values is not above the quantile (nearest rank).
+quantile='def quantile($q): sort | .[($q * length | ceil) - 1];'
+
+tell_start() {
+  jq -sc --arg strategy "$1" "$quantile"'
+    {bench: "strategies", $strategy, instances: .[0].instances,
+     nodes: .[0].nodes, request_to_running_ms: (map(.ms) | quantile(0.5)),
+     each_ms: map(.ms)}' "$scratch/$1.jsonl"
+}
+
+tell_frames() {
+  jq -sc --arg strategy "$1" --arg scene "$2" \
+    --argjson seconds $((span_s * rounds)) "$quantile"'
+    map(.ms) as $ms
+    | {bench: "strategies", $strategy, $scene, tags: (map(.tags) | max),
+       frames: length, frames_per_s: (length / $seconds),
+       median_ms: ($ms | quantile(0.5)), p95_ms: ($ms | quantile(0.95)),
+       p99_ms: ($ms | quantile(0.99))}' "$scratch/$1.$2"
+}
+
+strategies=(strategy_{1,2,3})
+scenes=(scene_{1,2,3,4})
 "$ROSCELL_BUILD/bin/render_scenes" "$scratch/scenes" > /dev/null \
   || fail "no scenes: build render_scenes first"
 start_node head --interface lo --coordinator --cell line
@@ -95,6 +112,14 @@ start_host 0 one
 start_host 1 two
 start_host 2 three
 start_host 3 four
-for strategy in strategy_{1,2,3}; do
-  run_strategy "$strategy"
+for ((round = 0; round < rounds; ++round)); do
+  for strategy in "${strategies[@]}"; do
+    run_strategy "$strategy"
+  done
+done
+for strategy in "${strategies[@]}"; do
+  tell_start "$strategy"
+  for scene in "${scenes[@]}"; do
+    tell_frames "$strategy" "$scene"
+  done
 done
