@@ -1,0 +1,125 @@
+#!/usr/bin/env bash
+# Measures the three deployment strategies of docs/examples on a coordinator and
+# four hosts: the time of a frame in each scene, and from a request until all of
+# it runs. The strategies take turns, so that all meet the same state of the
+# machine. One JSON line a figure.
+# Usage: tools/bench/strategies_bench.sh BUILD_DIR [SECONDS [ROUNDS [RATE_HZ]]]
+#   SECONDS  that a turn of a strategy is measured (12)
+#   ROUNDS   how often it has its turn (5)
+#   RATE_HZ  pictures per second of a camera (as the files say)
+set -uo pipefail
+cd "$(dirname "$0")/../.."
+export ROSCELL_BUILD
+ROSCELL_BUILD=$(realpath "${1:?usage: tools/bench/strategies_bench.sh BUILD_DIR [SECONDS [ROUNDS [RATE_HZ]]]}")
+span_s=${2:-12}
+rounds=${3:-5}
+rate_hz=${4:-null}
+scratch=$(mktemp -d /tmp/roscell-bench.XXXXXX)
+. test/system/lib.sh
+trap 'exec 2> /dev/null; clean_up; rm -rf "$scratch"' EXIT
+use_skills
+ask_no_cpu "$skills/image_source"
+ask_no_cpu "$skills/pose_estimation"
+
+now_ms() {
+  date +%s%3N
+}
+
+# As machines of their own have, each host has cores of its own, if there are
+# enough; else all share all.
+cores_each=$(($(nproc) / 4))
+# start_host NUMBER NAME: numbers count from 0.
+start_host() {
+  local name=$2 core=$(($1 * cores_each))
+  ((cores_each == 0)) || inside=(taskset -c "$core-$((core + cores_each - 1))")
+  start_node "$name" --interface lo --join "$server" --label "host=$name"
+  inside=()
+  await_joined head "$name"
+}
+
+# The request file with folders of this run in place of its own.
+request_of() {
+  jq --arg scratch "$scratch" --argjson rate_hz "$rate_hz" '
+    (.. | .endpoint? // empty) |= sub("^/tmp/roscell-"; $scratch + "/")
+    | (.pipeline[].parameters | select(has("rate_hz")).rate_hz)
+      |= ($rate_hz // .)' "docs/examples/$1.json"
+}
+
+# await_frame FILE: waits until the estimator has written about a frame.
+await_frame() {
+  [[ -n $(timeout "$deadline_s" tail -n +1 -F "$1" 2> /dev/null | head -n 1) ]] \
+    || fail "no frame in $1"
+}
+
+# run_strategy STRATEGY: one turn. What is measured begins when each scene has
+# given a frame; it goes to $scratch/STRATEGY.jsonl and $scratch/STRATEGY.SCENE.
+run_strategy() {
+  local strategy=$1 poses=$scratch/poses/$1 scene begin accepted
+  local -A first
+  rm -rf "$poses"
+  mkdir -p "$poses"
+  request_of "$strategy" > "$scratch/task.json"
+  begin=$(now_ms)
+  accepted=$(to head request "$scratch/task.json") \
+    || fail "$strategy was refused: $accepted"
+  jq -c --argjson ms $(($(now_ms) - begin)) '
+    {$ms, instances: (.instances | length),
+     nodes: ([.allocations[].node] | unique | length)}' <<< "$accepted" \
+    >> "$scratch/$strategy.jsonl"
+  for scene in "${scenes[@]}"; do
+    await_frame "$poses/$scene.jsonl"
+  done
+  for scene in "${scenes[@]}"; do
+    first[$scene]=$(($(wc -l < "$poses/$scene.jsonl") + 1))
+  done
+  timeout "$span_s" tail -f /dev/null
+  echo "{\"type\":\"task_termination\",\"task\":\"$strategy\"}" \
+    | to head request > /dev/null || fail "$strategy was not terminated"
+  for scene in "${scenes[@]}"; do
+    tail -n "+${first[$scene]}" "$poses/$scene.jsonl" \
+      | jq -c '{ms: .processing_ms, tags: (.tags | length)}' \
+        >> "$scratch/$strategy.$scene"
+  done
+}
+
+# A share $q of all values is not above the quantile (nearest rank).
+quantile='def quantile($q): sort | .[($q * length | ceil) - 1];'
+
+tell_start() {
+  jq -sc --arg strategy "$1" "$quantile"'
+    {bench: "strategies", $strategy, instances: .[0].instances,
+     nodes: .[0].nodes, request_to_running_ms: (map(.ms) | quantile(0.5)),
+     each_ms: map(.ms)}' "$scratch/$1.jsonl"
+}
+
+tell_frames() {
+  jq -sc --arg strategy "$1" --arg scene "$2" \
+    --argjson seconds $((span_s * rounds)) "$quantile"'
+    map(.ms) as $ms
+    | {bench: "strategies", $strategy, $scene, tags: (map(.tags) | max),
+       frames: length, frames_per_s: (length / $seconds),
+       median_ms: ($ms | quantile(0.5)), p95_ms: ($ms | quantile(0.95)),
+       p99_ms: ($ms | quantile(0.99))}' "$scratch/$1.$2"
+}
+
+strategies=(strategy_{1,2,3})
+scenes=(scene_{1,2,3,4})
+"$ROSCELL_BUILD/bin/render_scenes" "$scratch/scenes" > /dev/null \
+  || fail "no scenes: build render_scenes first"
+start_node head --interface lo --coordinator --cell line
+server=$(discovery_of head)
+start_host 0 one
+start_host 1 two
+start_host 2 three
+start_host 3 four
+for ((round = 0; round < rounds; ++round)); do
+  for strategy in "${strategies[@]}"; do
+    run_strategy "$strategy"
+  done
+done
+for strategy in "${strategies[@]}"; do
+  tell_start "$strategy"
+  for scene in "${scenes[@]}"; do
+    tell_frames "$strategy" "$scene"
+  done
+done
