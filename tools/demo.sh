@@ -152,11 +152,12 @@ mkdir -p "$dir/out/pictures"
 make_request "${folders[@]}" > "$dir/request.json"
 task=fleet-poses
 "$bin/roscell" request "$dir/request.json" > "$dir/reply.json" \
-  || { jq -r '.error | .message, .hint' "$dir/reply.json"; exit 1; }
+  || { jq -r '.error | .message, (.rejected[]? | "\(.step) on \(.node): \(.reasons | join(", "))")' "$dir/reply.json"; exit 1; }
 jq -r '(.allocations[] | "\(.step)  on  \(.node)"),
   "score \(.score.total), balance \(.score.balance), load \(.score.load)"' \
   "$dir/reply.json"
 "$bin/roscell" instances
+[[ -z ${engine_socket:-} ]] || engine images
 
 lines=()
 for n in "${!folders[@]}"; do
@@ -167,8 +168,14 @@ code=0
 trap : INT
 if [[ -n $images ]]; then
   say "what the estimator sees"
-  timeout 60 tail -n +1 -F "$dir/out/scene_1.jsonl" 2> /dev/null \
-    | { if $once; then head -n 1; else cat; fi; } || true
+  # Twelve frames take longer than the second after which a picture is drawn.
+  shown=(cat)
+  $once && shown=(timeout 60 head -n 12)
+  "${shown[@]}" < <(exec tail --pid=$$ -n +1 -F "$dir/out/scene_1.jsonl" \
+    2> /dev/null) | jq -r --unbuffered '
+      "\(.frame): \(.tags | length) tags: " + ([.tags[] | "\(.id)"
+        + (if .pose then " at \(.pose.position)" else "" end)]
+        | join(", "))' || true
 elif $once; then
   say "poses beside the truth"
   "$bin/compare_poses" --wait 60 --frames 5 "${lines[@]}" || code=$?
