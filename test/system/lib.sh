@@ -51,13 +51,17 @@ start_node() {
     || fail "node $name did not start: $(tail -3 "$scratch/$name.log")"
 }
 
-# The skills that nodes of a test have. They ask for no CPU, so that a test does
-# not depend on what else this machine is doing.
+# use_skills [NAME...]: the skills that nodes of a test have; echo if none is
+# named. They ask for no CPU, so that a test does not depend on what else this
+# machine is doing.
 use_skills() {
+  local name
   skills=$scratch/skills
   mkdir "$skills"
-  cp -r "$ROSCELL_BUILD/skills/echo" "$skills"
-  ask_no_cpu "$skills/echo"
+  for name in "${@:-echo}"; do
+    cp -r "$ROSCELL_BUILD/skills/$name" "$skills"
+    ask_no_cpu "$skills/$name"
+  done
 }
 
 ask_no_cpu() {

@@ -17,9 +17,7 @@ rate_hz=${4:-null}
 scratch=$(mktemp -d /tmp/roscell-bench.XXXXXX)
 . test/system/lib.sh
 trap 'exec 2> /dev/null; clean_up; rm -rf "$scratch"' EXIT
-use_skills
-ask_no_cpu "$skills/image_source"
-ask_no_cpu "$skills/pose_estimation"
+use_skills image_source pose_estimation
 
 now_ms() {
   date +%s%3N
