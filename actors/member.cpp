@@ -187,11 +187,11 @@ void on_tick(self_pointer self, uint64_t number) {
     return end(self, "it did not register in time");
   st.frames.calls().expire(time);
   if (time >= st.life.next()) {
-    const auto todo = st.life.due(time);
-    if (todo.over)
+    const auto next = st.life.due(time);
+    if (next.over)
       return end(self, "silent for 8 s");
-    if (todo.send)
-      self->send(st.session, send_beat{*todo.send});
+    if (next.send)
+      self->send(st.session, send_beat{*next.send});
   }
   set_timer(self);
 }

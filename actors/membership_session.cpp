@@ -144,11 +144,11 @@ void keep_lease(self_pointer self) {
   const auto now = self->clock().now();
   if (!st.session || now < st.life.next())
     return;
-  const auto todo = st.life.due(now);
-  if (todo.over)
+  const auto next = st.life.due(now);
+  if (next.over)
     on_session_lost(self, "silent for 8 s");
-  else if (todo.send)
-    send_beat_now(self, *todo.send);
+  else if (next.send)
+    send_beat_now(self, *next.send);
 }
 
 void notify(self_pointer self, const instance_changed& fact) {
