@@ -18,12 +18,18 @@ while [[ $# -gt 0 ]]; do
   case $1 in
     --once) once=true ;;
     --containers) containers=true ;;
-    --images) images=$(realpath "${2:?--images needs a folder}"); shift ;;
+    --images) images=$(realpath -m "${2:?--images needs a folder}"); shift ;;
     -h | --help) sed -n '2,11s/^# \{0,1\}//p' "$0"; exit ;;
     *) echo "demo.sh: unknown option $1 (--help tells more)" >&2; exit 2 ;;
   esac
   shift
 done
+
+if [[ -n $images ]] && ! compgen -G "$images/*.[pPjJ][nNpP]*[gG]" > /dev/null
+then
+  echo "demo.sh: no PNG or JPEG picture in $images" >&2
+  exit 2
+fi
 
 say() {
   printf '\n== %s\n' "$*"
@@ -170,12 +176,17 @@ if [[ -n $images ]]; then
   say "what the estimator sees"
   # Twelve frames take longer than the second after which a picture is drawn.
   shown=(cat)
-  $once && shown=(timeout 60 head -n 12)
+  $once && shown=(timeout 30 head -n 12)
   "${shown[@]}" < <(exec tail --pid=$$ -n +1 -F "$dir/out/scene_1.jsonl" \
     2> /dev/null) | jq -r --unbuffered '
       "\(.frame): \(.tags | length) tags: " + ([.tags[] | "\(.id)"
         + (if .pose then " at \(.pose.position)" else "" end)]
         | join(", "))' || true
+  [[ -s $dir/out/scene_1.jsonl ]] \
+    || { echo "no picture could be read; the log of camera_1:"; code=1
+         "$bin/roscell" logs "$("$bin/roscell" instances -o json \
+           | jq -r '.instances[] | select(.spec.step == "camera_1")
+             | .spec.instance')"; }
 elif $once; then
   say "poses beside the truth"
   "$bin/compare_poses" --wait 60 --frames 5 "${lines[@]}" || code=$?
