@@ -28,25 +28,14 @@ constexpr std::int32_t repeat_period_ns = 100'000'000;
 /// A ROS 2 node may put all its endpoints into one datagram of full size.
 constexpr std::uint32_t max_server_message_bytes = 65500;
 
-edge_error out_of_bounds(std::string message) {
-  return {error_code::schema_violation, std::move(message), ""};
-}
-
-std::optional<edge_error> check_announcement(const std::string& bytes) {
-  if (bytes.size() <= max_announcement_bytes)
-    return std::nullopt;
-  return out_of_bounds("an announcement of " + std::to_string(bytes.size())
-                       + " bytes is over the limit of "
-                       + std::to_string(max_announcement_bytes));
-}
-
-std::optional<edge_error> check(const cell_server_options& options) {
-  if (options.domain_id > max_domain_id)
-    return out_of_bounds("ROS domain " + std::to_string(options.domain_id)
-                         + " is over " + std::to_string(max_domain_id));
-  if (options.announcement_period >= options.lease)
-    return out_of_bounds("the announcement period must be below the lease");
-  return check_announcement(options.announcement);
+participant_settings to_settings(const cell_server_options& options) {
+  participant_settings result;
+  result.address = options.address;
+  result.announcement = options.announcement;
+  result.lease = options.lease;
+  result.announcement_period = options.announcement_period;
+  result.max_message_bytes = max_server_message_bytes;
+  return result;
 }
 
 /// The port that is free now, or why there is none.
@@ -58,13 +47,7 @@ edge_result<std::uint16_t> free_port(const cell_server_options& options) {
 }
 
 auto server_attributes(const cell_server_options& options, std::uint16_t port) {
-  participant_settings settings;
-  settings.address = options.address;
-  settings.announcement = options.announcement;
-  settings.lease = options.lease;
-  settings.announcement_period = options.announcement_period;
-  settings.max_message_bytes = max_server_message_bytes;
-  auto result = make_attributes(settings, port);
+  auto result = make_attributes(to_settings(options), port);
   auto prefix = server_prefix(options.server_id);
   std::copy(prefix.begin(), prefix.end(), result.prefix.value);
   auto& discovery = result.builtin.discovery_config;
@@ -166,7 +149,7 @@ cell_server::cell_server(std::unique_ptr<impl> x) : impl_(std::move(x)) {}
 
 edge_result<std::unique_ptr<cell_server>>
 cell_server::open(const cell_server_options& options, on_sighting on_client) {
-  if (auto error = check(options))
+  if (auto error = check_settings(options.domain_id, to_settings(options)))
     return *std::move(error);
   // Somebody else can take the port that was free a moment ago.
   constexpr int attempts = 3;
