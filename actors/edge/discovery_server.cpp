@@ -3,12 +3,11 @@
 #include "actors/edge/announcement.hpp"
 #include "actors/edge/discovery_address.hpp"
 #include "actors/edge/discovery_participant.hpp"
+#include "actors/edge/herald.hpp"
 
 #include <algorithm>
-#include <condition_variable>
 #include <mutex>
 #include <set>
-#include <thread>
 #include <utility>
 
 namespace roscell {
@@ -60,7 +59,10 @@ auto server_attributes(const cell_server_options& options, std::uint16_t port) {
 
 class cell_server::impl {
 public:
-  explicit impl(on_sighting callback) : callback_(std::move(callback)) {}
+  explicit impl(on_sighting callback)
+      : callback_(std::move(callback)),
+        greeter_({greeting_delay}, greeting_interval,
+                 [this] { participant_->announce(); }) {}
 
   ~impl() {
     close();
@@ -73,7 +75,7 @@ public:
         [this](const sighting& seen) { on_client(seen); });
     if (participant_ == nullptr)
       return false;
-    greeter_ = std::thread{[this] { greet(); }};
+    greeter_.start();
     return true;
   }
 
@@ -87,13 +89,7 @@ public:
   }
 
   void close() {
-    {
-      std::lock_guard<std::mutex> lock{mutex_};
-      closing_ = true;
-    }
-    changed_.notify_one();
-    if (greeter_.joinable())
-      greeter_.join();
+    greeter_.stop();
     participant_.reset();
   }
 
@@ -112,37 +108,15 @@ private:
       clients_.erase(seen.prefix);
     else if (clients_.insert(seen.prefix).second
              && clients_.size() <= max_greeted_clients)
-      newcomer_ = true;
-    if (newcomer_)
-      changed_.notify_one();
-  }
-
-  /// Body of the greeting thread.
-  void greet() {
-    auto closing = [this] { return closing_; };
-    std::unique_lock<std::mutex> lock{mutex_};
-    for (;;) {
-      changed_.wait(lock, [this] { return closing_ || newcomer_; });
-      if (changed_.wait_for(lock, greeting_delay, closing))
-        return;
-      newcomer_ = false;
-      lock.unlock();
-      participant_->announce();
-      lock.lock();
-      if (changed_.wait_for(lock, greeting_interval, closing))
-        return;
-    }
+      greeter_.ask();
   }
 
   std::uint16_t port_ = 0;
   on_sighting callback_;
-  std::unique_ptr<rtps_participant> participant_;
   std::mutex mutex_; // Guards what follows.
-  std::condition_variable changed_;
-  bool closing_ = false;
-  bool newcomer_ = false;
   std::set<guid_prefix> clients_;
-  std::thread greeter_;
+  herald greeter_;
+  std::unique_ptr<rtps_participant> participant_;
 };
 
 cell_server::cell_server(std::unique_ptr<impl> x) : impl_(std::move(x)) {}

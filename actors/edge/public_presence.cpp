@@ -2,9 +2,11 @@
 
 #include "actors/edge/discovery_address.hpp"
 #include "actors/edge/discovery_participant.hpp"
+#include "actors/edge/herald.hpp"
 
 #include <charconv>
 #include <map>
+#include <random>
 #include <utility>
 
 namespace roscell {
@@ -12,6 +14,8 @@ namespace roscell {
 namespace {
 
 namespace rtps = eprosima::fastrtps::rtps;
+
+using namespace std::chrono_literals;
 
 /// RTPS 2.3, 9.6.1.4.1.
 constexpr const char* multicast_group = "239.255.0.1";
@@ -106,37 +110,57 @@ auto presence_attributes(const presence_options& options, std::uint16_t port,
   // their announcements.
   discovery.m_simpleEDP.use_PublicationReaderANDSubscriptionWriter = false;
   discovery.m_simpleEDP.use_PublicationWriterANDSubscriptionReader = false;
-  // Several, as nothing is acknowledged: one may get lost.
+  // More than one, as nothing is acknowledged.
   discovery.initial_announcements.count = 3;
   discovery.initial_announcements.period = {0, 100'000'000};
   return result;
 }
 
+/// When a newcomer is answered, and again when what was said may have got lost.
+/// Not by all at the same moment.
+std::vector<std::chrono::milliseconds> answer_delays() {
+  std::random_device source;
+  std::uniform_int_distribution<int> first{0, 10};
+  return {std::chrono::milliseconds{first(source)}, 60ms, 200ms, 600ms};
+}
+
+/// However many newcomers there are, it is not said more often.
+constexpr std::chrono::milliseconds answer_pause{25};
+
 } // namespace
 
 class public_presence::impl {
 public:
-  explicit impl(presence_events events) : events_(std::move(events)) {}
+  explicit impl(presence_events events)
+      : events_(std::move(events)),
+        herald_(answer_delays(), answer_pause,
+                [this] { participant_->announce(); }) {}
+
+  ~impl() {
+    close();
+  }
 
   bool open(const presence_options& options, std::uint16_t port,
             const rtps::LocatorList_t& peers) {
     participant_ = rtps_participant::create(
         options.domain_id, presence_attributes(options, port, peers),
         [this](const sighting& seen) { on_sighting(seen); });
-    if (participant_ != nullptr)
-      port_ = participant_->port();
-    return participant_ != nullptr;
+    if (participant_ == nullptr)
+      return false;
+    port_ = participant_->port();
+    herald_.start();
+    return true;
   }
 
   void update(const std::string& bytes) {
     if (participant_ == nullptr)
       return;
     participant_->update_announcement(bytes);
-    // Once more, as nothing is acknowledged.
-    participant_->announce();
+    herald_.ask();
   }
 
   void close() {
+    herald_.stop();
     participant_.reset();
   }
 
@@ -155,7 +179,9 @@ private:
 
   void remember(const guid_prefix& who, const announcement& said) {
     auto [entry, added] = known_.try_emplace(who, said);
-    if (!added && entry->second == said)
+    if (added)
+      herald_.ask();
+    else if (entry->second == said)
       return;
     entry->second = said;
     if (events_.on_seen)
@@ -171,6 +197,7 @@ private:
   presence_events events_;
   std::map<guid_prefix, announcement> known_; // Touched in sightings only.
   std::uint16_t port_ = 0;
+  herald herald_;
   std::unique_ptr<rtps_participant> participant_;
 };
 
