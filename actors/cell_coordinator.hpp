@@ -30,8 +30,9 @@ struct coordinator_setup {
   /// Runs what an earlier run of the node has left; may be invalid in tests.
   container_supervisor_actor supervisor;
   state_store_actor store;
-  std::vector<task_record> tasks;     ///< As an earlier run has stored them.
-  std::vector<member_record> members; ///< The same.
+  std::vector<task_record> tasks;      ///< As an earlier run has stored them.
+  std::vector<member_record> members;  ///< The same.
+  std::vector<transfer_row> transfers; ///< The same; those that were open.
   /// What instances of this cell find in their environment.
   std::map<std::string, std::string> environment;
   /// Towards other coordinators and nodes in no cell; all invalid in a cell
