@@ -167,6 +167,15 @@ void store_member(self_pointer self, const registry_entry& entry) {
                json(member_record{entry.row.identity, entry.origin}).dump()});
 }
 
+/// What a node has announced before it registered is out of date. What it has
+/// announced since is not: then this registration has been overtaken.
+void forget_earlier_presence(self_pointer self, const node_identity& who) {
+  auto& presences = self->state.presences;
+  const auto i = presences.find(who.uuid);
+  if (i != presences.end() && i->second.epoch < who.epoch)
+    presences.erase(i);
+}
+
 } // namespace
 
 registry_time now_of(self_pointer self) {
@@ -316,7 +325,7 @@ caf::result<node_registered> register_member(self_pointer self,
   store_member(self, st.registry.activate(std::move(entry), now_of(self)));
   self->monitor(request.member);
   st.places.erase(node.identity.uuid);
-  st.presences.erase(node.identity.uuid);
+  forget_earlier_presence(self, node.identity);
   publish(self, {node.identity.uuid});
   st.context.tell("node_joined", node.identity.name,
                   {{"uuid", node.identity.uuid},

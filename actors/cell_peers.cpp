@@ -112,6 +112,12 @@ void on_free_node(self_pointer self, const node_presence& who) {
     on_node_elsewhere(self, who.uuid, who.epoch, "");
 }
 
+/// The node stays, or has gone, elsewhere.
+void give_up_place(self_pointer self, const std::string& uuid) {
+  drop_row(self, uuid);
+  arm_balance(self);
+}
+
 /// What another coordinator says of a node. The higher epoch is right.
 void weigh(self_pointer self, const peer_entry& from,
            const member_claim& claim) {
@@ -120,6 +126,8 @@ void weigh(self_pointer self, const peer_entry& from,
   if (!entry || !claim.active || claim.uuid == st.setup.self.uuid)
     return;
   const auto& row = entry->row;
+  if (row.state == row_state::reserved && row.identity.epoch <= claim.epoch)
+    return give_up_place(self, claim.uuid);
   if (row.identity.epoch < claim.epoch)
     on_node_elsewhere(self, claim.uuid, claim.epoch, from.standing.place.cell);
   else if (row.state == row_state::active && from.actor)
