@@ -26,13 +26,12 @@ struct wire_faults {
   bool reorder = false; ///< Frames may overtake each other.
   std::chrono::milliseconds shortest_delay{0};
   std::chrono::milliseconds longest_delay{0}; ///< Not below `shortest_delay`.
+  double hold_frame = 0; ///< It is late, and so is what follows it.
+  std::chrono::milliseconds late_by{3000}; ///< So late is a frame then.
 };
 
 /// What a test decides about one frame.
 enum class frame_fate { passed, lost, repeated, late };
-
-/// So late is a frame whose fate is `late`, and what follows it.
-constexpr std::chrono::milliseconds late_by{3000};
 
 /// One connection, shared by its two ends and the test.
 struct wire {
@@ -140,7 +139,9 @@ inline void send_out(self_pointer self, const std::string& text) {
     link.lossy = true;
     return;
   }
-  pass(self, text, fate == frame_fate::late ? late_by : decltype(late_by){0});
+  const bool late =
+      fate == frame_fate::late || link.happens(link.faults.hold_frame);
+  pass(self, text, late ? link.faults.late_by : std::chrono::milliseconds{0});
   if (fate == frame_fate::repeated || link.happens(link.faults.repeat_frame))
     pass(self, text);
 }

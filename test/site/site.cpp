@@ -64,8 +64,8 @@ void start_membership(site& place, site_party& x) {
   parts.supervisor = part<container_supervisor_actor>(x);
   parts.store = part<state_store_actor>(x);
   const auto config = membership_setup(x);
-  x.membership = spawn(place.time.system, place.context, membership,
-                       place.context, parts, config);
+  x.membership =
+      spawn(place.time.system, x.context, membership, x.context, parts, config);
   if (takes_up_earlier_cell(config) || x.configured == "wait")
     return;
   if (x.configured.empty())
@@ -91,8 +91,8 @@ void start_coordinator(site& place, site_party& x) {
     setup.members.push_back(json::parse(value).get<member_record>());
   for (const auto& [key, value] : x.disk["transfers"])
     setup.transfers.push_back(json::parse(value).get<transfer_row>());
-  x.coordinator = spawn(place.time.system, place.context, cell_coordinator,
-                        place.context, setup);
+  x.coordinator =
+      spawn(place.time.system, x.context, cell_coordinator, x.context, setup);
 }
 
 } // namespace
@@ -120,18 +120,7 @@ membership_status& site_party::status() const {
 site::site(virtual_time& clock, uint32_t seed)
     : time(clock), random(seed), context(clock.context),
       start_(clock.scheduler.clock().now()) {
-  fact_keeper_ =
-      time.system.spawn([this](caf::event_based_actor* self) -> caf::behavior {
-        return {[this, self](const record_event& x) {
-          const auto when =
-              std::chrono::duration_cast<std::chrono::milliseconds>(
-                  self->clock().now() - start_);
-          facts.push_back(
-              {when, x.what, x.subject,
-               x.data.empty() ? json::object() : json::parse(x.data)});
-        }};
-      });
-  context.events = caf::actor_cast<event_log_actor>(fact_keeper_);
+  // nop
 }
 
 site::~site() {
@@ -139,30 +128,51 @@ site::~site() {
     kill(*x);
   for (auto& x : connections)
     cut(*x.link);
-  time.kill(fact_keeper_);
+  for (const auto& x : fact_keepers_)
+    time.kill(x);
   time.scheduler.clock().cancel_all();
 }
 
-site_party& site::add_coordinator(const std::string& uuid) {
+void site::keep_facts(site_party& x) {
+  fact_keepers_.push_back(time.system.spawn(
+      [this, &x](caf::event_based_actor* self) -> caf::behavior {
+        return {[this, &x, self](const record_event& fact) {
+          const auto when =
+              std::chrono::duration_cast<std::chrono::milliseconds>(
+                  self->clock().now() - start_);
+          auto data =
+              fact.data.empty() ? json::object() : json::parse(fact.data);
+          facts.push_back({when, x.index, x.life, fact.what, fact.subject,
+                           std::move(data)});
+        }};
+      }));
+  x.context = context;
+  x.context.events = caf::actor_cast<event_log_actor>(fact_keepers_.back());
+}
+
+site_party& site::add_party(const std::string& name) {
   auto& x = *parties.emplace_back(std::make_unique<site_party>());
   x.index = parties.size() - 1;
   const auto number = std::to_string(x.index);
-  x.coordinates = true;
-  x.name = "base-" + number;
-  x.uuid = uuid;
+  x.name = name + "-" + number;
   x.address = "10.0.0." + number + ":8420";
+  keep_facts(x);
+  return x;
+}
+
+site_party& site::add_coordinator(const std::string& uuid) {
+  auto& x = add_party("base");
+  const auto number = std::to_string(x.index);
+  x.coordinates = true;
+  x.uuid = uuid;
   x.cell = "cell-" + number;
   x.discovery_server = "10.0.0." + number + ":11811";
   return x;
 }
 
 site_party& site::add_node(const std::string& configured) {
-  auto& x = *parties.emplace_back(std::make_unique<site_party>());
-  x.index = parties.size() - 1;
-  const auto number = std::to_string(x.index);
-  x.name = "arm-" + number;
-  x.uuid = "a-" + number;
-  x.address = "10.0.0." + number + ":8420";
+  auto& x = add_party("arm");
+  x.uuid = "a-" + std::to_string(x.index);
   x.configured = configured;
   return x;
 }

@@ -44,6 +44,8 @@ struct site_party {
   std::optional<node_presence> announced;
   std::map<size_t, node_presence> shown; ///< What it sees of which party.
 
+  house context; ///< Tells facts as this party's.
+
   bool alive() const {
     return edge != nullptr;
   }
@@ -74,6 +76,8 @@ struct site_message {
 
 struct told_at {
   std::chrono::milliseconds when{0}; ///< Since the start.
+  size_t party = 0;
+  unsigned life = 0; ///< Of the party.
   std::string what;
   std::string subject;
   json data;
@@ -163,6 +167,8 @@ public:
 
 private:
   bool sees(const site_party& viewer, const site_party& subject) const;
+  site_party& add_party(const std::string& name);
+  void keep_facts(site_party& x);
   void show(site_party& viewer, const site_party& subject);
   void fade(site_party& viewer, size_t subject,
             std::chrono::milliseconds delay);
@@ -172,7 +178,7 @@ private:
   std::set<std::pair<size_t, size_t>> hidden_;
   std::map<uint64_t, std::function<void()>> work_;
   uint64_t last_work_ = 0;
-  caf::actor fact_keeper_;
+  std::vector<caf::actor> fact_keepers_; ///< One a party.
   std::chrono::steady_clock::time_point start_;
 };
 

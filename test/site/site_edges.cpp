@@ -54,7 +54,7 @@ caf::result<session_opened> open(caf::event_based_actor* self, site* place,
       place->decide("connect", me->index, to ? to->index : me->index);
   auto delay = std::max(place->faults.longest_delay, 1ms);
   if (fate == frame_fate::late)
-    delay += late_by;
+    delay += place->faults.late_by;
   if (fate == frame_fate::lost)
     place->later(*me, silence_span, [promise]() mutable {
       promise.deliver(fail(error_code::unreachable, "no answer"));
@@ -89,7 +89,9 @@ void carry(site* place, site_party* from, site_party* to, const char* what,
   if (gone)
     return lost();
   const auto delay = std::max(place->faults.longest_delay, 1ms);
-  place->later(*to, fate == frame_fate::late ? delay + late_by : delay, arrive);
+  place->later(*to,
+               fate == frame_fate::late ? delay + place->faults.late_by : delay,
+               arrive);
   if (fate == frame_fate::repeated)
     place->later(*to, 2 * delay, arrive);
 }
@@ -166,7 +168,7 @@ caf::result<record_stored> write(caf::event_based_actor* self, site* place,
   if (fate != frame_fate::late)
     return record_stored{};
   auto promise = self->make_response_promise<record_stored>();
-  place->later(*me, late_by,
+  place->later(*me, place->faults.late_by,
                [promise]() mutable { promise.deliver(record_stored{}); });
   return promise;
 }

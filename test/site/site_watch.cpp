@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <iostream>
+#include <tuple>
 #include <utility>
 
 namespace roscell::test {
@@ -119,6 +120,27 @@ std::string complaint(const site& place) {
   return result;
 }
 
+std::string old_registrations(const site& place) {
+  std::string result;
+  // By coordinator, its life and the node.
+  std::map<std::tuple<size_t, unsigned, std::string>, int64_t> newest;
+  for (const auto& x : place.facts) {
+    const std::tuple key{x.party, x.life, x.subject};
+    if (x.what == "node_left")
+      newest.erase(key);
+    if (x.what != "node_joined")
+      continue;
+    const auto epoch = x.data.at("epoch").get<int64_t>();
+    auto& known = newest[key];
+    if (epoch < known)
+      result += place.parties[x.party]->cell + " has taken epoch "
+                + std::to_string(epoch) + " of " + x.subject + " after epoch "
+                + std::to_string(known) + "; ";
+    known = std::max(known, epoch);
+  }
+  return result;
+}
+
 std::string calm_down(site& place) {
   place.faults = {};
   place.lose_call = 0;
@@ -132,6 +154,8 @@ std::string calm_down(site& place) {
     x->disk_full = false;
     place.start(*x);
   }
+  // What was held up arrives.
+  place.pass(10s);
   // A place is kept for two minutes; whatever waits for an answer that got lost
   // inside a session that lives has a quarter of an hour.
   for (auto left = 18 * 60s; left > 0s && !complaint(place).empty();) {
@@ -186,8 +210,9 @@ void print_facts(const site& place) {
   if (!std::getenv("ROSCELL_SEED"))
     return;
   for (const auto& x : place.facts)
-    std::cerr << x.when.count() << " ms " << x.what << " '" << x.subject << "' "
-              << x.data.dump() << '\n';
+    std::cerr << x.when.count() << " ms " << place.parties[x.party]->name
+              << ": " << x.what << " '" << x.subject << "' " << x.data.dump()
+              << '\n';
 }
 
 } // namespace roscell::test

@@ -13,6 +13,10 @@ namespace roscell::test {
 /// if all is well.
 std::string complaint(const site& place);
 
+/// Names the registrations that a registry has taken though it had a newer one
+/// of the same node; empty if there is none.
+std::string old_registrations(const site& place);
+
 /// Lets time pass until there is no complaint, and looks whether it stays so.
 /// Gives what is left of it.
 std::string calm_down(site& place);

@@ -1,0 +1,73 @@
+#include "actors/edge/registration_proof.hpp"
+#include "actors/registration_order.hpp"
+#include "messages/failure.hpp"
+#include "test/site/site_watch.hpp"
+
+#include <algorithm>
+
+/// What the numbers in messages are for: whatever is overtaken changes nothing.
+namespace {
+
+using namespace roscell;
+using namespace roscell::test;
+
+size_t count(const site& place, const std::string& what) {
+  return static_cast<size_t>(
+      std::count_if(place.facts.begin(), place.facts.end(),
+                    [&](const auto& x) { return x.what == what; }));
+}
+
+TEST_CASE("a registration that a later one has overtaken changes nothing",
+          "[epoch]") {
+  virtual_time clock;
+  site place{clock, 1};
+  auto& base = place.add_coordinator("c-0");
+  auto& node = place.add_node(base.discovery_server);
+  // The node gives up and registers anew before it arrives.
+  place.faults.late_by = 6s;
+  bool held = false;
+  place.judge = [&](const site_message& x) {
+    const bool first = std::string{x.what} == "frame" && x.from == node.index
+                       && !std::exchange(held, true);
+    return first ? frame_fate::late : frame_fate::passed;
+  };
+  place.start(base);
+  place.start(node);
+  place.pass(20s);
+  CHECK(held);
+  CHECK(count(place, "cell_joined") == 1);
+  CHECK(count(place, "node_joined") == 1);
+  CHECK(count(place, "coordinator_lost") == 0);
+  CHECK(complaint(place).empty());
+}
+
+TEST_CASE("an order for an earlier epoch of a node is refused", "[epoch]") {
+  virtual_time clock;
+  site place{clock, 1};
+  auto& base = place.add_coordinator("c-0");
+  auto& node = place.add_node("wait");
+  node.disk["identity"]["node"] =
+      json(node_identity{node.name, node.uuid, 7, node.address}).dump();
+  place.start(base);
+  place.start(node);
+  place.pass(1s);
+  auto challenge =
+      clock.ask<registration_challenge>(node.membership, registration_query{});
+  clock.settle();
+  registration_switch order;
+  order.transfer = "t-1";
+  order.node = node.name;
+  order.uuid = node.uuid;
+  order.epoch = 6;
+  order.target = {{base.cell, base.name, base.address, base.discovery_server}};
+  order.nonce = (*challenge)->value().nonce;
+  order.proof = prove(order_of(order), site_token);
+  auto reply = clock.ask<switch_accepted>(node.membership, order);
+  place.pass(5s);
+  REQUIRE(reply->has_value());
+  REQUIRE_FALSE(**reply);
+  CHECK(to_failure((*reply)->error()).code == error_code::conflict);
+  CHECK(node.status().standing == node_state::independent);
+}
+
+} // namespace
