@@ -141,7 +141,7 @@ struct batch {
 
 unsigned runs() {
   const auto* text = std::getenv("ROSCELL_RUNS");
-  return text ? static_cast<unsigned>(std::stoul(text)) / 100 + 1 : 4;
+  return text ? static_cast<unsigned>(std::stoul(text)) / 100 + 1 : 10;
 }
 
 /// Runs a batch of 64 over 4 with several seeds; `start` says in what order the

@@ -41,6 +41,37 @@ TEST_CASE("a registration that a later one has overtaken changes nothing",
   CHECK(complaint(place).empty());
 }
 
+TEST_CASE(
+    "of two cells that claim a node the one with the newer epoch is right",
+    "[epoch]") {
+  virtual_time clock;
+  site place{clock, 1};
+  auto& base = place.add_coordinator("c-0");
+  auto& other = place.add_coordinator("c-1");
+  auto& node = place.add_node(base.discovery_server);
+  place.start(base);
+  place.start(other);
+  place.start(node);
+  place.pass(20s);
+  REQUIRE(complaint(place).empty());
+  const auto joined = count(place, "cell_joined");
+  const auto claim = [&](int64_t epoch) {
+    const auto& peer = base.cell_state().peers.at(other.uuid).actor;
+    caf::anon_send(
+        base.coordinator,
+        peer_changed{peer, {2, {{node.name, node.uuid, epoch, true}}, {}}});
+    place.pass(1s);
+  };
+  const auto epoch = node.status().config.identity.epoch;
+  claim(epoch - 1);
+  CHECK(count(place, "node_left") == 0);
+  CHECK(count(place, "coordinator_lost") == 0);
+  CHECK(count(place, "cell_joined") == joined);
+  claim(epoch + 1);
+  CHECK(count(place, "node_left") == 1);
+  CHECK(count(place, "coordinator_lost") == 1);
+}
+
 TEST_CASE("an order for an earlier epoch of a node is refused", "[epoch]") {
   virtual_time clock;
   site place{clock, 1};
