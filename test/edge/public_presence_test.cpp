@@ -57,14 +57,19 @@ std::unique_ptr<public_presence> must_open(const presence_options& options,
   return std::get<0>(std::move(result));
 }
 
-/// What a participant of other software sends to announce "roscell=1.0;".
+/// What a participant of other software sends to announce the least.
 std::vector<std::uint8_t> foreign_announcement() {
-  auto bytes = probe_question(make_probe_prefix(), sockaddr_in{});
+  sockaddr_in at_home{};
+  at_home.sin_family = AF_INET;
+  at_home.sin_port = htons(9);
+  at_home.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  auto bytes = probe_question(make_probe_prefix(), at_home);
   const std::string name = probe_name;
   auto at = std::search(bytes.begin(), bytes.end(), name.begin(), name.end());
   REQUIRE(at != bytes.end());
   // A name and user data are both a length and bytes: PID_USER_DATA is 0x2c.
-  const std::string data = "roscell=1.0;";
+  // These take as much room as the name with its padding.
+  const std::string data = "roscell=1.0;x=1;";
   at[-8] = 0x2c;
   at[-4] = static_cast<std::uint8_t>(data.size());
   std::copy(data.begin(), data.end(), at);
