@@ -1,5 +1,7 @@
 #include "actors/edge/session_handshake.hpp"
 
+#include "actors/edge/transcript.hpp"
+
 #include <utility>
 
 #include <arpa/inet.h>
@@ -14,42 +16,31 @@ constexpr std::string_view session_label = "roscell session v1 id";
 constexpr std::string_view acceptor_beat_label = "roscell beat v1 acceptor";
 constexpr std::string_view joiner_beat_label = "roscell beat v1 joiner";
 
-/// Appends a text with its length in four bytes before it, so that no two
-/// lists of texts have the same bytes.
-void append(std::string& input, std::string_view text) {
-  for (const int shift : {24, 16, 8, 0})
-    input += static_cast<char>((text.size() >> shift) & 0xff);
-  input += text;
-}
-
 /// HMAC over the label and all that both sides said.
 digest bind(std::string_view token, std::string_view label,
             const session_hello& hello, const session_challenge& challenge) {
-  std::string input;
-  append(input, label);
-  append(input, hello.version);
-  append(input, hello.node);
-  append(input, hello.uuid);
-  append(input, std::to_string(hello.epoch));
-  append(input, hello.nonce);
-  append(input, challenge.version);
-  append(input, challenge.node);
-  append(input, challenge.uuid);
-  append(input, challenge.cell);
-  append(input, std::to_string(challenge.incarnation));
-  append(input, challenge.nonce);
-  return hmac_sha256(token, input);
+  transcript said{label};
+  said.add(hello.version)
+      .add(hello.node)
+      .add(hello.uuid)
+      .add(hello.epoch)
+      .add(hello.nonce)
+      .add(challenge.version)
+      .add(challenge.node)
+      .add(challenge.uuid)
+      .add(challenge.cell)
+      .add(challenge.incarnation)
+      .add(challenge.nonce);
+  // Who has no role says the same as before there were any.
+  if (!hello.role.empty())
+    said.add(hello.role);
+  return said.sign(token);
 }
 
 std::string session_id(std::string_view token, const session_hello& hello,
                        const session_challenge& challenge) {
   const auto id = to_hex(bind(token, session_label, hello, challenge));
   return id.substr(0, session_frame_bounds::session);
-}
-
-bool proves(const std::string& proof, const digest& expected) {
-  const auto bytes = from_hex(proof);
-  return bytes && equal_in_constant_time(*bytes, as_bytes(expected));
 }
 
 std::string_view major_of(std::string_view version) {
@@ -154,7 +145,7 @@ handshake_step acceptor_handshake::on_proof(std::string_view frame) {
   if (auto* error = std::get_if<edge_error>(&decoded))
     return fail(*error, true);
   const auto expected = bind(token_, joiner_label, hello_, challenge_);
-  if (!proves(std::get<session_proof>(decoded).proof, expected))
+  if (!is_proof(std::get<session_proof>(decoded).proof, expected))
     return fail(wrong_token(hello_.node), true);
   agreement_.session = session_id(token_, hello_, challenge_);
   agreement_.keys.send = bind(token_, acceptor_beat_label, hello_, challenge_);
@@ -173,6 +164,7 @@ joiner_handshake::joiner_handshake(joiner_identity self, std::string token,
   hello_.uuid = std::move(self.uuid);
   hello_.epoch = self.epoch;
   hello_.nonce = std::move(nonce);
+  hello_.role = std::move(self.role);
 }
 
 std::string joiner_handshake::hello() const {
@@ -198,7 +190,7 @@ handshake_step joiner_handshake::on_challenge(std::string_view frame) {
   if (auto refusal = check_version(challenge_.node, challenge_.version))
     return fail(*refusal, true);
   const auto expected = bind(token_, acceptor_label, hello_, challenge_);
-  if (!proves(challenge_.proof, expected))
+  if (!is_proof(challenge_.proof, expected))
     return fail(wrong_token(challenge_.node), true);
   if (!expected_cell_.empty() && challenge_.cell != expected_cell_)
     return fail({error_code::unknown_cell,

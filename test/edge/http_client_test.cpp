@@ -1,60 +1,15 @@
-#include "test/edge/edge_fixture.hpp"
-
-#include <thread>
-
-#include <netinet/in.h>
-#include <sys/socket.h>
-#include <unistd.h>
+#include "test/edge/canned_server.hpp"
 
 namespace roscell::test::wire {
 
 namespace {
 
-/// A server that says what a test wants, to one client.
-class canned_server {
-public:
-  explicit canned_server(std::string reply, bool close_after = true)
-      : fd_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    socklen_t size = sizeof address;
-    auto* generic = reinterpret_cast<sockaddr*>(&address);
-    ::bind(fd_, generic, size);
-    ::listen(fd_, 1);
-    ::getsockname(fd_, generic, &size);
-    port_ = ntohs(address.sin_port);
-    thread_ = std::thread{[this, reply = std::move(reply), close_after] {
-      const int client = ::accept(fd_, nullptr, nullptr);
-      std::string request(4096, '\0');
-      ::recv(client, request.data(), request.size(), 0);
-      ::send(client, reply.data(), reply.size(), MSG_NOSIGNAL);
-      if (!close_after) // Until the client goes.
-        ::recv(client, request.data(), request.size(), 0);
-      ::close(client);
-    }};
-  }
-
-  canned_server(const canned_server&) = delete;
-  canned_server& operator=(const canned_server&) = delete;
-
-  ~canned_server() {
-    thread_.join();
-    ::close(fd_);
-  }
-
-  http_client client() const {
-    http_endpoint to;
-    to.address = "127.0.0.1";
-    to.port = port_;
-    return http_client{to};
-  }
-
-private:
-  int fd_;
-  uint16_t port_ = 0;
-  std::thread thread_;
-};
+http_client client_of(const canned_server& server) {
+  http_endpoint to;
+  to.address = "127.0.0.1";
+  to.port = server.port();
+  return http_client{to};
+}
 
 bool every_line(std::string_view) {
   return true;
@@ -81,7 +36,7 @@ TEST_CASE("a server that does not answer is a timeout") {
                              false};
   http_client::options how;
   how.timeout = 50ms;
-  CHECK(expect_error(server.client().request("GET", "/", {}, how)).code
+  CHECK(expect_error(client_of(server).request("GET", "/", {}, how)).code
         == error_code::timeout);
 }
 
@@ -91,14 +46,14 @@ TEST_CASE("a reply that breaks off is unreachable, a strange one too") {
         "HTTP/1.1 200 OK\r\nTransfer-Encoding: chunked\r\n\r\n3\r\nabc\r\n"}) {
     const canned_server server{reply};
     INFO(reply);
-    CHECK(expect_error(server.client().request("GET", "/", {}, {})).code
+    CHECK(expect_error(client_of(server).request("GET", "/", {}, {})).code
           == error_code::unreachable);
   }
 }
 
 TEST_CASE("a reply without a length ends with its connection") {
   const canned_server server{"HTTP/1.1 404 Not Found\r\n\r\nno such thing"};
-  const auto reply = expect(server.client().request("GET", "/", {}, {}));
+  const auto reply = expect(client_of(server).request("GET", "/", {}, {}));
   CHECK(reply.status == 404);
   CHECK(reply.body == "no such thing");
 }
@@ -108,12 +63,12 @@ TEST_CASE("a stream that breaks without an end is an error") {
       "HTTP/1.1 200 OK\r\nTransfer-Encoding: chunked\r\n\r\n3\r\nab\n\r\n"};
   std::vector<std::string> lines;
   const auto why =
-      expect_error(server.client().follow("/",
-                                          [&](std::string_view line) {
-                                            lines.emplace_back(line);
-                                            return true;
-                                          },
-                                          {}));
+      expect_error(client_of(server).follow("/",
+                                            [&](std::string_view line) {
+                                              lines.emplace_back(line);
+                                              return true;
+                                            },
+                                            {}));
   CHECK(why.code == error_code::unreachable);
   CHECK(lines == std::vector<std::string>{"ab"});
 }
@@ -121,7 +76,7 @@ TEST_CASE("a stream that breaks without an end is an error") {
 TEST_CASE("a refusal to stream is a reply like any other") {
   const canned_server server{
       "HTTP/1.1 401 Unauthorized\r\nContent-Length: 4\r\n\r\nno\n\n"};
-  const auto reply = expect(server.client().follow("/", every_line, {}));
+  const auto reply = expect(client_of(server).follow("/", every_line, {}));
   CHECK(reply.status == 401);
   CHECK(reply.body == "no\n\n");
 }
@@ -129,14 +84,14 @@ TEST_CASE("a refusal to stream is a reply like any other") {
 TEST_CASE("a line without an end is given up") {
   const canned_server server{"HTTP/1.1 200 OK\r\n\r\n"
                              + std::string(3'000'000, 'x')};
-  CHECK(expect_error(server.client().follow("/", every_line, {})).code
+  CHECK(expect_error(client_of(server).follow("/", every_line, {})).code
         == error_code::unreachable);
 }
 
 TEST_CASE("a receiver that has enough lines ends the stream") {
   const canned_server server{"HTTP/1.1 200 OK\r\n\r\n1\n2\n3\n", false};
   int count = 0;
-  const auto reply = expect(server.client().follow(
+  const auto reply = expect(client_of(server).follow(
       "/", [&](std::string_view) { return ++count < 2; }, {}));
   CHECK(reply.status == 200);
   CHECK(count == 2);

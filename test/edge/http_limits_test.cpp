@@ -208,6 +208,34 @@ TEST_CASE("the stranger that was silent for longest makes room") {
   CHECK_FALSE(first.is_closed());
 }
 
+TEST_CASE("who posts to a public path stays a stranger with bounded bodies") {
+  http_limits limits;
+  limits.strangers = 1;
+  limits.body_bytes = 8;
+  http_fixture node{limits};
+  const auto post = [](const std::string& path, const std::string& body) {
+    return "POST " + path + " HTTP/1.1\r\nContent-Length: "
+           + std::to_string(body.size()) + "\r\n\r\n" + body;
+  };
+  raw_client first{node.server->port()};
+  for (const auto* body : {"{}", "12345678"}) {
+    first.send(post("/healthz", body));
+    const auto reply = first.read_until(std::string{"tcp "} + body);
+    CHECK(starts_with(reply, "HTTP/1.1 200 "));
+  }
+  raw_client second{node.server->port()};
+  CHECK(first.read_to_end().empty());
+  second.send(post("/healthz", "123456789"));
+  CHECK(starts_with(second.read_to_end(), "HTTP/1.1 413 "));
+  // What only begins like a public path is none.
+  for (const auto* path : {"/healthz/", "/healthz2", "//healthz", "/"}) {
+    raw_client other{node.server->port()};
+    other.send(post(path, "{}"));
+    CHECK(starts_with(other.read_to_end(), "HTTP/1.1 401 "));
+  }
+  CHECK(node.requests.size() == 0);
+}
+
 TEST_CASE("a client that showed its token is no stranger any more") {
   http_limits limits;
   limits.strangers = 1;
