@@ -26,8 +26,10 @@ counters() {
 # measure_wire SYSTEM: all hosts, once both systems are at rest.
 measure_wire() {
   local n before after
+  local order
   echo "$1" > "$bench/ready"
-  read -r _ < "$bench/$1.go"
+  read -r order < "$bench/$1.go"
+  [[ $order == go ]] || exit 1
   for n in 1 2 3 4 5 6; do before[n]=$(counters "$n"); done
   timeout "$span_s" tail -f /dev/null
   for n in 1 2 3 4 5 6; do after[n]=$(counters "$n"); done
@@ -198,18 +200,21 @@ swarm_side() {
 # run_side SYSTEM: its figures on stdout, its complaints in a file.
 run_side() {
   mkdir "$bench/$1"
-  mkfifo "$bench/$1.go"
   ("$1_side") 2> "$bench/$1.errors" || cat "$bench/$1.errors" >&2
 }
 
 trap 'wait; rm -rf "$bench"' EXIT
-mkfifo "$bench/ready"
+mkfifo "$bench/ready" "$bench/roscell.go" "$bench/swarm.go"
 exec {ready}<> "$bench/ready"
 for side in roscell swarm; do run_side "$side" & done
+order=go
 for side in roscell swarm; do
-  read -r -t 180 _ <&"$ready" || { echo "a side did not start" >&2; kill 0; }
+  read -r -t 180 _ <&"$ready" || order=stop
 done
 # What is measured begins once both are at rest.
-timeout 30 tail -f /dev/null
-for side in roscell swarm; do echo go > "$bench/$side.go"; done
+[[ $order == stop ]] || timeout 30 tail -f /dev/null
+for side in roscell swarm; do
+  echo "$order" 1<> "$bench/$side.go"
+done
 wait
+[[ $order == go ]]
