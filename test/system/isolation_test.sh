@@ -53,7 +53,7 @@ frames_come() {
   local before
   await_line "$1.poses" frame_id
   before=$(wc -l < "$scratch/$1.poses")
-  await_line "$1.poses" frame_id $((before + 12))
+  await_line "$1.poses" frame_id $((before + 8))
 }
 
 # listen HOST NAME [PEER]: what Cyclone DDS sees there.
@@ -78,12 +78,14 @@ start_stray_camera() {
 }
 
 # cells_are_isolated A_HEAD A_ARM B_HEAD B_ARM LISTENER STRAY: hosts of what is
-# named so.
+# named so. The second from which on both cells were at work is in $formed.
 cells_are_isolated() {
   local cell
   start_cell a "$1" "$2"
   start_cell b "$3" "$4"
   listen "$5" bystander
+  for cell in a b; do frames_come "$cell"; done
+  formed=$(date +%s)
   for cell in a b; do frames_come "$cell"; done
   expect "what a bystander sees of two cells" "$(seen_by bystander)" ""
   start_stray_camera "$6"
@@ -129,9 +131,10 @@ need_bystander() {
   use_skills image_source pose_estimation
 }
 
-# packets FILTER: how many were captured.
+# packets FILTER [SINCE]: how many were captured, since that second.
 packets() {
-  tcpdump -r "$scratch/capture" -nn "$1" 2> /dev/null | wc -l
+  tcpdump -r "$scratch/capture" -nn -tt "$1" 2> /dev/null \
+    | awk -v since="${2:-0}" '$1 >= since' | wc -l
 }
 
 test_two_cells_on_a_bridge_and_a_bystander_share_no_data() {
@@ -147,6 +150,8 @@ test_two_cells_on_a_bridge_and_a_bystander_share_no_data() {
   wait "$capture"
   expect "announcements to the ROS domain by cells" \
     "$(packets "$hosts_of_cells and dst 239.255.0.1 and dst port 7400")" 0
+  expect "what members announce to everybody" "$(packets \
+    "(src 10.231.7.2 or src 10.231.7.4) and dst net 239.0.0.0/8" "$formed")" 0
   expect "packets between a member and the other cell" "$(packets "ip and
     ((host 10.231.7.2 and (host 10.231.7.3 or host 10.231.7.4))
      or (host 10.231.7.4 and (host 10.231.7.1 or host 10.231.7.2)))")" 0
