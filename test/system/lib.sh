@@ -30,6 +30,8 @@ declare -A pid
 inside=()
 runtime=process
 discovery_port=0
+# Nodes of one test see each other, and no others on this machine.
+public_domain=$((20 + BASHPID % 200))
 start_node() {
   local name=$1 ready=$scratch/$1.ready
   shift
@@ -38,6 +40,7 @@ start_node() {
   exec {ready_fd}<> "$ready"
   "${inside[@]}" "$ROSCELL" node --name "$name" --data-dir "$scratch/$name" \
     --port 0 --discovery-port "$discovery_port" --skills "$skills" \
+    --public-domain "$public_domain" \
     --runtime "$runtime" \
     --ready-fd 5 "$@" 5> "$ready" 2>> "$scratch/$name.log" &
   pid[$name]=$!
