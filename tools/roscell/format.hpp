@@ -20,6 +20,10 @@ std::string format_significant(double value, int digits);
 /// below.
 std::string format_mib(double mib);
 
+/// A number of bytes with its binary unit, rounded as `format_mib` does:
+/// "512 B", "1.5 KiB", "12 MiB".
+std::string format_bytes(double bytes);
+
 /// The two largest units: "42s", "3m05s", "2h10m", "5d03h". Less than nothing
 /// is "0s".
 std::string format_age(std::chrono::milliseconds age);
