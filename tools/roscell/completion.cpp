@@ -2,6 +2,7 @@
 
 #include "tools/roscell/commands.hpp"
 #include "tools/roscell/exit_code.hpp"
+#include "tools/roscell/format.hpp"
 #include "tools/roscell/terminal.hpp"
 
 #include <CLI/CLI.hpp>
@@ -49,13 +50,6 @@ std::string_view action_of(std::string_view name) {
     if (source.name == name)
       return source.action;
   return "nothing";
-}
-
-std::string joined(const std::vector<std::string>& words, const char* between) {
-  std::string text;
-  for (const auto& word : words)
-    text += (text.empty() ? "" : between) + word;
-  return text;
 }
 
 std::vector<std::string> names_of(const CLI::Option& option) {

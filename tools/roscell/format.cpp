@@ -135,6 +135,17 @@ std::string printable(std::string_view text) {
   return result;
 }
 
+std::string joined(const std::vector<std::string>& words,
+                   std::string_view between) {
+  std::string result;
+  for (const auto& word : words) {
+    if (!result.empty())
+      result += between;
+    result += word;
+  }
+  return result;
+}
+
 size_t display_width(std::string_view text) {
   size_t width = 0;
   for (const auto c : text)

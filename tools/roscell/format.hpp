@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 /// Numbers, times and foreign text as the tables show them, and the option
 /// values that carry a unit.
@@ -38,6 +39,10 @@ std::string format_time(int64_t unix_ms);
 /// Bytes of `text` that are safe in one line of a terminal: control characters
 /// and what is not UTF-8 are shown as '?'.
 std::string printable(std::string_view text);
+
+/// The words in one line.
+std::string joined(const std::vector<std::string>& words,
+                   std::string_view between = ",");
 
 /// Columns that `text` takes: its code points.
 size_t display_width(std::string_view text);

@@ -13,13 +13,6 @@ std::string destination(const std::string& cell) {
   return cell.empty() ? "(independent)" : cell;
 }
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string result;
-  for (const auto& word : words)
-    result += (result.empty() ? "" : ",") + word;
-  return result;
-}
-
 std::string moved_view(const std::vector<std::string>& row,
                        const view_style& style) {
   const table t{{{"NODE"},

@@ -25,11 +25,9 @@ std::string mib(const amount& a) {
   return format_mib(a.used) + "/" + format_mib(a.capacity);
 }
 
-std::string joined(const std::set<std::string>& words) {
-  std::string result;
-  for (const auto& word : words)
-    result += (result.empty() ? "" : ",") + word;
-  return result;
+/// Each name once, in order.
+std::string listed(const std::set<std::string>& names) {
+  return joined({names.begin(), names.end()});
 }
 
 std::string or_nothing(const table& t, const char* what,
@@ -148,7 +146,7 @@ std::string tasks_view(const task_description& tasks, const view_style& style) {
         {row.task, to_string(row.state),
          format_since(row.submitted_unix_ms, style.now_unix_ms),
          std::to_string(running) + "/" + std::to_string(row.instances.size()),
-         joined(nodes)});
+         listed(nodes)});
   }
   return or_nothing(t, "tasks", style);
 }
@@ -194,7 +192,7 @@ std::string skills_view(const skill_list& skills, const view_style& style) {
                           format_mib(r.memory_mib), format_mib(r.disk_mib),
                           r.needs_gpu() ? format_mib(r.gpu_memory_mib) : "",
                           row.skill.hash.substr(0, short_hash),
-                          joined({row.nodes.begin(), row.nodes.end()})});
+                          listed({row.nodes.begin(), row.nodes.end()})});
       }
   return or_nothing(t, "skills", style);
 }
