@@ -3,6 +3,7 @@
 #include "schemas/document.hpp"
 #include "schemas/message_catalogue.hpp"
 #include "tools/roscell/commands.hpp"
+#include "tools/roscell/common_options.hpp"
 #include "tools/roscell/exit_code.hpp"
 #include "tools/roscell/plan_view.hpp"
 #include "tools/roscell/read_file.hpp"
@@ -90,9 +91,7 @@ void add_plan_command(CLI::App& app, action& chosen) {
                    "input")
       ->required()
       ->option_text(" ");
-  command->add_option("-o,--output", options->output, "Form of the answer")
-      ->check(CLI::IsMember({"table", "json"}))
-      ->option_text("table|json [table]");
+  add_output_option(*command, options->output);
   command->callback([&chosen, options] {
     chosen = [options] { return show_plan(*options); };
   });
