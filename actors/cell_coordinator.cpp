@@ -1,7 +1,12 @@
 #include "actors/cell_coordinator.hpp"
 
+#include "actors/cell_balance.hpp"
+#include "actors/cell_formation.hpp"
 #include "actors/cell_members.hpp"
+#include "actors/cell_peers.hpp"
+#include "actors/cell_places.hpp"
 #include "actors/cell_tasks.hpp"
+#include "actors/cell_transfers.hpp"
 #include "messages/failure.hpp"
 
 #include <utility>
@@ -30,10 +35,14 @@ std::vector<task_row> describe_all_tasks(self_pointer self) {
 
 cell_description describe(self_pointer self) {
   const auto& st = self->state;
-  return {st.setup.cell,           st.setup.self.name,
-          st.setup.self.address,   st.setup.discovery_server,
-          st.setup.incarnation,    st.registry.rows(),
-          describe_all_tasks(self)};
+  return {st.setup.cell,
+          st.setup.self.name,
+          st.setup.self.address,
+          st.setup.discovery_server,
+          st.setup.incarnation,
+          st.registry.rows(),
+          describe_all_tasks(self),
+          list_free_nodes(self)};
 }
 
 caf::result<task_description> answer(self_pointer self,
@@ -80,13 +89,6 @@ caf::result<log_excerpt> answer(self_pointer self, const log_query& query) {
   return promise;
 }
 
-cell_list list(self_pointer self) {
-  const auto& st = self->state;
-  return {{{st.setup.cell, st.setup.self.name, st.setup.self.address,
-            st.setup.discovery_server,
-            static_cast<int64_t>(st.registry.active_count())}}};
-}
-
 json summary(self_pointer self) {
   const auto& st = self->state;
   return {{"cell", st.setup.cell},
@@ -94,7 +96,12 @@ json summary(self_pointer self) {
           {"nodes", st.registry.rows()},
           {"tasks", describe_all_tasks(self)},
           {"turn", st.turn},
-          {"waiting", st.waiting.size()}};
+          {"waiting", st.waiting.size()},
+          {"cells", list_cells(self)},
+          {"free", list_free_nodes(self)},
+          {"places", st.places.size()},
+          {"transfers", st.transfers.size()},
+          {"balancing", st.balancing}};
 }
 
 } // namespace
@@ -105,9 +112,11 @@ cell_coordinator(self_pointer self, const house& context,
   self->state.context = context;
   self->state.setup = setup;
   add_own_row(self);
+  restore_members(self);
   restore_tasks(self);
   reconcile_own_node(self);
   measure_own_node(self);
+  appear(self);
   self->set_down_handler([self](const caf::down_msg& down) {
     on_pipeline_down(self, down.source);
     on_member_down(self, down.source);
@@ -120,7 +129,7 @@ cell_coordinator(self_pointer self, const house& context,
       [self](const member_lost& x) { on_member_lost(self, x); },
       [self](const instance_changed& x) { on_instance_changed(self, x); },
       [self](const cell_query&) { return describe(self); },
-      [self](const cell_list_query&) { return list(self); },
+      [self](const cell_list_query&) { return cell_list{list_cells(self)}; },
       [self](const task_query& x) { return answer(self, x); },
       [self](const instance_query& x) { return answer(self, x); },
       [self](const log_query& x) { return answer(self, x); },
@@ -132,6 +141,20 @@ cell_coordinator(self_pointer self, const house& context,
       [self](const record_intent& x) { return hold_resources(self, x); },
       [self](const record_outcome& x) { return settle_task(self, x); },
       [self](const task_termination& x) { return terminate(self, x); },
+      [self](const presence_seen& x) { on_presence_seen(self, x.who); },
+      [self](const presence_gone& x) { on_presence_gone(self, x.who); },
+      [self](const peer_opened& x) { on_peer_opened(self, x); },
+      [self](const peer_lost& x) { on_peer_lost(self, x); },
+      [self](const peer_told& x) { on_peer_told(self, x); },
+      [self](const peer_changed& x) { on_peer_changed(self, x); },
+      [self](const place_request& x) { return grant_place(self, x); },
+      [self](const place_reservation& x) { return reserve_place(self, x); },
+      [self](const member_surrender& x) { return surrender_members(self, x); },
+      [self](const cell_formation& x) { return form_cell(self, x); },
+      [self](const node_transfer& x) { return transfer_node(self, x); },
+      [self](const node_release& x) { return release_node(self, x); },
+      [self](const transfer_query& x) { return describe_transfers(self, x); },
+      [self](caf::tick_atom, uint64_t number) { on_tick(self, number); },
   };
 }
 

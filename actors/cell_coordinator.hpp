@@ -1,5 +1,7 @@
 #pragma once
 
+#include "actors/alarm.hpp"
+#include "actors/backoff.hpp"
 #include "actors/cell_registry.hpp"
 #include "actors/house.hpp"
 #include "actors/task_table.hpp"
@@ -7,7 +9,9 @@
 
 #include <caf/typed_response_promise.hpp>
 
+#include <chrono>
 #include <deque>
+#include <functional>
 #include <map>
 #include <set>
 #include <string>
@@ -26,9 +30,18 @@ struct coordinator_setup {
   /// Runs what an earlier run of the node has left; may be invalid in tests.
   container_supervisor_actor supervisor;
   state_store_actor store;
-  std::vector<task_record> tasks; ///< As an earlier run has stored them.
+  std::vector<task_record> tasks;     ///< As an earlier run has stored them.
+  std::vector<member_record> members; ///< The same.
   /// What instances of this cell find in their environment.
   std::map<std::string, std::string> environment;
+  /// Towards other coordinators and nodes in no cell; all invalid in a cell
+  /// that is alone.
+  discovery_actor discovery;
+  session_connector_actor connector;
+  registration_client_actor registration;
+  scheduler_actor scheduler; ///< Places what leaves with a node.
+  int64_t server_id = 0;     ///< Of the discovery server.
+  bool rebalance = true;     ///< Cells are evened out.
 };
 
 /// A task request that waits for its turn to be placed.
@@ -36,6 +49,51 @@ struct waiting_claim {
   claim_task request;
   caf::actor_addr owner;
   caf::typed_response_promise<task_claimed> promise;
+};
+
+/// Another coordinator, as far as it is known.
+struct peer_entry {
+  peer_actor actor;  ///< Invalid while there is no session.
+  bool told = false; ///< Its standing has come.
+  cell_standing standing;
+  std::map<std::string, member_claim> members; ///< By UUID.
+  int64_t promised = 0; ///< Places that it is being asked for.
+
+  /// What counts when a place is given out.
+  int64_t size() const {
+    return standing.size + promised;
+  }
+};
+
+/// When a session to another coordinator is to be tried again.
+struct peer_attempt {
+  bool running = false;
+  std::chrono::steady_clock::time_point next;
+  backoff pause;
+  std::string trouble; ///< Why the last one failed.
+};
+
+/// A place that has been given out and not been taken yet.
+struct granted_place {
+  std::string coordinator; ///< UUID.
+  std::chrono::steady_clock::time_point until;
+};
+
+/// Somebody waits for a node to join. Called once.
+struct awaited_arrival {
+  std::chrono::steady_clock::time_point deadline;
+  std::function<void(const failure*)> done;
+};
+
+/// A transfer or a release; see docs/protocols.md.
+struct cell_transfer {
+  transfer_row row;
+  /// Of `switching`: then it is `unresolved` for whoever waits.
+  std::chrono::steady_clock::time_point deadline;
+  std::vector<std::string> terminated;
+  std::vector<std::string> rescheduled;
+  std::vector<std::function<void(const cell_transfer&, const failure*)>>
+      waiting;
 };
 
 /// Owns the cell registry and the tasks.
@@ -49,6 +107,21 @@ struct cell_coordinator_state {
   /// The task whose turn it is: between its claim and its intent.
   std::string turn;
   std::deque<waiting_claim> waiting;
+
+  /// By UUID: all coordinators and nodes in no cell that are visible.
+  std::map<std::string, node_presence> presences;
+  std::map<std::string, peer_entry> peers;      ///< By UUID of the coordinator.
+  std::map<std::string, peer_attempt> attempts; ///< The same.
+  std::map<std::string, granted_place> places;  ///< By UUID of the node.
+  std::map<std::string, cell_transfer> transfers;
+  uint64_t last_transfer = 0;
+  /// Who waits for a node to join, by UUID.
+  std::multimap<std::string, awaited_arrival> arrivals;
+  /// When cells are to be looked at for evening out; max(): not at all.
+  std::chrono::steady_clock::time_point balance_due =
+      std::chrono::steady_clock::time_point::max();
+  size_t balancing = 0; ///< Cells that are asked to give up members.
+  alarm timer;
 };
 
 using coordinator_pointer =

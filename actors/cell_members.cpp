@@ -1,5 +1,10 @@
 #include "actors/cell_members.hpp"
 
+#include "actors/cell_balance.hpp"
+#include "actors/cell_formation.hpp"
+#include "actors/cell_peers.hpp"
+#include "actors/cell_places.hpp"
+#include "actors/cell_transfers.hpp"
 #include "actors/member.hpp"
 #include "actors/reservation.hpp"
 #include "actors/wall_clock.hpp"
@@ -19,12 +24,10 @@ using self_pointer = coordinator_pointer;
 /// A node that does not say in this time what it has is not counted on.
 constexpr std::chrono::seconds resource_timeout{3};
 
+constexpr std::chrono::seconds store_timeout{5};
+
 /// How often a node is asked in one collection, at most.
 constexpr int resource_rounds = 3;
-
-registry_time now(self_pointer self) {
-  return {self->clock().now(), unix_now_ms()};
-}
 
 /// For what a restarted coordination node starts and stops on itself.
 constexpr std::chrono::minutes start_timeout{15};
@@ -158,7 +161,69 @@ void ask_for_resources(self_pointer self, const std::string& uuid,
           [tally](const caf::error&) { tally->finish_one(); });
 }
 
+/// Nobody is asked twice whether the same row has changed on disk.
+void store_member(self_pointer self, const registry_entry& entry) {
+  store(self, {"members", entry.row.identity.uuid,
+               json(member_record{entry.row.identity, entry.origin}).dump()});
+}
+
 } // namespace
+
+registry_time now_of(self_pointer self) {
+  return {self->clock().now(), unix_now_ms()};
+}
+
+void set_timer(self_pointer self) {
+  auto& st = self->state;
+  const auto when =
+      std::min({st.registry.next_overdue(), next_transfer_deadline(self),
+                next_arrival_deadline(self), next_peer_attempt(self),
+                st.balancing > 0 ? std::chrono::steady_clock::time_point::max()
+                                 : st.balance_due});
+  if (when != std::chrono::steady_clock::time_point::max())
+    st.timer.set(self, when);
+}
+
+void on_tick(self_pointer self, uint64_t number) {
+  if (!self->state.timer.rings(number))
+    return;
+  drop_overdue_places(self);
+  settle_overdue_transfers(self);
+  settle_overdue_arrivals(self);
+  open_due_peers(self);
+  balance_if_due(self);
+  set_timer(self);
+}
+
+void store(self_pointer self, const store_record& record) {
+  const auto& st = self->state;
+  if (!st.setup.store)
+    return;
+  self->request(st.setup.store, store_timeout, record)
+      .then([](const record_stored&) {},
+            [self, key = record.key](const caf::error& why) {
+              self->state.context.tell("store_failed", key,
+                                       {{"reason", to_failure(why).message}});
+            });
+}
+
+void restore_members(self_pointer self) {
+  auto& st = self->state;
+  for (const auto& known : st.setup.members)
+    if (known.identity.uuid != st.setup.self.uuid)
+      st.registry.expect(known, now_of(self));
+}
+
+void drop_row(self_pointer self, const std::string& uuid) {
+  auto& st = self->state;
+  const auto* entry = st.registry.find_uuid(uuid);
+  if (!entry)
+    return;
+  if (entry->row.state != row_state::reserved)
+    store(self, {"members", uuid, ""});
+  st.registry.erase(uuid);
+  publish(self, {}, {uuid});
+}
 
 void add_own_row(self_pointer self) {
   auto& st = self->state;
@@ -168,7 +233,7 @@ void add_own_row(self_pointer self) {
   own.row.resources.name = st.setup.self.name;
   own.skills = st.setup.skills;
   own.agent = st.setup.agent;
-  st.registry.activate(std::move(own), now(self));
+  st.registry.activate(std::move(own), now_of(self));
 }
 
 void reconcile_own_node(self_pointer self) {
@@ -213,6 +278,8 @@ void measure_own_node(self_pointer self) {
 }
 
 void on_session_admitted(self_pointer self, const session_admitted& fact) {
+  if (fact.role == node_role::coordinator)
+    return on_peer_admitted(self, fact);
   spawn(self->system(), self->state.context, member, fact,
         cell_coordinator_actor{self});
 }
@@ -225,13 +292,16 @@ caf::result<node_registered> register_member(self_pointer self,
     return fail(
         error_code::conflict, "the node has the UUID of the coordination node",
         "/identity/uuid", "its data directory is a copy: give it an empty one");
-  if (auto why = st.registry.refusal(node.identity, now(self)))
+  if (auto why = st.registry.refusal(node.identity, now_of(self)))
     return fail(error_code::conflict, *why, "/identity",
                 "give the node another --name, or wait until the other one "
                 "has been gone for a lease");
-  if (auto* old = st.registry.find_uuid(node.identity.uuid))
+  std::string transfer;
+  if (auto* old = st.registry.find_uuid(node.identity.uuid)) {
+    transfer = old->transfer;
     if (old->member && old->member != request.member)
       self->send(old->member, close_session{"the node has registered anew"});
+  }
   registry_entry entry;
   entry.row.identity = node.identity;
   entry.row.resources = node.resources;
@@ -240,15 +310,22 @@ caf::result<node_registered> register_member(self_pointer self,
   entry.skills = node.skills;
   entry.agent = request.member;
   entry.member = request.member;
+  entry.origin = node.origin;
   node_registered reply{st.setup.cell, st.setup.self.name, st.setup.incarnation,
                         reconcile(st, node)};
-  st.registry.activate(std::move(entry), now(self));
+  store_member(self, st.registry.activate(std::move(entry), now_of(self)));
   self->monitor(request.member);
+  st.places.erase(node.identity.uuid);
+  st.presences.erase(node.identity.uuid);
+  publish(self, {node.identity.uuid});
   st.context.tell("node_joined", node.identity.name,
                   {{"uuid", node.identity.uuid},
                    {"epoch", node.identity.epoch},
                    {"address", node.identity.address},
                    {"size", st.registry.active_count()}});
+  settle_arrivals(self, node.identity.uuid, nullptr);
+  if (!transfer.empty())
+    on_node_returned(self, transfer);
   return reply;
 }
 
@@ -260,11 +337,13 @@ caf::result<node_departed> depart_member(self_pointer self,
     return node_departed{};
   const auto name = entry->row.identity.name;
   // A node that goes with instances is expected back: they go on running.
-  if (entry->row.instances.empty())
-    st.registry.erase(request.uuid);
-  else
+  if (entry->row.instances.empty()) {
+    drop_row(self, request.uuid);
+  } else {
     st.registry.deactivate(*entry, row_state::expected, request.reason,
-                           now(self));
+                           now_of(self));
+    publish(self, {request.uuid});
+  }
   st.context.tell(
       "node_left", name,
       {{"reason", request.reason}, {"size", st.registry.active_count()}});
@@ -277,7 +356,14 @@ void on_member_lost(self_pointer self, const member_lost& fact) {
   if (!entry)
     return;
   const auto name = entry->row.identity.name;
-  st.registry.deactivate(*entry, row_state::lost, fact.reason, now(self));
+  if (entry->row.state == row_state::departing) {
+    // It goes: where it turns up tells the rest.
+    entry->agent = nullptr;
+    entry->member = nullptr;
+    return;
+  }
+  st.registry.deactivate(*entry, row_state::lost, fact.reason, now_of(self));
+  publish(self, {fact.uuid});
   st.context.tell(
       "node_lost", name,
       {{"reason", fact.reason}, {"size", st.registry.active_count()}});
@@ -285,7 +371,7 @@ void on_member_lost(self_pointer self, const member_lost& fact) {
 
 void on_member_down(self_pointer self, const caf::actor_addr& gone) {
   std::vector<member_lost> losses;
-  self->state.registry.for_each_active([&](registry_entry& entry) {
+  self->state.registry.for_each([&](registry_entry& entry) {
     if (entry.member && entry.member.address() == gone)
       losses.push_back({entry.row.identity.uuid, entry.member,
                         "the part that spoke with it has failed"});

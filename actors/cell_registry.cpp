@@ -5,6 +5,11 @@
 
 namespace roscell {
 
+member_claim claim_of(const registry_row& row) {
+  return {row.identity.name, row.identity.uuid, row.identity.epoch,
+          row.state == row_state::active};
+}
+
 std::optional<std::string>
 cell_registry::refusal(const node_identity& who,
                        const registry_time& now) const {
@@ -24,6 +29,64 @@ cell_registry::refusal(const node_identity& who,
     return std::nullopt;
   return "the name '" + who.name + "' belongs to the node with UUID "
          + row.identity.uuid + " at " + row.identity.address;
+}
+
+registry_entry&
+cell_registry::reserve(const node_identity& who,
+                       std::chrono::steady_clock::time_point until,
+                       const registry_time& now) {
+  auto& entry = by_uuid_[who.uuid];
+  if (entry.row.identity.uuid.empty()) {
+    entry.row.identity = who;
+    entry.row.resources.name = who.name;
+    entry.row.state = row_state::reserved;
+    entry.row.since_unix_ms = now.unix_ms;
+  }
+  entry.held_until = until;
+  return entry;
+}
+
+std::vector<std::string>
+cell_registry::drop_overdue(std::chrono::steady_clock::time_point now) {
+  std::vector<std::string> result;
+  for (const auto& [uuid, entry] : by_uuid_)
+    if (entry.row.state == row_state::reserved && entry.held_until <= now)
+      result.push_back(uuid);
+  for (const auto& uuid : result)
+    by_uuid_.erase(uuid);
+  return result;
+}
+
+std::chrono::steady_clock::time_point cell_registry::next_overdue() const {
+  auto result = std::chrono::steady_clock::time_point::max();
+  for (const auto& [uuid, entry] : by_uuid_)
+    if (entry.row.state == row_state::reserved)
+      result = std::min(result, entry.held_until);
+  return result;
+}
+
+void cell_registry::expect(const member_record& known,
+                           const registry_time& now) {
+  auto& entry = by_uuid_[known.identity.uuid];
+  entry.row.identity = known.identity;
+  entry.row.resources.name = known.identity.name;
+  entry.row.since_unix_ms = now.unix_ms;
+  entry.row.reason = "not seen since the coordinator was started";
+  entry.origin = known.origin;
+}
+
+void cell_registry::depart(registry_entry& entry, std::string transfer,
+                           const registry_time& now) {
+  entry.row.state = row_state::departing;
+  entry.row.since_unix_ms = now.unix_ms;
+  entry.transfer = std::move(transfer);
+}
+
+void cell_registry::stay(registry_entry& entry, const registry_time& now) {
+  entry.row.state = row_state::active;
+  entry.row.since_unix_ms = now.unix_ms;
+  entry.row.reason.clear();
+  entry.transfer.clear();
 }
 
 registry_entry& cell_registry::activate(registry_entry entry,
@@ -70,6 +133,7 @@ void cell_registry::deactivate(registry_entry& entry, row_state state,
   entry.inactive_since = now.steady;
   entry.agent = nullptr;
   entry.member = nullptr;
+  entry.transfer.clear();
 }
 
 void cell_registry::erase(const std::string& uuid) {
@@ -126,6 +190,22 @@ size_t cell_registry::active_count() const {
       }));
 }
 
+size_t cell_registry::size() const {
+  return static_cast<size_t>(
+      std::count_if(by_uuid_.begin(), by_uuid_.end(), [](const auto& x) {
+        const auto state = x.second.row.state;
+        return state == row_state::active || state == row_state::reserved
+               || state == row_state::departing;
+      }));
+}
+
+std::vector<member_claim> cell_registry::claims() const {
+  std::vector<member_claim> result;
+  for (const auto& [uuid, entry] : by_uuid_)
+    result.push_back(claim_of(entry.row));
+  return result;
+}
+
 std::vector<skill_row>
 cell_registry::skills(const std::string& operation) const {
   std::map<std::string, skill_row> by_hash;
@@ -146,6 +226,12 @@ cell_registry::skills(const std::string& operation) const {
     result.push_back(std::move(row));
   }
   return result;
+}
+
+void cell_registry::for_each(
+    const std::function<void(registry_entry&)>& visit) {
+  for (auto& [uuid, entry] : by_uuid_)
+    visit(entry);
 }
 
 void cell_registry::for_each_active(

@@ -204,6 +204,13 @@ void finish_termination(self_pointer self, const task_record& record) {
 
 } // namespace
 
+void complete_spec(const cell_coordinator_state& st, instance_spec& spec) {
+  spec.cell = st.setup.cell;
+  // No skill may choose another cell's discovery server.
+  for (const auto& [name, value] : st.setup.environment)
+    spec.environment[name] = value;
+}
+
 void restore_tasks(self_pointer self) {
   for (const auto& record : self->state.setup.tasks) {
     // A task that was being deployed or ended when the coordinator died is
@@ -242,19 +249,15 @@ caf::result<intent_recorded> hold_resources(self_pointer self,
   intent_recorded reply;
   for (const auto& node : intent.nodes) {
     const auto* member = st.registry.find_name(node);
-    if (!member || !member->agent)
+    if (!member || member->row.state != row_state::active)
       return fail(error_code::conflict,
                   "node '" + node + "' left while the task was being placed",
                   "/pipeline", "send the request again");
     reply.agents.push_back(member->agent);
   }
   reply.specs = intent.specs;
-  for (auto& spec : reply.specs) {
-    spec.cell = st.setup.cell;
-    // No skill may choose another cell's discovery server.
-    for (const auto& [name, value] : st.setup.environment)
-      spec.environment[name] = value;
-  }
+  for (auto& spec : reply.specs)
+    complete_spec(st, spec);
   entry->record.specs = reply.specs;
   entry->record.nodes = intent.nodes;
   entry->record.accepted = intent.accepted;

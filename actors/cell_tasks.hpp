@@ -20,6 +20,9 @@ caf::result<task_terminated> terminate(coordinator_pointer self,
 /// A pipeline has ended: what it was deploying is rolled back.
 void on_pipeline_down(coordinator_pointer self, const caf::actor_addr& gone);
 
+/// Adds to a spec what the cell adds to every instance.
+void complete_spec(const cell_coordinator_state& st, instance_spec& spec);
+
 task_row describe_task(coordinator_pointer self, const task_record& record);
 
 } // namespace roscell

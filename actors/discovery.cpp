@@ -14,19 +14,24 @@ namespace {
 
 using self_pointer = discovery_actor::stateful_pointer<discovery_state>;
 
-/// On a thread of Fast DDS: tells of a coordinator that this version can talk
-/// to. Others are told of as an event.
+/// Whether this version can talk to who announces this. Coordinators of
+/// another version are told of as an event.
+bool speaks_with(const house& context, const announcement& said) {
+  if (said.protocol_version.substr(0, 2) == "1.")
+    return true;
+  if (said.role == "coordinator")
+    context.tell("coordinator_ignored", said.node,
+                 {{"protocol_version", said.protocol_version},
+                  {"reason", "this node speaks version 1.0"}});
+  return false;
+}
+
+/// On a thread of Fast DDS: tells of the coordinator behind a server.
 void on_server(const house& context, const discovery_listener_actor& listener,
                const server_sighting& sighting) {
   const auto said = decode(sighting.announcement);
-  if (!said || said->role != "coordinator")
+  if (!said || said->role != "coordinator" || !speaks_with(context, *said))
     return;
-  if (said->protocol_version.substr(0, 2) != "1.") {
-    context.tell("coordinator_ignored", said->node,
-                 {{"protocol_version", said->protocol_version},
-                  {"reason", "this node speaks version 1.0"}});
-    return;
-  }
   caf::anon_send(listener, coordinator_found{said->cell, said->node,
                                              said->session, said->incarnation});
 }
@@ -74,6 +79,64 @@ void forget(self_pointer self) {
   self->state.looking_for.clear();
 }
 
+node_presence to_presence(const announcement& said) {
+  return {said.role, said.node,    said.uuid,      said.epoch, said.incarnation,
+          said.cell, said.session, said.discovery, said.server};
+}
+
+announcement to_announcement(const node_presence& x) {
+  announcement result;
+  result.role = x.role;
+  result.node = x.name;
+  result.uuid = x.uuid;
+  result.epoch = x.epoch;
+  result.incarnation = x.incarnation;
+  result.cell = x.cell;
+  result.session = x.address;
+  result.discovery = x.discovery_server;
+  result.server = x.server_id;
+  return result;
+}
+
+/// Opens the public participant. Who cannot announce itself goes on without:
+/// it can still join by an address.
+void appear(self_pointer self, const presence_listener_actor& listener) {
+  auto& st = self->state;
+  presence_options options;
+  options.address = st.config.address;
+  options.domain_id = st.config.public_domain_id;
+  options.peers = st.config.peers;
+  options.announcement = st.announced;
+  presence_events events;
+  events.on_seen = [context = st.context, listener](const announcement& said) {
+    if (speaks_with(context, said))
+      caf::anon_send(listener, presence_seen{to_presence(said)});
+  };
+  events.on_gone = [listener](const announcement& said) {
+    caf::anon_send(listener, presence_gone{to_presence(said)});
+  };
+  auto opened = public_presence::open(options, std::move(events));
+  if (auto* why = std::get_if<edge_error>(&opened))
+    return st.context.tell("edge_trouble", st.config.node,
+                           {{"message", why->message}});
+  st.presence = std::get<std::unique_ptr<public_presence>>(std::move(opened));
+}
+
+void announce(self_pointer self, const announce_presence& wish) {
+  auto& st = self->state;
+  st.announced = encode(to_announcement(wish.self));
+  if (st.presence)
+    st.presence->update(st.announced);
+  else
+    appear(self,
+           caf::actor_cast<presence_listener_actor>(self->current_sender()));
+}
+
+void withdraw(self_pointer self) {
+  self->state.presence.reset();
+  self->state.announced.clear();
+}
+
 } // namespace
 
 discovery_actor::behavior_type discovery(self_pointer self,
@@ -83,10 +146,13 @@ discovery_actor::behavior_type discovery(self_pointer self,
   self->state.config = config;
   return {
       [self](const state_query&) {
-        return state_of({{"looking_for", self->state.looking_for}});
+        return state_of({{"looking_for", self->state.looking_for},
+                         {"announced", self->state.announced}});
       },
       [self](const find_coordinator& wish) { return find(self, wish); },
       [self](const forget_coordinator&) { forget(self); },
+      [self](const announce_presence& wish) { announce(self, wish); },
+      [self](const withdraw_presence&) { withdraw(self); },
   };
 }
 

@@ -118,8 +118,30 @@ void on_departure(self_pointer self, uint64_t id, const json& body) {
           [self, id](const caf::error& why) { on_row_refused(self, id, why); });
 }
 
+/// A node that is in no cell wants a place. It ends the session when it has
+/// been told.
+void on_place_request(self_pointer self, uint64_t id, const json& body) {
+  auto& st = self->state;
+  auto wish = decode<place_request>(body);
+  if (auto* why = std::get_if<failure>(&wish))
+    return refuse(self, id, *why);
+  auto& x = std::get<place_request>(wish);
+  x.name = st.peer.name;
+  x.uuid = st.peer.uuid;
+  self->request(st.coordinator, place_timeout, x)
+      .then(
+          [self, id](const place_granted& reply) {
+            self->state.frames.answer(id, message_json(reply));
+          },
+          [self, id](const caf::error& why) {
+            refuse(self, id, to_failure(why));
+          });
+}
+
 void on_request(self_pointer self, uint64_t id, const session_inquiry& x) {
   const auto type = x.type();
+  if (type == place_request::type && self->state.phase == phase::awaiting)
+    return on_place_request(self, id, x.body);
   if (type == node_registration::type)
     return on_registration(self, id, x.body);
   if (self->state.phase != phase::active) {
@@ -283,6 +305,9 @@ member_actor::behavior_type member(self_pointer self, session_admitted accepted,
       },
       [self](const instance_removal& x) {
         return ask_node<instances_removed>(self, x, removal_timeout);
+      },
+      [self](const registration_switch& x) {
+        return ask_node<switch_accepted>(self, x, switch_timeout);
       },
       [self](const log_query& x) {
         const auto wait = std::clamp(session_duration{x.wait_ms},

@@ -36,6 +36,7 @@ void finish_leaving(self_pointer self) {
   drop_session(self, "it leaves the cell");
   self->send(st.parts.discovery, forget_coordinator{});
   st.standing = node_state::independent;
+  st.switching.reset();
   if (auto cell = std::exchange(st.cell, {}); !cell.empty())
     tell(self, "cell_left", {{"cell", cell}});
   st.coordinator.clear();
@@ -48,6 +49,8 @@ void finish_leaving(self_pointer self) {
     leaver.deliver(node_departed{});
   if (!st.wanted.empty())
     begin_attempt(self);
+  else
+    withdraw_presence_now(self);
 }
 
 } // namespace membership_steps
@@ -77,6 +80,7 @@ caf::result<node_departed> on_leave(self_pointer self, const leave_cell& wish) {
   auto promise = self->make_response_promise<node_departed>();
   self->state.leavers.push_back(promise);
   self->state.wanted.clear();
+  self->state.seeking = false;
   leave(self, wish.reason);
   return promise;
 }
@@ -85,6 +89,8 @@ void on_join(self_pointer self, const join_cell& wish) {
   auto& st = self->state;
   const bool same = st.wanted == wish.discovery_server;
   st.wanted = wish.discovery_server;
+  if (!same)
+    st.origin = join_origin::given;
   if (st.phase == phase::leaving)
     return; // Done once it has left.
   if (st.phase == phase::resting || (same && st.phase == phase::waiting)) {
@@ -93,6 +99,31 @@ void on_join(self_pointer self, const join_cell& wish) {
   } else if (!same) {
     leave(self, "it goes to another cell");
   }
+}
+
+void on_seek(self_pointer self) {
+  auto& st = self->state;
+  st.seeking = true;
+  if (st.phase == phase::resting)
+    seek_place(self);
+}
+
+/// Takes up what an earlier run has stored, if the node is started as then.
+void resume(self_pointer self) {
+  auto& st = self->state;
+  st.stored = st.config.restored;
+  if (!takes_up_earlier_cell(st.config)) {
+    if (st.config.configured == "wait")
+      show_presence(self);
+    return;
+  }
+  if (st.stored->discovery_server.empty())
+    return show_presence(self);
+  st.wanted = st.stored->discovery_server;
+  st.origin = st.stored->origin;
+  st.cell = st.stored->cell;
+  st.standing = node_state::orphaned;
+  begin_attempt(self);
 }
 
 void on_instance_changed(self_pointer self, const instance_changed& fact) {
@@ -110,7 +141,7 @@ void on_tick(self_pointer self, uint64_t number) {
     return;
   const auto now = self->clock().now();
   if (st.phase == phase::waiting && now >= st.deadline)
-    begin_attempt(self);
+    try_again(self);
   else if (st.phase == phase::searching && now >= st.deadline)
     on_search_over(self);
   st.frames.calls().expire(now);
@@ -122,6 +153,9 @@ actor_state describe(const membership_status& st) {
   return state_of({{"standing", st.standing},
                    {"phase", st.phase},
                    {"wanted", st.wanted},
+                   {"origin", st.origin},
+                   {"seeking", st.seeking},
+                   {"visible_coordinators", st.coordinators.size()},
                    {"cell", st.cell},
                    {"coordinator", st.coordinator},
                    {"address", st.address},
@@ -138,6 +172,10 @@ membership_state answer(const membership_status& st) {
 
 } // namespace
 
+bool takes_up_earlier_cell(const membership_config& config) {
+  return config.restored && config.restored->configured == config.configured;
+}
+
 membership_actor::behavior_type membership(self_pointer self, house context,
                                            membership_parts parts,
                                            membership_config config) {
@@ -151,12 +189,28 @@ membership_actor::behavior_type membership(self_pointer self, house context,
     if (self->state.session && down.source == self->state.session)
       on_session_lost(self, "the session has failed");
   });
+  resume(self);
   return {
       [self](const state_query&) { return describe(self->state); },
       [self](const membership_query&) { return answer(self->state); },
       [self](const join_cell& wish) { on_join(self, wish); },
+      [self](const seek_cell&) { on_seek(self); },
+      [self](const registration_query&) { return make_challenge(self); },
+      [self](const registration_switch& order) {
+        auto promise = self->make_response_promise<switch_accepted>();
+        on_proven_switch(self, order,
+                         [promise](caf::expected<switch_accepted> x) mutable {
+                           if (x)
+                             promise.deliver(*x);
+                           else
+                             promise.deliver(x.error());
+                         });
+        return promise;
+      },
       [self](const leave_cell& wish) { return on_leave(self, wish); },
       [self](const coordinator_found& found) { on_found(self, found); },
+      [self](const presence_seen& x) { on_presence_seen(self, x.who); },
+      [self](const presence_gone& x) { on_presence_gone(self, x.who); },
       [self](const instance_changed& fact) { on_instance_changed(self, fact); },
       [self](const frame_received& frame) {
         if (is_from_session(self))

@@ -2,6 +2,7 @@
 
 #include "actors/alarm.hpp"
 #include "actors/backoff.hpp"
+#include "actors/edge/registration_proof.hpp"
 #include "actors/house.hpp"
 #include "actors/lease.hpp"
 #include "actors/session_exchange.hpp"
@@ -13,6 +14,7 @@
 #include <chrono>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,25 +35,43 @@ struct membership_parts {
 struct membership_config {
   node_identity identity; ///< With the epoch that was stored last.
   std::vector<installed_skill> skills;
+  /// As an earlier run has stored it. One of a cell is taken up at once.
+  std::optional<membership_record> restored;
+  std::string configured; ///< How the node is started now; see the record.
+  std::string site_token; ///< Proves switches; empty: none is installed.
 };
+
+/// Whether the node goes on where an earlier run of it was: it is started in
+/// the same way as then.
+bool takes_up_earlier_cell(const membership_config& config);
 
 /// What the membership is doing; `node_state` is what others see of it. The
 /// diagram is in docs/protocols.md.
 enum class membership_phase {
   resting,     ///< No cell is wanted.
   waiting,     ///< Until the next attempt.
+  asking,      ///< A coordinator for a place.
   searching,   ///< For the discovery server.
   opening,     ///< Storing the new epoch, then opening a session.
   registering, ///< The session is there.
   joined,
-  leaving, ///< Still joined; the coordinator is being told.
+  accepting, ///< A switch is being written down.
+  leaving,   ///< Still joined; the coordinator is being told.
 };
 
 constexpr auto enum_words(membership_phase) {
-  return std::array<std::string_view, 7>{"resting", "waiting",     "searching",
-                                         "opening", "registering", "joined",
-                                         "leaving"};
+  return std::array<std::string_view, 9>{
+      "resting",     "waiting", "asking",    "searching", "opening",
+      "registering", "joined",  "accepting", "leaving"};
 }
+
+/// A switch to another cell, and what the node goes back to if it fails.
+struct switch_attempt {
+  registration_switch order;
+  node_state standing = node_state::independent;
+  std::string wanted;
+  join_origin origin = join_origin::given;
+};
 
 /// Owns the node's belonging to a cell.
 struct membership_status {
@@ -65,7 +85,21 @@ struct membership_status {
 
   node_state standing = node_state::independent;
   membership_phase phase = membership_phase::resting;
-  std::string wanted; ///< Discovery server; empty: none.
+  std::string wanted;                      ///< Discovery server; empty: none.
+  join_origin origin = join_origin::given; ///< Why that one.
+  bool seeking = false; ///< Wants a place wherever there is one.
+
+  /// The coordinators that are visible, by UUID, and those of them that did
+  /// not answer lately.
+  std::map<std::string, node_presence> coordinators;
+  std::set<std::string> silent;
+  std::string asked;                  ///< The one that is asked for a place.
+  std::optional<node_presence> shown; ///< What the node announces.
+
+  registration_challenges challenges;
+  std::optional<switch_attempt> switching;
+  std::string last_switch; ///< Its transfer.
+  std::optional<membership_record> stored;
 
   /// The cell that the node is in, or was when it was orphaned.
   std::string cell;
@@ -91,7 +125,7 @@ struct membership_status {
   /// Changes since `instances` were asked for, by instance.
   std::map<std::string, instance_changed> unsent;
 
-  session_actor session; ///< Valid from `registering` to `leaving`.
+  session_actor session; ///< Valid while `asking`, and from `registering` on.
   lease life;
   session_exchange frames;
   alarm timer;
@@ -100,9 +134,11 @@ struct membership_status {
 };
 
 /// The MEMBERSHIP. Messages: messages/membership.hpp. Events: cell_joined,
-/// cell_left, coordinator_lost, join_refused, each about this node. It stores
-/// its identity in table "identity" under the key "node" before every
-/// registration, with the epoch raised.
+/// cell_left, coordinator_lost, join_refused, switch_accepted, switch_failed,
+/// each about this node. It stores its identity in table "identity" under the
+/// key "node" before every registration and every switch, with the epoch
+/// raised, and its `membership_record` under the key "membership" when it
+/// changes.
 membership_actor::behavior_type
 membership(membership_actor::stateful_pointer<membership_status> self,
            house context, membership_parts parts, membership_config config);

@@ -20,36 +20,11 @@ constexpr session_duration open_timeout{10'000};
 
 constexpr session_duration local_timeout{5000};
 
-bool is_current(self_pointer self, uint64_t attempt, phase where) {
-  return self->state.attempt == attempt && self->state.phase == where;
-}
-
-/// The present attempt is over; the next one follows after `pause`.
-void retreat(self_pointer self, const std::string& reason,
-             session_duration pause) {
-  auto& st = self->state;
-  ++st.attempt;
-  st.phase = phase::waiting;
-  st.deadline = self->clock().now() + pause;
-  st.trouble = reason;
-  drop_session(self, reason);
-  self->send(st.parts.discovery, forget_coordinator{});
-  set_timer(self);
-}
-
 bool is_refusal(error_code code) {
   return code == error_code::unauthorized || code == error_code::conflict
          || code == error_code::unknown_cell
          || code == error_code::schema_violation
          || code == error_code::unknown_type;
-}
-
-void on_error(self_pointer self, const caf::error& err) {
-  const auto why = to_failure(err);
-  if (is_refusal(why.code))
-    attempt_refused(self, why.message);
-  else
-    attempt_failed(self, why.message);
 }
 
 /// The handler for errors of a request that the present attempt needs.
@@ -76,6 +51,9 @@ void on_registered(self_pointer self, const node_registered& reply) {
   st.joined_at = self->clock().now();
   st.trouble.clear();
   st.refusal.clear();
+  st.switching.reset();
+  withdraw_presence_now(self);
+  store_membership(self);
   tell(self, "cell_joined",
        {{"cell", st.cell},
         {"coordinator", st.coordinator},
@@ -94,6 +72,9 @@ node_registration registration_of(const membership_status& st) {
   result.resources.name = st.config.identity.name;
   result.skills = st.config.skills;
   result.instances = *st.instances;
+  result.origin = st.origin;
+  if (st.switching)
+    result.transfer = st.switching->order.transfer;
   for (auto& row : result.instances) {
     row.node = st.config.identity.name;
     // Hundreds of them would not fit into one frame.
@@ -123,12 +104,20 @@ void maybe_register(self_pointer self) {
   set_timer(self);
 }
 
+/// The only cell that this attempt may end in; empty: any.
+std::string expected_cell(const membership_status& st) {
+  if (st.switching)
+    return st.switching->order.target.front().cell;
+  return st.standing == node_state::orphaned ? st.cell : std::string{};
+}
+
 void on_opened(self_pointer self, const session_opened& reply) {
   auto& st = self->state;
-  if (st.standing == node_state::orphaned && reply.cell != st.cell) {
+  const auto expected = expected_cell(st);
+  if (!expected.empty() && reply.cell != expected) {
     self->send(reply.session, close_session{"this node is of another cell"});
     return attempt_refused(self, "cell '" + reply.cell
-                                     + "' has taken the place of '" + st.cell
+                                     + "' has taken the place of '" + expected
                                      + "'");
   }
   st.opened = reply;
@@ -194,12 +183,44 @@ bool is_older(const membership_status& st, const coordinator_found& found) {
 
 } // namespace
 
+bool is_current(self_pointer self, uint64_t attempt, phase where) {
+  return self->state.attempt == attempt && self->state.phase == where;
+}
+
+void retreat(self_pointer self, const std::string& reason,
+             std::chrono::milliseconds pause) {
+  auto& st = self->state;
+  ++st.attempt;
+  st.phase = phase::waiting;
+  st.deadline = self->clock().now() + pause;
+  st.trouble = reason;
+  drop_session(self, reason);
+  self->send(st.parts.discovery, forget_coordinator{});
+  show_presence(self);
+  set_timer(self);
+}
+
+void on_error(self_pointer self, const caf::error& err) {
+  const auto why = to_failure(err);
+  if (is_refusal(why.code))
+    attempt_refused(self, why.message);
+  else
+    attempt_failed(self, why.message);
+}
+
+void try_again(self_pointer self) {
+  if (self->state.wanted.empty())
+    seek_place(self);
+  else
+    begin_attempt(self);
+}
+
 void begin_attempt(self_pointer self) {
   auto& st = self->state;
   ++st.attempt;
   st.phase = phase::searching;
   st.deadline = self->clock().now() + search_span;
-  if (st.standing != node_state::orphaned)
+  if (st.standing == node_state::independent)
     st.standing = node_state::joining;
   st.older.reset();
   st.opened.reset();
@@ -248,17 +269,23 @@ void on_search_over(self_pointer self) {
 }
 
 void attempt_failed(self_pointer self, const std::string& reason) {
+  if (give_up_switch(self, reason))
+    return;
+  forget_place(self);
   retreat(self, reason, self->state.pause.next());
 }
 
 void attempt_refused(self_pointer self, const std::string& reason) {
   auto& st = self->state;
+  if (give_up_switch(self, reason))
+    return;
   if (st.standing == node_state::joining)
     st.standing = node_state::independent;
   if (st.refusal != reason)
     tell(self, "join_refused",
          {{"reason", reason}, {"discovery_server", st.wanted}});
   st.refusal = reason;
+  forget_place(self);
   retreat(self, reason, refusal_pause);
 }
 

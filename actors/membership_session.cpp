@@ -43,8 +43,26 @@ void forward_log_query(self_pointer self, const session_inquiry& x) {
       std::clamp(wait, session_duration{0}, max_log_wait) + log_query_timeout);
 }
 
+/// The coordinator moves this node, or lets it go.
+void on_switch(self_pointer self, const session_inquiry& x) {
+  auto order = decode<registration_switch>(x.body);
+  if (auto* why = std::get_if<failure>(&order))
+    return self->state.frames.answer(*x.id, error_reply(*why));
+  auto reply = [self, session = self->state.session.id(),
+                id = *x.id](const caf::expected<switch_accepted>& outcome) {
+    auto& st = self->state;
+    if (!st.session || st.session.id() != session)
+      return;
+    st.frames.answer(id, outcome ? message_json(*outcome)
+                                 : error_reply(to_failure(outcome.error())));
+  };
+  on_coordinators_switch(self, std::get<registration_switch>(order), reply);
+}
+
 void on_request(self_pointer self, const session_inquiry& x) {
   const auto type = x.type();
+  if (type == registration_switch::type)
+    return on_switch(self, x);
   if (type == resource_query::type)
     decode_and_forward<resource_report, resource_query>(self, x,
                                                         resource_query_timeout);
@@ -122,8 +140,11 @@ void on_beat(self_pointer self, const beat_received& beat) {
 void on_session_lost(self_pointer self, const std::string& reason) {
   auto& st = self->state;
   switch (st.phase) {
+  case phase::asking:
   case phase::registering:
     return attempt_failed(self, reason);
+  case phase::accepting:
+    return drop_session(self, reason);
   case phase::leaving:
     return finish_leaving(self);
   case phase::joined:

@@ -2,6 +2,13 @@
 
 #include "actors/membership.hpp"
 
+#include <caf/error.hpp>
+#include <caf/expected.hpp>
+
+#include <chrono>
+#include <functional>
+#include <string>
+
 /// INTERNAL to the membership: the steps that its files share.
 namespace roscell::membership_steps {
 
@@ -23,6 +30,42 @@ void on_search_over(self_pointer self);
 void attempt_failed(self_pointer self, const std::string& reason);
 /// The coordinator does not want this node; asked again, but slowly.
 void attempt_refused(self_pointer self, const std::string& reason);
+/// What is to be done once the time of `waiting` is over.
+void try_again(self_pointer self);
+/// The present attempt is over; the next one follows after `pause`.
+void retreat(self_pointer self, const std::string& reason,
+             std::chrono::milliseconds pause);
+/// What to do when a request of the present attempt has failed.
+void on_error(self_pointer self, const caf::error& why);
+bool is_current(self_pointer self, uint64_t attempt, membership_phase where);
+
+// -- membership_places.cpp: being seen, seeing others, asking for a place -----
+
+/// Announces the node as independent or orphaned.
+void show_presence(self_pointer self);
+void withdraw_presence_now(self_pointer self);
+void on_presence_seen(self_pointer self, const node_presence& who);
+void on_presence_gone(self_pointer self, const node_presence& who);
+/// Looks for a place, or waits until a coordinator appears.
+void seek_place(self_pointer self);
+/// The place that the node asked for came to nothing.
+void forget_place(self_pointer self);
+
+// -- membership_switch.cpp: from one registration to another ------------------
+
+using switch_reply = std::function<void(caf::expected<switch_accepted>)>;
+
+registration_challenge make_challenge(self_pointer self);
+/// By the REST API, where it has to be proven.
+void on_proven_switch(self_pointer self, const registration_switch& order,
+                      switch_reply reply);
+/// By the session of the present coordinator.
+void on_coordinators_switch(self_pointer self, const registration_switch& order,
+                            switch_reply reply);
+/// Goes back to what was before the switch; false if there is none.
+bool give_up_switch(self_pointer self, const std::string& reason);
+/// Writes down where the node belongs now, if that has changed.
+void store_membership(self_pointer self);
 
 // -- membership_session.cpp: what comes and goes over the session -------------
 

@@ -10,6 +10,7 @@
 #include "actors/node_agent.hpp"
 #include "actors/node_runtime.hpp"
 #include "actors/node_state.hpp"
+#include "actors/registration_client.hpp"
 #include "actors/request_router.hpp"
 #include "actors/resource_probe.hpp"
 #include "actors/rest.hpp"
@@ -76,6 +77,11 @@ caf::error complete(node_config& config) {
     return fail(error_code::schema_violation,
                 "a coordination node does not join another cell", "",
                 "leave out --join or --coordinator");
+  if (config.wait && (config.coordinator || !config.join.empty()))
+    return fail(error_code::schema_violation,
+                "a node that waits to be chosen neither coordinates a cell nor "
+                "joins one",
+                "", "leave out --wait");
   if (config.join.empty())
     return caf::none;
   const auto server = parse_socket_address(config.join, default_discovery_port);
@@ -101,6 +107,7 @@ public:
     parts_.context = std::move(context);
     parts_.edges = std::move(edges);
     parts_.lock = data_.lock;
+    parts_.database = data_.database;
     parts_.services = std::make_shared<node_services>();
     parts_.services->context = parts_.context;
     parts_.identity = data_.identity;
@@ -182,11 +189,20 @@ private:
     setup.supervisor = parts_.services->supervisor;
     setup.store = store_;
     setup.tasks = data_.tasks;
+    setup.members = data_.members;
+    setup.server_id = parts_.edges->server_id;
+    setup.rebalance = config.rebalance;
     setup.environment = {
         {"ROS_DOMAIN_ID", std::to_string(config.ros_domain_id)},
-        {"ROS_DISCOVERY_SERVER",
-         std::string(config.server_id, ';') + parts_.edges->discovery_server}};
-    parts_.services->scheduler = start<caf::detached>(scheduler);
+        {"ROS_DISCOVERY_SERVER", std::string(parts_.edges->server_id, ';')
+                                     + parts_.edges->discovery_server}};
+    setup.scheduler = start<caf::detached>(scheduler);
+    setup.discovery = start_discovery();
+    setup.connector = start_connector();
+    setup.registration = start(
+        registration_client,
+        registration_client_config{parts_.edges->io.get(), data_.site_token});
+    parts_.services->scheduler = setup.scheduler;
     auto coordinator = start(cell_coordinator, parts_.context, setup);
     parts_.services->coordinator = coordinator;
     caf::anon_send(parts_.services->supervisor,
@@ -197,26 +213,51 @@ private:
         data_.site_token, coordinator);
   }
 
+  discovery_actor start_discovery() {
+    const auto& config = parts_.config;
+    return start<caf::detached>(
+        discovery, parts_.context,
+        discovery_config{config.address, config.ros_domain_id, config.name,
+                         parts_.identity.uuid, config.public_domain_id,
+                         config.peers});
+  }
+
+  session_connector_actor start_connector() {
+    return start(session_connector, parts_.context,
+                 connector_parts{parts_.edges->io.get(),
+                                 parts_.edges->sockets.beat.get(),
+                                 data_.site_token});
+  }
+
+  membership_config membership_setup() const {
+    const auto& config = parts_.config;
+    membership_config result;
+    result.identity = parts_.identity;
+    result.skills = parts_.skills;
+    result.restored = data_.membership;
+    result.configured = config.wait ? "wait" : config.join;
+    result.site_token = data_.site_token;
+    return result;
+  }
+
   void start_membership() {
     const auto& config = parts_.config;
     membership_parts with;
-    with.discovery = start<caf::detached>(
-        discovery, parts_.context,
-        discovery_config{config.address, config.ros_domain_id, config.name,
-                         parts_.identity.uuid});
-    with.connector = start(session_connector, parts_.context,
-                           connector_parts{parts_.edges->io.get(),
-                                           parts_.edges->sockets.beat.get(),
-                                           data_.site_token});
+    with.discovery = start_discovery();
+    with.connector = start_connector();
     with.agent = parts_.agent;
     with.supervisor = parts_.services->supervisor;
     with.store = store_;
     with.probe = probe_;
-    auto member = start(membership, parts_.context, with,
-                        membership_config{parts_.identity, parts_.skills});
+    const auto how = membership_setup();
+    auto member = start(membership, parts_.context, with, how);
     parts_.services->membership = member;
     caf::anon_send(parts_.services->supervisor, listen_to_instances{member});
-    if (!config.join.empty())
+    if (takes_up_earlier_cell(how) || config.wait)
+      return;
+    if (config.join.empty())
+      caf::anon_send(member, seek_cell{});
+    else
       caf::anon_send(member, join_cell{config.join});
   }
 

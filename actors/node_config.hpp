@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,9 +17,16 @@ struct node_config {
   std::string address;       ///< Local IPv4 address that everything binds to.
   uint16_t http_port = 8420; ///< HTTP, sessions, UDP beat; 0: any free.
   uint16_t discovery_port = 11811; ///< Discovery server; 0: any free.
-  uint8_t server_id = 0;           ///< Of the discovery server, in its prefix.
+  /// Of the discovery server, in its prefix; none: the lowest that no visible
+  /// coordinator has.
+  std::optional<uint8_t> server_id;
   uint8_t ros_domain_id = 0;
-  std::string join; ///< "ADDR[:PORT]" of a discovery server; empty: none.
+  std::string join;  ///< "ADDR[:PORT]" of a discovery server; empty: none.
+  bool wait = false; ///< Do not ask for a place: wait to be chosen.
+  uint8_t public_domain_id = 99;  ///< Where nodes of the site see each other.
+  std::vector<std::string> peers; ///< "ADDR[:PORT]", besides multicast.
+  bool rebalance = true; ///< The cell may be evened out. Coordinators only.
+  bool force = false;    ///< Take a cell name that is in use.
   /// auto, process, docker[:SOCKET] or podman[:SOCKET].
   std::string runtime = "auto";
   std::filesystem::path data_dir;

@@ -97,8 +97,6 @@ caf::error load_site_token(node_data& data, const fs::path& path) {
   return caf::none;
 }
 
-/// The records of a table that this version can read. What it cannot read was
-/// written by another version, and is left where it is.
 /// Reads what can be read of a table: a record of another version is not worth
 /// a node that does not start.
 template <class T>
@@ -139,6 +137,11 @@ caf::error load_identity(node_data& data, bool coordinator) {
     if (auto* identity = std::get_if<node_identity>(&decoded))
       data.identity = std::move(*identity);
   }
+  if (const auto known = find_record(table, "membership"); !known.is_null()) {
+    auto decoded = decode<membership_record>(known);
+    if (auto* record = std::get_if<membership_record>(&decoded))
+      data.membership = std::move(*record);
+  }
   if (data.identity.uuid.empty()) {
     data.identity.uuid = make_uuid();
     if (auto why = database.put("identity", "node", json(data.identity).dump()))
@@ -177,6 +180,8 @@ caf::expected<node_data> open_node_data(const node_config& config) {
   if (auto why = load_records(*data.database, "instances", data.instances))
     return why;
   if (auto why = load_records(*data.database, "tasks", data.tasks))
+    return why;
+  if (auto why = load_records(*data.database, "members", data.members))
     return why;
   return data;
 }

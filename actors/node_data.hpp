@@ -1,14 +1,17 @@
 #pragma once
 
+#include "actors/cell_registry.hpp"
 #include "actors/edge/directory_lock.hpp"
 #include "actors/edge/sqlite_store.hpp"
 #include "actors/node_config.hpp"
 #include "actors/task_table.hpp"
+#include "messages/membership.hpp"
 #include "messages/node.hpp"
 
 #include <caf/expected.hpp>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +23,8 @@ struct node_data {
   std::shared_ptr<sqlite_store> database;
   node_identity identity;  ///< UUID and epoch; name and address are not set.
   int64_t incarnation = 0; ///< Of the coordinator, already raised.
+  std::optional<membership_record> membership; ///< Of a primary node.
+  std::vector<member_record> members;          ///< Of a coordinator.
   std::vector<instance_row> instances;
   std::vector<task_record> tasks;
   std::string token_file;

@@ -1,9 +1,12 @@
 #include "actors/node_edges.hpp"
 
 #include "actors/edge/announcement.hpp"
+#include "actors/edge/site_survey.hpp"
+#include "actors/rest_routes.hpp"
 #include "actors/wire_session.hpp"
 #include "messages/failure.hpp"
 
+#include <set>
 #include <utility>
 
 namespace roscell {
@@ -26,6 +29,7 @@ caf::error open_http(const node_config& config, const node_data& data,
   options.port = config.http_port;
   options.socket_path = edges.socket_path = socket_path(config);
   options.token = data.token;
+  options.public_paths.push_back(registration_path);
   options.handler = [handler = edges.handler](http_request request,
                                               const responder& answer) {
     (*handler)(std::move(request), answer);
@@ -36,6 +40,44 @@ caf::error open_http(const node_config& config, const node_data& data,
   edges.sockets = std::get<node_sockets>(std::move(opened));
   edges.http_address =
       config.address + ":" + std::to_string(edges.sockets.http->port());
+  return caf::none;
+}
+
+/// A coordinator that is there answers within some milliseconds; one that does
+/// not in this time is told of when it is seen.
+constexpr std::chrono::milliseconds survey_span{60};
+
+caf::error name_in_use(const announcement& other) {
+  return fail(error_code::conflict,
+              "the cell name '" + other.cell + "' is in use: node '"
+                  + other.node + "' at " + other.session + " coordinates it",
+              "", "choose another --cell, or take it over with --force");
+}
+
+/// Looks at the coordinators that are there: cell names and server ids in use.
+caf::error survey(const node_config& config, const node_data& data,
+                  node_edges& edges) {
+  presence_options options;
+  options.address = config.address;
+  options.domain_id = config.public_domain_id;
+  options.peers = config.peers;
+  const auto claims_our_name = [&](const announcement& x) {
+    return x.role == "coordinator" && x.cell == config.cell
+           && x.uuid != data.identity.uuid;
+  };
+  auto seen = survey_site(options, survey_span, claims_our_name);
+  if (auto* why = std::get_if<edge_error>(&seen))
+    return to_caf(*why);
+  std::set<int64_t> used;
+  for (const auto& x : std::get<std::vector<announcement>>(seen)) {
+    if (claims_our_name(x) && !config.force)
+      return name_in_use(x);
+    if (x.role == "coordinator" && x.uuid != data.identity.uuid)
+      used.insert(x.server);
+  }
+  while (edges.server_id < UINT8_MAX && used.count(edges.server_id) > 0)
+    ++edges.server_id;
+  edges.server_id = config.server_id.value_or(edges.server_id);
   return caf::none;
 }
 
@@ -51,7 +93,7 @@ caf::error open_discovery(const node_config& config, const node_data& data,
   cell_server_options options;
   options.address = config.address;
   options.port = config.discovery_port;
-  options.server_id = config.server_id;
+  options.server_id = edges.server_id;
   options.domain_id = config.ros_domain_id;
   options.announcement = encode(said);
   auto opened = cell_server::open(options);
@@ -92,9 +134,12 @@ caf::expected<std::shared_ptr<node_edges>> open_edges(const node_config& config,
   });
   if (auto why = open_http(config, data, *edges))
     return why;
-  if (config.coordinator)
-    if (auto why = open_discovery(config, data, *edges))
-      return why;
+  if (!config.coordinator)
+    return edges;
+  if (auto why = survey(config, data, *edges))
+    return why;
+  if (auto why = open_discovery(config, data, *edges))
+    return why;
   return edges;
 }
 
@@ -112,8 +157,11 @@ void admit_sessions(caf::actor_system& system, const house& context,
     peer.uuid = session.peer.uuid;
     peer.epoch = session.peer.number;
     peer.address = session.peer.address;
+    const auto role = session.peer.role == to_word(node_role::coordinator)
+                          ? node_role::coordinator
+                          : node_role::primary;
     auto actor = spawn_session(system, context, *beats, std::move(session), 0);
-    caf::anon_send(coordinator, session_admitted{actor, std::move(peer)});
+    caf::anon_send(coordinator, session_admitted{actor, std::move(peer), role});
   };
   acceptor.on_refused = [context](const std::string& address,
                                   const edge_error& why) {

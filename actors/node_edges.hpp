@@ -44,6 +44,7 @@ struct node_edges {
   std::shared_ptr<late_handler> handler = std::make_shared<late_handler>();
   node_sockets sockets;
   std::unique_ptr<cell_server> discovery; ///< Coordinators only.
+  uint8_t server_id = 0;                  ///< Of `discovery`.
   std::string http_address;               ///< "ip:port"
   std::string socket_path;
   std::string discovery_server; ///< "ip:port"; coordinators only.

@@ -18,6 +18,7 @@ struct node_parts {
   node_config config;
   std::shared_ptr<node_edges> edges;
   std::shared_ptr<directory_lock> lock;
+  std::shared_ptr<sqlite_store> database; ///< Only to see what was written.
   std::shared_ptr<node_services> services;
   node_identity identity;
   node_agent_actor agent;

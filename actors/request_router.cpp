@@ -161,6 +161,10 @@ caf::result<request_routed> route(self_pointer self,
   if (auto why = validate_message(document, {message_kind::request}))
     return refusal(self, *why);
   const auto type = document.at("type").get<std::string>();
+  if (!request.only.empty() && type != request.only)
+    return refusal(self, {error_code::unauthorized,
+                          "only a '" + request.only + "' is taken here",
+                          "/type", "send it to /v1/requests"});
   const auto* run = st.registry->find(type);
   if (!run)
     return refusal(

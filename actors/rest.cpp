@@ -23,9 +23,9 @@ struct rest_exchange_state {
 
 introspected_actor::behavior_type
 rest_exchange(introspected_actor::stateful_pointer<rest_exchange_state> self,
-              const request_router_actor& router, const std::string& text,
+              const request_router_actor& router, const json_request& what,
               const responder& answer) {
-  self->request(router, router_timeout, route_request{text})
+  self->request(router, router_timeout, route_request{what.text, what.only})
       .then(
           [self, answer](const request_routed& done) {
             const int status = done.refusal.empty()
@@ -52,8 +52,7 @@ struct route_starter {
   const responder& answer;
 
   void operator()(const json_request& x) const {
-    spawn(system, services.context, rest_exchange, services.router, x.text,
-          answer);
+    spawn(system, services.context, rest_exchange, services.router, x, answer);
   }
 
   void operator()(const event_stream_request& x) const {

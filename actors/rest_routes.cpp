@@ -23,13 +23,14 @@ std::vector<std::string> split(const std::string& path) {
 }
 
 json_request ask(json document) {
-  return {document.dump(-1, ' ', false, json::error_handler_t::replace)};
+  return {document.dump(-1, ' ', false, json::error_handler_t::replace), ""};
 }
 
 failure not_found(const http_request& request) {
   return {error_code::unknown_type,
           request.method + " " + request.path + " is not known here", "",
-          "the paths are /v1/requests (POST), /v1/node, /v1/cell, /v1/cells, "
+          "the paths are /v1/requests (POST), /v1/registration (GET and POST), "
+          "/v1/node, /v1/cell, /v1/cells, "
           "/v1/tasks, /v1/instances, /v1/instances/{id}/logs, /v1/skills, "
           "/v1/events and /healthz"};
 }
@@ -101,6 +102,8 @@ rest_route query_route(const http_request& request,
       return ask({{"type", "instance_query"}});
     if (what == "skills")
       return ask({{"type", "skill_query"}});
+    if (what == "registration")
+      return ask({{"type", "registration_query"}});
     if (what == "events")
       return event_route(request);
   } else if (parts.size() == 3 && what == "tasks") {
@@ -119,7 +122,10 @@ rest_route route_of(const http_request& request) {
   const auto parts = split(request.path);
   if (request.method == "POST") {
     if (request.path == "/v1/requests")
-      return json_request{request.body};
+      return json_request{request.body, ""};
+    // Open to strangers: what it takes is proven in itself.
+    if (request.path == registration_path)
+      return json_request{request.body, "registration_switch"};
     return not_found(request);
   }
   if (request.path == "/healthz")

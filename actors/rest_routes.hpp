@@ -27,11 +27,15 @@ struct log_stream_request {
 /// Everything else is one JSON request for the router.
 struct json_request {
   std::string text;
+  std::string only; ///< The one message type that is allowed; empty: any.
 };
 
 /// What an HTTP request asks for, or why it asks for nothing.
 using rest_route = std::variant<json_request, event_stream_request,
                                 log_stream_request, health_check, failure>;
+
+/// Where nodes are told to switch; needs no bearer token.
+inline constexpr const char* registration_path = "/v1/registration";
 
 /// The paths of the REST interface; docs/operations.md lists them.
 rest_route route_of(const http_request& request);

@@ -40,7 +40,10 @@ caf::result<session_opened> open(self_pointer self, const open_session& wish) {
   auto promise = self->make_response_promise<session_opened>();
   st.pending.emplace(attempt, promise);
   connect_session(*st.parts.io, {place->address, place->port, ""},
-                  {wish.self.name, wish.self.uuid, wish.self.epoch},
+                  {wish.self.name, wish.self.uuid, wish.self.epoch,
+                   wish.role == node_role::coordinator
+                       ? std::string{to_word(wish.role)}
+                       : std::string{}},
                   st.parts.site_token, {},
                   [&system = self->system(), context = st.context,
                    beats = st.parts.beats, attempt, port = place->port,

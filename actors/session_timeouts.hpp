@@ -39,6 +39,21 @@ constexpr session_duration registration_timeout{5000};
 /// What the coordinator has for it, so that the node hears the outcome.
 constexpr session_duration row_timeout{4000};
 
+/// For a place: the coordinator that hands them out may be another one, and a
+/// third one has to keep it.
+constexpr session_duration place_timeout{8000};
+
+/// How long one coordinator waits for another one.
+constexpr session_duration peer_timeout{3000};
+
+/// For a transfer that another coordinator carries out: instances may have to
+/// be started elsewhere first.
+constexpr session_duration transfer_timeout =
+    deployment_timeout + session_duration{2 * 60'000};
+
+/// For a switch to be written down.
+constexpr session_duration switch_timeout{6000};
+
 /// How long a node that leaves waits for the coordinator to know.
 constexpr session_duration departure_timeout{2000};
 

@@ -39,6 +39,23 @@ struct registry_row {
   }
 };
 
+/// A node that announces itself because it is in no cell.
+struct free_node {
+  std::string name;
+  std::string uuid;
+  std::string address; ///< Of its HTTP port.
+  node_state state = node_state::independent;
+  std::string cell; ///< That it was in last.
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("name", &free_node::name),
+                           required("uuid", &free_node::uuid),
+                           required("address", &free_node::address),
+                           required("state", &free_node::state),
+                           optional("cell", &free_node::cell));
+  }
+};
+
 struct cell_query {
   static constexpr const char* type = "cell_query";
 
@@ -56,6 +73,7 @@ struct cell_description {
   int64_t incarnation = 0;      ///< Raised at every start of the coordinator.
   std::vector<registry_row> nodes;
   std::vector<task_row> tasks;
+  std::vector<free_node> free; ///< Visible nodes that are in no cell.
 
   static constexpr auto fields() {
     return std::make_tuple(
@@ -65,7 +83,8 @@ struct cell_description {
         required("discovery_server", &cell_description::discovery_server),
         required("incarnation", &cell_description::incarnation),
         required("nodes", &cell_description::nodes),
-        required("tasks", &cell_description::tasks));
+        required("tasks", &cell_description::tasks),
+        optional("free", &cell_description::free));
   }
 };
 
@@ -84,6 +103,8 @@ struct cell_row {
   std::string address;
   std::string discovery_server;
   int64_t size = 0; ///< Active rows, the coordinator included.
+  /// Why the coordinator that is asked does not know more of this cell.
+  std::string trouble;
 
   static constexpr auto fields() {
     return std::make_tuple(
@@ -91,7 +112,8 @@ struct cell_row {
         required("coordinator", &cell_row::coordinator),
         required("address", &cell_row::address),
         required("discovery_server", &cell_row::discovery_server),
-        required("size", &cell_row::size));
+        required("size", &cell_row::size),
+        optional("trouble", &cell_row::trouble));
   }
 };
 

@@ -53,6 +53,55 @@ struct member_lost {
   }
 };
 
+/// A fact: a session with another coordinator is open. The coordinator sends
+/// its standing to the peer in return.
+struct peer_opened {
+  peer_actor peer;
+  std::string uuid;        ///< Of the other coordination node.
+  bool opened_here = true; ///< Else the other one came to us.
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("peer", &peer_opened::peer),
+                           required("uuid", &peer_opened::uuid),
+                           required("opened_here", &peer_opened::opened_here));
+  }
+};
+
+/// A fact: the session with another coordinator has ended.
+struct peer_lost {
+  peer_actor peer;
+  std::string uuid;
+  std::string reason;
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("peer", &peer_lost::peer),
+                           required("uuid", &peer_lost::uuid),
+                           required("reason", &peer_lost::reason));
+  }
+};
+
+/// A fact: another coordinator has told its standing.
+struct peer_told {
+  peer_actor peer;
+  cell_standing standing;
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("peer", &peer_told::peer),
+                           required("standing", &peer_told::standing));
+  }
+};
+
+/// A fact: another cell has changed.
+struct peer_changed {
+  peer_actor peer;
+  cell_changed change;
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("peer", &peer_changed::peer),
+                           required("change", &peer_changed::change));
+  }
+};
+
 /// Asks all active members for their resources.
 struct collect_resources {
   static constexpr auto fields() {
@@ -192,14 +241,36 @@ using cell_coordinator_actor = introspected_actor::extend<
     caf::replies_to<record_intent>::with<intent_recorded>,
     caf::replies_to<record_outcome>::with<outcome_recorded>,
     // Errors: unknown_task.
-    caf::replies_to<task_termination>::with<task_terminated>>;
+    caf::replies_to<task_termination>::with<task_terminated>,
+    caf::reacts_to<presence_seen>, caf::reacts_to<presence_gone>,
+    caf::reacts_to<peer_opened>, caf::reacts_to<peer_lost>,
+    caf::reacts_to<peer_told>, caf::reacts_to<peer_changed>,
+    // Errors: unreachable (the coordinator that hands out places is silent).
+    caf::replies_to<place_request>::with<place_granted>,
+    // Errors: conflict (the name belongs to another node).
+    caf::replies_to<place_reservation>::with<place_reserved>,
+    // Errors: unknown_cell, conflict (this cell is not to be evened out).
+    caf::replies_to<member_surrender>::with<members_surrendered>,
+    // One outcome a name; no errors.
+    caf::replies_to<cell_formation>::with<cell_formed>,
+    // Errors: unknown_node, unknown_cell, conflict (a coordination node, the
+    // node's own cell, instances, already switching), unreachable, unresolved,
+    // no_feasible_allocation.
+    caf::replies_to<node_transfer>::with<node_transferred>,
+    caf::replies_to<node_release>::with<node_released>,
+    // Errors: unknown_task.
+    caf::replies_to<transfer_query>::with<transfer_description>,
+    // INTERNAL: timer number N.
+    caf::reacts_to<caf::tick_atom, uint64_t>>;
 
 /// A request as it came in at an edge.
 struct route_request {
   std::string text; ///< Bytes from outside, not checked yet.
+  std::string only; ///< The one type that is allowed; empty: any.
 
   static constexpr auto fields() {
-    return std::make_tuple(required("text", &route_request::text));
+    return std::make_tuple(required("text", &route_request::text),
+                           required("only", &route_request::only));
   }
 };
 

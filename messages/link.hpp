@@ -91,10 +91,12 @@ using session_actor = introspected_actor::extend<
 struct session_admitted {
   session_actor session;
   node_identity peer;
+  node_role role = node_role::primary; ///< A coordinator is a peer.
 
   static constexpr auto fields() {
     return std::make_tuple(required("session", &session_admitted::session),
-                           required("peer", &session_admitted::peer));
+                           required("peer", &session_admitted::peer),
+                           required("role", &session_admitted::role));
   }
 };
 
@@ -102,10 +104,12 @@ struct session_admitted {
 struct open_session {
   std::string address; ///< "ip:port"
   node_identity self;
+  node_role role = node_role::primary;
 
   static constexpr auto fields() {
     return std::make_tuple(required("address", &open_session::address),
-                           required("self", &open_session::self));
+                           required("self", &open_session::self),
+                           required("role", &open_session::role));
   }
 };
 
@@ -178,10 +182,76 @@ struct coordinator_found {
 using discovery_listener_actor =
     caf::typed_actor<caf::reacts_to<coordinator_found>>;
 
-/// The DISCOVERY edge of a primary node.
+/// What a node announces to everybody, or is known to announce.
+struct node_presence {
+  std::string role; ///< "coordinator", "independent" or "orphaned".
+  std::string name;
+  std::string uuid;
+  int64_t epoch = 0;            ///< Of the registration; not of a coordinator.
+  int64_t incarnation = 0;      ///< Coordinators only.
+  std::string cell;             ///< Coordinated, or last been in.
+  std::string address;          ///< Of its HTTP port.
+  std::string discovery_server; ///< "ip:port"; coordinators only.
+  int64_t server_id = 0;        ///< Of the discovery server.
+
+  static constexpr auto fields() {
+    return std::make_tuple(
+        required("role", &node_presence::role),
+        required("name", &node_presence::name),
+        required("uuid", &node_presence::uuid),
+        required("epoch", &node_presence::epoch),
+        required("incarnation", &node_presence::incarnation),
+        required("cell", &node_presence::cell),
+        required("address", &node_presence::address),
+        required("discovery_server", &node_presence::discovery_server),
+        required("server_id", &node_presence::server_id));
+  }
+};
+
+/// Announces this from now on; the public participant is made if need be.
+struct announce_presence {
+  node_presence self;
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("self", &announce_presence::self));
+  }
+};
+
+/// Deletes the public participant: nobody sees the node, and it sees nobody.
+struct withdraw_presence {
+  static constexpr auto fields() {
+    return std::make_tuple();
+  }
+};
+
+/// A fact: somebody announces this.
+struct presence_seen {
+  node_presence who;
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("who", &presence_seen::who));
+  }
+};
+
+/// A fact: somebody has said farewell or was silent for long.
+struct presence_gone {
+  node_presence who; ///< As announced last.
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("who", &presence_gone::who));
+  }
+};
+
+/// Who hears of presences: whoever announces its own.
+using presence_listener_actor = caf::typed_actor<caf::reacts_to<presence_seen>,
+                                                 caf::reacts_to<presence_gone>>;
+
+/// The DISCOVERY edge of a node: its CLIENT and its public participant.
 using discovery_actor = introspected_actor::extend<
     // Errors: unreachable (the local address cannot be used).
     caf::replies_to<find_coordinator>::with<caf::ok_atom>,
-    caf::reacts_to<forget_coordinator>>;
+    caf::reacts_to<forget_coordinator>,
+    // What is seen is told to the sender.
+    caf::reacts_to<announce_presence>, caf::reacts_to<withdraw_presence>>;
 
 } // namespace roscell

@@ -81,6 +81,7 @@ struct node_description {
   std::vector<installed_skill> skills;
   std::vector<instance_row> instances;
   std::vector<actor_row> actors;
+  int64_t stored_bytes = 0; ///< Written to the database since the start.
 
   static constexpr auto fields() {
     return std::make_tuple(
@@ -95,7 +96,8 @@ struct node_description {
         required("resources", &node_description::resources),
         required("skills", &node_description::skills),
         required("instances", &node_description::instances),
-        optional("actors", &node_description::actors));
+        optional("actors", &node_description::actors),
+        optional("stored_bytes", &node_description::stored_bytes));
   }
 };
 

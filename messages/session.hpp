@@ -2,6 +2,7 @@
 
 #include "messages/instance.hpp"
 #include "messages/node.hpp"
+#include "messages/peer.hpp"
 #include "messages/skill.hpp"
 
 #include <array>
@@ -52,6 +53,8 @@ struct node_registration {
   node_resources resources;
   std::vector<installed_skill> skills;
   std::vector<instance_row> instances;
+  join_origin origin = join_origin::given;
+  std::string transfer; ///< The one that brings the node here, if any.
 
   static constexpr auto fields() {
     return std::make_tuple(
@@ -59,7 +62,9 @@ struct node_registration {
         required("incarnation", &node_registration::incarnation),
         required("resources", &node_registration::resources),
         required("skills", &node_registration::skills),
-        required("instances", &node_registration::instances));
+        required("instances", &node_registration::instances),
+        optional("origin", &node_registration::origin),
+        optional("transfer", &node_registration::transfer));
   }
 };
 

@@ -57,6 +57,13 @@ void check_unique(error_list& errors, const place& list, const char* member,
   }
 }
 
+void check_members(error_list& errors, const place& formation) {
+  std::set<json> seen;
+  for (const auto& name : (formation / "members").items())
+    if (!seen.insert(name.value).second)
+      refuse(errors, name, "a name that is not in the list already");
+}
+
 bool climbs(const std::string& path) {
   return ("/" + path + "/").find("/../") != std::string::npos;
 }
@@ -200,7 +207,8 @@ void check_verdicts(error_list& errors, const place& x) {
 
 using check = void (*)(error_list&, const place&);
 
-constexpr std::array<std::pair<std::string_view, check>, 8> checks{{
+constexpr std::array<std::pair<std::string_view, check>, 9> checks{{
+    {"cell_formation", check_members},
     {"instance_deployment", check_deployment},
     {"node_registered", check_verdicts},
     {"node_registration", check_registration},

@@ -173,13 +173,30 @@ sqlite_store::load(const std::string& table) {
 std::optional<edge_error> sqlite_store::put(const std::string& table,
                                             const std::string& key,
                                             const std::string& value) {
-  return run("INSERT OR REPLACE INTO records VALUES(?,?,?)",
-             {table, key, value});
+  auto error =
+      run("INSERT OR REPLACE INTO records VALUES(?,?,?)", {table, key, value});
+  count_written();
+  return error;
 }
 
 std::optional<edge_error> sqlite_store::remove(const std::string& table,
                                                const std::string& key) {
-  return run("DELETE FROM records WHERE tbl=? AND key=?", {table, key});
+  auto error = run("DELETE FROM records WHERE tbl=? AND key=?", {table, key});
+  count_written();
+  return error;
+}
+
+void sqlite_store::count_written() {
+  int pages = 0;
+  int highest = 0;
+  std::vector<record> size;
+  sqlite3_db_status(db_.get(), SQLITE_DBSTATUS_CACHE_WRITE, &pages, &highest,
+                    1);
+  if (!run("SELECT page_size, '' FROM pragma_page_size", {}, &size)
+      && size.size() == 1)
+    written_->fetch_add(static_cast<uint64_t>(pages)
+                            * std::strtoull(size[0].first.c_str(), nullptr, 10),
+                        std::memory_order_relaxed);
 }
 
 edge_error sqlite_store::explain() const {

@@ -2,6 +2,7 @@
 
 #include "actors/edge/edge_error.hpp"
 
+#include <atomic>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -37,6 +38,12 @@ public:
   std::optional<edge_error> remove(const std::string& table,
                                    const std::string& key);
 
+  /// What this process has written to the file and its journal so far: whole
+  /// pages. May be called from any thread.
+  uint64_t bytes_written() const {
+    return written_->load(std::memory_order_relaxed);
+  }
+
 private:
   struct closer {
     void operator()(sqlite3* db) const;
@@ -49,9 +56,13 @@ private:
                                 const std::vector<std::string>& values,
                                 std::vector<record>* rows = nullptr);
   edge_error explain() const;
+  void count_written();
 
   std::filesystem::path file_;
   std::unique_ptr<sqlite3, closer> db_;
+  /// The store moves, and others read this meanwhile.
+  std::shared_ptr<std::atomic<uint64_t>> written_ =
+      std::make_shared<std::atomic<uint64_t>>(0);
 };
 
 } // namespace roscell

@@ -23,6 +23,9 @@ std::chrono::milliseconds log_timeout(const log_query& query) {
 /// Ending an instance takes its grace time, on every node at once.
 constexpr std::chrono::seconds termination_timeout{60};
 
+/// A node may have to wait for its instances to be started elsewhere.
+constexpr std::chrono::minutes departure_limit{15};
+
 } // namespace
 
 void describe_node(const request_context& context, node_query query,
@@ -97,6 +100,43 @@ void terminate_task(const request_context& context, task_termination request,
                     outcome<task_terminated> done) {
   forward(context, context.services->coordinator, termination_timeout,
           std::move(request), done);
+}
+
+void challenge_registration(const request_context& context,
+                            registration_query query,
+                            outcome<registration_challenge> done) {
+  forward(context, context.services->membership, local_timeout, query, done);
+}
+
+void switch_registration(const request_context& context,
+                         registration_switch order,
+                         outcome<switch_accepted> done) {
+  forward(context, context.services->membership, local_timeout,
+          std::move(order), done);
+}
+
+void form_cell(const request_context& context, cell_formation request,
+               outcome<cell_formed> done) {
+  forward(context, context.services->coordinator, departure_limit,
+          std::move(request), done);
+}
+
+void release_node(const request_context& context, node_release request,
+                  outcome<node_released> done) {
+  forward(context, context.services->coordinator, departure_limit,
+          std::move(request), done);
+}
+
+void transfer_node(const request_context& context, node_transfer request,
+                   outcome<node_transferred> done) {
+  forward(context, context.services->coordinator, departure_limit,
+          std::move(request), done);
+}
+
+void describe_transfers(const request_context& context, transfer_query query,
+                        outcome<transfer_description> done) {
+  forward(context, context.services->coordinator, local_timeout,
+          std::move(query), done);
 }
 
 } // namespace roscell

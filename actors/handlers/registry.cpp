@@ -15,6 +15,8 @@ void add_primary_requests(request_registry& registry) {
   registry.add(describe_local_instances);
   registry.add(list_local_skills);
   registry.add(read_local_log);
+  registry.add(challenge_registration);
+  registry.add(switch_registration);
 }
 
 void add_cell_requests(request_registry& registry) {
@@ -25,6 +27,10 @@ void add_cell_requests(request_registry& registry) {
   registry.add(list_skills);
   registry.add(read_log);
   registry.add(terminate_task);
+  registry.add(form_cell);
+  registry.add(release_node);
+  registry.add(transfer_node);
+  registry.add(describe_transfers);
   registry.add(start_with("claim_task", claim)
                    .then("resolve_skills", resolve_skills)
                    .then("collect_resources", collect)

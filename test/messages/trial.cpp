@@ -74,6 +74,14 @@ std::vector<trial> message_trials() {
                node_departed, resource_query, resource_report,
                instance_deployment, instance_deployed, instance_removal,
                instances_removed, instance_changed>(result);
+  try_messages<cell_formation, cell_formed, node_release, node_released,
+               node_transfer, node_transferred, transfer_query,
+               transfer_description, registration_query,
+               registration_challenge, registration_switch, switch_accepted>(
+      result);
+  try_messages<cell_standing, cell_changed, place_request, place_granted,
+               place_reservation, place_reserved, member_surrender,
+               members_surrendered>(result);
   try_messages<session_hello, session_challenge, session_proof,
                session_accepted>(result);
   result.push_back(try_part<skill_descriptor>("skill_descriptor"));

@@ -43,8 +43,28 @@ void add_network(CLI::App& command, node_options& options) {
       ->option_text("IF|ADDR");
   command
       .add_option("--join", config.join,
-                  "Discovery server of the cell to join (port 11811)")
+                  "Discovery server of the cell to join (port 11811); without "
+                  "it the node asks the coordinators that it sees for a place")
       ->option_text("ADDR[:PORT]");
+  command.add_flag("--wait", config.wait,
+                   "Ask for no place: wait until a coordinator chooses the "
+                   "node");
+  command
+      .add_option("--peer", config.peers,
+                  "Another node of the site, where multicast does not reach "
+                  "it; can be repeated")
+      ->option_text("ADDR[:PORT]")
+      ->allow_extra_args(false);
+  command
+      .add_option("--public-domain", config.public_domain_id,
+                  "DDS domain in which the nodes of the site see each other, "
+                  "0 to 232")
+      ->check(CLI::Range(0, 232))
+      ->option_text("ID [99]");
+  command.add_flag("!--no-rebalance", config.rebalance,
+                   "Keep this cell out when cells are evened out");
+  command.add_flag("--force", config.force,
+                   "Take the cell's name although another coordinator has it");
   command
       .add_option("--port", config.http_port,
                   "HTTP and sessions (TCP), beats (UDP); 0: any free one")
@@ -56,7 +76,7 @@ void add_network(CLI::App& command, node_options& options) {
   command
       .add_option("--server-id", config.server_id,
                   "Id of the discovery server, 0 to 255")
-      ->option_text("ID [0]");
+      ->option_text("ID [lowest free]");
   command
       .add_option("--domain-id", config.ros_domain_id,
                   "ROS domain of the cell's skills, 0 to 232")
