@@ -1,4 +1,5 @@
-# A cell of six hosts on a network that is slow, or falls apart.
+# A cell of six hosts on a network that loses packets, is slow or falls apart.
+# ROSCELL_FAULT_SECONDS=600 makes the first two the ten minutes of the proof.
 
 # start_six [DELAY_MS]: a coordinator and five members, each on its host.
 start_six() {
@@ -28,13 +29,26 @@ state_of() {
   get "$1" /v1/node | jq -r .state
 }
 
+active_rows() {
+  get head /v1/cell | jq '[.nodes[] | select(.state == "active")] | length'
+}
+
+test_a_fifth_of_all_packets_lost_costs_no_member() {
+  start_six
+  # 20 % each way, for some leases.
+  lose_packets 20
+  loses_nobody head "${ROSCELL_FAULT_SECONDS:-40}"
+  ip netns exec "${hosts[0]}" nft list table inet loss \
+    | grep -q 'packets [1-9]' || fail "no packet was lost"
+  expect "active rows" "$(active_rows)" 6
+}
+
 test_200_ms_between_hosts_keep_nobody_out_and_cost_no_member() {
   start_six 200
   took=$(knock 2 3)
   expect "a round trip of $took s is long" "$(jq -n "$took >= 0.4")" true
   loses_nobody head "${ROSCELL_FAULT_SECONDS:-60}"
-  expect "active rows" "$(get head /v1/cell \
-    | jq '[.nodes[] | select(.state == "active")] | length')" 6
+  expect "active rows" "$(active_rows)" 6
 }
 
 test_the_far_side_of_a_split_is_orphaned_and_returns_when_it_heals() {
@@ -47,7 +61,7 @@ test_the_far_side_of_a_split_is_orphaned_and_returns_when_it_heals() {
   for n in 4 5 6; do
     await head ".event == \"node_lost\" and .subject == \"node$n\"" \
       > "$scratch/lost$n.json"
-    await "node$n" '.event == "coordinator_lost"' > /dev/null
+    await "node$n" '.event == "coordinator_lost"' > "$scratch/alone$n.json"
     expect "node$n" "$(state_of "node$n")" orphaned
     expect "its row" "$(row_state head "node$n")" lost
   done
@@ -58,8 +72,9 @@ test_the_far_side_of_a_split_is_orphaned_and_returns_when_it_heals() {
   heal_bridge
   for n in 4 5 6; do
     await_joined head "node$n" "$(jq .sequence "$scratch/lost$n.json")"
+    await "node$n" '.event == "cell_joined"' \
+      "$(jq .sequence "$scratch/alone$n.json")" > /dev/null
     expect "node$n" "$(state_of "node$n")" member
   done
-  expect "active rows" "$(get head /v1/cell \
-    | jq '[.nodes[] | select(.state == "active")] | length')" 6
+  expect "active rows" "$(active_rows)" 6
 }

@@ -25,8 +25,7 @@ counters() {
 
 # measure_wire SYSTEM: all hosts, once both systems are at rest.
 measure_wire() {
-  local n before after
-  local order
+  local n order before after
   echo "$1" > "$bench/ready"
   read -r order < "$bench/$1.go"
   [[ $order == go ]] || exit 1
@@ -89,7 +88,7 @@ start_member() {
 roscell_side() {
   local n
   scratch=$bench/roscell
-  trap 'clean_up 2> /dev/null' EXIT
+  trap 'end_side clean_up' EXIT
   use_skills
   bridge_hosts 6
   make_site_token
@@ -134,13 +133,24 @@ start_engine_of() {
 }
 
 stop_swarm() {
-  local n
+  local n stops=()
   for ((n = 1; n <= ${#hosts[@]}; ++n)); do
-    use_engine_of "$n"
-    kill -CONT "$(cat "$engine_dir/pid")"
-    stop_engine
+    (
+      use_engine_of "$n"
+      kill -CONT "$(cat "$engine_dir/pid")"
+      stop_engine
+    ) &
+    stops+=($!)
   done
+  wait "${stops[@]}"
   clean_up
+}
+
+# end_side CLEANING: what a side does at its end, however it comes to it.
+end_side() {
+  trap '' INT TERM
+  echo ended > "$bench/ready"
+  "$1" 2> /dev/null
 }
 
 # await_worker STATE: until the manager says that of the worker on host 2.
@@ -168,7 +178,7 @@ swarm_side() {
   engine_dir=$scratch/engine
   base_tar=
   . tools/own_engine.sh
-  trap 'stop_swarm 2> /dev/null' EXIT
+  trap 'end_side stop_swarm' EXIT
   bridge_hosts 6
   for n in 1 2 3 4 5 6; do start_engine_of "$n"; done
   engine_of 1 swarm init --advertise-addr 10.231.7.1 > /dev/null \
@@ -197,24 +207,30 @@ swarm_side() {
   done
 }
 
-# run_side SYSTEM: its figures on stdout, its complaints in a file.
-run_side() {
-  mkdir "$bench/$1"
-  ("$1_side") 2> "$bench/$1.errors" || cat "$bench/$1.errors" >&2
-}
-
+# Each side is a subshell that cleans up after itself, also when it is ended.
 trap 'wait; rm -rf "$bench"' EXIT
-mkfifo "$bench/ready" "$bench/roscell.go" "$bench/swarm.go"
+trap 'kill "${sides[@]}" 2> /dev/null; exit 130' INT TERM
+mkfifo "$bench/ready"
 exec {ready}<> "$bench/ready"
-for side in roscell swarm; do run_side "$side" & done
+declare -A sides
+for side in roscell swarm; do
+  mkdir "$bench/$side"
+  mkfifo "$bench/$side.go"
+  "${side}_side" 2> "$bench/$side.errors" &
+  sides[$side]=$!
+done
 order=go
 for side in roscell swarm; do
-  read -r -t 180 _ <&"$ready" || order=stop
+  read -r -t 180 said <&"$ready"
+  [[ $said != ended ]] || order=stop
 done
 # What is measured begins once both are at rest.
 [[ $order == stop ]] || timeout 30 tail -f /dev/null
 for side in roscell swarm; do
   echo "$order" 1<> "$bench/$side.go"
 done
-wait
-[[ $order == go ]]
+failed=0
+for side in roscell swarm; do
+  wait "${sides[$side]}" || { cat "$bench/$side.errors" >&2; failed=1; }
+done
+exit "$failed"
