@@ -14,7 +14,7 @@ constexpr std::string_view hex_digits = "0123456789abcdef";
 
 auto as_tuple(const announcement& x) {
   return std::tie(x.protocol_version, x.role, x.node, x.cell, x.session, x.uuid,
-                  x.incarnation);
+                  x.incarnation, x.epoch, x.discovery, x.server);
 }
 
 bool is_plain(unsigned char byte) {
@@ -56,17 +56,26 @@ std::optional<std::string> unescape(std::string_view text) {
 }
 
 std::string* text_of(announcement& x, std::string_view key) {
-  const std::array<std::pair<std::string_view, std::string*>, 6> members{
+  const std::array<std::pair<std::string_view, std::string*>, 7> members{
       {{"roscell", &x.protocol_version},
        {"role", &x.role},
        {"node", &x.node},
        {"cell", &x.cell},
        {"session", &x.session},
-       {"uuid", &x.uuid}}};
+       {"uuid", &x.uuid},
+       {"discovery", &x.discovery}}};
   for (auto& [name, member] : members)
     if (name == key)
       return member;
   return nullptr;
+}
+
+std::int64_t* number_of(announcement& x, std::string_view key) {
+  if (key == "incarnation")
+    return &x.incarnation;
+  if (key == "epoch")
+    return &x.epoch;
+  return key == "server" ? &x.server : nullptr;
 }
 
 bool read_number(std::string_view text, std::int64_t& value) {
@@ -80,8 +89,8 @@ bool read_pair(announcement& x, std::string_view key, std::string_view raw) {
   auto value = unescape(raw);
   if (!value)
     return false;
-  if (key == "incarnation")
-    return read_number(*value, x.incarnation);
+  if (auto* number = number_of(x, key))
+    return read_number(*value, *number);
   if (auto* member = text_of(x, key))
     *member = std::move(*value);
   return true;
@@ -106,6 +115,12 @@ std::string encode(const announcement& x) {
   append_pair(result, "session", x.session);
   append_pair(result, "uuid", x.uuid);
   append_pair(result, "incarnation", std::to_string(x.incarnation));
+  if (x.epoch != 0)
+    append_pair(result, "epoch", std::to_string(x.epoch));
+  if (!x.discovery.empty())
+    append_pair(result, "discovery", x.discovery);
+  if (x.server != 0)
+    append_pair(result, "server", std::to_string(x.server));
   return result;
 }
 

@@ -8,23 +8,36 @@
 
 namespace roscell {
 
-/// The most bytes of USER_DATA that we send or look at.
-constexpr std::size_t max_announcement_bytes = 512;
+/// The most bytes of USER_DATA that we send or look at: enough for the longest
+/// names that a session takes, all of whose bytes are escaped.
+constexpr std::size_t max_announcement_bytes = 1024;
 
 /// What a participant says of itself before anybody has a session with it. It
 /// rides in the USER_DATA of the DDS participant, so it costs no topic.
+///
+/// The roles, and what each says:
+///
+/// - `coordinator`: everything. Inside its cell it may leave out `discovery`
+///   and `server`, which whoever hears it there knows.
+/// - `member`: who it is, inside its cell only.
+/// - `independent`: a primary without a cell; who it is and its `epoch`.
+/// - `orphaned`: the same, and the `cell` that it lost.
+/// - `surveyor`: looks around for a moment; nothing but the role.
 ///
 /// Wire form: `roscell=1.0;role=coordinator;node=alpha;...`, the `key=value;`
 /// form that ROS 2 uses in the same place. In values, `%`, `;`, `=`, control
 /// bytes and bytes above 0x7e are written as `%` and two hex digits.
 struct announcement {
   std::string protocol_version = "1.0"; ///< "MAJOR.MINOR" of the sessions.
-  std::string role;                     ///< "coordinator".
+  std::string role;                     ///< One of those above.
   std::string node;                     ///< Name of the node.
-  std::string cell;                     ///< Name of the cell.
-  std::string session;                  ///< "ip:port" where sessions are taken.
+  std::string cell;                     ///< Name of the cell, or the last one.
+  std::string session;                  ///< "ip:port" where it takes HTTP.
   std::string uuid;                     ///< Of the node.
   std::int64_t incarnation = 0;         ///< Raised at every start.
+  std::int64_t epoch = 0;               ///< Registration epoch of the node.
+  std::string discovery;   ///< "ip:port" of the cell's discovery server.
+  std::int64_t server = 0; ///< Id n of the cell's discovery server.
 };
 
 bool operator==(const announcement& x, const announcement& y);

@@ -32,25 +32,26 @@ std::uint16_t client_port(std::uint32_t domain_id) {
                                     + 2 * first_participant_place);
 }
 
-edge_error out_of_bounds(std::string message) {
-  return {error_code::schema_violation, std::move(message), ""};
+participant_settings to_settings(const cell_client_options& options) {
+  participant_settings result;
+  result.address = options.address;
+  result.announcement = options.announcement;
+  result.lease = options.lease;
+  result.announcement_period = options.announcement_period;
+  return result;
 }
 
 std::optional<edge_error> check(const cell_client_options& options) {
-  if (options.domain_id > max_domain_id)
-    return out_of_bounds("ROS domain " + std::to_string(options.domain_id)
-                         + " is over " + std::to_string(max_domain_id));
-  if (options.announcement_period >= options.lease)
-    return out_of_bounds("the announcement period must be below the lease");
-  if (options.announcement.size() > max_announcement_bytes)
-    return out_of_bounds("the announcement is over the limit of "
-                         + std::to_string(max_announcement_bytes) + " bytes");
-  if (!to_socket_address(options.server_address, options.server_port)
-      || options.server_port == 0)
-    return out_of_bounds("\"" + options.server_address.substr(0, 64) + ':'
-                         + std::to_string(options.server_port)
-                         + "\" is no IPv4 address and port");
-  return std::nullopt;
+  if (auto error = check_settings(options.domain_id, to_settings(options)))
+    return error;
+  if (to_socket_address(options.server_address, options.server_port)
+      && options.server_port != 0)
+    return std::nullopt;
+  return edge_error{error_code::schema_violation,
+                    "\"" + options.server_address.substr(0, 64) + ':'
+                        + std::to_string(options.server_port)
+                        + "\" is no IPv4 address and port",
+                    ""};
 }
 
 edge_result<std::string> local_address(const cell_client_options& options) {
@@ -65,12 +66,8 @@ edge_result<std::string> local_address(const cell_client_options& options) {
 
 auto client_attributes(const cell_client_options& options,
                        const guid_prefix& server) {
-  participant_settings settings;
-  settings.address = options.address;
-  settings.announcement = options.announcement;
-  settings.lease = options.lease;
-  settings.announcement_period = options.announcement_period;
-  auto result = make_attributes(settings, client_port(options.domain_id));
+  auto result =
+      make_attributes(to_settings(options), client_port(options.domain_id));
   auto& discovery = result.builtin.discovery_config;
   discovery.discoveryProtocol = rtps::DiscoveryProtocol_t::CLIENT;
   discovery.discoveryServer_client_syncperiod = {0, repeat_period_ns};

@@ -1,7 +1,5 @@
 #include "actors/edge/discovery_filter.hpp"
 
-#include "actors/edge/discovery_wire.hpp"
-
 #include <algorithm>
 #include <array>
 #include <optional>
@@ -82,7 +80,7 @@ bool is_gap(wire_cursor in) {
 
 /// Reader, writer and sequence number first, then perhaps the inline QoS and
 /// perhaps the payload, each a parameter list.
-bool make_data_safe(wire_cursor in, std::uint8_t flags) {
+bool make_data_safe(wire_cursor in, std::uint8_t flags, arrival how) {
   in.skip(2);
   auto octets_to_qos = in.u16();
   in.skip(4);
@@ -91,7 +89,7 @@ bool make_data_safe(wire_cursor in, std::uint8_t flags) {
   if (!in.good() || octets_to_qos != 16 || number <= 0 || !subject
       || (flags & flag_key) != 0)
     return false;
-  parameter_guard guard{*subject};
+  parameter_guard guard{*subject, how};
   if ((flags & flag_inline_qos) != 0 && !guard.make_safe(in))
     return false;
   if ((flags & flag_data) == 0)
@@ -105,7 +103,7 @@ bool make_data_safe(wire_cursor in, std::uint8_t flags) {
 }
 
 bool make_submessage_safe(std::uint8_t kind, std::uint8_t flags,
-                          wire_cursor body, bool last) {
+                          wire_cursor body, bool last, arrival how) {
   switch (kind) {
   case pad:
     return true;
@@ -120,7 +118,7 @@ bool make_submessage_safe(std::uint8_t kind, std::uint8_t flags,
   case info_dst:
     return body.size() == 12;
   case data:
-    return make_data_safe(body, flags);
+    return make_data_safe(body, flags, how);
   case fast_dds_statistics:
     return last && body.size() == statistics_bytes;
   default:
@@ -130,7 +128,7 @@ bool make_submessage_safe(std::uint8_t kind, std::uint8_t flags,
 
 } // namespace
 
-bool make_safe(std::uint8_t* datagram, std::size_t size) {
+bool make_safe(std::uint8_t* datagram, std::size_t size, arrival how) {
   constexpr std::size_t header_bytes = 20;
   constexpr std::array<std::uint8_t, 5> magic{'R', 'T', 'P', 'S', 2};
   if (size <= header_bytes || !std::equal(magic.begin(), magic.end(), datagram))
@@ -146,7 +144,7 @@ bool make_safe(std::uint8_t* datagram, std::size_t size) {
       return false;
     auto body = in.take(length);
     if (!in.good() || length % 4 != 0
-        || !make_submessage_safe(kind, flags, body, in.at_end()))
+        || !make_submessage_safe(kind, flags, body, in.at_end(), how))
       return false;
   }
   return true;

@@ -67,7 +67,29 @@ sighting to_sighting(const ParticipantDiscoveryInfo& info) {
   return result;
 }
 
+edge_error out_of_bounds(std::string message) {
+  return {error_code::schema_violation, std::move(message), ""};
+}
+
 } // namespace
+
+std::optional<edge_error> check_announcement(const std::string& bytes) {
+  if (bytes.size() <= max_announcement_bytes)
+    return std::nullopt;
+  return out_of_bounds("an announcement of " + std::to_string(bytes.size())
+                       + " bytes is over the limit of "
+                       + std::to_string(max_announcement_bytes));
+}
+
+std::optional<edge_error> check_settings(std::uint32_t domain_id,
+                                         const participant_settings& settings) {
+  if (domain_id > max_domain_id)
+    return out_of_bounds("ROS domain " + std::to_string(domain_id) + " is over "
+                         + std::to_string(max_domain_id));
+  if (settings.announcement_period >= settings.lease)
+    return out_of_bounds("the announcement period must be below the lease");
+  return check_announcement(settings.announcement);
+}
 
 Locator_t udp_locator(const std::string& address, std::uint16_t port) {
   Locator_t result;
@@ -134,6 +156,12 @@ void rtps_participant::update_announcement(const std::string& bytes) {
 
 void rtps_participant::announce() {
   participant_->announceRTPSParticipantState();
+}
+
+std::uint16_t rtps_participant::port() const {
+  auto& attributes = participant_->getRTPSParticipantAttributes();
+  auto& locators = attributes.builtin.metatrafficUnicastLocatorList;
+  return IPLocator::getPhysicalPort(*locators.begin());
 }
 
 void rtps_participant::onParticipantDiscovery(RTPSParticipant*,

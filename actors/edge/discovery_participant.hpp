@@ -1,18 +1,20 @@
 #pragma once
 
 #include "actors/edge/discovery_sighting.hpp"
+#include "actors/edge/edge_error.hpp"
 
 #include <chrono>
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 
 #include <fastdds/rtps/attributes/RTPSParticipantAttributes.h>
 #include <fastdds/rtps/participant/RTPSParticipantListener.h>
 
-/// INTERNAL to this folder: what servers, clients and later the public
-/// participant have in common. We use Fast DDS's RTPS layer, not its DDS layer:
+/// INTERNAL to this folder: what servers, clients and the public participant
+/// have in common. We use Fast DDS's RTPS layer, not its DDS layer:
 /// discovery is all that we want of it.
 namespace roscell {
 
@@ -29,6 +31,13 @@ struct participant_settings {
   /// buffer of this size for each direction.
   std::uint32_t max_message_bytes = 16384;
 };
+
+/// `schema_violation` when it is over `max_announcement_bytes`.
+std::optional<edge_error> check_announcement(const std::string& bytes);
+
+/// `schema_violation` for a domain, periods or an announcement out of bounds.
+std::optional<edge_error> check_settings(std::uint32_t domain_id,
+                                         const participant_settings& settings);
 
 eprosima::fastrtps::rtps::Locator_t udp_locator(const std::string& address,
                                                 std::uint16_t port);
@@ -61,6 +70,10 @@ public:
 
   /// Sends the own data to all who know us.
   void announce();
+
+  /// The UDP port on which it takes discovery data: the one asked for, or the
+  /// next that was free.
+  std::uint16_t port() const;
 
 private:
   explicit rtps_participant(on_sighting callback);

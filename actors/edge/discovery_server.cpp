@@ -3,12 +3,11 @@
 #include "actors/edge/announcement.hpp"
 #include "actors/edge/discovery_address.hpp"
 #include "actors/edge/discovery_participant.hpp"
+#include "actors/edge/herald.hpp"
 
 #include <algorithm>
-#include <condition_variable>
 #include <mutex>
 #include <set>
-#include <thread>
 #include <utility>
 
 namespace roscell {
@@ -28,25 +27,14 @@ constexpr std::int32_t repeat_period_ns = 100'000'000;
 /// A ROS 2 node may put all its endpoints into one datagram of full size.
 constexpr std::uint32_t max_server_message_bytes = 65500;
 
-edge_error out_of_bounds(std::string message) {
-  return {error_code::schema_violation, std::move(message), ""};
-}
-
-std::optional<edge_error> check_announcement(const std::string& bytes) {
-  if (bytes.size() <= max_announcement_bytes)
-    return std::nullopt;
-  return out_of_bounds("an announcement of " + std::to_string(bytes.size())
-                       + " bytes is over the limit of "
-                       + std::to_string(max_announcement_bytes));
-}
-
-std::optional<edge_error> check(const cell_server_options& options) {
-  if (options.domain_id > max_domain_id)
-    return out_of_bounds("ROS domain " + std::to_string(options.domain_id)
-                         + " is over " + std::to_string(max_domain_id));
-  if (options.announcement_period >= options.lease)
-    return out_of_bounds("the announcement period must be below the lease");
-  return check_announcement(options.announcement);
+participant_settings to_settings(const cell_server_options& options) {
+  participant_settings result;
+  result.address = options.address;
+  result.announcement = options.announcement;
+  result.lease = options.lease;
+  result.announcement_period = options.announcement_period;
+  result.max_message_bytes = max_server_message_bytes;
+  return result;
 }
 
 /// The port that is free now, or why there is none.
@@ -58,13 +46,7 @@ edge_result<std::uint16_t> free_port(const cell_server_options& options) {
 }
 
 auto server_attributes(const cell_server_options& options, std::uint16_t port) {
-  participant_settings settings;
-  settings.address = options.address;
-  settings.announcement = options.announcement;
-  settings.lease = options.lease;
-  settings.announcement_period = options.announcement_period;
-  settings.max_message_bytes = max_server_message_bytes;
-  auto result = make_attributes(settings, port);
+  auto result = make_attributes(to_settings(options), port);
   auto prefix = server_prefix(options.server_id);
   std::copy(prefix.begin(), prefix.end(), result.prefix.value);
   auto& discovery = result.builtin.discovery_config;
@@ -77,7 +59,10 @@ auto server_attributes(const cell_server_options& options, std::uint16_t port) {
 
 class cell_server::impl {
 public:
-  explicit impl(on_sighting callback) : callback_(std::move(callback)) {}
+  explicit impl(on_sighting callback)
+      : callback_(std::move(callback)),
+        greeter_({greeting_delay}, greeting_interval,
+                 [this] { participant_->announce(); }) {}
 
   ~impl() {
     close();
@@ -90,7 +75,7 @@ public:
         [this](const sighting& seen) { on_client(seen); });
     if (participant_ == nullptr)
       return false;
-    greeter_ = std::thread{[this] { greet(); }};
+    greeter_.start();
     return true;
   }
 
@@ -104,13 +89,7 @@ public:
   }
 
   void close() {
-    {
-      std::lock_guard<std::mutex> lock{mutex_};
-      closing_ = true;
-    }
-    changed_.notify_one();
-    if (greeter_.joinable())
-      greeter_.join();
+    greeter_.stop();
     participant_.reset();
   }
 
@@ -129,44 +108,22 @@ private:
       clients_.erase(seen.prefix);
     else if (clients_.insert(seen.prefix).second
              && clients_.size() <= max_greeted_clients)
-      newcomer_ = true;
-    if (newcomer_)
-      changed_.notify_one();
-  }
-
-  /// Body of the greeting thread.
-  void greet() {
-    auto closing = [this] { return closing_; };
-    std::unique_lock<std::mutex> lock{mutex_};
-    for (;;) {
-      changed_.wait(lock, [this] { return closing_ || newcomer_; });
-      if (changed_.wait_for(lock, greeting_delay, closing))
-        return;
-      newcomer_ = false;
-      lock.unlock();
-      participant_->announce();
-      lock.lock();
-      if (changed_.wait_for(lock, greeting_interval, closing))
-        return;
-    }
+      greeter_.ask();
   }
 
   std::uint16_t port_ = 0;
   on_sighting callback_;
-  std::unique_ptr<rtps_participant> participant_;
   std::mutex mutex_; // Guards what follows.
-  std::condition_variable changed_;
-  bool closing_ = false;
-  bool newcomer_ = false;
   std::set<guid_prefix> clients_;
-  std::thread greeter_;
+  herald greeter_;
+  std::unique_ptr<rtps_participant> participant_;
 };
 
 cell_server::cell_server(std::unique_ptr<impl> x) : impl_(std::move(x)) {}
 
 edge_result<std::unique_ptr<cell_server>>
 cell_server::open(const cell_server_options& options, on_sighting on_client) {
-  if (auto error = check(options))
+  if (auto error = check_settings(options.domain_id, to_settings(options)))
     return *std::move(error);
   // Somebody else can take the port that was free a moment ago.
   constexpr int attempts = 3;

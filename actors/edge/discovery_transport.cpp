@@ -6,6 +6,8 @@
 #include <fastdds/rtps/transport/ChainingTransportDescriptor.h>
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 
+#include <fastrtps/utils/IPLocator.h>
+
 #include <mutex>
 #include <set>
 #include <vector>
@@ -63,7 +65,9 @@ public:
                uint32_t size, const rtps::Locator_t& local,
                const rtps::Locator_t& remote) override {
     // The data are in the receiving thread's own buffer.
-    if (make_safe(const_cast<rtps::octet*>(data), size))
+    auto how = rtps::IPLocator::isMulticast(local) ? arrival::multicast
+                                                   : arrival::direct;
+    if (make_safe(const_cast<rtps::octet*>(data), size, how))
       next->OnDataReceived(data, size, local, remote);
   }
 

@@ -37,6 +37,11 @@ constexpr std::uint16_t participant_guid = 0x0050;
 constexpr std::uint16_t endpoint_guid = 0x005a;
 constexpr std::uint16_t key_hash = 0x0070;
 
+/// Which discovery endpoints a participant has, and the bit of the one that
+/// takes other participants' data.
+constexpr std::uint16_t builtin_endpoint_set = 0x0058;
+constexpr std::uint8_t participant_detector = 2;
+
 /// The sizes of the values that have one. Fast DDS releases a list twice when
 /// one of them is wrong.
 struct fixed_size {
@@ -127,6 +132,12 @@ bool has_right_size(std::uint16_t id, const wire_cursor& value) {
 }
 
 enum class verdict { safe, hide, refuse };
+
+/// `value` is a set of four bytes.
+void hide_detector(const wire_cursor& value) {
+  auto lowest = value.is_little_endian() ? 0 : 3;
+  value.position()[lowest] &= static_cast<std::uint8_t>(~participant_detector);
+}
 
 verdict if_true(bool good) {
   return good ? verdict::safe : verdict::refuse;
@@ -230,6 +241,8 @@ bool parameter_guard::make_safe(wire_cursor& in) {
       return false;
     if (found == verdict::hide)
       std::fill_n(at, 2, std::uint8_t{padding});
+    if (id == builtin_endpoint_set && how_ == arrival::multicast)
+      hide_detector(value);
   }
   return false;
 }

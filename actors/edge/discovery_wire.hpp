@@ -18,6 +18,10 @@ public:
     little_endian_ = value;
   }
 
+  bool is_little_endian() const {
+    return little_endian_;
+  }
+
   bool good() const {
     return good_;
   }
@@ -58,14 +62,19 @@ private:
   bool good_ = true;
 };
 
+/// How a datagram came.
+enum class arrival { direct, multicast };
+
 /// What a parameter list describes.
 enum class described_entity { participant, writer, reader };
 
-/// Checks the parameter lists of one submessage, and turns parameters that must
-/// not be read into padding.
+/// Checks the parameter lists of one submessage, turns parameters that must not
+/// be read into padding, and hides from Fast DDS that a participant which came
+/// by multicast takes answers (discovery_filter.hpp).
 class parameter_guard {
 public:
-  explicit parameter_guard(described_entity what) : what_(what) {}
+  parameter_guard(described_entity what, arrival how)
+      : what_(what), how_(how) {}
 
   /// False when the list is not sound up to its sentinel. Leaves `in` behind
   /// the sentinel.
@@ -80,6 +89,7 @@ private:
   bool is_key(wire_cursor value);
 
   described_entity what_;
+  arrival how_;
   bool has_key_ = false;
   std::array<std::uint8_t, 16> key_{};
 };

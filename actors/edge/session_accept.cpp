@@ -40,7 +40,7 @@ void session_accept::on_established(websocket&& stream) {
   const auto& hello = handshake_.peer();
   established_session session;
   session.peer = {hello.node, hello.uuid, hello.version, peer_.address,
-                  peer_.port, "",         hello.epoch};
+                  peer_.port, "",         hello.epoch,   hello.role};
   session.agreement = handshake_.agreement();
   hooks_.on_decided(true);
   session.link = websocket_link::make(core(), std::move(stream), options(),

@@ -62,7 +62,9 @@ const char* broken_field(const session_hello& x) {
     return "uuid";
   if (!is_number(x.epoch))
     return "epoch";
-  return is_hex(x.nonce, bounds::nonce) ? "" : "nonce";
+  if (!is_hex(x.nonce, bounds::nonce))
+    return "nonce";
+  return x.role.empty() || x.role == coordinator_role ? "" : "role";
 }
 
 const char* broken_field(const session_challenge& x) {
@@ -123,7 +125,9 @@ const char* mistyped_field(const json& frame) {
   const char* result = "";
   for_each_field<Frame>([&](const auto& f) {
     const auto i = frame.find(f.name);
-    if (i == frame.end() || !has_type(*i, Frame{}.*(f.member)))
+    const auto fits = i == frame.end() ? f.kind == presence::optional
+                                       : has_type(*i, Frame{}.*(f.member));
+    if (!fits)
       result = f.name;
   });
   return result;

@@ -16,6 +16,9 @@ namespace roscell {
 /// refused by name; a minor version adds optional fields only.
 inline constexpr std::string_view session_version = "1.0";
 
+/// The role of a joiner that coordinates another cell.
+inline constexpr std::string_view coordinator_role = "coordinator";
+
 /// Upper bounds of what a stranger may send, in bytes.
 struct session_frame_bounds {
   static constexpr size_t frame = 4096;
@@ -38,13 +41,17 @@ struct session_hello {
   std::string uuid;    ///< The joiner's UUID.
   int64_t epoch = 0;   ///< The joiner's registration epoch.
   std::string nonce;   ///< 32 random bytes, hexadecimal.
+  /// `coordinator_role`, then `epoch` is its incarnation; empty for one that
+  /// wants to be a member.
+  std::string role{};
 
   static constexpr auto fields() {
     return std::make_tuple(required("version", &session_hello::version),
                            required("node", &session_hello::node),
                            required("uuid", &session_hello::uuid),
                            required("epoch", &session_hello::epoch),
-                           required("nonce", &session_hello::nonce));
+                           required("nonce", &session_hello::nonce),
+                           optional("role", &session_hello::role));
   }
 };
 

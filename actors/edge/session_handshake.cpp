@@ -38,6 +38,9 @@ digest bind(std::string_view token, std::string_view label,
   append(input, challenge.cell);
   append(input, std::to_string(challenge.incarnation));
   append(input, challenge.nonce);
+  // Who has no role says the same as before there were any.
+  if (!hello.role.empty())
+    append(input, hello.role);
   return hmac_sha256(token, input);
 }
 
@@ -173,6 +176,7 @@ joiner_handshake::joiner_handshake(joiner_identity self, std::string token,
   hello_.uuid = std::move(self.uuid);
   hello_.epoch = self.epoch;
   hello_.nonce = std::move(nonce);
+  hello_.role = std::move(self.role);
 }
 
 std::string joiner_handshake::hello() const {

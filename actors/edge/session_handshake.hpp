@@ -19,8 +19,8 @@
 ///       | <------------------ session_accepted |
 ///
 /// Both proofs are HMAC-SHA256 under the site token, over a label that is the
-/// prover's role and everything that the hello and the challenge say: version,
-/// name, UUID and epoch of the joiner; version, name, UUID, cell and
+/// prover's side and everything that the hello and the challenge say: version,
+/// name, UUID, epoch and role of the joiner; version, name, UUID, cell and
 /// incarnation of the acceptor; both nonces. So a proof holds for this joiner,
 /// this target and this run only. The acceptor proves itself first, and the
 /// joiner stays silent towards one that cannot. The session id and the keys of
@@ -31,7 +31,8 @@ namespace roscell {
 struct joiner_identity {
   std::string node;
   std::string uuid;
-  int64_t epoch = 0;
+  int64_t epoch = 0;  ///< Of its registration; a coordinator's incarnation.
+  std::string role{}; ///< `coordinator_role`, or empty.
 };
 
 /// Who takes it.

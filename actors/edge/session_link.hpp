@@ -90,6 +90,9 @@ struct session_peer {
   std::string cell;    ///< The acceptor's cell; empty for a joiner.
   /// The joiner's registration epoch, or the acceptor's incarnation.
   int64_t number = 0;
+  /// The joiner's role: `coordinator_role`, or empty. Empty for an acceptor,
+  /// which is a coordinator always.
+  std::string role{};
 };
 
 /// A session that has passed its handshake.

@@ -1,4 +1,5 @@
 #include "actors/edge/announcement.hpp"
+#include "actors/edge/session_frames.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -27,6 +28,39 @@ TEST_CASE("an announcement survives its wire form", "[announcement]") {
   CHECK(decode(encode(announcement{})) == announcement{});
 }
 
+TEST_CASE("an announcement names epoch, discovery server and its id",
+          "[announcement]") {
+  auto x = sample();
+  x.epoch = 7;
+  x.discovery = "10.0.0.5:11811";
+  x.server = 255;
+  CHECK(decode(encode(x)) == x);
+  auto bytes = encode(x);
+  CHECK(bytes.substr(bytes.find("epoch="))
+        == "epoch=7;discovery=10.0.0.5:11811;server=255;");
+  for (auto change : {&announcement::epoch, &announcement::server}) {
+    auto other = x;
+    other.*change += 1;
+    CHECK(other != x);
+  }
+}
+
+TEST_CASE("the longest names and numbers fit into an announcement",
+          "[announcement]") {
+  announcement x;
+  x.role = "coordinator";
+  x.node = std::string(session_frame_bounds::name, '\xc3');
+  x.cell = std::string(session_frame_bounds::name, ' ');
+  x.session = "255.255.255.255:65535";
+  x.discovery = x.session;
+  x.uuid = "3b241101-e2bb-4255-8caf-4136c566a962";
+  x.incarnation = session_frame_bounds::number;
+  x.epoch = session_frame_bounds::number;
+  x.server = 255;
+  CHECK(encode(x).size() <= max_announcement_bytes);
+  CHECK(decode(encode(x)) == x);
+}
+
 TEST_CASE("the wire form is the key=value; form of ROS 2", "[announcement]") {
   auto x = sample();
   x.node = "a b";
@@ -46,14 +80,26 @@ TEST_CASE("an announcement of another version can be read to refuse it",
 }
 
 TEST_CASE("the USER_DATA of strangers is no announcement", "[announcement]") {
-  for (const char* bytes :
-       {"", "enclave=/;", "roscell", "roscell=", "roscell=;", "roscell=1.0",
-        "roscell=1.0;node", "roscell=1.0;node=a", "roscell=1.0;;",
-        "roscell=1.0;node=a;node=b;", "roscell=1.0;node=%4;",
-        "roscell=1.0;node=%zz;", "roscell=1.0;node=%", "roscell=1.0;x=1;x=2;",
-        "roscell=1.0;incarnation=;", "roscell=1.0;incarnation=-1;",
-        "roscell=1.0;incarnation=1e3;",
-        "roscell=1.0;incarnation=99999999999999999999;"}) {
+  for (const char* bytes : {"",
+                            "enclave=/;",
+                            "roscell",
+                            "roscell=",
+                            "roscell=;",
+                            "roscell=1.0",
+                            "roscell=1.0;node",
+                            "roscell=1.0;node=a",
+                            "roscell=1.0;;",
+                            "roscell=1.0;node=a;node=b;",
+                            "roscell=1.0;node=%4;",
+                            "roscell=1.0;node=%zz;",
+                            "roscell=1.0;node=%",
+                            "roscell=1.0;x=1;x=2;",
+                            "roscell=1.0;incarnation=;",
+                            "roscell=1.0;incarnation=-1;",
+                            "roscell=1.0;incarnation=1e3;",
+                            "roscell=1.0;incarnation=99999999999999999999;",
+                            "roscell=1.0;epoch=x;",
+                            "roscell=1.0;server=-1;"}) {
     CAPTURE(bytes);
     CHECK_FALSE(decode(bytes));
   }

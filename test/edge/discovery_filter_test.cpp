@@ -173,3 +173,20 @@ TEST_CASE("descriptions of types and security become padding", "[discovery]") {
   REQUIRE(make_safe(x.data(), size));
   CHECK(x == participant_with("00000400 deadbeef 00000400 deadbeef "));
 }
+
+TEST_CASE("a participant that came by multicast seems to take no answer",
+          "[discovery]") {
+  // It announces and detects participants, and is a publications' announcer.
+  auto little = participant_with("58000400 07000000 ");
+  REQUIRE(make_safe(little.data(), little.size(), arrival::direct));
+  CHECK(little == participant_with("58000400 07000000 "));
+  REQUIRE(make_safe(little.data(), little.size(), arrival::multicast));
+  CHECK(little == participant_with("58000400 05000000 "));
+  // The same parameter list in the other byte order.
+  auto big = message("1505 2c00 00001000 000100c7 000100c2 00000000 01000000 "
+                     "00020000 00500010 010f78fd 8928b8ae 00000000 000001c1 "
+                     "00580004 00000007 00010000");
+  big[22] = static_cast<std::uint8_t>(big.size() - 24);
+  REQUIRE(make_safe(big.data(), big.size(), arrival::multicast));
+  CHECK(big[big.size() - 5] == 5);
+}

@@ -73,7 +73,7 @@ TEST_CASE("a discovery server refuses an address of another host and lists "
 TEST_CASE("a discovery server refuses options out of bounds", "[discovery]") {
   auto too_long = local_server(1, std::string(max_announcement_bytes + 1, 'x'));
   CHECK(error_of(cell_server::open(too_long)).message
-        == "an announcement of 513 bytes is over the limit of 512");
+        == "an announcement of 1025 bytes is over the limit of 1024");
   auto domain = local_server(1, "");
   domain.domain_id = 233;
   CHECK(error_of(cell_server::open(domain)).message

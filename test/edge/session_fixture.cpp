@@ -41,10 +41,11 @@ acceptor_fixture::acceptor_fixture(session_options options, std::string token,
 }
 
 session_result acceptor_fixture::join(session_options options,
-                                      std::string token) {
+                                      std::string token,
+                                      joiner_identity identity) {
   inbox<session_result> outcome;
   connect_session(
-      io, target(), robot_node, std::move(token), std::move(options),
+      io, target(), std::move(identity), std::move(token), std::move(options),
       [&](session_result result) { outcome.put(std::move(result)); });
   return outcome.take();
 }

@@ -37,7 +37,8 @@ struct acceptor_fixture {
 
   /// The outcome of one attempt to join.
   session_result join(session_options options = {},
-                      std::string token = site_token);
+                      std::string token = site_token,
+                      joiner_identity identity = robot_node);
 
   std::string address;
   inbox<std::string> log;

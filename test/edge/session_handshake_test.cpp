@@ -141,7 +141,8 @@ TEST_CASE("every field of hello and challenge is under the proofs") {
       {"node", "robot-2"},
       {"uuid", "aaaa"},
       {"epoch", 8},
-      {"nonce", std::string(64, '1')}};
+      {"nonce", std::string(64, '1')},
+      {"role", "coordinator"}};
   for (const auto& [key, value] : of_hello) {
     acceptor_handshake acceptor{base, token, loopback};
     joiner_handshake joiner{robot, token};
@@ -164,6 +165,35 @@ TEST_CASE("every field of hello and challenge is under the proofs") {
     check_refused(sides.joiner.receive(with(sides.challenge.reply, key, value)),
                   error_code::unauthorized);
   }
+}
+
+TEST_CASE("a coordinator's role is agreed on, and cannot be taken away") {
+  const joiner_identity peer{"hall-1", "0a1b-2c3d", 9, "coordinator"};
+  acceptor_handshake acceptor{base, token, loopback};
+  joiner_handshake joiner{peer, token};
+  const auto challenge = acceptor.receive(joiner.hello());
+  const auto proof = joiner.receive(challenge.reply);
+  const auto accepted = acceptor.receive(proof.reply);
+  REQUIRE(accepted.done);
+  CHECK(joiner.receive(accepted.reply).done);
+  CHECK(acceptor.peer().role == coordinator_role);
+  CHECK(joiner.agreement().keys.send == acceptor.agreement().keys.receive);
+
+  acceptor_handshake deceived{base, token, loopback};
+  joiner_handshake again{peer, token};
+  const auto stripped = deceived.receive(without(again.hello(), "role"));
+  REQUIRE_FALSE(stripped.failure);
+  check_refused(again.receive(stripped.reply), error_code::unauthorized);
+}
+
+TEST_CASE("a joiner without a role proves what it did before there were any") {
+  const std::string nonce(64, '0');
+  acceptor_handshake acceptor{base, token, loopback, nonce};
+  joiner_handshake joiner{robot, token, {}, nonce};
+  CHECK_FALSE(json::parse(joiner.hello()).contains("role"));
+  const auto challenge = json::parse(acceptor.receive(joiner.hello()).reply);
+  CHECK(challenge.at("proof")
+        == "9586bb92019690cf9d182813fc963cf21586b4a01cbfa8538e0c8febf04a8b19");
 }
 
 TEST_CASE("the acceptance of a session is proven, too") {
@@ -244,7 +274,10 @@ TEST_CASE("fields of a frame are checked before they are used") {
       {"nonce", std::string(63, '0')},
       {"nonce", std::string(66, '0')},
       {"nonce", std::string(64, 'g')},
-      {"nonce", json::array()}};
+      {"nonce", json::array()},
+      {"role", "king"},
+      {"role", 1},
+      {"role", nullptr}};
   for (const auto& [key, value] : broken) {
     acceptor_handshake acceptor{base, token, loopback};
     const auto step = acceptor.receive(with(hello, key, value));

@@ -24,10 +24,23 @@ TEST_CASE("both sides know who the other one is") {
   CHECK(pair.acceptor.peer.number == 7);
   CHECK(pair.acceptor.peer.address == "127.0.0.1");
   CHECK(pair.acceptor.peer.version == session_version);
+  CHECK(pair.acceptor.peer.role.empty());
   CHECK(pair.joiner.peer.node == "base");
   CHECK(pair.joiner.peer.cell == "kitchen");
   CHECK(pair.joiner.peer.number == 3);
   CHECK(pair.joiner.agreement.session == pair.acceptor.agreement.session);
+}
+
+TEST_CASE("an acceptor knows a coordinator by its role") {
+  acceptor_fixture acceptor;
+  auto joined =
+      acceptor.join({}, site_token, {"hall-1", "0a1c", 5, "coordinator"});
+  REQUIRE(std::holds_alternative<established_session>(joined));
+  CHECK(std::get<established_session>(joined).peer.role.empty());
+  const auto session = acceptor.sessions.take();
+  CHECK(session.peer.role == coordinator_role);
+  CHECK(session.peer.number == 5);
+  acceptor.io.stop();
 }
 
 TEST_CASE("what was sent before the other side started is not lost") {

@@ -11,10 +11,13 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, size_t size) {
   acceptor_handshake acceptor{
       {"base", "ffff", "kitchen", 3}, "token", "127.0.0.1", nonce};
   joiner_handshake joiner{{"robot", "0a1b", 7}, "token", {}, nonce};
+  joiner_handshake coordinator{
+      {"hall", "0a1c", 7, "coordinator"}, "token", {}, nonce};
   std::string_view rest{reinterpret_cast<const char*>(data), size};
   while (true) {
     const auto frame = rest.substr(0, rest.find('\0'));
-    if (acceptor.receive(frame).done || joiner.receive(frame).done)
+    if (acceptor.receive(frame).done || joiner.receive(frame).done
+        || coordinator.receive(frame).done)
       std::abort();
     if (frame.size() == rest.size())
       return 0;

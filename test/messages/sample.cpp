@@ -17,6 +17,7 @@ constexpr std::pair<std::string_view, std::string_view> forms[] = {
     {"proof", "H"},
     {"session", "S"},
     {"session_hello.version", "1.N"},
+    {"session_hello.role", "coordinator"},
     {"session_challenge.version", "1.N"},
     {"devices", "/dev/video_N"},
     {"volumes", "/srv/models_N:/models:ro"},
