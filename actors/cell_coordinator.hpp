@@ -2,6 +2,7 @@
 
 #include "actors/cell_registry.hpp"
 #include "actors/house.hpp"
+#include "actors/search_guard.hpp"
 #include "actors/task_table.hpp"
 #include "messages/type_ids.hpp"
 
@@ -9,6 +10,7 @@
 
 #include <deque>
 #include <map>
+#include <memory>
 #include <set>
 #include <string>
 #include <vector>
@@ -29,6 +31,8 @@ struct coordinator_setup {
   std::vector<task_record> tasks; ///< As an earlier run has stored them.
   /// What instances of this cell find in their environment.
   std::map<std::string, std::string> environment;
+  /// The scheduler's; may be empty in tests.
+  std::shared_ptr<search_guard> searches;
 };
 
 /// A task request that waits for its turn to be placed.

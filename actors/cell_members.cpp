@@ -97,13 +97,23 @@ struct resource_tally {
   }
 };
 
+void stop_searches_on(const cell_coordinator_state& st,
+                      const std::string& node) {
+  if (st.setup.searches)
+    st.setup.searches->node_left(node);
+}
+
 /// Adds what deploying tasks hold on a node whose instances it has not reported
-/// yet: its own report cannot count them.
-void reserve_intents(const cell_coordinator_state& st, node_resources& node) {
+/// yet, unless its report counts them as reserved.
+void reserve_intents(const cell_coordinator_state& st,
+                     const std::vector<std::string>& counted,
+                     node_resources& node) {
+  const std::set<std::string> reserved{counted.begin(), counted.end()};
   for (const auto& [task, entry] : st.tasks.entries()) {
     const auto& record = entry.record;
     for (size_t i = 0; i < record.specs.size(); ++i)
       if (record.nodes[i] == node.name
+          && reserved.count(record.specs[i].instance) == 0
           && !st.registry.find_instance(record.specs[i].instance))
         reserve(node, record.specs[i].resources, record.specs[i].gpu);
   }
@@ -129,7 +139,7 @@ void on_report(self_pointer self, const std::string& uuid,
   if (entry && entry->row.state == row_state::active) {
     report.resources.name = entry->row.identity.name;
     entry->row.resources = report.resources;
-    reserve_intents(self->state, report.resources);
+    reserve_intents(self->state, report.reserved, report.resources);
     tally.result.nodes.push_back(std::move(report.resources));
   }
   tally.finish_one();
@@ -265,6 +275,7 @@ caf::result<node_departed> depart_member(self_pointer self,
   else
     st.registry.deactivate(*entry, row_state::expected, request.reason,
                            now(self));
+  stop_searches_on(st, name);
   st.context.tell(
       "node_left", name,
       {{"reason", request.reason}, {"size", st.registry.active_count()}});
@@ -278,6 +289,7 @@ void on_member_lost(self_pointer self, const member_lost& fact) {
     return;
   const auto name = entry->row.identity.name;
   st.registry.deactivate(*entry, row_state::lost, fact.reason, now(self));
+  stop_searches_on(st, name);
   st.context.tell(
       "node_lost", name,
       {{"reason", fact.reason}, {"size", st.registry.active_count()}});

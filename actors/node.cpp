@@ -186,7 +186,9 @@ private:
         {"ROS_DOMAIN_ID", std::to_string(config.ros_domain_id)},
         {"ROS_DISCOVERY_SERVER",
          std::string(config.server_id, ';') + parts_.edges->discovery_server}};
-    parts_.services->scheduler = start<caf::detached>(scheduler);
+    setup.searches = std::make_shared<search_guard>();
+    parts_.services->scheduler =
+        start<caf::detached>(scheduler, setup.searches);
     auto coordinator = start(cell_coordinator, parts_.context, setup);
     parts_.services->coordinator = coordinator;
     caf::anon_send(parts_.services->supervisor,

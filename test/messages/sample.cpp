@@ -29,6 +29,7 @@ constexpr std::pair<std::string_view, std::string_view> forms[] = {
     {"data", R"({"level":N})"},
     {"body", R"({"level":N,"type":"resource_query"})"},
     {"code", "conflict"},
+    {"kind", "memory"},
 };
 
 std::string_view form_of(std::string_view type, std::string_view field) {

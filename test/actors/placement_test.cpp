@@ -1,0 +1,183 @@
+#include "test/actors/coordinator_fakes.hpp"
+
+/// What happens between an allocation and its deployment, and what a plan
+/// query may think otherwise.
+namespace roscell::test {
+
+namespace {
+
+struct reluctant_cell : paper_cell {
+  fake_agent& left = add("left");
+  fake_agent& right = add("right");
+
+  reluctant_cell() {
+    base.has.cpu.used = 4;
+  }
+
+  size_t reservations() const {
+    return left.reservations.size() + right.reservations.size();
+  }
+};
+
+json error_in(const json& reply) {
+  REQUIRE(error_of(reply) != "");
+  return reply.at("error");
+}
+
+json plan_query(const std::vector<json>& steps) {
+  auto query = echo_task("t", steps);
+  query["type"] = "task_plan_query";
+  return query;
+}
+
+/// A node on paper as a query gives it.
+json paper_node(const std::string& name, double cores) {
+  return {{"name", name},
+          {"architecture", "amd64"},
+          {"unified_memory", false},
+          {"cpu", {{"capacity", cores}, {"used", 0}}},
+          {"memory_mib", {{"capacity", 1000}, {"used", 0}}},
+          {"disk_mib", {{"capacity", 1000}, {"used", 0}}},
+          {"gpus", json::array()},
+          {"labels", json::object()},
+          {"devices", json::array()}};
+}
+
+} // namespace
+
+TEST_CASE_METHOD(reluctant_cell,
+                 "Room is kept at each member before anything is deployed",
+                 "[placement]") {
+  left.mood = temper::slow;
+  post(echo_task("t", {echo_step("s0", 1, "left"), echo_step("s1", 1, "left"),
+                       echo_step("s2", 1, "right")}));
+  REQUIRE(left.reservations.size() == 1);
+  REQUIRE(right.reservations.size() == 1);
+  const auto& kept = left.reservations[0];
+  CHECK(kept.task == "t");
+  REQUIRE(kept.specs.size() == 2);
+  CHECK(kept.specs[0].step == "s0");
+  CHECK(kept.specs[0].cell == "lab");
+  CHECK(left.deployments.at(0).instance == kept.specs[0].instance);
+}
+
+TEST_CASE_METHOD(reluctant_cell,
+                 "A refused candidate is left out, and the reply says so",
+                 "[placement]") {
+  left.reluctance = 1;
+  const auto reply = request(echo_task("t", {echo_step("s0", 2)}));
+  REQUIRE(reply.at("type") == "task_accepted");
+  CHECK(reply.at("instances")[0].at("node") == "right");
+  REQUIRE(reply.at("refused").size() == 1);
+  const auto& refused = reply.at("refused")[0];
+  CHECK(refused.at("step") == "s0");
+  CHECK(refused.at("node") == "left");
+  CHECK(refused.at("reason") == "refused by the node: too busy now");
+  CHECK(count("allocation_refused") == 1);
+  // What was kept for the first attempt is given up before the second one.
+  CHECK(left.removals.size() == 1);
+  CHECK(left.deployments.empty());
+  CHECK(left.reservations.size() == 1);
+}
+
+TEST_CASE_METHOD(reluctant_cell,
+                 "After three searches anew a task is refused, with every "
+                 "refusal",
+                 "[placement]") {
+  left.reluctance = right.reluctance = 100;
+  for (const auto* name : {"n1", "n2", "n3"})
+    add(name).reluctance = 100;
+  const auto error = error_in(request(echo_task("t", {echo_step("s0", 2)})));
+  CHECK(error.at("code") == "no_feasible_allocation");
+  CHECK(error.at("message").get<std::string>().find("too busy now")
+        != std::string::npos);
+  size_t asked = 0;
+  for (const auto& x : agents)
+    asked += x->reservations.size();
+  CHECK(asked == 4);
+  CHECK(count("allocation_refused") == 4);
+  CHECK(tasks().empty());
+  // The turn goes on.
+  left.reluctance = 0;
+  CHECK(request(echo_task("u", {echo_step("s0", 2, "left")})).at("type")
+        == "task_accepted");
+}
+
+TEST_CASE_METHOD(reluctant_cell,
+                 "Where nothing is left after a refusal, the answer explains "
+                 "both",
+                 "[placement]") {
+  left.reluctance = 1;
+  const auto error =
+      error_in(request(echo_task("t", {echo_step("s0", 2, "left")})));
+  CHECK(error.at("code") == "no_feasible_allocation");
+  CHECK(error.at("hint").get<std::string>().find("too busy now")
+        != std::string::npos);
+  bool explained = false;
+  for (const auto& x : error.at("rejected"))
+    for (const auto& cause : x.at("causes"))
+      explained = explained || cause.at("kind") == "excluded";
+  CHECK(explained);
+}
+
+TEST_CASE_METHOD(reluctant_cell,
+                 "A search whose node leaves in the middle is done anew",
+                 "[placement]") {
+  search_guard guard;
+  guard.begin({"left", "right"});
+  guard.node_left("somebody");
+  CHECK_FALSE(guard.must_stop());
+  guard.node_left("right");
+  guard.node_left("left");
+  CHECK(guard.must_stop());
+  CHECK(guard.end() == "right");
+  guard.begin({"left"});
+  CHECK_FALSE(guard.must_stop());
+  CHECK(guard.end().empty());
+}
+
+TEST_CASE_METHOD(reluctant_cell, "A plan may think nodes away and add others",
+                 "[placement]") {
+  auto query = plan_query({echo_step("s0", 3)});
+  query["without"] = {"left", "right"};
+  auto error = error_in(request(query));
+  CHECK(error.at("code") == "no_feasible_allocation");
+  query["with"] = {paper_node("spare", 8)};
+  const auto plan = request(query);
+  REQUIRE(plan.at("type") == "task_plan");
+  CHECK(plan.at("allocations")[0].at("node") == "spare");
+  CHECK(plan.at("use")[0].at("node") == "spare");
+  CHECK(plan.at("use")[0].at("after") == 3);
+  CHECK(reservations() == 0);
+
+  query["without"] = {"nobody"};
+  error = error_in(request(query));
+  CHECK(error.at("code") == "unknown_node");
+  CHECK(error.at("where") == "/without/0");
+  query.erase("without");
+  query["with"] = {paper_node("left", 8)};
+  error = error_in(request(query));
+  CHECK(error.at("code") == "conflict");
+  CHECK(error.at("where") == "/with/0/name");
+}
+
+TEST_CASE_METHOD(reluctant_cell, "A plan says why a step is where it is",
+                 "[placement]") {
+  left.has.cpu.capacity = 8;
+  auto query = plan_query({echo_step("s0", 3)});
+  query["why"] = "s0";
+  const auto plan = request(query);
+  REQUIRE(plan.at("alternatives").size() == 1);
+  const auto& other = plan.at("alternatives")[0];
+  CHECK(other.at("step") == "s0");
+  CHECK(other.at("allocations")[0].at("node")
+        != plan.at("allocations")[0].at("node"));
+  CHECK(other.at("extra").get<double>()
+        == Approx(other.at("score").at("total").get<double>()
+                  - plan.at("score").at("total").get<double>()));
+  CHECK(other.at("extra").get<double>() > 0);
+  query["why"] = "s1";
+  CHECK(error_in(request(query)).at("where") == "/why");
+}
+
+} // namespace roscell::test
