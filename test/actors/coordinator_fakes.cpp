@@ -14,7 +14,14 @@ resource_report report_of(const fake_agent& x) {
   auto result = x.has;
   for (const auto& [id, row] : x.running)
     reserve(result, row.spec.resources, row.spec.gpu);
-  return {result};
+  resource_report report{result, {}};
+  for (const auto& wish : x.reservations)
+    for (const auto& spec : wish.specs)
+      if (x.tells_reserved && x.running.count(spec.instance) == 0) {
+        reserve(report.resources, spec.resources, spec.gpu);
+        report.reserved.push_back(spec.instance);
+      }
+  return report;
 }
 
 void on_deployment(caf::event_based_actor* self, fake_agent* x,

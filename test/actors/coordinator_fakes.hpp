@@ -37,6 +37,7 @@ struct fake_agent {
 
   std::map<std::string, instance_row> running;
   std::vector<instance_reservation> reservations;
+  bool tells_reserved = false; ///< Its reports count what it has reserved.
   int reluctance = 0; ///< How many reservations it refuses from now on.
   std::vector<instance_spec> deployments;
   std::vector<instance_removal> removals;

@@ -1,4 +1,7 @@
+#include "actors/task_allocation.hpp"
 #include "test/actors/coordinator_fakes.hpp"
+
+#include <set>
 
 /// What happens between an allocation and its deployment, and what a plan
 /// query may think otherwise.
@@ -120,9 +123,23 @@ TEST_CASE_METHOD(reluctant_cell,
   CHECK(explained);
 }
 
-TEST_CASE_METHOD(reluctant_cell,
-                 "A search whose node leaves in the middle is done anew",
-                 "[placement]") {
+TEST_CASE_METHOD(
+    reluctant_cell,
+    "Room that a member keeps and the coordinator holds counts once",
+    "[placement]") {
+  right.has.cpu.used = 4;
+  left.tells_reserved = true;
+  // The intent of the first one is held, but not deployed yet.
+  slow_disk = true;
+  post(echo_task("t0", {echo_step("s0", 2)}));
+  const auto second = post(echo_task("t1", {echo_step("s0", 2)}));
+  CHECK(left.reservations.size() == 2);
+  CHECK_FALSE(*second);
+  CHECK(error_of(request(echo_task("t2", {echo_step("s0", 1)})))
+        == "no_feasible_allocation");
+}
+
+TEST_CASE("A guard hears of the nodes of its search only", "[placement]") {
   search_guard guard;
   guard.begin({"left", "right"});
   guard.node_left("somebody");
@@ -134,6 +151,39 @@ TEST_CASE_METHOD(reluctant_cell,
   guard.begin({"left"});
   CHECK_FALSE(guard.must_stop());
   CHECK(guard.end().empty());
+}
+
+TEST_CASE("A search ends when one of its nodes leaves in the middle",
+          "[placement]") {
+  allocate_task asked;
+  std::set<std::string> names;
+  for (int v = 0; v < 12; ++v) {
+    asked.nodes.push_back(paper_node("n" + std::to_string(v), 4 + v % 5));
+    asked.nodes.back().memory_mib.used = 40 * v;
+    names.insert(asked.nodes.back().name);
+  }
+  for (int i = 0; i < 6; ++i) {
+    resolved_step step;
+    step.step.id = "s" + std::to_string(i);
+    step.model = echo_skill().descriptor.models[0];
+    step.nodes = {names.begin(), names.end()};
+    asked.steps.push_back(step);
+  }
+  search_guard guard;
+  guard.begin(names);
+  size_t states = 0;
+  auto found = allocate(asked, 0ms, [&] {
+    if (++states == 50)
+      guard.node_left("n3");
+    return guard.must_stop();
+  });
+  CHECK(states == 50);
+  CHECK(guard.end() == "n3");
+  REQUIRE(std::holds_alternative<task_plan>(found));
+  const auto& plan = std::get<task_plan>(found);
+  CHECK_FALSE(plan.optimal);
+  CHECK(plan.score.gap > 0);
+  CHECK(plan.score.lower_bound == Approx(plan.score.total - plan.score.gap));
 }
 
 TEST_CASE_METHOD(reluctant_cell, "A plan may think nodes away and add others",
