@@ -154,6 +154,10 @@ caf::behavior local_parts(caf::event_based_actor* self, fake_site* site,
       [=](const instance_query&) {
         return instance_description{node->instances};
       },
+      [=](const instance_reservation& x) {
+        node->reservations.push_back(x);
+        return instances_reserved{{{"t-b-1", "no room"}}};
+      },
       [=](const instance_deployment& x) { return deploy(self, node, x); },
       [=](caf::ok_atom) {
         auto& [promise, row] = node->deploying.front();
