@@ -183,8 +183,8 @@ TEST_CASE("A rejected candidate has its causes for programs",
           "[task_allocation]") {
   auto document = two_nodes();
   document["nodes"][1]["gpus"][0]["memory_mib"]["used"] = 900;
-  const auto why = refusal(document);
-  for (const auto& x : error_reply(why).at("error").at("rejected")) {
+  const auto reply = error_reply(refusal(document));
+  for (const auto& x : reply.at("error").at("rejected")) {
     REQUIRE(x.at("causes").size() == x.at("reasons").size());
     if (x.at("step") != "s1" || x.at("node") != "g")
       continue;
