@@ -113,6 +113,7 @@ cell_coordinator(self_pointer self, const house& context,
   self->state.setup = setup;
   add_own_row(self);
   restore_members(self);
+  restore_transfers(self);
   restore_tasks(self);
   reconcile_own_node(self);
   measure_own_node(self);

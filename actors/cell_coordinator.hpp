@@ -32,8 +32,9 @@ struct coordinator_setup {
   /// Runs what an earlier run of the node has left; may be invalid in tests.
   container_supervisor_actor supervisor;
   state_store_actor store;
-  std::vector<task_record> tasks;     ///< As an earlier run has stored them.
-  std::vector<member_record> members; ///< The same.
+  std::vector<task_record> tasks;      ///< As an earlier run has stored them.
+  std::vector<member_record> members;  ///< The same.
+  std::vector<transfer_row> transfers; ///< The same; those that were open.
   /// What instances of this cell find in their environment.
   std::map<std::string, std::string> environment;
   /// Towards other coordinators and nodes in no cell; all invalid in a cell
@@ -61,11 +62,22 @@ struct peer_entry {
   bool told = false; ///< Its standing has come.
   cell_standing standing;
   std::map<std::string, member_claim> members; ///< By UUID.
-  int64_t promised = 0; ///< Places that it is being asked for.
+  /// UUIDs of nodes that it is being asked to keep a place for.
+  std::multiset<std::string> promised;
 
-  /// What counts when a place is given out.
+  /// What counts when a place is given out. A promise whose place has been told
+  /// already counts once.
   int64_t size() const {
-    return standing.size + promised;
+    auto result = standing.size;
+    for (auto i = promised.begin(); i != promised.end();
+         i = promised.upper_bound(*i))
+      result += members.count(*i) == 0 ? 1 : 0;
+    return result;
+  }
+
+  void forget_promise(const std::string& node) {
+    if (const auto i = promised.find(node); i != promised.end())
+      promised.erase(i);
   }
 };
 

@@ -371,7 +371,7 @@ void on_member_lost(self_pointer self, const member_lost& fact) {
     // It goes: where it turns up tells the rest.
     entry->agent = nullptr;
     entry->member = nullptr;
-    return;
+    return on_row_vacated(self, fact.uuid);
   }
   st.registry.deactivate(*entry, row_state::lost, fact.reason, now_of(self));
   publish(self, {fact.uuid});
@@ -379,6 +379,7 @@ void on_member_lost(self_pointer self, const member_lost& fact) {
   st.context.tell(
       "node_lost", name,
       {{"reason", fact.reason}, {"size", st.registry.active_count()}});
+  on_row_vacated(self, fact.uuid);
 }
 
 void on_member_down(self_pointer self, const caf::actor_addr& gone) {

@@ -100,14 +100,15 @@ void tell_name_conflict(self_pointer self, const node_presence& who) {
 }
 
 /// A node with a row says publicly that it is in no cell: it has been released
-/// and nobody could tell.
+/// and nobody could tell. Every registration has an epoch of its own, so one of
+/// the row's epoch has come to nothing.
 void on_free_node(self_pointer self, const node_presence& who) {
   auto& st = self->state;
   auto* entry = st.registry.find_uuid(who.uuid);
   const bool away = entry && entry->row.state != row_state::active
                     && entry->row.state != row_state::reserved;
   if (away && who.role == "independent"
-      && who.epoch > entry->row.identity.epoch)
+      && who.epoch >= entry->row.identity.epoch)
     on_node_elsewhere(self, who.uuid, who.epoch, "");
 }
 
@@ -175,6 +176,12 @@ void on_presence_seen(self_pointer self, const node_presence& who) {
   // It has just shown that it lives.
   st.attempts[who.uuid].next = self->clock().now();
   open_due_peers(self);
+}
+
+void on_row_vacated(self_pointer self, const std::string& uuid) {
+  const auto& presences = self->state.presences;
+  if (const auto i = presences.find(uuid); i != presences.end())
+    on_free_node(self, i->second);
 }
 
 void on_presence_gone(self_pointer self, const node_presence& who) {

@@ -16,6 +16,10 @@ void appear(coordinator_pointer self);
 void on_presence_seen(coordinator_pointer self, const node_presence& who);
 void on_presence_gone(coordinator_pointer self, const node_presence& who);
 
+/// A row is not active any more: its node may have said publicly that it is in
+/// no cell before that was known.
+void on_row_vacated(coordinator_pointer self, const std::string& uuid);
+
 /// Another coordinator has opened a session.
 void on_peer_admitted(coordinator_pointer self, const session_admitted& fact);
 

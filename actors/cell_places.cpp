@@ -67,12 +67,12 @@ void place_at(self_pointer self, const std::string& uuid,
               const place_request& request, std::set<std::string> full,
               promise_type promise) {
   auto& peer = self->state.peers[uuid];
-  ++peer.promised;
+  peer.promised.insert(request.uuid);
   place_reservation wish{request.name, request.uuid, request.epoch,
                          std::chrono::milliseconds{place_span}.count()};
   self->request(peer.actor, peer_timeout, wish)
       .then(
-          [self, uuid, request, promise](const place_reserved& x) mutable {
+          [self, uuid, request, promise](const place_reserved&) mutable {
             auto& st = self->state;
             auto i = st.peers.find(uuid);
             if (i == st.peers.end()) {
@@ -80,15 +80,14 @@ void place_at(self_pointer self, const std::string& uuid,
                   fail(error_code::unreachable, "the cell has just gone"));
               return;
             }
-            --i->second.promised;
-            i->second.standing.size = x.size;
+            i->second.forget_promise(request.uuid);
             remember(self, request, uuid);
             promise.deliver(place_granted{i->second.standing.place});
           },
           [self, uuid, request, full, promise](const caf::error&) mutable {
             auto i = self->state.peers.find(uuid);
             if (i != self->state.peers.end())
-              --i->second.promised;
+              i->second.forget_promise(request.uuid);
             full.insert(uuid);
             find_place(self, request, std::move(full), std::move(promise));
           });

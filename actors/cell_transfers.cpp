@@ -139,6 +139,17 @@ void on_switch_accepted(self_pointer self, const std::string& id) {
   on_node_elsewhere(self, x.row.uuid, INT64_MAX, "");
 }
 
+/// Nobody knows whether the node has heard that it shall go. Where it registers
+/// next tells, so it must not stay in a session that it may believe in.
+void ask_where_it_goes(self_pointer self, const std::string& id) {
+  auto& st = self->state;
+  const auto& x = st.transfers.at(id);
+  const auto* entry = st.registry.find_uuid(x.row.uuid);
+  if (is_open(x.row.state) && entry && entry->transfer == id && entry->member)
+    self->send(entry->member,
+               close_session{"it is not known whether the node goes"});
+}
+
 void order_switch(self_pointer self, const std::string& id,
                   join_origin origin) {
   auto& st = self->state;
@@ -163,10 +174,10 @@ void order_switch(self_pointer self, const std::string& id,
           [self, id](const switch_accepted&) { on_switch_accepted(self, id); },
           [self, id](const caf::error& err) {
             const auto why = to_failure(err);
-            // Nobody knows whether it has heard: what it does next tells.
             if (why.code != error_code::unreachable
                 && why.code != error_code::timeout)
-              call_off(self, id, why);
+              return call_off(self, id, why);
+            ask_where_it_goes(self, id);
           });
 }
 
@@ -427,7 +438,7 @@ void on_node_elsewhere(self_pointer self, const std::string& uuid,
                        int64_t epoch, const std::string& cell) {
   auto& st = self->state;
   auto* entry = st.registry.find_uuid(uuid);
-  if (!entry || entry->row.identity.epoch >= epoch)
+  if (!entry || entry->row.identity.epoch > epoch)
     return;
   const auto name = entry->row.identity.name;
   const auto transfer = entry->transfer;
@@ -461,6 +472,23 @@ void on_node_returned(self_pointer self, const std::string& transfer) {
                         + x.row.to + "' and has come back",
                     "/target", "see the events of the node"};
   finish(self, x, transfer_state::returned, why.message, &why);
+}
+
+void restore_transfers(self_pointer self) {
+  auto& st = self->state;
+  for (const auto& row : st.setup.transfers) {
+    auto& x = st.transfers[row.transfer];
+    x.row = row;
+    x.deadline = time_point::max();
+    auto* entry = st.registry.find_uuid(row.uuid);
+    if (!entry) {
+      // The row is dropped first, when it is known that the node has gone.
+      finish(self, x, transfer_state::done, "", nullptr);
+      continue;
+    }
+    entry->transfer = row.transfer;
+    enter(x, transfer_state::unresolved, "the coordinator was started again");
+  }
 }
 
 void settle_overdue_transfers(self_pointer self) {

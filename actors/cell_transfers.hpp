@@ -31,6 +31,10 @@ caf::result<node_released> release_node(coordinator_pointer self,
 caf::result<transfer_description>
 describe_transfers(coordinator_pointer self, const transfer_query& query);
 
+/// Takes up what an earlier run of the coordinator has left open: what becomes
+/// of such a node is told by where it turns up.
+void restore_transfers(coordinator_pointer self);
+
 /// A fact: the node has this epoch in another cell, or in none if `cell` is
 /// empty. Its row here is out of date.
 void on_node_elsewhere(coordinator_pointer self, const std::string& uuid,

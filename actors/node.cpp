@@ -190,6 +190,7 @@ private:
     setup.store = store_;
     setup.tasks = data_.tasks;
     setup.members = data_.members;
+    setup.transfers = data_.transfers;
     setup.server_id = parts_.edges->server_id;
     setup.rebalance = config.rebalance;
     setup.environment = {

@@ -183,6 +183,8 @@ caf::expected<node_data> open_node_data(const node_config& config) {
     return why;
   if (auto why = load_records(*data.database, "members", data.members))
     return why;
+  if (auto why = load_records(*data.database, "transfers", data.transfers))
+    return why;
   return data;
 }
 

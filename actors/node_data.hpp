@@ -25,6 +25,7 @@ struct node_data {
   int64_t incarnation = 0; ///< Of the coordinator, already raised.
   std::optional<membership_record> membership; ///< Of a primary node.
   std::vector<member_record> members;          ///< Of a coordinator.
+  std::vector<transfer_row> transfers;         ///< The same; those left open.
   std::vector<instance_row> instances;
   std::vector<task_record> tasks;
   std::string token_file;

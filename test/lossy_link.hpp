@@ -24,18 +24,29 @@ struct wire_faults {
   double repeat_frame = 0;
   double cut = 0;       ///< The frame is lost and the connection with it.
   bool reorder = false; ///< Frames may overtake each other.
-  std::chrono::milliseconds longest_delay{0};
+  std::chrono::milliseconds shortest_delay{0};
+  std::chrono::milliseconds longest_delay{0}; ///< Not below `shortest_delay`.
 };
+
+/// What a test decides about one frame.
+enum class frame_fate { passed, lost, repeated, late };
+
+/// So late is a frame whose fate is `late`, and what follows it.
+constexpr std::chrono::milliseconds late_by{3000};
 
 /// One connection, shared by its two ends and the test.
 struct wire {
   std::mt19937& random;
   const wire_faults& faults;
   std::array<session_actor, 2> ends;
+  std::array<caf::actor_addr, 2> owners; ///< Invalid until there is one.
+  /// Decides about a frame that this end sends; may be empty.
+  std::function<frame_fate(size_t)> judge;
   std::array<std::chrono::steady_clock::time_point, 2> last_arrival;
   /// Nothing passes and nobody is told: a cable pulled out.
   bool silent = false;
   bool open = true;
+  bool lossy = false; ///< A frame has been lost.
   /// Frames that wait for the end of the silence, with their receivers.
   std::vector<std::pair<size_t, std::string>> held;
   size_t frames = 0;
@@ -50,9 +61,10 @@ struct wire {
   }
 
   std::chrono::milliseconds delay() {
-    const auto longest = faults.longest_delay.count();
-    return std::chrono::milliseconds{
-        longest == 0 ? 0 : static_cast<int64_t>(random() % (longest + 1))};
+    const auto spread = (faults.longest_delay - faults.shortest_delay).count();
+    return faults.shortest_delay
+           + std::chrono::milliseconds{
+               spread <= 0 ? 0 : static_cast<int64_t>(random() % (spread + 1))};
   }
 };
 
@@ -96,11 +108,12 @@ inline void end_other(self_pointer self, const std::string& reason) {
 }
 
 /// Lets one frame arrive at the other end.
-inline void pass(self_pointer self, const std::string& text) {
+inline void pass(self_pointer self, const std::string& text,
+                 std::chrono::milliseconds extra = {}) {
   auto& link = *self->state.link;
   const auto other = 1 - self->state.index;
   const auto now = self->clock().now();
-  auto when = now + link.delay();
+  auto when = now + link.delay() + extra;
   if (!link.faults.reorder)
     when = std::max(when, link.last_arrival[other]);
   link.last_arrival[other] = std::max(when, link.last_arrival[other]);
@@ -121,10 +134,14 @@ inline void send_out(self_pointer self, const std::string& text) {
     end(self, "the connection broke");
     return;
   }
-  if (link.happens(link.faults.lose_frame))
+  const auto fate =
+      link.judge ? link.judge(self->state.index) : frame_fate::passed;
+  if (fate == frame_fate::lost || link.happens(link.faults.lose_frame)) {
+    link.lossy = true;
     return;
-  pass(self, text);
-  if (link.happens(link.faults.repeat_frame))
+  }
+  pass(self, text, fate == frame_fate::late ? late_by : decltype(late_by){0});
+  if (fate == frame_fate::repeated || link.happens(link.faults.repeat_frame))
     pass(self, text);
 }
 
@@ -142,6 +159,7 @@ inline void send_out(self_pointer self, beat_kind kind) {
 inline void take_owner(self_pointer self, const session_owner_actor& owner) {
   auto& st = self->state;
   st.owner = owner;
+  st.link->owners[st.index] = owner.address();
   self->monitor(owner);
   // What a kernel does for a program that was killed.
   self->set_down_handler([self](const caf::down_msg&) {
@@ -205,11 +223,15 @@ inline void cut(wire& x) {
     caf::anon_send(end, session_closed{"the connection broke"});
 }
 
-/// Ends a silence: what was held back arrives.
+/// Ends a silence: what was held back arrives, and so does the news that the
+/// other end has gone.
 inline void heal(wire& x) {
-  x.silent = false;
+  if (!std::exchange(x.silent, false))
+    return;
   for (auto& [receiver, text] : std::exchange(x.held, {}))
     caf::anon_send(x.ends[receiver], frame_received{std::move(text)});
+  if (!x.open)
+    cut(x);
 }
 
 } // namespace roscell::test

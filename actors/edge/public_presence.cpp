@@ -4,6 +4,7 @@
 #include "actors/edge/discovery_participant.hpp"
 #include "actors/edge/herald.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <map>
 #include <random>
@@ -189,9 +190,17 @@ private:
   }
 
   void forget(const guid_prefix& who) {
-    auto entry = known_.extract(who);
-    if (entry && events_.on_gone)
-      events_.on_gone(entry.mapped());
+    const auto entry = known_.extract(who);
+    if (!entry || !events_.on_gone)
+      return;
+    // What was killed and has started again is there, though its former
+    // presence ends only now.
+    const auto& said = entry.mapped();
+    const bool lives_on =
+        std::any_of(known_.begin(), known_.end(),
+                    [&](const auto& x) { return x.second.uuid == said.uuid; });
+    if (!lives_on)
+      events_.on_gone(said);
   }
 
   presence_events events_;

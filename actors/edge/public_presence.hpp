@@ -30,9 +30,9 @@ struct presence_options {
 struct presence_events {
   /// Somebody appeared, or announces something else. Never the own one.
   std::function<void(const announcement&)> on_seen;
-  /// Somebody left or was silent for its lease; with what it said last. One
-  /// that was killed and started again is seen anew before its former presence
-  /// goes: tell them apart by `incarnation` or `epoch`.
+  /// Somebody left or was silent for its lease; with what it said last. Not
+  /// called for the former presence of one that was killed and has started
+  /// again, told by its UUID.
   std::function<void(const announcement&)> on_gone;
 };
 

@@ -199,18 +199,7 @@ fake_site::~fake_site() {
 }
 
 void fake_site::pass(std::chrono::milliseconds span) {
-  auto& clock = time.scheduler.clock();
-  const auto end = clock.now() + span;
-  for (;;) {
-    time.settle();
-    if (!clock.has_pending_timeout() || clock.schedule().begin()->first > end)
-      break;
-    const auto next = clock.schedule().begin()->first;
-    timers_fired += clock.advance_time(
-        std::max(next - clock.now(), decltype(next - next){0}));
-  }
-  clock.advance_time(end - clock.now());
-  time.settle();
+  timers_fired += time.pass(span);
 }
 
 void fake_site::start_coordinator() {

@@ -1,0 +1,210 @@
+#include "actors/edge/registration_proof.hpp"
+#include "actors/registration_order.hpp"
+#include "messages/failure.hpp"
+#include "test/site/site.hpp"
+
+#include <caf/actor_cast.hpp>
+
+#include <utility>
+
+namespace roscell::test {
+
+namespace {
+
+/// What a kernel takes to give up a host that does not answer.
+constexpr auto silence_span = 5s;
+
+// -- discovery ---------------------------------------------------------------
+
+void announce(site* place, site_party* me, const node_presence& what) {
+  me->announced = what;
+  place->spread();
+}
+
+// -- sessions ----------------------------------------------------------------
+
+/// Both sides have shaken hands.
+session_opened admit(const wire_ptr& link, const site_party& to,
+                     const open_session& wish) {
+  caf::anon_send(to.coordinator,
+                 session_admitted{link->ends[0], wish.self, wish.role});
+  return {link->ends[1], to.cell, to.name, to.cell_state().setup.incarnation};
+}
+
+void finish_connecting(site* place, site_party* me, const open_session& wish,
+                       caf::typed_response_promise<session_opened> promise) {
+  auto* to = place->find_address(wish.address);
+  const auto refuse = [promise](const char* why) {
+    auto answer = promise;
+    answer.deliver(fail(error_code::unreachable, why));
+  };
+  if (!to || !place->reachable(me->index, to->index))
+    return place->later(*me, silence_span, [refuse] { refuse("no answer"); });
+  auto link = to->coordinates ? place->connect(*me, *to) : nullptr;
+  if (!link)
+    return refuse("connection refused");
+  promise.deliver(admit(link, *to, wish));
+}
+
+caf::result<session_opened> open(caf::event_based_actor* self, site* place,
+                                 site_party* me, const open_session& wish) {
+  auto promise = self->make_response_promise<session_opened>();
+  auto* to = place->find_address(wish.address);
+  const auto fate =
+      place->decide("connect", me->index, to ? to->index : me->index);
+  auto delay = std::max(place->faults.longest_delay, 1ms);
+  if (fate == frame_fate::late)
+    delay += late_by;
+  if (fate == frame_fate::lost)
+    place->later(*me, silence_span, [promise]() mutable {
+      promise.deliver(fail(error_code::unreachable, "no answer"));
+    });
+  else
+    place->later(*me, delay,
+                 [=] { finish_connecting(place, me, wish, promise); });
+  return promise;
+}
+
+// -- REST --------------------------------------------------------------------
+
+/// Shared by all that may end a call; the first one does.
+using call_promise =
+    std::shared_ptr<caf::typed_response_promise<switch_accepted>>;
+
+template <class T>
+void end_call(const call_promise& promise, const T& outcome) {
+  if (promise->pending())
+    promise->deliver(outcome);
+}
+
+/// Carries one half of a REST call. Calls `lost` when it does not arrive.
+void carry(site* place, site_party* from, site_party* to, const char* what,
+           const std::function<void()>& arrive,
+           const std::function<void()>& lost) {
+  const auto fate = place->decide(what, from->index, to->index);
+  std::uniform_real_distribution<double> chance;
+  const bool gone =
+      fate == frame_fate::lost || !place->reachable(from->index, to->index)
+      || (place->lose_call > 0 && chance(place->random) < place->lose_call);
+  if (gone)
+    return lost();
+  const auto delay = std::max(place->faults.longest_delay, 1ms);
+  place->later(*to, fate == frame_fate::late ? delay + late_by : delay, arrive);
+  if (fate == frame_fate::repeated)
+    place->later(*to, 2 * delay, arrive);
+}
+
+/// What a caller hears of a call that is not answered.
+std::function<void()> give_up(site* place, site_party* me,
+                              const call_promise& promise) {
+  return [=] {
+    place->later(*me, silence_span, [promise] {
+      end_call(promise, fail(error_code::timeout, "no answer"));
+    });
+  };
+}
+
+template <class Reply, class Request>
+void ask_node(site* place, site_party* me, site_party* node,
+              const Request& what, const call_promise& promise,
+              const std::function<void(const Reply&)>& next) {
+  if (!node->alive())
+    return end_call(promise,
+                    fail(error_code::unreachable, "connection refused"));
+  const auto lost = give_up(place, me, promise);
+  const auto answer = [=](const std::function<void()>& work) {
+    carry(place, node, me, "reply", work, lost);
+  };
+  const auto arrive = [=] {
+    place->time.system.spawn([=](caf::event_based_actor* self) {
+      self->request(node->membership, 8s, what)
+          .then([=](const Reply& x) { answer([=] { next(x); }); },
+                [=](const caf::error& why) {
+                  answer([=] { end_call(promise, why); });
+                });
+    });
+  };
+  carry(place, me, node, "call", arrive, lost);
+  // Whatever becomes of it, the caller does not wait for ever.
+  lost();
+}
+
+caf::result<switch_accepted> switch_over(caf::event_based_actor* self,
+                                         site* place, site_party* me,
+                                         const switch_node& wish) {
+  auto* node = place->find_address(wish.address);
+  if (!node || node->coordinates)
+    return fail(error_code::unreachable, "no node is there");
+  auto reply = self->make_response_promise<switch_accepted>();
+  auto promise = std::make_shared<decltype(reply)>(reply);
+  const auto on_challenge = [=](const registration_challenge& challenge) {
+    auto order = wish.order;
+    order.epoch = challenge.epoch;
+    order.nonce = challenge.nonce;
+    order.proof = prove(order_of(order), site_token);
+    ask_node<switch_accepted>(
+        place, me, node, order, promise,
+        [=](const switch_accepted& x) { end_call(promise, x); });
+  };
+  ask_node<registration_challenge>(place, me, node, registration_query{},
+                                   promise, on_challenge);
+  return reply;
+}
+
+// -- the disk ----------------------------------------------------------------
+
+caf::result<record_stored> write(caf::event_based_actor* self, site* place,
+                                 site_party* me, const store_record& x) {
+  const auto fate = place->decide("write", me->index, me->index);
+  if (me->disk_full || fate == frame_fate::lost)
+    return fail(error_code::internal, "the disk is full");
+  auto& table = me->disk[x.table];
+  if (x.value.empty())
+    table.erase(x.key);
+  else
+    table[x.key] = x.value;
+  if (fate != frame_fate::late)
+    return record_stored{};
+  auto promise = self->make_response_promise<record_stored>();
+  place->later(*me, late_by,
+               [promise]() mutable { promise.deliver(record_stored{}); });
+  return promise;
+}
+
+resource_report measure(const site_party& me) {
+  resource_report result;
+  auto& x = result.resources;
+  x.name = me.name;
+  x.architecture = "amd64";
+  x.cpu = {4, 0.5};
+  x.memory_mib = {8192, 1024};
+  x.disk_mib = {100'000, 10'000};
+  return result;
+}
+
+} // namespace
+
+caf::behavior site_edge(caf::event_based_actor* self, site* place,
+                        site_party* me) {
+  return {
+      [=](const announce_presence& x) { announce(place, me, x.self); },
+      [=](const withdraw_presence&) { place->withdraw(*me); },
+      [=](const find_coordinator& x) {
+        me->looking_for = x.address;
+        place->look_up(*me);
+        return caf::ok_atom_v;
+      },
+      [=](const forget_coordinator&) { me->looking_for.clear(); },
+      [=](const open_session& x) { return open(self, place, me, x); },
+      [=](const switch_node& x) { return switch_over(self, place, me, x); },
+      [=](const store_record& x) { return write(self, place, me, x); },
+      [=](caf::tick_atom, uint64_t number) { place->run_work(number); },
+      [=](const resource_query&) { return measure(*me); },
+      [=](const instance_query&) { return instance_description{}; },
+      [=](const instance_removal& x) {
+        return instances_removed{{x.instance}};
+      },
+  };
+}
+
+} // namespace roscell::test

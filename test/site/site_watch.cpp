@@ -1,0 +1,193 @@
+#include "test/site/site_watch.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <iostream>
+#include <utility>
+
+namespace roscell::test {
+
+namespace {
+
+const registry_entry* row_of(const site_party& coordinator,
+                             const site_party& node) {
+  if (!coordinator.alive())
+    return nullptr;
+  return coordinator.cell_state().registry.find_uuid(node.uuid);
+}
+
+bool is_active(const site_party& coordinator, const site_party& node) {
+  const auto* row = row_of(coordinator, node);
+  return row && row->row.state == row_state::active;
+}
+
+bool believes(const site_party& node, const site_party& coordinator) {
+  if (!node.alive())
+    return false;
+  const auto& st = node.status();
+  return st.standing == node_state::member && st.cell == coordinator.cell;
+}
+
+/// Whether the two have told each other how they stand, and hear each other.
+bool are_connected(const site& place, const site_party& x,
+                   const site_party& y) {
+  if (!x.alive() || !y.alive() || !place.reachable(x.index, y.index))
+    return false;
+  const auto knows = [](const site_party& a, const site_party& b) {
+    const auto& peers = a.cell_state().peers;
+    const auto i = peers.find(b.uuid);
+    return i != peers.end() && i->second.actor && i->second.told;
+  };
+  if (!knows(x, y) || !knows(y, x))
+    return false;
+  return std::none_of(place.connections.begin(), place.connections.end(),
+                      [&](const auto& c) {
+                        const auto& [a, b] = c.parties;
+                        const bool theirs = (a == x.index && b == y.index)
+                                            || (a == y.index && b == x.index);
+                        return theirs && c.link->silent;
+                      });
+}
+
+std::string state_word(const site_party& node) {
+  return std::string{to_word(node.status().standing)} + "/"
+         + std::string{to_word(node.status().phase)} + " of '"
+         + node.status().cell + "' at epoch "
+         + std::to_string(node.status().config.identity.epoch);
+}
+
+/// One node against all registries.
+std::string node_complaint(const site& place, const site_party& node) {
+  if (!node.alive())
+    return node.name + " is dead; ";
+  const auto& st = node.status();
+  std::string result;
+  const auto add = [&](const std::string& what) {
+    result += node.name + " (" + state_word(node) + ") " + what + "; ";
+  };
+  if (st.standing != node_state::member
+      && (st.standing != node_state::independent || st.seeking))
+    add("has not come to rest");
+  for (const auto& c : place.parties) {
+    if (!c->coordinates)
+      continue;
+    const auto* row = row_of(*c, node);
+    const bool mine = believes(node, *c);
+    if (mine && (!row || row->row.state != row_state::active))
+      add("is not active at " + c->cell);
+    else if (mine && row->row.identity.epoch != st.config.identity.epoch)
+      add("has another epoch at " + c->cell);
+    else if (!mine && row)
+      add("has a row at " + c->cell + ": "
+          + std::string{to_word(row->row.state)} + " of epoch "
+          + std::to_string(row->row.identity.epoch));
+  }
+  return result;
+}
+
+std::string cell_complaint(const site& place, const site_party& x) {
+  if (!x.alive())
+    return x.name + " is dead; ";
+  std::string result;
+  const auto& st = x.cell_state();
+  for (const auto& [id, transfer] : st.transfers)
+    if (transfer.row.state != transfer_state::done
+        && transfer.row.state != transfer_state::returned)
+      result += "transfer " + id + " is "
+                + std::string{to_word(transfer.row.state)} + "; ";
+  const auto stored = x.disk.find("transfers");
+  if (stored != x.disk.end())
+    for (const auto& [id, record] : stored->second)
+      if (st.transfers.count(id) == 0)
+        result += "transfer " + id + " is forgotten and on disk; ";
+  for (const auto& y : place.parties)
+    if (y->coordinates && y->index < x.index && !are_connected(place, x, *y))
+      result += x.cell + " and " + y->cell + " are not connected; ";
+  return result;
+}
+
+} // namespace
+
+std::string complaint(const site& place) {
+  std::string result;
+  for (const auto& x : place.parties)
+    result +=
+        x->coordinates ? cell_complaint(place, *x) : node_complaint(place, *x);
+  for (const auto& request : place.requests)
+    if (!request.closed && !request.is_answered())
+      result += "no answer to " + request.text + "; ";
+  return result;
+}
+
+std::string calm_down(site& place) {
+  place.faults = {};
+  place.lose_call = 0;
+  place.judge = nullptr;
+  place.heal_all();
+  // TCP delivers in the end, or the connection breaks.
+  for (auto& c : place.connections)
+    if (c.link->lossy)
+      cut(*c.link);
+  for (auto& x : place.parties) {
+    x->disk_full = false;
+    place.start(*x);
+  }
+  // A place is kept for two minutes; whatever waits for an answer that got lost
+  // inside a session that lives has a quarter of an hour.
+  for (auto left = 18 * 60s; left > 0s && !complaint(place).empty();) {
+    const auto step = left > 14 * 60s ? 2s : 30s;
+    place.pass(step);
+    left -= step;
+  }
+  place.pass(10s);
+  return complaint(place);
+}
+
+void site_watch::measure(std::map<place_key, moment>& since,
+                         const place_key& key, bool holds, duration& longest) {
+  if (!holds) {
+    since.erase(key);
+    return;
+  }
+  const auto now = place_.time.scheduler.clock().now();
+  const auto begin = since.emplace(key, now).first->second;
+  longest =
+      std::max(longest, std::chrono::duration_cast<duration>(now - begin));
+}
+
+void site_watch::look() {
+  for (const auto& node : place_.parties) {
+    if (node->coordinates)
+      continue;
+    std::vector<const site_party*> active;
+    for (const auto& c : place_.parties) {
+      if (!c->coordinates)
+        continue;
+      const bool shown = is_active(*c, *node);
+      if (shown)
+        active.push_back(c.get());
+      measure(lies_, {c->index, node->index}, shown && !believes(*node, *c),
+              longest_lie_);
+    }
+    const bool twice =
+        active.size() > 1 && are_connected(place_, *active[0], *active[1]);
+    measure(doubles_, {node->index, 0}, twice, longest_double_);
+  }
+}
+
+void site_watch::live(duration span) {
+  for (auto left = span; left > 0ms; left -= period) {
+    place_.pass(std::min(left, period));
+    look();
+  }
+}
+
+void print_facts(const site& place) {
+  if (!std::getenv("ROSCELL_SEED"))
+    return;
+  for (const auto& x : place.facts)
+    std::cerr << x.when.count() << " ms " << x.what << " '" << x.subject << "' "
+              << x.data.dump() << '\n';
+}
+
+} // namespace roscell::test
