@@ -4,6 +4,7 @@
 #include "actors/backoff.hpp"
 #include "actors/cell_registry.hpp"
 #include "actors/house.hpp"
+#include "actors/search_guard.hpp"
 #include "actors/task_table.hpp"
 #include "messages/type_ids.hpp"
 
@@ -13,6 +14,7 @@
 #include <deque>
 #include <functional>
 #include <map>
+#include <memory>
 #include <set>
 #include <string>
 #include <vector>
@@ -43,6 +45,8 @@ struct coordinator_setup {
   scheduler_actor scheduler; ///< Places what leaves with a node.
   int64_t server_id = 0;     ///< Of the discovery server.
   bool rebalance = true;     ///< Cells are evened out.
+  /// The scheduler's; may be empty in tests.
+  std::shared_ptr<search_guard> searches;
 };
 
 /// A task request that waits for its turn to be placed.

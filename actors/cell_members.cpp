@@ -100,13 +100,23 @@ struct resource_tally {
   }
 };
 
+void stop_searches_on(const cell_coordinator_state& st,
+                      const std::string& node) {
+  if (st.setup.searches)
+    st.setup.searches->node_left(node);
+}
+
 /// Adds what deploying tasks hold on a node whose instances it has not reported
-/// yet: its own report cannot count them.
-void reserve_intents(const cell_coordinator_state& st, node_resources& node) {
+/// yet, unless its report counts them as reserved.
+void reserve_intents(const cell_coordinator_state& st,
+                     const std::vector<std::string>& counted,
+                     node_resources& node) {
+  const std::set<std::string> reserved{counted.begin(), counted.end()};
   for (const auto& [task, entry] : st.tasks.entries()) {
     const auto& record = entry.record;
     for (size_t i = 0; i < record.specs.size(); ++i)
       if (record.nodes[i] == node.name
+          && reserved.count(record.specs[i].instance) == 0
           && !st.registry.find_instance(record.specs[i].instance))
         reserve(node, record.specs[i].resources, record.specs[i].gpu);
   }
@@ -132,7 +142,7 @@ void on_report(self_pointer self, const std::string& uuid,
   if (entry && entry->row.state == row_state::active) {
     report.resources.name = entry->row.identity.name;
     entry->row.resources = report.resources;
-    reserve_intents(self->state, report.resources);
+    reserve_intents(self->state, report.reserved, report.resources);
     tally.result.nodes.push_back(std::move(report.resources));
   }
   tally.finish_one();
@@ -353,6 +363,7 @@ caf::result<node_departed> depart_member(self_pointer self,
                            now_of(self));
     publish(self, {request.uuid});
   }
+  stop_searches_on(st, name);
   st.context.tell(
       "node_left", name,
       {{"reason", request.reason}, {"size", st.registry.active_count()}});
@@ -373,6 +384,7 @@ void on_member_lost(self_pointer self, const member_lost& fact) {
   }
   st.registry.deactivate(*entry, row_state::lost, fact.reason, now_of(self));
   publish(self, {fact.uuid});
+  stop_searches_on(st, name);
   st.context.tell(
       "node_lost", name,
       {{"reason", fact.reason}, {"size", st.registry.active_count()}});

@@ -173,8 +173,12 @@ void on_presence_seen(self_pointer self, const node_presence& who) {
     return;
   const bool known = st.presences.count(who.uuid) > 0;
   st.presences[who.uuid] = who;
-  if (!is_coordinator(who))
+  if (!is_coordinator(who)) {
+    if (!known)
+      st.context.tell("node_appeared", who.name,
+                      {{"role", who.role}, {"address", who.address}});
     return on_free_node(self, who);
+  }
   if (!known)
     tell_name_conflict(self, who);
   // It has just shown that it lives.
@@ -197,6 +201,8 @@ void on_presence_gone(self_pointer self, const node_presence& who) {
     return;
   st.presences.erase(i);
   st.attempts.erase(who.uuid);
+  st.context.tell(is_coordinator(who) ? "peer_vanished" : "node_vanished",
+                  is_coordinator(who) ? who.cell : who.name);
 }
 
 void open_due_peers(self_pointer self) {
@@ -279,6 +285,9 @@ void on_peer_changed(self_pointer self, const peer_changed& fact) {
   auto* entry = find_actor(self, fact.peer);
   if (!entry || !entry->told)
     return;
+  if (entry->standing.size != fact.change.size)
+    self->state.context.tell("peer_changed", entry->standing.place.cell,
+                             {{"size", fact.change.size}});
   entry->standing.size = fact.change.size;
   for (const auto& uuid : fact.change.gone)
     entry->members.erase(uuid);

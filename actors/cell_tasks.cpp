@@ -162,6 +162,12 @@ caf::error terminated_meanwhile(const std::string& task) {
               "task '" + task + "' was terminated meanwhile", "/task");
 }
 
+caf::error node_left(const std::string& node) {
+  return fail(error_code::conflict,
+              "node '" + node + "' left while the task was being placed",
+              "/pipeline", "send the request again");
+}
+
 /// Undoes a deployment, then calls `done`.
 void roll_back(self_pointer self, const std::string& task,
                const std::string& reason, const std::function<void()>& done) {
@@ -240,6 +246,18 @@ caf::result<task_claimed> claim_turn(self_pointer self,
   return promise;
 }
 
+caf::result<agents_found> answer_agents(self_pointer self,
+                                        const find_agents& asked) {
+  agents_found reply{self->state.setup.cell, {}};
+  for (const auto& node : asked.nodes) {
+    const auto* member = self->state.registry.find_name(node);
+    if (!member || !member->agent)
+      return node_left(node);
+    reply.agents.push_back(member->agent);
+  }
+  return reply;
+}
+
 caf::result<intent_recorded> hold_resources(self_pointer self,
                                             const record_intent& intent) {
   auto& st = self->state;
@@ -250,9 +268,7 @@ caf::result<intent_recorded> hold_resources(self_pointer self,
   for (const auto& node : intent.nodes) {
     const auto* member = st.registry.find_name(node);
     if (!member || member->row.state != row_state::active)
-      return fail(error_code::conflict,
-                  "node '" + node + "' left while the task was being placed",
-                  "/pipeline", "send the request again");
+      return node_left(node);
     reply.agents.push_back(member->agent);
   }
   reply.specs = intent.specs;

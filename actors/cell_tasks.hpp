@@ -10,6 +10,8 @@ void restore_tasks(coordinator_pointer self);
 
 caf::result<task_claimed> claim_turn(coordinator_pointer self,
                                      const claim_task& request);
+caf::result<agents_found> answer_agents(coordinator_pointer self,
+                                        const find_agents& asked);
 caf::result<intent_recorded> hold_resources(coordinator_pointer self,
                                             const record_intent& intent);
 caf::result<outcome_recorded> settle_task(coordinator_pointer self,

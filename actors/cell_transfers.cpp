@@ -510,8 +510,8 @@ void settle_overdue_transfers(self_pointer self) {
                       "the transfer '" + id + "' of node '" + x.row.node
                           + "' is not settled yet",
                       "/node",
-                      "ask with a transfer_query; it resolves itself when the "
-                      "parties meet again"};
+                      "`roscell transfers` shows how it stands; it resolves "
+                      "itself when the parties meet again"};
     answer(x, &why);
   }
 }

@@ -6,6 +6,8 @@
 
 #include <caf/actor_cast.hpp>
 
+#include <algorithm>
+#include <cctype>
 #include <utility>
 
 namespace roscell {
@@ -13,6 +15,9 @@ namespace roscell {
 namespace {
 
 using self_pointer = discovery_actor::stateful_pointer<discovery_state>;
+
+/// As the schemas bound names and UUIDs.
+constexpr size_t max_name_bytes = 63;
 
 /// Whether this version can talk to who announces this. Coordinators of
 /// another version are told of as an event.
@@ -24,6 +29,38 @@ bool speaks_with(const house& context, const announcement& said) {
                  {{"protocol_version", said.protocol_version},
                   {"reason", "this node speaks version 1.0"}});
   return false;
+}
+
+bool is_name(const std::string& text) {
+  const auto is_fine = [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '_' || c == '.' || c == '-';
+  };
+  return !text.empty() && text.size() <= max_name_bytes
+         && std::isalnum(static_cast<unsigned char>(text.front())) != 0
+         && std::all_of(text.begin(), text.end(), is_fine);
+}
+
+bool is_uuid(const std::string& text) {
+  const auto is_fine = [](unsigned char c) {
+    return std::isxdigit(c) != 0 || c == '-';
+  };
+  return !text.empty() && text.size() <= max_name_bytes
+         && std::all_of(text.begin(), text.end(), is_fine);
+}
+
+/// Whether a stranger's words can be what they claim to be: they end up in
+/// replies, which have schemas.
+bool is_sound(const announcement& said) {
+  const bool coordinates = said.role == "coordinator";
+  const bool free = said.role == "independent" || said.role == "orphaned";
+  if (!coordinates && !free)
+    return false;
+  if (!is_name(said.node) || !is_uuid(said.uuid)
+      || !parse_socket_address(said.session))
+    return false;
+  return coordinates
+             ? is_name(said.cell) && parse_socket_address(said.discovery)
+             : said.cell.empty() || is_name(said.cell);
 }
 
 /// On a thread of Fast DDS: tells of the coordinator behind a server.
@@ -109,7 +146,7 @@ void appear(self_pointer self, const presence_listener_actor& listener) {
   options.announcement = st.announced;
   presence_events events;
   events.on_seen = [context = st.context, listener](const announcement& said) {
-    if (speaks_with(context, said))
+    if (is_sound(said) && speaks_with(context, said))
       caf::anon_send(listener, presence_seen{to_presence(said)});
   };
   events.on_gone = [listener](const announcement& said) {

@@ -297,6 +297,9 @@ member_actor::behavior_type member(self_pointer self, session_admitted accepted,
               report.resources.name = self->state.peer.name;
             });
       },
+      [self](const instance_reservation& x) {
+        return ask_node<instances_reserved>(self, x, resource_query_timeout);
+      },
       [self](const instance_deployment& x) {
         return ask_node<instance_deployed>(
             self, x, deployment_timeout, [self](instance_deployed& reply) {

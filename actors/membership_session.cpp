@@ -66,6 +66,9 @@ void on_request(self_pointer self, const session_inquiry& x) {
   if (type == resource_query::type)
     decode_and_forward<resource_report, resource_query>(self, x,
                                                         resource_query_timeout);
+  else if (type == instance_reservation::type)
+    decode_and_forward<instances_reserved, instance_reservation>(
+        self, x, resource_query_timeout);
   else if (type == instance_deployment::type)
     decode_and_forward<instance_deployed, instance_deployment>(
         self, x, deployment_timeout);

@@ -197,7 +197,8 @@ private:
         {"ROS_DOMAIN_ID", std::to_string(config.ros_domain_id)},
         {"ROS_DISCOVERY_SERVER", std::string(parts_.edges->server_id, ';')
                                      + parts_.edges->discovery_server}};
-    setup.scheduler = start<caf::detached>(scheduler);
+    setup.searches = std::make_shared<search_guard>();
+    setup.scheduler = start<caf::detached>(scheduler, setup.searches);
     setup.discovery = start_discovery();
     setup.connector = start_connector();
     setup.registration = start(

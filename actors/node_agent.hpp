@@ -3,6 +3,9 @@
 #include "actors/house.hpp"
 #include "messages/type_ids.hpp"
 
+#include <caf/actor_clock.hpp>
+
+#include <chrono>
 #include <map>
 #include <string>
 #include <vector>
@@ -17,11 +20,21 @@ struct node_agent_config {
   resource_probe_actor probe;
 };
 
+/// Room that is kept for an instance which is not there yet.
+struct kept_room {
+  instance_spec spec;
+  caf::actor_clock::time_point until;
+};
+
 /// Answers for the local node what a coordinator asks of it.
 struct node_agent_state {
   static constexpr const char* name = "node-agent";
 
+  /// From a reservation to its deployment only a record is written.
+  static constexpr std::chrono::minutes longest_reservation{1};
+
   node_agent_config config;
+  std::map<std::string, kept_room> kept; ///< By instance.
   uint64_t reports = 0;
 };
 

@@ -59,7 +59,7 @@ host_measured measure(self_pointer self, clock::time_point now) {
   auto& st = self->state;
   ++st.measurements;
   const auto ours = instance_usage(self);
-  auto host = st.probe->read(now);
+  auto host = st.probe->read(now, ours.pids);
   host.cpu.used =
       std::max(0.0, host.cpu.used - instance_cpu(st, now, ours.cpu_seconds));
   host.memory_mib.used = std::max(0.0, host.memory_mib.used - ours.rss_mib);

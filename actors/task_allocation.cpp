@@ -1,8 +1,11 @@
 #include "actors/task_allocation.hpp"
 
 #include "actors/allocation/allocation.hpp"
+#include "actors/allocation/alternative.hpp"
+#include "actors/allocation/use.hpp"
 #include "actors/skill_resolution.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace roscell {
@@ -41,6 +44,31 @@ allocation::deployment convert(const deployment_option& x) {
           x.labels};
 }
 
+/// Position of what a name is of; the size of the list if of none.
+template <class List, class Name>
+size_t position(const List& list, const std::string& wanted, Name name) {
+  return static_cast<size_t>(
+      std::find_if(list.begin(), list.end(),
+                   [&](const auto& x) { return name(x) == wanted; })
+      - list.begin());
+}
+
+size_t step_position(const allocate_task& asked, const std::string& id) {
+  return position(asked.steps, id, [](const auto& x) { return x.step.id; });
+}
+
+void add_exclusion(const allocate_task& asked, const excluded_candidate& x,
+                   allocation::problem& to) {
+  auto by_name = [](const auto& y) { return y.name; };
+  const auto step = step_position(asked, x.step);
+  if (step == asked.steps.size())
+    return;
+  to.excluded.push_back(
+      {step, position(asked.nodes, x.node, by_name),
+       position(asked.steps[step].model.deployments, x.deployment, by_name),
+       x.gpu, x.reason});
+}
+
 allocation::problem convert(const allocate_task& asked) {
   allocation::problem result;
   for (const auto& node : asked.nodes)
@@ -52,25 +80,42 @@ allocation::problem convert(const allocate_task& asked) {
       step.deployments.push_back(convert(option));
     result.steps.push_back(std::move(step));
   }
+  for (const auto& x : asked.excluded)
+    add_exclusion(asked, x, result);
   return result;
 }
 
 /// Puts names where the search speaks of positions.
 class plan_writer {
 public:
-  plan_writer(const allocate_task& asked, const allocation::result& found)
-      : asked_(asked), found_(found) {}
+  plan_writer(const allocate_task& asked, const allocation::result& found,
+              double alpha = allocation::problem{}.alpha)
+      : asked_(asked), found_(found), alpha_(alpha) {}
 
   task_plan plan() const {
     task_plan result;
     result.task = asked_.task;
     result.optimal = found_.optimal();
-    result.score = {found_.value.total, found_.value.balance,
-                    found_.value.load};
-    for (const auto& x : found_.placements)
-      result.allocations.push_back(describe(x));
+    result.score = score();
+    result.allocations = allocations();
     result.rejected = rejected();
     result.warnings = found_.warnings;
+    result.states = static_cast<int64_t>(found_.expanded);
+    return result;
+  }
+
+  allocation_score score() const {
+    const auto& value = found_.value;
+    return {
+        value.total,        value.balance,
+        value.load,         alpha_,
+        found_.lower_bound, std::max(0.0, value.total - found_.lower_bound)};
+  }
+
+  std::vector<step_allocation> allocations() const {
+    std::vector<step_allocation> result;
+    for (const auto& x : found_.placements)
+      result.push_back(describe(x));
     return result;
   }
 
@@ -80,13 +125,18 @@ public:
       rejected_candidate row{step(x.step).step.id,
                              asked_.nodes[x.node].name,
                              deployment(x.step, x.deployment),
-                             {}};
+                             {},
+                             {},
+                             x.gpu};
       const auto gpu =
           x.gpu < 0 ? std::string{} : "GPU " + std::to_string(x.gpu) + ": ";
-      for (const auto& reason : x.reasons)
+      for (const auto& reason : x.reasons) {
         row.reasons.push_back(
             (reason.kind == allocation::reason_kind::gpu_memory ? gpu : "")
             + reason.text);
+        row.causes.push_back({allocation::to_string(reason.kind), reason.needed,
+                              std::max(0.0, reason.free), reason.short_by});
+      }
       result.push_back(std::move(row));
     }
     return result;
@@ -114,7 +164,37 @@ private:
 
   const allocate_task& asked_;
   const allocation::result& found_;
+  double alpha_;
 };
+
+std::vector<resource_use> uses_in(const allocate_task& asked,
+                                  const allocation::problem& problem,
+                                  const allocation::result& found) {
+  std::vector<resource_use> result;
+  for (const auto& x : allocation::uses(problem, found.placements))
+    result.push_back(
+        {asked.nodes[x.node].name, x.name, x.capacity, x.before, x.after});
+  return result;
+}
+
+step_alternative alternative_to(const allocate_task& asked,
+                                const allocation::problem& problem,
+                                const allocation::result& chosen, size_t step,
+                                const allocation::limits& limits) {
+  const auto other = allocation::alternative(problem, chosen, step, limits);
+  const plan_writer writer{asked, other, problem.alpha};
+  step_alternative result;
+  result.step = asked.steps[step].step.id;
+  result.optimal = other.optimal() && chosen.optimal();
+  if (!other.has_allocation()) {
+    result.obstacle = other.message;
+    return result;
+  }
+  result.extra = other.value.total - chosen.value.total;
+  result.score = writer.score();
+  result.allocations = writer.allocations();
+  return result;
+}
 
 failure refusal(const allocate_task& asked, const allocation::result& found) {
   using allocation::outcome;
@@ -133,18 +213,30 @@ failure refusal(const allocate_task& asked, const allocation::result& found) {
 
 } // namespace
 
-std::variant<task_plan, failure> allocate(const allocate_task& asked,
-                                          std::chrono::milliseconds budget) {
+std::variant<task_plan, failure>
+allocate(const allocate_task& asked, std::chrono::milliseconds budget,
+         const std::function<bool()>& cancelled) {
+  const auto why = step_position(asked, asked.why);
+  if (!asked.why.empty() && why == asked.steps.size())
+    return failure{error_code::schema_violation,
+                   "there is no step '" + asked.why + "'", "/why",
+                   "name the id of a step of the pipeline"};
   allocation::limits limits;
   limits.budget = budget;
-  const auto found = allocation::allocate(convert(asked), limits);
+  limits.cancelled = cancelled;
+  const auto problem = convert(asked);
+  const auto found = allocation::allocate(problem, limits);
   if (!found.has_allocation())
     return refusal(asked, found);
-  return plan_writer{asked, found}.plan();
+  auto plan = plan_writer{asked, found, problem.alpha}.plan();
+  plan.use = uses_in(asked, problem, found);
+  if (!asked.why.empty())
+    plan.alternatives = {alternative_to(asked, problem, found, why, limits)};
+  return plan;
 }
 
-std::variant<task_plan, failure>
-allocate_offline(const plan_document& document) {
+std::variant<task_plan, failure> allocate_offline(const plan_document& document,
+                                                  const std::string& why) {
   std::vector<skill_row> skills;
   for (const auto& descriptor : document.skills) {
     skill_row row{{"", descriptor}, {}};
@@ -158,7 +250,9 @@ allocate_offline(const plan_document& document) {
     return std::move(*problem);
   return allocate({document.request.task,
                    std::get<std::vector<resolved_step>>(std::move(steps)),
-                   document.nodes},
+                   document.nodes,
+                   {},
+                   why},
                   offline_allocation_budget);
 }
 

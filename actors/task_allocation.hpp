@@ -5,26 +5,32 @@
 #include "messages/failure.hpp"
 
 #include <chrono>
+#include <functional>
+#include <string>
 #include <variant>
 
 namespace roscell {
 
 /// Longest search for the optimum; after it the best that was found is taken.
-constexpr std::chrono::milliseconds default_allocation_budget{2000};
+constexpr std::chrono::milliseconds default_allocation_budget{200};
 
 /// On paper there is time to find the optimum of larger cells.
 constexpr std::chrono::milliseconds offline_allocation_budget{20000};
 
-/// Runs the search of actors/allocation on messages. Errors:
-/// no_feasible_allocation with `rejected` in its details, schema_violation for
-/// numbers that make no sense.
+/// Runs the search of actors/allocation on messages, and another one for the
+/// alternative where one is asked for. `cancelled` may be empty; true ends the
+/// search with the best that was found. Errors: no_feasible_allocation with
+/// `rejected` in its details, schema_violation for numbers that make no sense
+/// and for an unknown step, timeout.
 std::variant<task_plan, failure>
 allocate(const allocate_task& asked,
-         std::chrono::milliseconds budget = default_allocation_budget);
+         std::chrono::milliseconds budget = default_allocation_budget,
+         const std::function<bool()>& cancelled = {});
 
-/// The same for a cell on paper, where every node has every skill. Errors: also
-/// those of `resolve_steps`.
-std::variant<task_plan, failure>
-allocate_offline(const plan_document& document);
+/// The same for a cell on paper, where every node has every skill. `why` is a
+/// step whose best alternative is asked for, or empty. Errors: also those of
+/// `resolve_steps`.
+std::variant<task_plan, failure> allocate_offline(const plan_document& document,
+                                                  const std::string& why = {});
 
 } // namespace roscell

@@ -4,7 +4,8 @@ add_library(roscell_internal INTERFACE)
 target_include_directories(roscell_internal INTERFACE
   $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
 target_compile_options(roscell_internal INTERFACE
-  -Wall -Wextra -Wpedantic -Wshadow=local -Wnon-virtual-dtor
+  -Wall -Wextra -Wpedantic -Wshadow=local
+  $<$<COMPILE_LANGUAGE:CXX>:-Wnon-virtual-dtor>
   # Members have defaults, so that leaving them out is meant.
   -Wno-missing-field-initializers
   $<$<BOOL:${ROSCELL_WERROR}>:-Werror>)

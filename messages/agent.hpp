@@ -1,6 +1,7 @@
 #pragma once
 
 #include "messages/introspection.hpp"
+#include "messages/reservation.hpp"
 #include "messages/session.hpp"
 
 namespace roscell {
@@ -10,6 +11,8 @@ namespace roscell {
 using node_agent_actor = introspected_actor::extend<
     // Errors: timeout, unreachable.
     caf::replies_to<resource_query>::with<resource_report>,
+    // Errors: timeout, unreachable. A refusal is no error.
+    caf::replies_to<instance_reservation>::with<instances_reserved>,
     // Replies once the instance runs. Errors: as the CONTAINER SUPERVISOR's.
     caf::replies_to<instance_deployment>::with<instance_deployed>,
     // Replies once the named instances are gone from the node.

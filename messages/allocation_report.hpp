@@ -3,6 +3,7 @@
 #include "messages/skill_descriptor.hpp"
 #include "messages/task.hpp"
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -14,11 +15,18 @@ struct allocation_score {
   double total = 0;
   double balance = 0;
   double load = 0;
+  double alpha = 0.1;
+  double lower_bound = 0; ///< No allocation has a lower total.
+  double gap = 0;         ///< How far the total is above it; 0 when optimal.
 
   static constexpr auto fields() {
-    return std::make_tuple(required("total", &allocation_score::total),
-                           required("balance", &allocation_score::balance),
-                           required("load", &allocation_score::load));
+    return std::make_tuple(
+        required("total", &allocation_score::total),
+        required("balance", &allocation_score::balance),
+        required("load", &allocation_score::load),
+        required("alpha", &allocation_score::alpha),
+        required("lower_bound", &allocation_score::lower_bound),
+        required("gap", &allocation_score::gap));
   }
 };
 
@@ -58,18 +66,94 @@ struct step_allocation {
   }
 };
 
+/// One of the reasons against a candidate, for programs. The numbers are 0
+/// where nothing is short; cores or MiB else.
+struct rejection_cause {
+  std::string kind; ///< As `allocation::reason_kind` spells it.
+  double needed = 0;
+  double free = 0;
+  double short_by = 0;
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("kind", &rejection_cause::kind),
+                           required("needed", &rejection_cause::needed),
+                           required("free", &rejection_cause::free),
+                           required("short_by", &rejection_cause::short_by));
+  }
+};
+
 struct rejected_candidate {
   std::string step;
   std::string node;
   std::string deployment;
   std::vector<std::string> reasons;
+  std::vector<rejection_cause> causes; ///< One for each of the reasons.
+  int gpu = -1;                        ///< Negative: none.
 
   static constexpr auto fields() {
     return std::make_tuple(
         required("step", &rejected_candidate::step),
         required("node", &rejected_candidate::node),
         required("deployment", &rejected_candidate::deployment),
-        required("reasons", &rejected_candidate::reasons));
+        required("reasons", &rejected_candidate::reasons),
+        optional("causes", &rejected_candidate::causes),
+        optional("gpu", &rejected_candidate::gpu));
+  }
+};
+
+/// A candidate that a search must leave out, such as one that its node refused.
+struct excluded_candidate {
+  std::string step;
+  std::string node;
+  std::string deployment;
+  int gpu = -1; ///< Negative: none.
+  std::string reason;
+
+  static constexpr auto fields() {
+    return std::make_tuple(
+        required("step", &excluded_candidate::step),
+        required("node", &excluded_candidate::node),
+        required("deployment", &excluded_candidate::deployment),
+        nullable("gpu", &excluded_candidate::gpu),
+        required("reason", &excluded_candidate::reason));
+  }
+};
+
+/// One resource of a node that hosts steps, before and after them. CPU is in
+/// cores, the others in MiB.
+struct resource_use {
+  std::string node;
+  std::string resource; ///< cpu, memory, disk, or gpu with its index: gpu_0.
+  double capacity = 0;
+  double before = 0;
+  double after = 0;
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("node", &resource_use::node),
+                           required("resource", &resource_use::resource),
+                           required("capacity", &resource_use::capacity),
+                           required("before", &resource_use::before),
+                           required("after", &resource_use::after));
+  }
+};
+
+/// The best allocation in which one step is placed otherwise.
+struct step_alternative {
+  std::string step;
+  bool optimal = true;  ///< No other alternative is better.
+  double extra = 0;     ///< What its total is above that of the plan.
+  std::string obstacle; ///< Why there is none; empty if there is one.
+  allocation_score score;
+  std::vector<step_allocation> allocations;
+
+  static constexpr auto fields() {
+    return std::make_tuple(
+        required("step", &step_alternative::step),
+        required("optimal", &step_alternative::optimal),
+        required("extra", &step_alternative::extra),
+        optional("obstacle", &step_alternative::obstacle),
+        required("score", &step_alternative::score),
+        required("allocations", &step_alternative::allocations));
   }
 };
 
@@ -81,6 +165,9 @@ struct task_plan {
   std::vector<step_allocation> allocations;
   std::vector<rejected_candidate> rejected;
   std::vector<std::string> warnings;
+  int64_t states = 0; ///< Explored by the search.
+  std::vector<resource_use> use;
+  std::vector<step_alternative> alternatives; ///< Of the step asked about.
 
   static constexpr auto fields() {
     return std::make_tuple(required("task", &task_plan::task),
@@ -88,7 +175,10 @@ struct task_plan {
                            required("score", &task_plan::score),
                            required("allocations", &task_plan::allocations),
                            required("rejected", &task_plan::rejected),
-                           optional("warnings", &task_plan::warnings));
+                           optional("warnings", &task_plan::warnings),
+                           optional("states", &task_plan::states),
+                           optional("use", &task_plan::use),
+                           optional("alternatives", &task_plan::alternatives));
   }
 };
 
@@ -100,13 +190,16 @@ struct task_accepted {
   allocation_score score;
   std::vector<step_allocation> allocations;
   std::vector<placed_instance> instances;
+  /// What nodes refused before this allocation was found.
+  std::vector<excluded_candidate> refused;
 
   static constexpr auto fields() {
     return std::make_tuple(required("task", &task_accepted::task),
                            required("optimal", &task_accepted::optimal),
                            required("score", &task_accepted::score),
                            required("allocations", &task_accepted::allocations),
-                           required("instances", &task_accepted::instances));
+                           required("instances", &task_accepted::instances),
+                           optional("refused", &task_accepted::refused));
   }
 };
 

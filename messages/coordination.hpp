@@ -5,6 +5,7 @@
 #include "messages/cell.hpp"
 #include "messages/link.hpp"
 #include "messages/membership.hpp"
+#include "messages/reservation.hpp"
 
 #include <caf/actor.hpp>
 #include <caf/actor_addr.hpp>
@@ -109,6 +110,25 @@ struct collect_resources {
   }
 };
 
+/// Asks who speaks for nodes.
+struct find_agents {
+  std::vector<std::string> nodes;
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("nodes", &find_agents::nodes));
+  }
+};
+
+struct agents_found {
+  std::string cell;
+  std::vector<node_agent_actor> agents; ///< One of each node.
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("cell", &agents_found::cell),
+                           required("agents", &agents_found::agents));
+  }
+};
+
 struct cell_resources {
   std::vector<node_resources> nodes; ///< In the order of their names.
 
@@ -137,15 +157,20 @@ struct allocate_task {
   std::string task;
   std::vector<resolved_step> steps;
   std::vector<node_resources> nodes;
+  std::vector<excluded_candidate> excluded;
+  std::string why; ///< A step whose best alternative is asked for.
 
   static constexpr auto fields() {
     return std::make_tuple(required("task", &allocate_task::task),
                            required("steps", &allocate_task::steps),
-                           required("nodes", &allocate_task::nodes));
+                           required("nodes", &allocate_task::nodes),
+                           required("excluded", &allocate_task::excluded),
+                           required("why", &allocate_task::why));
   }
 };
 
-/// The SCHEDULER. Errors: no_feasible_allocation.
+/// The SCHEDULER. Errors: no_feasible_allocation, conflict (a node has left in
+/// the middle of the search).
 using scheduler_actor =
     introspected_actor::extend<caf::replies_to<allocate_task>::with<task_plan>>;
 
@@ -237,6 +262,8 @@ using cell_coordinator_actor = introspected_actor::extend<
     // until it records an outcome or ends. Errors: task_exists, conflict.
     caf::replies_to<claim_task>::with<task_claimed>,
     caf::replies_to<collect_resources>::with<cell_resources>,
+    // Errors: conflict (a member has gone meanwhile).
+    caf::replies_to<find_agents>::with<agents_found>,
     // Errors: conflict (a member has gone meanwhile).
     caf::replies_to<record_intent>::with<intent_recorded>,
     caf::replies_to<record_outcome>::with<outcome_recorded>,

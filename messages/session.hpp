@@ -134,9 +134,12 @@ struct resource_query {
 struct resource_report {
   static constexpr const char* type = "resource_report";
   node_resources resources;
+  /// Instances that are not there yet and that `used` counts nevertheless.
+  std::vector<std::string> reserved;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("resources", &resource_report::resources));
+    return std::make_tuple(required("resources", &resource_report::resources),
+                           optional("reserved", &resource_report::reserved));
   }
 };
 

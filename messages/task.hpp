@@ -49,10 +49,17 @@ struct task_plan_query {
   static constexpr const char* type = "task_plan_query";
   std::string task;
   std::vector<task_step> pipeline;
+  std::vector<std::string> without; ///< Nodes to be thought away.
+  std::vector<node_resources>
+      with;        ///< Nodes to be thought of, with all skills.
+  std::string why; ///< A step whose best alternative is asked for.
 
   static constexpr auto fields() {
     return std::make_tuple(required("task", &task_plan_query::task),
-                           required("pipeline", &task_plan_query::pipeline));
+                           required("pipeline", &task_plan_query::pipeline),
+                           optional("without", &task_plan_query::without),
+                           optional("with", &task_plan_query::with),
+                           optional("why", &task_plan_query::why));
   }
 };
 

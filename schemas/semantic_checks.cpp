@@ -173,6 +173,21 @@ void check_plan_document(error_list& errors, const place& plan) {
   check_pipeline(errors, plan / "request");
 }
 
+/// Nodes to be thought of are as those of a plan on paper.
+void check_plan_query(error_list& errors, const place& query) {
+  check_pipeline(errors, query);
+  check_unique(errors, query / "with", "name", "a name that no other node has");
+  for (const auto& node : (query / "with").items()) {
+    check_resources(errors, node);
+    check_gpu_memory(errors, node);
+  }
+}
+
+void check_reservation(error_list& errors, const place& x) {
+  for (const auto& spec : (x / "specs").items())
+    check_streams(errors, spec);
+}
+
 void check_registration(error_list& errors, const place& x) {
   check_resources(errors, x / "resources");
   for (const auto& skill : (x / "skills").items())
@@ -207,15 +222,16 @@ void check_verdicts(error_list& errors, const place& x) {
 
 using check = void (*)(error_list&, const place&);
 
-constexpr std::array<std::pair<std::string_view, check>, 9> checks{{
+constexpr std::array<std::pair<std::string_view, check>, 10> checks{{
     {"cell_formation", check_members},
     {"instance_deployment", check_deployment},
+    {"instance_reservation", check_reservation},
     {"node_registered", check_verdicts},
     {"node_registration", check_registration},
     {"plan_document", check_plan_document},
     {"resource_report", check_reported_resources},
     {"skill_descriptor", check_descriptor},
-    {"task_plan_query", check_pipeline},
+    {"task_plan_query", check_plan_query},
     {"task_request", check_pipeline},
 }};
 

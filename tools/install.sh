@@ -21,6 +21,8 @@ if [[ "${1:-}" == --with-tests ]]; then
     # To check: format, lint and fuzzers; namespaces, HTTP and JSON in scripts.
     clang clang-format clang-tidy libclang-rt-14-dev libfuzzer-14-dev
     iproute2 nftables curl procps python3-minimal
+    # A DDS implementation that is not ours, and a look at the wire.
+    cyclonedds-dev cyclonedds-tools tcpdump
   )
 fi
 if [[ "${1:-}" == --with-tests || "${1:-}" == --containers ]]; then

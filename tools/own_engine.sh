@@ -3,8 +3,10 @@
 # touched. To be sourced by a script that sets
 #   engine_dir   a folder that may go afterwards
 #   base_tar     file that keeps the root file system of the base image
+# $engine_inside may hold a command prefix such as `nsenter --net=FILE`.
 
 engine_socket=$engine_dir.sock
+engine_inside=()
 engine_deadline_s=${ROSCELL_DEADLINE_S:-60}
 
 # Why there can be no engine here, in $engine_dir.reason, and false.
@@ -35,7 +37,7 @@ launch_engine() {
   local daemon
   rm -f "$engine_socket"
   # No job of whoever starts it: it outlives the test that does.
-  daemon=$(setsid dockerd --data-root "$engine_dir/root" \
+  daemon=$(setsid "${engine_inside[@]}" dockerd --data-root "$engine_dir/root" \
     --exec-root "$engine_dir/exec" -p "$engine_dir/pid" \
     -H "unix://$engine_socket" --bridge=none --iptables=false \
     --ip6tables=false "$@" > "$engine_dir/log" 2>&1 < /dev/null & echo $!)

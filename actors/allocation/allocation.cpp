@@ -4,6 +4,8 @@
 #include "actors/allocation/explain.hpp"
 #include "actors/allocation/feasibility.hpp"
 #include "actors/allocation/first_guess.hpp"
+#include "actors/allocation/group_search.hpp"
+#include "actors/allocation/groups.hpp"
 #include "actors/allocation/lower_bound.hpp"
 #include "actors/allocation/search.hpp"
 #include "actors/allocation/validate.hpp"
@@ -20,6 +22,18 @@ namespace roscell::allocation {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Bounds the memory and the time that groups take: some 50 ms.
+constexpr std::size_t most_groups = 400'000;
+
+/// About 50 ns of work each, so that the lists of the bound take a tenth of the
+/// budget at most, and never more than 0.2 s.
+std::size_t row_work(const watch& until) {
+  constexpr std::size_t most = 4'000'000;
+  constexpr std::size_t per_ms = 2'000;
+  const auto budget = static_cast<std::size_t>(until.budget().count());
+  return budget == 0 ? most : std::min(most, budget * per_ms);
+}
 
 void refuse(const search_space& space, std::vector<std::size_t> conflict,
             result& answer) {
@@ -58,18 +72,50 @@ std::optional<assignment> first_assignment(const search_space& space,
   return std::nullopt;
 }
 
-void optimise(const search_space& space, const assignment& start, watch& until,
+/// Runs one of the two searches, and tells what it has found.
+template <class Search>
+void conclude(const search_space& space, Search run, const watch& until,
               result& answer) {
-  lower_bound bound(space.asked, space.candidates, space.empty);
-  search run(space, bound, start, until);
   run.minimise();
   if (!until.stopped())
     run.settle_tie();
   auto scratch = space.empty;
   answer.value = evaluate(space, run.best(), scratch).value_or(score{});
   answer.placements = placements(space, run.best());
-  answer.what = until.stopped() ? outcome::best_found : outcome::optimal;
   answer.lower_bound = until.stopped() ? run.proven() : answer.value.total;
+}
+
+/// False where there are too many steps or groups for it.
+bool optimise_groups(const search_space& space, const assignment& start,
+                     watch& until, result& answer) {
+  if (space.steps() > most_grouped_steps)
+    return false;
+  lower_bound bound(space.asked, space.candidates, space.empty, 1);
+  std::vector<double> least_cost;
+  for (std::size_t i = 0; i < space.steps(); ++i)
+    least_cost.push_back(bound.least_cost(i));
+  auto scratch = space.empty;
+  auto total = evaluate(space, start, scratch).value_or(score{}).total;
+  // Ties must be among the groups, whatever rounding does to the sums.
+  auto groups =
+      find_groups(space, least_cost, total + 1e-9, most_groups, until);
+  if (!groups)
+    return false;
+  auto least = std::accumulate(least_cost.begin(), least_cost.end(), 0.0)
+               / static_cast<double>(space.steps());
+  conclude(space, group_search(space, *groups, start, least, until), until,
+           answer);
+  return true;
+}
+
+void optimise(const search_space& space, const assignment& start, watch& until,
+              result& answer) {
+  if (!optimise_groups(space, start, until, answer)) {
+    lower_bound bound(space.asked, space.candidates, space.empty,
+                      until.stopped() ? 1 : row_work(until));
+    conclude(space, search(space, bound, start, until), until, answer);
+  }
+  answer.what = until.stopped() ? outcome::best_found : outcome::optimal;
   if (until.stopped())
     answer.message = "the search was stopped before it was proven that no "
                      "allocation is better";

@@ -31,6 +31,12 @@ struct search_space {
   const deployment& way(std::size_t step, const candidate& choice) const {
     return asked.steps[step].deployments[choice.deployment];
   }
+  /// Whether an idle equal node comes before this one. Taking that instead
+  /// gives the same total to the last bit, and an earlier assignment.
+  bool has_idle_twin(const candidate& choice, const occupancy& now) const {
+    auto twin = candidates.twins[choice.node];
+    return twin >= 0 && !now.hosts(static_cast<std::size_t>(twin));
+  }
   /// Variance and bonus of a step at a candidate, given what precedes it.
   double cost(std::size_t step, const candidate& choice,
               const shares& all) const {

@@ -108,13 +108,6 @@ private:
   std::vector<std::tuple<std::size_t, std::uint32_t, std::int32_t>> ways_;
 };
 
-} // namespace
-
-candidate_set find_candidates(const problem& asked,
-                              std::vector<rejected_candidate>& rejected) {
-  return finder(asked, rejected).run();
-}
-
 std::vector<std::ptrdiff_t> find_twins(const problem& asked,
                                        const candidate_set& candidates) {
   std::vector<std::ptrdiff_t> twins;
@@ -126,6 +119,15 @@ std::vector<std::ptrdiff_t> find_twins(const problem& asked,
     known->second = here;
   }
   return twins;
+}
+
+} // namespace
+
+candidate_set find_candidates(const problem& asked,
+                              std::vector<rejected_candidate>& rejected) {
+  auto found = finder(asked, rejected).run();
+  found.twins = find_twins(asked, found);
+  return found;
 }
 
 } // namespace roscell::allocation

@@ -18,16 +18,14 @@ struct candidate_set {
   /// The candidates of step i on node v are `of[i][from[i][v]]` up to, not
   /// including, `of[i][from[i][v + 1]]`.
   std::vector<std::vector<std::uint32_t>> from;
+  /// For each node, the nearest earlier node that every step sees alike, or
+  /// -1: the same amounts, GPUs and candidates. Names and labels may differ.
+  std::vector<std::ptrdiff_t> twins;
 };
 
 /// Every candidate lands in the returned set or, with its reasons, in
 /// `rejected`.
 candidate_set find_candidates(const problem& asked,
                               std::vector<rejected_candidate>& rejected);
-
-/// For each node, the nearest earlier node that every step sees alike, or -1:
-/// the same amounts, GPUs and candidates. Names and labels may differ.
-std::vector<std::ptrdiff_t> find_twins(const problem& asked,
-                                       const candidate_set& candidates);
 
 } // namespace roscell::allocation

@@ -31,8 +31,7 @@ public:
   fitter(const search_space& space, std::vector<std::size_t> steps,
          std::size_t most_branches, watch& until)
       : space_(space), order_(std::move(steps)), left_(most_branches),
-        until_(until), now_(space.empty),
-        twins_(find_twins(space.asked, space.candidates)) {
+        until_(until), now_(space.empty) {
     sort_steps();
     sum_up_least();
     sum_up_free();
@@ -112,12 +111,6 @@ private:
     return true;
   }
 
-  /// An idle equal node comes before this one, which is then idle as well.
-  bool skips(const candidate& choice) const {
-    auto twin = twins_[choice.node];
-    return twin >= 0 && !now_.hosts(static_cast<std::size_t>(twin));
-  }
-
   /// Equal steps take their candidates in order, since swapping two of them
   /// changes nothing.
   std::size_t first_choice(std::size_t position, const assignment& found) {
@@ -135,7 +128,7 @@ private:
     auto step = order_[position];
     const auto& list = space_.candidates.of[step];
     for (auto c = first_choice(position, found); c < list.size(); ++c) {
-      if (skips(list[c]))
+      if (space_.has_idle_twin(list[c], now_))
         continue;
       auto tried = place_one(position, list[c], found, c);
       if (tried != verdict::impossible)
@@ -171,7 +164,6 @@ private:
   std::size_t left_;
   watch& until_;
   occupancy now_;
-  std::vector<std::ptrdiff_t> twins_;
   std::vector<std::size_t> class_;
   std::vector<amounts> least_;
   amounts free_{};

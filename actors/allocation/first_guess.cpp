@@ -22,25 +22,46 @@ double tried(const search_space& space, occupancy& now, double sum,
   return value.total;
 }
 
-/// The best move of one step, made if it helps.
-bool move_one(const search_space& space, assignment& guess, double& total,
-              occupancy& scratch, watch& until) {
-  auto best = guess;
-  auto before = total;
-  for (std::size_t i = 0; i < guess.size(); ++i) {
-    auto trial = guess;
-    for (trial[i] = 0; trial[i] < space.candidates.of[i].size(); ++trial[i]) {
-      if (until.must_stop())
-        return false;
-      auto value = evaluate(space, trial, scratch);
-      if (value && value->total < total) {
-        total = value->total;
-        best = trial;
-      }
+/// The nodes of a guess, by how many steps are on them.
+class crowd {
+public:
+  crowd(const search_space& space, const assignment& guess)
+      : steps_(space.asked.nodes.size()) {
+    for (std::size_t i = 0; i < guess.size(); ++i)
+      ++steps_[space.choice(i, guess[i]).node];
+  }
+
+  /// An equal node that is idle as well comes before this one.
+  bool repeats(const search_space& space, std::uint32_t node) const {
+    auto twin = space.candidates.twins[node];
+    return twin >= 0 && steps_[node] == 0
+           && steps_[static_cast<std::size_t>(twin)] == 0;
+  }
+
+private:
+  std::vector<std::size_t> steps_;
+};
+
+/// Moves one step to where the total is least. False when it stays.
+bool move_step(const search_space& space, std::size_t step, assignment& guess,
+               double& total, occupancy& scratch, watch& until) {
+  const crowd now(space, guess);
+  const auto before = guess[step];
+  auto best = before;
+  for (std::size_t c = 0; c < space.candidates.of[step].size(); ++c) {
+    if (c == before || now.repeats(space, space.choice(step, c).node))
+      continue;
+    if (until.must_stop())
+      break;
+    guess[step] = c;
+    auto value = evaluate(space, guess, scratch);
+    if (value && value->total < total) {
+      total = value->total;
+      best = c;
     }
   }
-  guess = best;
-  return total < before;
+  guess[step] = best;
+  return best != before;
 }
 
 } // namespace
@@ -54,6 +75,8 @@ std::optional<assignment> greedy(const search_space& space) {
     auto least = infinity;
     std::size_t best = 0;
     for (std::size_t c = 0; c < list.size(); ++c) {
+      if (space.has_idle_twin(list[c], now))
+        continue;
       auto total = tried(space, now, sum, i, list[c]);
       if (total < least) {
         least = total;
@@ -74,8 +97,12 @@ assignment improved(const search_space& space, assignment guess, watch& until) {
   auto scratch = space.empty;
   auto start = evaluate(space, guess, scratch);
   auto total = start.value_or(score{infinity, 0, 0}).total;
-  while (move_one(space, guess, total, scratch, until)) {
-  }
+  // Done once every step in a row has stayed.
+  std::size_t stayed = 0;
+  for (std::size_t i = 0; stayed < guess.size() && !until.stopped(); ++i)
+    stayed = move_step(space, i % guess.size(), guess, total, scratch, until)
+                 ? 0
+                 : stayed + 1;
   return guess;
 }
 

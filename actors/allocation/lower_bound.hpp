@@ -27,6 +27,11 @@ public:
   double balance(const occupancy& now, std::size_t depth,
                  std::size_t first) const;
 
+  /// What a step costs at least in any allocation.
+  double least_cost(std::size_t step) const {
+    return step_cost(empty_, 0, step);
+  }
+
   /// The least load variance that the open steps can lead to.
   double load(const occupancy& now, std::size_t depth) const;
 

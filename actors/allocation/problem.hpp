@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <functional>
 #include <map>
 #include <set>
@@ -66,10 +67,23 @@ struct step {
   std::set<std::string> nodes_with_skill;
 };
 
+/// A candidate that may not be taken. `node` and `deployment` are positions in
+/// the problem, `gpu` is the index the node gives its GPU, or -1.
+struct exclusion {
+  std::size_t step = 0;
+  std::size_t node = 0;
+  std::size_t deployment = 0;
+  int gpu = -1;
+  /// A sentence for people.
+  std::string reason;
+};
+
 struct problem {
   std::vector<node> nodes;
   /// In the order of the request, which the fractions depend on.
   std::vector<step> steps;
+  /// Those of other candidates have no effect.
+  std::vector<exclusion> excluded;
   /// Weight of the load term of equation (1).
   double alpha = 0.1;
   /// The paper's beta, added for each step that runs on a GPU.

@@ -98,9 +98,22 @@ void check_amounts(reason_list& to, const node& host, const deployment& way,
     add_shortage(to, gpu_memory, all.of[gpu_memory]);
 }
 
-const char* const names[] = {"skill",      "architecture", "label",  "device",
-                             "gpu",        "cpu",          "memory", "disk",
-                             "gpu_memory", "combination"};
+int index_of(const problem& asked, const candidate& choice) {
+  return choice.gpu < 0 ? -1 : asked.nodes[choice.node].gpus[choice.gpu].index;
+}
+
+void check_exclusions(reason_list& to, const problem& asked, std::size_t step,
+                      const candidate& choice) {
+  for (const auto& one : asked.excluded)
+    if (one.step == step && one.node == choice.node
+        && one.deployment == choice.deployment
+        && one.gpu == index_of(asked, choice))
+      add(to, reason_kind::excluded, one.reason);
+}
+
+const char* const names[] = {"skill",      "architecture", "label",   "device",
+                             "gpu",        "cpu",          "memory",  "disk",
+                             "gpu_memory", "combination",  "excluded"};
 
 } // namespace
 
@@ -129,15 +142,15 @@ std::vector<reason> reasons_against(const problem& asked, const occupancy& now,
   std::vector<reason> found;
   check_kind(found, host, asked.steps[step], way, choice);
   check_amounts(found, host, way, now.shares_of(way, choice));
+  check_exclusions(found, asked, step, choice);
   return found;
 }
 
 rejected_candidate rejection(const problem& asked, std::size_t step,
                              const candidate& choice,
                              std::vector<reason> reasons) {
-  const auto& gpus = asked.nodes[choice.node].gpus;
-  return {step, choice.node, choice.deployment,
-          choice.gpu < 0 ? -1 : gpus[choice.gpu].index, std::move(reasons)};
+  return {step, choice.node, choice.deployment, index_of(asked, choice),
+          std::move(reasons)};
 }
 
 } // namespace roscell::allocation

@@ -47,6 +47,7 @@ enum class reason_kind {
   disk,         ///< Too little disk is free.
   gpu_memory,   ///< Too little memory is free on the GPU.
   combination,  ///< It fits alone, but the steps do not fit together.
+  excluded,     ///< The problem says that it may not be taken.
 };
 
 /// The word for a kind of reason, as it is spelled above.

@@ -15,7 +15,6 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 search::search(const search_space& space, const lower_bound& bound,
                const assignment& start, watch& until)
     : space_(space), bound_(bound), until_(until), now_(space.empty),
-      twins_(find_twins(space.asked, space.candidates)),
       branches_(space.steps()), current_(space.steps()), best_(start) {
   auto value = evaluate(space, start, now_);
   best_total_ = value.value_or(score{infinity, 0, 0}).total;
@@ -49,14 +48,6 @@ bool search::prunes(double bound) const {
   return bound > best_total_ + tie_width * (1 + scale);
 }
 
-/// An idle equal node comes before this one: taking it would give the same
-/// total and an earlier assignment. This node is then idle as well, since of
-/// equal nodes the first are used first.
-bool search::skips(const candidate& choice) const {
-  auto twin = twins_[choice.node];
-  return twin >= 0 && !now_.hosts(static_cast<std::size_t>(twin));
-}
-
 void search::visit(std::size_t depth, double sum) {
   if (depth == space_.steps()) {
     reach_end(sum);
@@ -76,7 +67,7 @@ void search::list_branches(std::size_t depth, double sum) {
   const auto& list = space_.candidates.of[depth];
   for (std::size_t c = 0; c < list.size(); ++c) {
     auto all = now_.shares_of(space_.way(depth, list[c]), list[c]);
-    if (!all.fit() || skips(list[c]))
+    if (!all.fit() || space_.has_idle_twin(list[c], now_))
       continue;
     auto with = sum + space_.cost(depth, list[c], all);
     auto bound = total_at_least(with + rest, load);

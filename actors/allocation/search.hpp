@@ -46,7 +46,6 @@ private:
   void visit_branches(std::size_t depth);
   void list_branches(std::size_t depth, double sum);
   void reach_end(double sum);
-  bool skips(const candidate& choice) const;
   bool prunes(double bound) const;
   double total_at_least(double sum, double load) const;
 
@@ -54,7 +53,6 @@ private:
   const lower_bound& bound_;
   watch& until_;
   occupancy now_;
-  std::vector<std::ptrdiff_t> twins_;
   std::vector<std::vector<branch>> branches_; // per depth
   assignment current_;
   assignment best_;

@@ -1,10 +1,9 @@
 #include "actors/allocation/text.hpp"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
-#include <cstdlib>
-#include <iomanip>
-#include <sstream>
 
 namespace roscell::allocation {
 
@@ -13,15 +12,22 @@ namespace {
 /// Nine decimals show every shortage, since less than 1e-9 is none.
 constexpr int most_decimals = 9;
 
+/// The largest double has 309 digits before the point.
+constexpr std::size_t longest = 330;
+
 /// The fewest decimals, from `least` on, that still tell the number apart.
 std::string decimal(double number, int least) {
+  std::array<char, longest> text{};
   for (int decimals = least;; ++decimals) {
-    std::ostringstream out;
-    out << std::fixed << std::setprecision(decimals) << number;
-    auto lost = std::abs(std::strtod(out.str().c_str(), nullptr) - number);
+    char* end = std::to_chars(text.data(), text.data() + text.size(), number,
+                              std::chars_format::fixed, decimals)
+                    .ptr;
+    double read = 0;
+    std::from_chars(text.data(), end, read);
+    auto lost = std::abs(read - number);
     if (decimals == most_decimals
         || lost <= 1e-10 * std::max(1.0, std::abs(number)))
-      return out.str();
+      return {text.data(), end};
   }
 }
 

@@ -24,6 +24,10 @@ public:
     return stopped_;
   }
 
+  /// 0 means no limit.
+  std::chrono::milliseconds budget() const {
+    return given_.budget;
+  }
   bool stopped() const {
     return stopped_;
   }

@@ -3,8 +3,11 @@
 #include "messages/resources.hpp"
 
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
+
+#include <sys/types.h>
 
 namespace roscell {
 
@@ -20,10 +23,11 @@ public:
   gpu_probe(const gpu_probe&) = delete;
   gpu_probe& operator=(const gpu_probe&) = delete;
 
-  /// The GPUs by index; memory in MiB, what anybody uses of it counts as used.
-  /// None without the library or its driver, which is no error. A GPU that
-  /// does not answer is left out.
-  std::vector<gpu_resources> read();
+  /// The GPUs by index; memory in MiB. What anybody uses of it counts as used,
+  /// but for the processes of `own`, as far as the driver tells of them. None
+  /// without the library or its driver, which is no error. A GPU that does not
+  /// answer is left out.
+  std::vector<gpu_resources> read(const std::set<pid_t>& own = {});
 
 private:
   class nvml;

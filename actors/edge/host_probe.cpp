@@ -144,7 +144,8 @@ std::optional<double> host_probe::cpu_used(clock::time_point now) {
   return std::max(0.0, (*busy - base->busy_seconds) / span.count());
 }
 
-host_resources host_probe::read(clock::time_point now) {
+host_resources host_probe::read(clock::time_point now,
+                                const std::set<pid_t>& own) {
   host_resources result;
   utsname system{};
   if (uname(&system) == 0)
@@ -154,7 +155,7 @@ host_resources host_probe::read(clock::time_point now) {
   result.cpu.used = cpu_used(now).value_or(0);
   result.memory_mib = memory();
   result.disk_mib = disk();
-  result.gpus = gpus(result.unified_memory);
+  result.gpus = gpus(result.unified_memory, own);
   result.devices = devices();
   capacity_bound affinity;
   auto cores =
@@ -237,12 +238,13 @@ std::vector<std::string> host_probe::devices() const {
   return result;
 }
 
-std::vector<gpu_resources> host_probe::gpus(bool unified_memory) {
+std::vector<gpu_resources> host_probe::gpus(bool unified_memory,
+                                            const std::set<pid_t>& own) {
   // A Jetson has one GPU and no memory of its own; its NVML, where there is
   // one, says nothing more.
   if (unified_memory)
     return {gpu_resources{}};
-  return gpu_probe_.read();
+  return gpu_probe_.read(own);
 }
 
 } // namespace roscell

@@ -59,8 +59,9 @@ public:
   /// `min_sample_age`.
   std::optional<double> cpu_used(clock::time_point now);
 
-  /// Everything; `cpu.used` as by `cpu_used`, 0 when that gives none.
-  host_resources read(clock::time_point now);
+  /// Everything; `cpu.used` as by `cpu_used`, 0 when that gives none. GPU
+  /// memory leaves out the processes of `own`.
+  host_resources read(clock::time_point now, const std::set<pid_t>& own = {});
 
 private:
   struct cpu_sample {
@@ -73,7 +74,8 @@ private:
   amount memory() const;
   amount disk() const;
   std::vector<std::string> devices() const;
-  std::vector<gpu_resources> gpus(bool unified_memory);
+  std::vector<gpu_resources> gpus(bool unified_memory,
+                                  const std::set<pid_t>& own);
 
   host_probe_options options_;
   gpu_probe gpu_probe_;

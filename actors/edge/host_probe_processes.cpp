@@ -51,13 +51,16 @@ process_usage usage_of_sessions(const std::set<pid_t>& sessions,
   std::error_code ec;
   for (std::filesystem::directory_iterator i{root + "/proc", ec}, end;
        !ec && i != end; i.increment(ec)) {
-    if (!to_number(i->path().filename().native()))
+    const auto pid = to_number(i->path().filename().native());
+    if (!pid)
       continue;
     stat_fields fields{};
     auto text = read_file(i->path().native() + "/stat", 1024);
     if (text && read_fields(*text, fields)
-        && sessions.count(static_cast<pid_t>(fields[6])) != 0)
+        && sessions.count(static_cast<pid_t>(fields[6])) != 0) {
       add(fields, result);
+      result.pids.insert(static_cast<pid_t>(*pid));
+    }
   }
   return result;
 }

@@ -12,6 +12,7 @@ struct process_usage {
   double cpu_seconds = 0; ///< User and system time, waited-for children too.
   double rss_mib = 0;     ///< Resident; pages they share count more than once.
   int processes = 0;
+  std::set<pid_t> pids;
 };
 
 /// The use of all processes whose session leader is in `sessions`, from one

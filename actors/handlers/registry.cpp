@@ -34,7 +34,7 @@ void add_cell_requests(request_registry& registry) {
   registry.add(start_with("claim_task", claim)
                    .then("resolve_skills", resolve_skills)
                    .then("collect_resources", collect)
-                   .then("allocate", place)
+                   .then("reserve", place_with_room)
                    .then("record_intent", record_plan)
                    .then("deploy", deploy)
                    .then("record_outcome", record_result));

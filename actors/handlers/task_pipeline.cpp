@@ -3,6 +3,7 @@
 #include "actors/handlers/instance_specs.hpp"
 #include "actors/skill_resolution.hpp"
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -12,9 +13,6 @@ namespace {
 
 /// Longest wait for the turn: that of a few requests before this one.
 constexpr std::chrono::seconds turn_timeout{60};
-
-/// The search has a budget of its own, so this is never reached.
-constexpr std::chrono::seconds search_timeout{60};
 
 /// Longest wait until an instance runs: an image may have to be built.
 constexpr std::chrono::minutes deployment_timeout{13};
@@ -26,6 +24,42 @@ std::string text_of(const task_request& request) {
   return message_json(request).dump();
 }
 
+bool has_node(const std::vector<node_resources>& nodes,
+              const std::string& name) {
+  return std::any_of(nodes.begin(), nodes.end(),
+                     [&](const auto& x) { return x.name == name; });
+}
+
+/// Takes nodes away and adds others, with every skill, in the order of names.
+std::optional<failure> think_otherwise(const what_if& other,
+                                       resourced_task& known) {
+  auto& nodes = known.nodes;
+  for (size_t i = 0; i < other.without.size(); ++i) {
+    if (!has_node(nodes, other.without[i]))
+      return failure{error_code::unknown_node,
+                     "no active node is named '" + other.without[i] + "'",
+                     "/without/" + std::to_string(i),
+                     "`roscell nodes` lists them"};
+    nodes.erase(std::remove_if(
+                    nodes.begin(), nodes.end(),
+                    [&](const auto& x) { return x.name == other.without[i]; }),
+                nodes.end());
+  }
+  for (size_t i = 0; i < other.with.size(); ++i) {
+    if (has_node(nodes, other.with[i].name))
+      return failure{error_code::conflict,
+                     "the cell has a node '" + other.with[i].name + "'",
+                     "/with/" + std::to_string(i) + "/name",
+                     "give it another name, or think the other one away"};
+    nodes.push_back(other.with[i]);
+    for (auto& step : known.steps)
+      step.nodes.push_back(other.with[i].name);
+  }
+  std::sort(nodes.begin(), nodes.end(),
+            [](const auto& x, const auto& y) { return x.name < y.name; });
+  return std::nullopt;
+}
+
 } // namespace
 
 void claim(const request_context& context, task_request request,
@@ -35,7 +69,7 @@ void claim(const request_context& context, task_request request,
                     std::move(wish), done,
                     [done, request](const task_claimed& claimed) {
                       if (claimed.accepted.empty())
-                        done.deliver({request});
+                        done.deliver({request, {}});
                       else
                         done.conclude(json::parse(claimed.accepted));
                     });
@@ -43,7 +77,9 @@ void claim(const request_context& context, task_request request,
 
 void adopt_plan_query(const request_context&, task_plan_query query,
                       outcome<claimed_task> done) {
-  done.deliver({{std::move(query.task), std::move(query.pipeline)}});
+  done.deliver({{std::move(query.task), std::move(query.pipeline)},
+                {std::move(query.without), std::move(query.with),
+                 std::move(query.why)}});
 }
 
 void resolve_skills(const request_context& context, claimed_task task,
@@ -55,24 +91,34 @@ void resolve_skills(const request_context& context, claimed_task task,
         if (auto* why = std::get_if<failure>(&steps))
           done.fail(std::move(*why));
         else
-          done.deliver({task.request, std::get<std::vector<resolved_step>>(
-                                          std::move(steps))});
+          done.deliver({task.request,
+                        std::get<std::vector<resolved_step>>(std::move(steps)),
+                        task.other});
       });
 }
 
 void collect(const request_context& context, resolved_task task,
              outcome<resourced_task> done) {
-  ask<cell_resources>(
-      context, context.services->coordinator, local_timeout,
-      collect_resources{}, done,
-      [done, task = std::move(task)](cell_resources cell) {
-        done.deliver({task.request, task.steps, std::move(cell.nodes)});
-      });
+  ask<cell_resources>(context, context.services->coordinator, local_timeout,
+                      collect_resources{}, done,
+                      [done, task = std::move(task)](cell_resources cell) {
+                        resourced_task known{task.request, task.steps,
+                                             std::move(cell.nodes),
+                                             task.other.why};
+                        if (auto why = think_otherwise(task.other, known))
+                          done.fail(std::move(*why));
+                        else
+                          done.deliver(std::move(known));
+                      });
 }
 
 void place(const request_context& context, resourced_task task,
            outcome<allocated_task> done) {
-  allocate_task question{task.request.task, task.steps, std::move(task.nodes)};
+  allocate_task question{task.request.task,
+                         task.steps,
+                         std::move(task.nodes),
+                         {},
+                         std::move(task.why)};
   ask<task_plan>(context, context.services->scheduler, search_timeout,
                  std::move(question), done,
                  [done, request = std::move(task.request),
@@ -86,14 +132,16 @@ void present_plan(const request_context&, allocated_task task,
   done.deliver(std::move(task.plan));
 }
 
-void record_plan(const request_context& context, allocated_task task,
+void record_plan(const request_context& context, reserved_task held,
                  outcome<intended_task> done) {
-  auto specs = make_specs(task);
+  const auto& task = held.task;
+  const auto& specs = held.specs;
   task_accepted reply{task.request.task,
                       task.plan.optimal,
                       task.plan.score,
                       task.plan.allocations,
-                      {}};
+                      {},
+                      held.refused};
   record_intent intent{task.request.task, text_of(task.request), specs, {}, ""};
   for (size_t i = 0; i < specs.size(); ++i) {
     const auto& node = task.plan.allocations[i].node;
@@ -106,8 +154,8 @@ void record_plan(const request_context& context, allocated_task task,
       {{"score", task.plan.score}, {"allocations", task.plan.allocations}});
   ask<intent_recorded>(
       context, context.services->coordinator, local_timeout, std::move(intent),
-      done, [done, reply](intent_recorded held) {
-        done.deliver({reply, std::move(held.specs), std::move(held.agents)});
+      done, [done, reply](intent_recorded known) {
+        done.deliver({reply, std::move(known.specs), std::move(known.agents)});
       });
 }
 

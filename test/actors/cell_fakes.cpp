@@ -99,7 +99,8 @@ caf::result<session_opened> connect(fake_site* site, fake_node* node,
 caf::result<record_stored> store(fake_node* node, const store_record& x) {
   if (node->disk_full)
     return fail(error_code::internal, "the disk is full");
-  node->identity = json::parse(x.value).get<node_identity>();
+  if (x.key == "node")
+    node->identity = json::parse(x.value).get<node_identity>();
   return record_stored{};
 }
 
@@ -139,6 +140,12 @@ caf::behavior local_parts(caf::event_based_actor* self, fake_site* site,
           self->send(node->membership, announcement(site->base));
       },
       [=](const forget_coordinator&) { node->searching = false; },
+      [](const announce_presence&) {
+        // Nobody else is on this site.
+      },
+      [](const withdraw_presence&) {
+        // The same.
+      },
       [=](const open_session& x) { return connect(site, node, x); },
       [=](const store_record& x) { return store(node, x); },
       [=](const resource_query&) {
@@ -146,6 +153,10 @@ caf::behavior local_parts(caf::event_based_actor* self, fake_site* site,
       },
       [=](const instance_query&) {
         return instance_description{node->instances};
+      },
+      [=](const instance_reservation& x) {
+        node->reservations.push_back(x);
+        return instances_reserved{{{"t-b-1", "no room"}}};
       },
       [=](const instance_deployment& x) { return deploy(self, node, x); },
       [=](caf::ok_atom) {

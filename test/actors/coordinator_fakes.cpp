@@ -14,7 +14,14 @@ resource_report report_of(const fake_agent& x) {
   auto result = x.has;
   for (const auto& [id, row] : x.running)
     reserve(result, row.spec.resources, row.spec.gpu);
-  return {result};
+  resource_report report{result, {}};
+  for (const auto& wish : x.reservations)
+    for (const auto& spec : wish.specs)
+      if (x.tells_reserved && x.running.count(spec.instance) == 0) {
+        reserve(report.resources, spec.resources, spec.gpu);
+        report.reserved.push_back(spec.instance);
+      }
+  return report;
 }
 
 void on_deployment(caf::event_based_actor* self, fake_agent* x,
@@ -48,6 +55,16 @@ void on_resource_query(caf::event_based_actor* self, fake_agent* x) {
 caf::behavior agent(caf::event_based_actor* self, fake_agent* x) {
   return {
       [=](const resource_query&) { on_resource_query(self, x); },
+      [=](const instance_reservation& wish) {
+        x->reservations.push_back(wish);
+        instances_reserved reply;
+        if (x->reluctance > 0) {
+          --x->reluctance;
+          for (const auto& spec : wish.specs)
+            reply.refused.push_back({spec.instance, "too busy now"});
+        }
+        return reply;
+      },
       [=](const instance_deployment& wish) {
         on_deployment(self, x, wish.spec);
       },
@@ -193,7 +210,8 @@ paper_cell::paper_cell(const std::vector<task_record>& tasks,
   store = time.system.spawn(disk_of, this);
   context = time.context;
   context.events = caf::actor_cast<event_log_actor>(fact_keeper);
-  planner = spawn(time.system, context, scheduler);
+  searches = std::make_shared<search_guard>();
+  planner = spawn(time.system, context, scheduler, searches);
   coordinator = spawn(time.system, context, cell_coordinator, context,
                       setup(tasks, on_base));
   base.coordinator = coordinator;
@@ -242,6 +260,7 @@ coordinator_setup paper_cell::setup(const std::vector<task_record>& tasks,
   result.supervisor = caf::actor_cast<container_supervisor_actor>(base.actor);
   result.environment = {{"ROS_DOMAIN_ID", "7"}};
   result.store = caf::actor_cast<state_store_actor>(store);
+  result.searches = searches;
   result.tasks = tasks;
   for (const auto& row : on_base)
     base.running[row.spec.instance] = row;

@@ -36,6 +36,9 @@ struct fake_agent {
   cell_coordinator_actor coordinator;
 
   std::map<std::string, instance_row> running;
+  std::vector<instance_reservation> reservations;
+  bool tells_reserved = false; ///< Its reports count what it has reserved.
+  int reluctance = 0; ///< How many reservations it refuses from now on.
   std::vector<instance_spec> deployments;
   std::vector<instance_removal> removals;
   std::vector<std::string> closed; ///< Reasons of `close_session`.
@@ -80,6 +83,7 @@ struct paper_cell {
   caf::actor fact_keeper;
   caf::actor store;
   house context;
+  std::shared_ptr<search_guard> searches;
   scheduler_actor planner;
   cell_coordinator_actor coordinator;
   request_router_actor router;

@@ -14,6 +14,16 @@ TEST_CASE_METHOD(cell_fixture, "a member is a node agent") {
     site.pass(1s);
     CHECK((*reply)->value().resources == some_resources("arm-1"));
   }
+  SECTION("for reservations") {
+    const auto spec = some_spec("t-b-1", "t");
+    auto reply = time.ask<instances_reserved>(
+        member(), instance_reservation{"t", {spec}});
+    site.pass(1s);
+    REQUIRE(node.reservations.size() == 1);
+    CHECK(node.reservations[0].specs[0] == spec);
+    REQUIRE((*reply)->value().refused.size() == 1);
+    CHECK((*reply)->value().refused[0].reason == "no room");
+  }
   SECTION("for deployments") {
     const auto spec = some_spec("t-a-1", "t");
     auto reply =

@@ -188,4 +188,110 @@ TEST_CASE_METHOD(agent_fixture,
   CHECK(ask<log_excerpt>(query)->text == "text");
 }
 
+namespace {
+
+instance_spec wanted(const std::string& instance, double cores,
+                     double gpu_memory = -1, int gpu = -1) {
+  instance_spec spec;
+  spec.instance = instance;
+  spec.task = "t";
+  spec.operation = "echo";
+  spec.resources = {cores, 100, 10, gpu_memory};
+  spec.gpu = gpu;
+  return spec;
+}
+
+} // namespace
+
+TEST_CASE_METHOD(agent_fixture, "Room that is kept is in use, and told by name",
+                 "[node_agent]") {
+  const auto reply = ask<instances_reserved>(
+      instance_reservation{"t", {wanted("t-a-1", 2), wanted("t-b-1", 1)}});
+  REQUIRE(reply);
+  CHECK(reply->refused.empty());
+  const auto now = ask<resource_report>(resource_query{});
+  CHECK(now->resources.cpu.used == Approx(0.5 + 3));
+  CHECK(now->reserved == std::vector<std::string>{"t-a-1", "t-b-1"});
+}
+
+TEST_CASE_METHOD(
+    agent_fixture,
+    "A node refuses what it has no room for and says what is short",
+    "[node_agent]") {
+  // The second fits alone, but not beside the first.
+  const auto reply = ask<instances_reserved>(instance_reservation{
+      "t", {wanted("t-a-1", 3), wanted("t-b-1", 1), wanted("t-c-1", 0.5)}});
+  REQUIRE(reply->refused.size() == 1);
+  CHECK(reply->refused[0].instance == "t-b-1");
+  CHECK(reply->refused[0].reason == "needs 1.0 cores, 0.5 free: short by 0.5");
+  CHECK(report().cpu.used == Approx(4));
+}
+
+TEST_CASE_METHOD(agent_fixture, "Two tasks never get the same room",
+                 "[node_agent]") {
+  auto first = time.ask<instances_reserved>(
+      agent, instance_reservation{"t", {wanted("t-a-1", 3)}});
+  auto other = wanted("u-a-1", 3);
+  other.task = "u";
+  auto second =
+      time.ask<instances_reserved>(agent, instance_reservation{"u", {other}});
+  time.settle();
+  CHECK((*first)->value().refused.empty());
+  CHECK((*second)->value().refused.size() == 1);
+}
+
+TEST_CASE_METHOD(agent_fixture, "A GPU that programs outside use is refused",
+                 "[node_agent]") {
+  host.gpus[0].memory_mib.used = 700;
+  auto reply = ask<instances_reserved>(instance_reservation{
+      "t",
+      {wanted("t-a-1", 1, 200, 0), wanted("t-b-1", 1, 200, 1),
+       wanted("t-c-1", 1, 200, 7)}});
+  REQUIRE(reply->refused.size() == 2);
+  CHECK(reply->refused[0].reason
+        == "needs 200 MiB of GPU memory, 100 free: short by 100");
+  CHECK(reply->refused[1].reason == "the node has no GPU 7");
+}
+
+TEST_CASE_METHOD(agent_fixture,
+                 "Room is kept until the instance is there, and counts once",
+                 "[node_agent]") {
+  ask<instances_reserved>(instance_reservation{"t", {wanted("t-a-1", 2)}});
+  add_instance("10:5", instance_state::starting);
+  instances.back().spec = wanted("t-a-1", 2);
+  CHECK(report().cpu.used == Approx(0.5 + 2));
+  instances.back().state = instance_state::failed;
+  CHECK(report().cpu.used == Approx(0.5));
+}
+
+TEST_CASE_METHOD(agent_fixture,
+                 "Room is given up by a removal, a failure, a "
+                 "repeated wish, and after a minute",
+                 "[node_agent]") {
+  const instance_reservation wish{"t", {wanted("t-a-1", 3)}};
+  SECTION("removal") {
+    ask<instances_reserved>(wish);
+    ask<instances_removed>(instance_removal{"t", ""});
+  }
+  SECTION("failure") {
+    ask<instances_reserved>(wish);
+    auto spec = wish.specs[0];
+    spec.operation = "dance";
+    CHECK_FALSE(ask<instance_deployed>(instance_deployment{spec}));
+  }
+  SECTION("repetition") {
+    ask<instances_reserved>(wish);
+    CHECK(ask<instances_reserved>(wish)->refused.empty());
+    CHECK(report().cpu.used == Approx(3.5));
+    ask<instances_reserved>(instance_reservation{"t", {}});
+  }
+  SECTION("time") {
+    ask<instances_reserved>(wish);
+    time.advance(59s);
+    CHECK(report().cpu.used == Approx(3.5));
+    time.advance(2s);
+  }
+  CHECK(report().cpu.used == Approx(0.5));
+}
+
 } // namespace roscell::test

@@ -4,6 +4,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <limits>
+
 namespace roscell::test {
 
 namespace {
@@ -175,6 +177,145 @@ TEST_CASE("Without any node nothing can be placed", "[task_allocation]") {
   const auto result = allocate_offline(parsed);
   REQUIRE(std::holds_alternative<failure>(result));
   CHECK(std::get<failure>(result).code == error_code::no_feasible_allocation);
+}
+
+TEST_CASE("A rejected candidate has its causes for programs",
+          "[task_allocation]") {
+  auto document = two_nodes();
+  document["nodes"][1]["gpus"][0]["memory_mib"]["used"] = 900;
+  const auto reply = error_reply(refusal(document));
+  for (const auto& x : reply.at("error").at("rejected")) {
+    REQUIRE(x.at("causes").size() == x.at("reasons").size());
+    if (x.at("step") != "s1" || x.at("node") != "g")
+      continue;
+    CHECK(x.at("gpu") == 1);
+    CHECK(x.at("causes")[0].at("kind") == "gpu_memory");
+    CHECK(x.at("causes")[0].at("needed") == 250);
+    CHECK(x.at("causes")[0].at("free") == 100);
+    CHECK(x.at("causes")[0].at("short_by") == 150);
+  }
+}
+
+TEST_CASE("A plan tells the use of its nodes, and its bound",
+          "[task_allocation]") {
+  const auto result = plan(two_nodes());
+  const auto& found = std::get<task_plan>(result);
+  CHECK(found.score.lower_bound == found.score.total);
+  CHECK(found.score.gap == 0);
+  CHECK(found.score.alpha == 0.1);
+  REQUIRE(found.use.size() == 3 + 4);
+  CHECK(found.use[0] == resource_use{"a", "cpu", 4, 0, 1});
+  CHECK(found.use[6] == resource_use{"g", "gpu_1", 1000, 500, 750});
+  CHECK_FALSE(validate_message(message_json(found)));
+}
+
+TEST_CASE("The alternative of a step that can be nowhere else is an obstacle",
+          "[task_allocation]") {
+  const auto document =
+      std::get<plan_document>(decode<plan_document>(two_nodes()));
+  const auto result = allocate_offline(document, "s1");
+  REQUIRE(std::holds_alternative<task_plan>(result));
+  const auto& found = std::get<task_plan>(result);
+  REQUIRE(found.alternatives.size() == 1);
+  CHECK(found.alternatives[0].step == "s1");
+  CHECK(found.alternatives[0].allocations.empty());
+  CHECK(found.alternatives[0].obstacle == "step 's1' fits on no node");
+  CHECK_FALSE(validate_message(message_json(found)));
+  const auto unknown = allocate_offline(document, "s9");
+  CHECK(std::get<failure>(unknown).where == "/why");
+}
+
+namespace {
+
+/// Where the schema finds fault, and what it says.
+failure schema_refusal(const json& document) {
+  const auto why = validate_document("plan_document", document);
+  REQUIRE(why);
+  return *why;
+}
+
+} // namespace
+
+TEST_CASE("Bad resources and names on paper are refused by their place",
+          "[task_allocation]") {
+  auto document = two_nodes();
+  SECTION("negative") {
+    document["nodes"][0]["cpu"]["used"] = -1;
+    CHECK(schema_refusal(document).where == "/nodes/0/cpu/used");
+  }
+  SECTION("absurdly large") {
+    document["nodes"][1]["memory_mib"]["capacity"] = 1e15;
+    CHECK(schema_refusal(document).where == "/nodes/1/memory_mib/capacity");
+  }
+  SECTION("not a number") {
+    // JSON has neither NaN nor infinity; a library writes null for them.
+    document["nodes"][0]["cpu"]["capacity"] = nullptr;
+    CHECK(schema_refusal(document).where == "/nodes/0/cpu/capacity");
+  }
+  SECTION("a node twice") {
+    document["nodes"][1]["name"] = "a";
+    CHECK(schema_refusal(document).where == "/nodes/1/name");
+  }
+  SECTION("a step twice") {
+    document["request"]["pipeline"][1]["id"] = "s0";
+    CHECK(schema_refusal(document).where == "/request/pipeline/1/id");
+  }
+  SECTION("no step") {
+    document["request"]["pipeline"] = json::array();
+    CHECK(schema_refusal(document).where == "/request/pipeline");
+  }
+  SECTION("a GPU twice") {
+    auto& gpus = document["nodes"][1]["gpus"];
+    gpus.push_back(gpus[0]);
+    CHECK(schema_refusal(document).where == "/nodes/1/gpus/1/index");
+  }
+}
+
+TEST_CASE("10,000 steps are refused with the limit", "[task_allocation]") {
+  auto document = two_nodes();
+  auto& steps = document["request"]["pipeline"];
+  for (int i = 2; i < 10'000; ++i) {
+    steps.push_back(steps[0]);
+    steps.back()["id"] = "s" + std::to_string(i);
+  }
+  const auto why = schema_refusal(document);
+  CHECK(why.where == "/request/pipeline");
+  CHECK(why.message.find("128") != std::string::npos);
+}
+
+TEST_CASE("Numbers that no schema has seen are refused by the search",
+          "[task_allocation]") {
+  auto document = std::get<plan_document>(decode<plan_document>(two_nodes()));
+  const auto bad = GENERATE(-1.0, std::numeric_limits<double>::quiet_NaN(),
+                            std::numeric_limits<double>::infinity(), 1e300);
+  document.nodes[0].disk_mib.capacity = bad;
+  const auto result = allocate_offline(document);
+  REQUIRE(std::holds_alternative<failure>(result));
+  const auto& why = std::get<failure>(result);
+  CHECK(why.code == error_code::schema_violation);
+  CHECK(why.message.find("nodes[0].disk_mib.capacity") != std::string::npos);
+}
+
+TEST_CASE("A node that uses more than it has is full, with a warning; one "
+          "without capacity hosts nothing",
+          "[task_allocation]") {
+  auto document = two_nodes();
+  document["request"]["pipeline"].erase(1);
+  document["nodes"][0]["cpu"] = {{"capacity", 4}, {"used", 5}};
+  auto why = refusal(document);
+  CHECK(why.details.find("needs 1.0 cores, 0.0 free: short by 1.0")
+        != std::string::npos);
+  document["nodes"][0]["cpu"] = {{"capacity", 0}, {"used", 0}};
+  why = refusal(document);
+  CHECK(why.details.find("the node offers no CPU") != std::string::npos);
+
+  document["nodes"][0]["cpu"] = {{"capacity", 4}, {"used", 0}};
+  document["nodes"][0]["disk_mib"] = {{"capacity", 4}, {"used", 5}};
+  document["skills"][0]["models"][0]["deployments"][0]["resources"]
+          ["disk_mib"] = 0;
+  const auto found = plan(document);
+  REQUIRE(std::holds_alternative<task_plan>(found));
+  CHECK(std::get<task_plan>(found).warnings.size() == 1);
 }
 
 } // namespace roscell::test

@@ -9,8 +9,10 @@ namespace roscell::allocation::test {
 
 namespace {
 
-/// Bounds the size of the Cartesian product, and so the time of a case.
-constexpr double most_allocations = 20000;
+/// Bounds the size of the Cartesian product, and so the time of a case; one
+/// case in ten may be large.
+constexpr double most_allocations = 20'000;
+constexpr double most_if_large = 200'000;
 
 class generator {
 public:
@@ -19,6 +21,7 @@ public:
     grain_ = one_of({1.0, 0.5, 0.1, 0.001});
     tight_ = chance(0.3);
     picky_ = chance(0.3);
+    most_ = chance(0.1) ? most_if_large : most_allocations;
   }
 
   oracle::instance run() {
@@ -26,18 +29,18 @@ public:
       oracle::instance in;
       in.alpha = one_of({0.1, 0.1, 0.0, 1.0, 7.5});
       in.beta = one_of({-0.01, -0.01, 0.0, -0.4, 0.05});
-      auto nodes = std::max(between(1, 5), between(1, 5));
+      auto nodes = std::max(between(1, 6), between(1, 6));
       for (int v = 0; v < nodes; ++v)
         in.machines.push_back(v > 0 && chance(0.25) ? in.machines.back()
                                                     : make_machine());
-      auto tasks = std::max(between(1, 5), between(1, 5));
+      auto tasks = std::max(between(1, 6), between(1, 6));
       for (int i = 0; i < tasks; ++i)
         in.tasks.push_back(i > 0 && chance(0.2) ? in.tasks.back()
                                                 : make_task(nodes));
       double size = 1;
       for (int i = 0; i < tasks; ++i)
         size *= oracle::all_candidates(in, i);
-      if (size <= most_allocations)
+      if (size <= most_)
         return in;
     }
   }
@@ -79,7 +82,7 @@ private:
     made.cpu = make_capacity(least, most);
     made.mem = make_capacity(least, made.um ? 2 * most : most);
     made.disk = make_capacity(least, most);
-    auto gpus = chance(0.5) ? between(1, 3) : 0;
+    auto gpus = chance(0.5) ? between(1, 4) : 0;
     for (int g = 0; g < gpus; ++g)
       made.gmem.push_back(g > 0 && chance(0.5) ? made.gmem.back()
                                                : make_capacity(least, most));
@@ -121,6 +124,7 @@ private:
   double grain_ = 1;
   bool tight_ = false;
   bool picky_ = false;
+  double most_ = 0;
 };
 
 amount same(const oracle::capacity& of) {

@@ -239,6 +239,24 @@ TEST_CASE("GPUs are read through NVML, but for those that do not answer",
   }
 }
 
+TEST_CASE("what programs outside our instances use of a GPU is used",
+          "[host_probe]") {
+  fixture_root root;
+  auto options = options_for(root);
+  options.nvml_library = ROSCELL_FAKE_NVML;
+  host_probe probe{options};
+  auto used = [&](const std::set<pid_t>& own) {
+    return probe.read(start, own).gpus.at(0).memory_mib.used;
+  };
+  CHECK(used({}) == 1024);
+  CHECK(used({1}) == 1024);
+  // It computes and draws, and counts once.
+  CHECK(used({4242}) == 524);
+  CHECK(used({4242, 4243}) == 324);
+  // Its use is not known, so it counts as that of others.
+  CHECK(used({4244}) == 1024);
+}
+
 TEST_CASE("a library that is not NVML gives no GPUs", "[host_probe]") {
   CHECK(gpu_probe{"libdl.so.2"}.read().empty());
   CHECK(gpu_probe{""}.read().empty());

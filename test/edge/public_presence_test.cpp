@@ -2,8 +2,11 @@
 #include "actors/edge/site_survey.hpp"
 #include "discovery_fixture.hpp"
 
+#include <algorithm>
 #include <set>
 
+#include <arpa/inet.h>
+#include <sys/socket.h>
 #include <unistd.h>
 
 using namespace roscell;
@@ -52,6 +55,41 @@ std::unique_ptr<public_presence> must_open(const presence_options& options,
   if (auto* error = std::get_if<edge_error>(&result))
     FAIL(error->message);
   return std::get<0>(std::move(result));
+}
+
+/// What a participant of other software sends to announce the least.
+std::vector<std::uint8_t> foreign_announcement() {
+  sockaddr_in at_home{};
+  at_home.sin_family = AF_INET;
+  at_home.sin_port = htons(9);
+  at_home.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  auto bytes = probe_question(make_probe_prefix(), at_home);
+  const std::string name = probe_name;
+  auto at = std::search(bytes.begin(), bytes.end(), name.begin(), name.end());
+  REQUIRE(at != bytes.end());
+  // A name and user data are both a length and bytes: PID_USER_DATA is 0x2c.
+  // These take as much room as the name with its padding.
+  const std::string data = "roscell=1.0;x=1;";
+  at[-8] = 0x2c;
+  at[-4] = static_cast<std::uint8_t>(data.size());
+  std::copy(data.begin(), data.end(), at);
+  return bytes;
+}
+
+/// Sends a datagram over the loopback interface.
+void send_to(const char* address, std::uint16_t port,
+             const std::vector<std::uint8_t>& bytes) {
+  sockaddr_in to{};
+  to.sin_family = AF_INET;
+  to.sin_port = htons(port);
+  inet_pton(AF_INET, address, &to.sin_addr);
+  int fd = socket(AF_INET, SOCK_DGRAM, 0);
+  const in_addr loopback{htonl(INADDR_LOOPBACK)};
+  setsockopt(fd, IPPROTO_IP, IP_MULTICAST_IF, &loopback, sizeof(loopback));
+  auto sent = sendto(fd, bytes.data(), bytes.size(), 0,
+                     reinterpret_cast<const sockaddr*>(&to), sizeof(to));
+  ::close(fd);
+  CHECK(sent == static_cast<ssize_t>(bytes.size()));
 }
 
 } // namespace
@@ -134,6 +172,28 @@ TEST_CASE("a peer's address replaces multicast, in both directions",
   changed.epoch = 3;
   CHECK_FALSE(there->update(encode(changed)));
   CHECK(here_saw.wait_for("+coordinator there 3"));
+}
+
+TEST_CASE("a presence takes only what is safe, by either way", "[presence]") {
+  diary seen;
+  auto watcher = must_open(at_home(saying("coordinator", "watcher")),
+                           writing_presence_to(seen));
+  auto group = static_cast<std::uint16_t>(7400 + 250 * own_domain());
+  auto send_both = [&](const std::function<std::vector<std::uint8_t>()>& make) {
+    send_to("127.0.0.1", watcher->port(), make());
+    send_to("239.255.0.1", group, make());
+  };
+  // Fast DDS would pass over a submessage that it does not know.
+  send_both([] {
+    auto bytes = foreign_announcement();
+    bytes.insert(bytes.end(), {0x30, 1, 4, 0, 0, 0, 0, 0});
+    return bytes;
+  });
+  send_both(foreign_announcement);
+  REQUIRE(seen.wait_for("+  0", 2));
+  auto known = must_open(at_home(saying("independent", "known")));
+  REQUIRE(seen.wait_for("+independent known 0"));
+  CHECK(seen.entries().size() == 3);
 }
 
 TEST_CASE("a presence refuses options out of bounds", "[presence]") {

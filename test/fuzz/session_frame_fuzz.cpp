@@ -4,6 +4,7 @@
 #include "messages/allocation_report.hpp"
 #include "messages/cell.hpp"
 #include "messages/event.hpp"
+#include "messages/reservation.hpp"
 #include "messages/session.hpp"
 #include "messages/task.hpp"
 #include "test/fuzz/fuzz_support.hpp"
@@ -37,8 +38,8 @@ void check_message(const json& message) {
             node_registered, node_departure, node_departed, resource_query,
             resource_report, instance_deployment, instance_deployed,
             instance_removal, instances_removed, instance_changed,
-            session_hello, session_challenge, session_proof, session_accepted>(
-      message);
+            instance_reservation, instances_reserved, session_hello,
+            session_challenge, session_proof, session_accepted>(message);
 }
 
 } // namespace

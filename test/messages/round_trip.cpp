@@ -50,7 +50,8 @@ void check_valid(const std::string& schema, const json& document) {
 /// Their lists must not be empty, so they have no least form.
 bool has_least_form(const std::string& name) {
   return name != "task_request" && name != "task_plan_query"
-         && name != "skill_descriptor" && name != "plan_document";
+         && name != "skill_descriptor" && name != "plan_document"
+         && name != "cell_formation";
 }
 
 } // namespace

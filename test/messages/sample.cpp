@@ -29,6 +29,9 @@ constexpr std::pair<std::string_view, std::string_view> forms[] = {
     {"data", R"({"level":N})"},
     {"body", R"({"level":N,"type":"resource_query"})"},
     {"code", "conflict"},
+    {"gone", "00000000-0000-4000-8000-00000000000N"},
+    {"registration_challenge.state", "joining"},
+    {"kind", "memory"},
 };
 
 std::string_view form_of(std::string_view type, std::string_view field) {

@@ -4,6 +4,7 @@
 #include "messages/allocation_report.hpp"
 #include "messages/cell.hpp"
 #include "messages/event.hpp"
+#include "messages/reservation.hpp"
 #include "messages/session.hpp"
 #include "schemas/decode.hpp"
 #include "schemas/document.hpp"
@@ -73,7 +74,15 @@ std::vector<trial> message_trials() {
                node_registration, node_registered, node_departure,
                node_departed, resource_query, resource_report,
                instance_deployment, instance_deployed, instance_removal,
-               instances_removed, instance_changed>(result);
+               instances_removed, instance_changed, instance_reservation,
+               instances_reserved>(result);
+  try_messages<cell_formation, cell_formed, node_release, node_released,
+               node_transfer, node_transferred, transfer_query,
+               transfer_description, registration_query, registration_challenge,
+               registration_switch, switch_accepted>(result);
+  try_messages<cell_standing, cell_changed, place_request, place_granted,
+               place_reservation, place_reserved, member_surrender,
+               members_surrendered>(result);
   try_messages<session_hello, session_challenge, session_proof,
                session_accepted>(result);
   result.push_back(try_part<skill_descriptor>("skill_descriptor"));
@@ -105,7 +114,12 @@ std::vector<trial> part_trials() {
       try_part<allocation_score>("allocation_score"),
       try_part<resource_fractions>("resource_fractions"),
       try_part<step_allocation>("step_allocation"),
+      try_part<rejection_cause>("rejection_cause"),
       try_part<rejected_candidate>("rejected_candidate"),
+      try_part<excluded_candidate>("excluded_candidate"),
+      try_part<resource_use>("resource_use"),
+      try_part<step_alternative>("step_alternative"),
+      try_part<refused_instance>("refused_instance"),
       try_part<instance_verdict>("instance_verdict"),
   };
 }

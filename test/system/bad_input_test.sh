@@ -93,6 +93,93 @@ PY
   kill "$crowd"
 }
 
+# trickle HEADER COUNT: so many clients that never come to the end of a request,
+# a byte at a time, after this header. Prints "up" once all are at it, and at
+# their end each one's reply and the seconds it took.
+trickle() {
+  python3 - "${address%:*}" "${address#*:}" "$1" "$2" << 'PY'
+import select, socket, sys, time
+host, port, header, count = sys.argv[1:]
+begin = time.monotonic()
+slow = []
+for _ in range(int(count)):
+    s = socket.create_connection((host, int(port)))
+    s.sendall(header.encode())
+    slow.append(s)
+print("up", flush=True)
+while slow and time.monotonic() - begin < 40:
+    for s in select.select(slow, [], [], 0.5)[0]:
+        try:
+            reply = s.recv(4096).decode()
+        except ConnectionError:
+            reply = ""
+        print(reply[9:12] or "closed", round(time.monotonic() - begin, 1))
+        slow.remove(s)
+    for s in slow:
+        try:
+            s.send(b"x")
+        except ConnectionError:
+            pass  # Its end is read above.
+print("left", len(slow))
+PY
+}
+
+test_slow_requests_are_ended_and_lock_nobody_out() {
+  start_alone
+  local kind
+  local post="POST /v1/requests HTTP/1.1"$'\r\n'
+  trickle "GET /v1/no" 40 > "$scratch/line" &
+  trickle "${post}X: " 40 > "$scratch/field" &
+  trickle "${post}Authorization: Bearer $token"$'\r\n'"Content-Length: 9999"$'\r\n\r\n' \
+    40 > "$scratch/body" &
+  for kind in line field body; do
+    timeout "$deadline_s" grep -m 1 up > "$scratch/up" \
+      < <(exec tail --pid=$$ -n +1 -F "$scratch/$kind" 2> /dev/null) \
+      || fail "the clients did not begin"
+  done
+  expect "by TCP" "$(curl -sS --max-time 2 -o /dev/null -w '%{http_code}' \
+    -H "Authorization: Bearer $token" "http://$address/v1/node")" 200
+  expect "by the socket" "$(get head /healthz | jq -r .status)" ok
+  for kind in line field body; do
+    timeout "$deadline_s" grep -m 1 left > "$scratch/left" \
+      < <(exec tail --pid=$$ -n +1 -F "$scratch/$kind" 2> /dev/null)
+    expect "who is left" "$(cat "$scratch/left")" "left 0"
+    expect "ends later than 15 s" \
+      "$(awk '$2 > 15 && $1 != "left"' "$scratch/$kind")" ""
+  done
+  # Strangers over the limit are closed without a word.
+  expect "replies to those with the token" \
+    "$(grep -c '^408' "$scratch/body")" 40
+  still_up
+}
+
+test_a_request_that_is_cut_off_changes_nothing() {
+  start_alone
+  echo_task half > "$scratch/task.json"
+  python3 - "${address%:*}" "${address#*:}" "$token" "$scratch/task.json" \
+    "$scratch/head/node.sock" << 'PY'
+import socket, struct, sys
+host, port, token, task, path = sys.argv[1:]
+body = open(task, "rb").read()
+request = (f"POST /v1/requests HTTP/1.1\r\nAuthorization: Bearer {token}\r\n"
+           f"Content-Length: {len(body)}\r\n\r\n").encode() + body
+for cut in range(1, len(request)):
+    if cut % 3 == 0:
+        s = socket.socket(socket.AF_UNIX)
+        s.connect(path)
+    else:
+        s = socket.create_connection((host, int(port)))
+    if cut % 3 == 1:  # The connection is reset instead of closed.
+        s.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
+    s.sendall(request[:cut])
+    s.close()
+PY
+  expect "the next request" "$(echo_task whole | to head request \
+    | jq -r .type)" task_accepted
+  expect "tasks" "$(get head /v1/tasks | jq -r '.tasks[].task')" whole
+  expect "instances" "$(get head /v1/instances | jq '.instances | length')" 1
+}
+
 test_a_port_or_a_data_directory_in_use_is_named() {
   start_alone
   "$ROSCELL" node --name other --data-dir "$scratch/other" --interface lo \

@@ -30,6 +30,8 @@ declare -A pid
 inside=()
 runtime=process
 discovery_port=0
+# Nodes of one test see each other, and no others on this machine.
+public_domain=$((20 + BASHPID % 200))
 start_node() {
   local name=$1 ready=$scratch/$1.ready
   shift
@@ -38,6 +40,7 @@ start_node() {
   exec {ready_fd}<> "$ready"
   "${inside[@]}" "$ROSCELL" node --name "$name" --data-dir "$scratch/$name" \
     --port 0 --discovery-port "$discovery_port" --skills "$skills" \
+    --public-domain "$public_domain" \
     --runtime "$runtime" \
     --ready-fd 5 "$@" 5> "$ready" 2>> "$scratch/$name.log" &
   pid[$name]=$!
@@ -186,6 +189,71 @@ RULES
   done
 }
 
+# bridge_port N: what the bridge has of a host: its cable, or the end of the
+# delay line that its cable is led through.
+bridge_port() {
+  local port=${bridge/rcb/rcd}-$1
+  [[ -e /sys/class/net/$port ]] || port=$(host_link "$1")
+  echo "$port"
+}
+
+# delay_packets MILLISECONDS: what a host sends arrives so much later. By netem
+# where the kernel has it, else by a program that all cables are led through.
+delay_packets() {
+  local host
+  for host in "${hosts[@]}"; do
+    ip netns exec "$host" tc qdisc add dev eth0 root netem delay "$1ms" \
+      limit 10000 2> /dev/null || { lead_through_delay_line "$1"; return; }
+  done
+}
+
+lead_through_delay_line() {
+  local n cables=() said=
+  { : <> /dev/net/tun; } 2> /dev/null || skip "neither netem nor TAPs here"
+  for ((n = 1; n <= ${#hosts[@]}; ++n)); do
+    ip link set "$(host_link "$n")" nomaster
+    cables+=("$(host_link "$n")" "${bridge/rcb/rcd}-$n")
+  done
+  mkfifo "$scratch/delay.ready"
+  "$ROSCELL_BUILD/bin/delay_line" "$1" "${cables[@]}" \
+    > "$scratch/delay.ready" 2> "$scratch/delay_line.log" &
+  echo $! >> "$scratch/pids"
+  read -r -t "$deadline_s" said < "$scratch/delay.ready"
+  [[ $said == ready ]] || fail "$(cat "$scratch/delay_line.log")"
+  for ((n = 1; n <= ${#hosts[@]}; ++n)); do
+    ip link set "$(bridge_port "$n")" master "$bridge" up
+  done
+}
+
+# split_bridge N...: from now on these hosts hear each other but none of the
+# others, until heal_bridge.
+split_bridge() {
+  local n
+  ip link add "$bridge-far" type bridge mcast_snooping 0
+  ip link set "$bridge-far" up
+  for n in "$@"; do
+    ip link set "$(bridge_port "$n")" master "$bridge-far"
+  done
+}
+
+heal_bridge() {
+  local port
+  for port in /sys/class/net/"$bridge-far"/brif/*; do
+    ip link set "$(basename "$port")" master "$bridge"
+  done
+  ip link del "$bridge-far"
+}
+
+# loses_nobody NAME SECONDS: whether that coordinator loses no member during
+# this time.
+loses_nobody() {
+  timeout "$2" "$ROSCELL" events --to "$scratch/$1/node.sock" -o json \
+    2> /dev/null | grep -m 1 '"node_lost"' > "$scratch/lost.json"
+  local code=${PIPESTATUS[0]}
+  [[ ! -s $scratch/lost.json ]] || fail "lost: $(cat "$scratch/lost.json")"
+  [[ $code -eq 124 ]] || fail "the event stream of $1 ended"
+}
+
 # start_on HOST_NUMBER NAME [OPTION...]: a node on one of these hosts.
 start_on() {
   local host=${hosts[$(($1 - 1))]} number=$1 name=$2
@@ -213,6 +281,8 @@ clean_up() {
   for what in "${hosts[@]}"; do
     ip netns del "$what" 2>/dev/null
   done
-  [[ -n ${bridge:-} ]] && ip link del "$bridge" 2>/dev/null
+  for what in ${bridge:+"$bridge" "$bridge-far"}; do
+    ip link del "$what" 2>/dev/null
+  done
   jobs -p | xargs -r kill 2>/dev/null
 }

@@ -50,8 +50,9 @@ std::string offered(const std::string& words, const std::string& table = "") {
 
 TEST_CASE("completion offers every command", "[tools]") {
   CHECK(offered("roscell ''")
-        == "node request plan status cells nodes tasks instances skills events "
-           "logs completion --version --help\n");
+        == "node request plan form transfer release status cells nodes tasks "
+           "instances skills transfers events logs completion --version "
+           "--help\n");
   CHECK(offered("roscell no") == "node nodes\n");
 }
 
@@ -65,6 +66,7 @@ TEST_CASE("completion offers the values of an option", "[tools]") {
   CHECK(offered("roscell node --runtime po") == "podman\n");
   CHECK(offered("roscell node --interface l") == "lo\n");
   CHECK(offered("roscell completion ''") == "bash\n");
+  CHECK(offered("roscell form --instances t") == "terminate\n");
 }
 
 TEST_CASE("completion offers files", "[tools]") {
@@ -76,6 +78,22 @@ TEST_CASE("completion asks the node for ids", "[tools]") {
   CHECK(offered("roscell logs ''", "INSTANCE  TASK\nt-a-1  t\nt-b-2  t\n")
         == "t-a-1 t-b-2\n");
   CHECK(offered("roscell logs ''", "no instances\n") == "\n");
+}
+
+TEST_CASE("completion offers nodes, then cells to move them to", "[tools]") {
+  const std::string table = "NAME  X\none  a\ntwo  b\n";
+  // The table is what any question is answered with; its kind is the echo.
+  const auto asked = [](const std::string& words) {
+    return offered(words, "HEAD\n'\"$1\"'\n");
+  };
+  CHECK(asked("roscell transfer ''") == "nodes\n");
+  CHECK(asked("roscell transfer arm-1 ''") == "cells\n");
+  CHECK(asked("roscell transfer --instances terminate ''") == "nodes\n");
+  CHECK(asked("roscell transfer -o json arm-1 ''") == "cells\n");
+  CHECK(asked("roscell form arm-1 arm-2 ''") == "nodes\n");
+  CHECK(asked("roscell release ''") == "nodes\n");
+  CHECK(asked("roscell transfers ''") == "transfers\n");
+  CHECK(offered("roscell form ''", table) == "one two\n");
 }
 
 TEST_CASE("completion never lets the shell expand what a node says",

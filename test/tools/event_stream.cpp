@@ -129,3 +129,15 @@ TEST_CASE("progress leaves out what concerns others", "[tools]") {
   CHECK(progress_lines(sample("node_joined", "arm-1", R"({"task":"u"})"), "t")
             .empty());
 }
+
+TEST_CASE("who waits for nodes is told what happens to them", "[tools]") {
+  const std::vector<std::string> nodes{"arm-1", "arm-2"};
+  CHECK(movement_lines(sample("node_joined", "arm-2", R"({"epoch":3})"), nodes)
+        == std::vector<std::string>{"arm-2: node joined"});
+  CHECK(
+      movement_lines(sample("transfer_ended", "arm-1",
+                            R"({"state":"returned","reason":"no route"})"),
+                     nodes)
+      == std::vector<std::string>{"arm-1: transfer ended: returned: no route"});
+  CHECK(movement_lines(sample("node_joined", "arm-3", "{}"), nodes).empty());
+}

@@ -44,6 +44,16 @@ TEST_CASE("MiB have a decimal only where it matters", "[tools]") {
   CHECK(format_mib(0) == "0");
 }
 
+TEST_CASE("bytes are shown in the largest unit that is not below one",
+          "[tools]") {
+  CHECK(format_bytes(0) == "0 B");
+  CHECK(format_bytes(1023) == "1023 B");
+  CHECK(format_bytes(1024) == "1 KiB");
+  CHECK(format_bytes(1536) == "1.5 KiB");
+  CHECK(format_bytes(12.0 * 1024 * 1024) == "12 MiB");
+  CHECK(format_bytes(5e15) == "4547 TiB");
+}
+
 TEST_CASE("an age shows its two largest units", "[tools]") {
   CHECK(format_age(999ms) == "0s");
   CHECK(format_age(59s) == "59s");

@@ -103,6 +103,42 @@ TEST_CASE("a coordinator joins nothing, and only it names a cell", "[tools]") {
   CHECK(refusal(named).empty());
 }
 
+TEST_CASE("only a coordinator has a name to take and a cell to even out",
+          "[tools]") {
+  node_options forcing;
+  forcing.config.force = true;
+  CHECK(refusal(forcing).find("--force") == 0);
+  node_options keeping;
+  keeping.config.rebalance = false;
+  CHECK(refusal(keeping).find("--no-rebalance") == 0);
+  forcing.config.coordinator = keeping.config.coordinator = true;
+  CHECK(refusal(forcing).empty());
+  CHECK(refusal(keeping).empty());
+}
+
+TEST_CASE("a node that waits neither joins nor coordinates", "[tools]") {
+  node_options waiting;
+  waiting.config.wait = true;
+  CHECK(refusal(waiting).empty());
+  auto joining = waiting;
+  joining.config.join = "10.0.0.1";
+  CHECK(refusal(joining).find("--wait") != std::string::npos);
+  auto coordinating = waiting;
+  coordinating.config.coordinator = true;
+  CHECK(refusal(coordinating) != "");
+}
+
+TEST_CASE("a peer is an IPv4 address, with or without a port", "[tools]") {
+  node_options options;
+  options.config.peers = {"10.0.0.1", "10.0.0.2:7410"};
+  CHECK(refusal(options).empty());
+  for (const auto* peer : {"", "robot", "10.0.0", "10.0.0.1:", "10.0.0.1:0",
+                           "10.0.0.1:65536", "10.0.0.1:80x", "::1"}) {
+    options.config.peers = {"10.0.0.1", peer};
+    CHECK(refusal(options).find("--peer: '" + std::string{peer} + "'") == 0);
+  }
+}
+
 TEST_CASE("the command line takes what the design names", "[tools]") {
   CHECK(parses({"node",
                 "--name",
@@ -147,6 +183,14 @@ TEST_CASE("the command line takes what the design names", "[tools]") {
                 "--ready-fd",
                 "3"}));
   CHECK(parses({"node", "--join", "10.0.0.1:11811", "--interface", "lo"}));
+  CHECK(parses({"node", "--wait", "--peer", "10.0.0.1", "--peer", "10.0.0.2",
+                "--public-domain", "232"}));
+  CHECK(parses({"node", "--coordinator", "--no-rebalance", "--force"}));
+  CHECK(parses({"form", "a", "b", "--instances", "reschedule"}));
+  CHECK(parses({"transfer", "a", "hall", "--timeout", "1m", "-o", "json"}));
+  CHECK(parses({"release", "--instances", "terminate", "a"}));
+  CHECK(parses({"transfers", "--watch"}));
+  CHECK(parses({"transfers", "lab-1-1", "-o", "json"}));
   CHECK(parses({"request"}));
   CHECK(parses({"request", "-"}));
   CHECK(parses({"request", "--to", "unix:/s", "--timeout", "2m", "f"}));
@@ -170,6 +214,13 @@ TEST_CASE("the command line refuses what cannot be meant", "[tools]") {
   CHECK_FALSE(parses({"node", "--port", "65536"}));
   CHECK_FALSE(parses({"node", "--server-id", "256"}));
   CHECK_FALSE(parses({"node", "--domain-id", "233"}));
+  CHECK_FALSE(parses({"node", "--public-domain", "233"}));
+  CHECK_FALSE(parses({"form"}));
+  CHECK_FALSE(parses({"form", "a", "--instances", "keep"}));
+  CHECK_FALSE(parses({"transfer", "a"}));
+  CHECK_FALSE(parses({"transfer", "a", "b", "c"}));
+  CHECK_FALSE(parses({"release"}));
+  CHECK_FALSE(parses({"release", "a", "b"}));
   CHECK_FALSE(parses({"node", "--runtime", "podmann"}));
   CHECK_FALSE(parses({"node", "--runtime", "process:/s"}));
   CHECK_FALSE(parses({"node", "--runtime", "docker:"}));

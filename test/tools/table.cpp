@@ -60,5 +60,8 @@ TEST_CASE("only state words get a colour", "[tools]") {
   CHECK(state_colour("running") == "\x1b[32m");
   CHECK(state_colour("failed") == "\x1b[31m");
   CHECK(state_colour("starting") == "\x1b[33m");
+  CHECK(state_colour("already_member") == "\x1b[32m");
+  CHECK(state_colour("returned") == "\x1b[31m");
+  CHECK(state_colour("unresolved") == "\x1b[33m");
   CHECK(state_colour("arm-1").empty());
 }

@@ -56,6 +56,41 @@ TEST_CASE("a cell's row shows its size and where to join it", "[tools]") {
            "lab   arm-1            3  10.0.0.1:8420  10.0.0.1:11811\n");
 }
 
+TEST_CASE("trouble has a column only if a cell has some", "[tools]") {
+  const cell_list cells{
+      {{"lab", "arm-1", "10.0.0.1:8420", "10.0.0.1:11811", 3, ""},
+       {"hall", "arm-2", "10.0.0.2:8420", "10.0.0.2:11811", 0, "no route"}}};
+  CHECK(cells_view(cells, at(0))
+        == "CELL  COORDINATOR  NODES  ADDRESS        DISCOVERY SERVER  "
+           "TROUBLE\n"
+           "lab   arm-1            3  10.0.0.1:8420  10.0.0.1:11811    -\n"
+           "hall  arm-2            -  10.0.0.2:8420  10.0.0.2:11811    "
+           "no route\n");
+}
+
+TEST_CASE("both claims of a cell's name are shown as trouble", "[tools]") {
+  const cell_list cells{{{"lab", "arm-1", "10.0.0.1:8420", "", 3, ""},
+                         {"hall", "arm-3", "10.0.0.3:8420", "", 1, ""},
+                         {"lab", "arm-2", "10.0.0.2:8420", "", 1, "told"}}};
+  const auto text = cells_view(cells, at(0));
+  CHECK(has(text, "2 coordinators claim this name\n"));
+  CHECK(has(text, "told\n"));
+  CHECK(has(text, "10.0.0.3:8420  -                 -\n"));
+}
+
+TEST_CASE("nodes in no cell are listed below the members", "[tools]") {
+  cell_description cell;
+  cell.nodes.resize(1);
+  cell.nodes[0].identity.name = "head";
+  cell.free = {{"arm-1", "u", "10.0.0.2:8420", node_state::independent, ""},
+               {"arm-2", "v", "10.0.0.3:8420", node_state::orphaned, "hall"}};
+  const auto text = members_view(cell, at(0));
+  CHECK(text.find("\nhead ") < text.find("\narm-1 "));
+  CHECK(has(text, "\narm-1  primary  independent      -  10.0.0.2:8420"));
+  CHECK(has(text, "\narm-2  primary  orphaned         -  10.0.0.3:8420"));
+  CHECK(has(text, "  it was in cell 'hall'\n"));
+}
+
 TEST_CASE("a node's row shows use and capacity with units", "[tools]") {
   registry_row row;
   row.identity = {"arm-1", "u", 1, "10.0.0.1:8420"};
@@ -151,6 +186,24 @@ TEST_CASE("a status shows the node, its resources and instances", "[tools]") {
   CHECK(has(text, "cpu (cores)    0.5         4    3.5\n"));
   CHECK(has(text, "t-poses-1a2b3c4d"));
   CHECK_FALSE(has(text, "coordinator"));
+}
+
+TEST_CASE("a status tells of a day's writes only after an hour", "[tools]") {
+  constexpr int64_t hour_ms = 3'600'000;
+  node_description node;
+  node.started_unix_ms = 1000;
+  CHECK_FALSE(has(node_view(node, at(hour_ms)), "disk written"));
+  node.stored_bytes = 12 * 1024;
+  CHECK(has(node_view(node, at(hour_ms)),
+            "disk written  12 KiB since the start\n"));
+  CHECK(has(node_view(node, at(1000 + hour_ms)),
+            "disk written  12 KiB (288 KiB a day)\n"));
+  CHECK(has(node_view(node, at(1000 + 48 * hour_ms)),
+            "disk written  12 KiB (6 KiB a day)\n"));
+  // A clock that was set back, and one that was never set.
+  CHECK(has(node_view(node, at(0)), "12 KiB since the start\n"));
+  node.started_unix_ms = 0;
+  CHECK(has(node_view(node, at(hour_ms)), "12 KiB since the start\n"));
 }
 
 TEST_CASE("a status leaves unified GPU memory to the node", "[tools]") {

@@ -1,111 +1,201 @@
 #include "actors/allocation/allocation.hpp"
+#include "actors/allocation/assignment.hpp"
+#include "tools/bench/allocation_cells.hpp"
 
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <ctime>
 #include <iomanip>
 #include <iostream>
-#include <random>
-#include <string>
+#include <optional>
+#include <vector>
 
-/// Times the allocation search on random cells of different nodes, with and
-/// without GPU deployments, one JSON line per figure: `allocation_bench
-/// [BUDGET_MS]`. A case that the budget ends says how far its bound is from the
-/// best that was found.
+/// Times the allocation search on random cells, one JSON line per size and
+/// kind of cell, beside plain enumeration wherever that is short enough.
 namespace {
 
 namespace alloc = roscell::allocation;
+using namespace roscell::bench;
 
-class generator {
+struct bench_options {
+  std::vector<int> steps{1, 2, 4, 6, 8, 10, 12, 14, 16, 20};
+  std::vector<int> nodes{1, 3, 10, 30, 100, 300, 1000};
+  int cases = 10;
+  int budget_ms = 200;
+  unsigned seed = 1;
+  double most_enumerated = 1e6;
+};
+
+/// CPU time of this thread, so that what else the machine does counts little.
+std::chrono::steady_clock::time_point cpu_now() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return std::chrono::steady_clock::time_point{
+      std::chrono::seconds(now.tv_sec) + std::chrono::nanoseconds(now.tv_nsec)};
+}
+
+double cpu_ms() {
+  return std::chrono::duration<double, std::milli>(cpu_now().time_since_epoch())
+      .count();
+}
+
+/// The CPU clock costs a system call, so it is read once in a while only.
+auto seldom_read_clock() {
+  constexpr unsigned every = 64;
+  return [calls = 0U, last = cpu_now()]() mutable {
+    if (++calls % every == 0)
+      last = cpu_now();
+    return last;
+  };
+}
+
+/// What was measured in the cases of one shape.
+struct figures {
+  std::vector<double> cpu_ms, wall_ms, branches, gap, enumeration_ms;
+  int feasible = 0;
+  int solved = 0;
+  int differing = 0; ///< Cases where enumeration found another total.
+};
+
+double quantile(std::vector<double> values, double share) {
+  if (values.empty())
+    return 0;
+  std::sort(values.begin(), values.end());
+  auto last = static_cast<double>(values.size()) - 1;
+  return values[static_cast<std::size_t>(std::ceil(share * last))];
+}
+
+/// Every allocation there is, one after the other, as the paper does it.
+class enumeration {
 public:
-  generator(unsigned seed, bool gpus) : random_(seed), gpus_(gpus) {}
+  explicit enumeration(const alloc::problem& asked)
+      : candidates_(alloc::find_candidates(asked, rejected_)),
+        empty_(asked), space_{asked, candidates_, empty_} {}
 
-  alloc::problem run(int steps, int nodes) {
-    alloc::problem made;
-    for (int v = 0; v < nodes; ++v)
-      made.nodes.push_back(make_node(v));
-    for (int i = 0; i < steps; ++i)
-      made.steps.push_back(make_step(made, i));
-    return made;
+  double size() const {
+    double product = 1;
+    for (const auto& list : candidates_.of)
+      product *= static_cast<double>(list.size());
+    return product;
+  }
+
+  std::optional<double> best() {
+    auto scratch = empty_;
+    std::optional<double> least;
+    alloc::assignment tried(space_.steps());
+    do {
+      auto value = evaluate(space_, tried, scratch);
+      if (value && (!least || value->total < *least))
+        least = value->total;
+    } while (advance(tried));
+    return least;
   }
 
 private:
-  double between(double low, double high) {
-    return std::uniform_real_distribution<>(low, high)(random_);
-  }
-
-  alloc::amount make_amount(double capacity) {
-    return {capacity, capacity * between(0.02, 0.6)};
-  }
-
-  /// From a small board to a server; a third have GPUs, half of these share
-  /// their memory with them.
-  alloc::node make_node(int v) {
-    auto size = static_cast<double>(1 << static_cast<int>(between(1, 6)));
-    alloc::node made;
-    made.name = "node-" + std::to_string(v);
-    made.architecture = between(0, 1) < 0.5 ? "amd64" : "arm64";
-    made.cpu = make_amount(size);
-    made.memory_mib = make_amount(size * 1024 * between(1, 4));
-    made.disk_mib = make_amount(size * 8192 * between(1, 4));
-    if (between(0, 1) < 0.33) {
-      made.unified_memory = between(0, 1) < 0.5;
-      made.gpus.push_back({0, make_amount(8192)});
+  bool advance(alloc::assignment& tried) const {
+    for (std::size_t i = 0; i < tried.size(); ++i) {
+      if (++tried[i] < candidates_.of[i].size())
+        return true;
+      tried[i] = 0;
     }
-    return made;
+    return false;
   }
 
-  alloc::step make_step(const alloc::problem& in, int i) {
-    alloc::step made;
-    made.id = "step-" + std::to_string(i);
-    for (const auto& node : in.nodes)
-      made.nodes_with_skill.insert(node.name);
-    alloc::deployment way;
-    way.name = "cpu";
-    way.cpu = between(0.1, 2);
-    way.memory_mib = between(64, 2048);
-    way.disk_mib = between(100, 4096);
-    made.deployments.push_back(way);
-    if (!gpus_)
-      return made;
-    way.name = "gpu";
-    way.needs_gpu = true;
-    way.cpu /= 2;
-    way.gpu_memory_mib = between(256, 4096);
-    made.deployments.push_back(way);
-    return made;
-  }
-
-  std::mt19937 random_;
-  bool gpus_;
+  std::vector<alloc::rejected_candidate> rejected_;
+  alloc::candidate_set candidates_;
+  alloc::occupancy empty_;
+  alloc::search_space space_;
 };
 
-void measure(int steps, int nodes, bool gpus, unsigned seed, int budget_ms) {
-  auto asked = generator(seed, gpus).run(steps, nodes);
+void enumerate(const alloc::problem& asked, const alloc::result& answer,
+               double most, figures& into) {
+  enumeration all(asked);
+  if (all.size() < 1 || all.size() > most)
+    return;
+  auto before = cpu_ms();
+  auto best = all.best();
+  into.enumeration_ms.push_back(cpu_ms() - before);
+  if (best.has_value() != answer.has_allocation()
+      || (best && std::abs(*best - answer.value.total) > 1e-12))
+    ++into.differing;
+}
+
+void measure_one(const cell_shape& shape, unsigned seed,
+                 const bench_options& options, figures& into) {
+  auto asked = make_problem(shape, seed);
   alloc::limits bounds;
-  bounds.budget = std::chrono::milliseconds(budget_ms);
-  auto start = std::chrono::steady_clock::now();
+  bounds.budget = std::chrono::milliseconds(options.budget_ms);
+  bounds.now = seldom_read_clock();
+  auto wall = std::chrono::steady_clock::now();
+  auto cpu = cpu_ms();
   auto answer = alloc::allocate(asked, bounds);
-  std::chrono::duration<double, std::milli> took =
-      std::chrono::steady_clock::now() - start;
-  std::cout << std::setprecision(6) << "{\"bench\":\"allocation\",\"gpus\":"
-            << (gpus ? "true" : "false") << ",\"steps\":" << steps
-            << ",\"nodes\":" << nodes << ",\"seed\":" << seed
-            << ",\"ms\":" << took.count()
-            << ",\"feasible\":" << (answer.has_allocation() ? "true" : "false")
-            << ",\"optimal\":" << (answer.optimal() ? "true" : "false")
-            << ",\"total\":" << answer.value.total << ",\"gap\":"
-            << (answer.has_allocation()
-                    ? answer.value.total - answer.lower_bound
-                    : 0)
-            << ",\"branches\":" << answer.expanded << "}" << std::endl;
+  into.cpu_ms.push_back(cpu_ms() - cpu);
+  into.wall_ms.push_back(std::chrono::duration<double, std::milli>(
+                             std::chrono::steady_clock::now() - wall)
+                             .count());
+  into.branches.push_back(static_cast<double>(answer.expanded));
+  into.feasible += answer.has_allocation() ? 1 : 0;
+  if (answer.optimal() || answer.what == alloc::outcome::infeasible)
+    ++into.solved;
+  if (answer.has_allocation())
+    into.gap.push_back(answer.value.total - answer.lower_bound);
+  if (answer.optimal())
+    enumerate(asked, answer, options.most_enumerated, into);
+}
+
+void print(const cell_shape& shape, const figures& of) {
+  auto cases = static_cast<double>(of.cpu_ms.size());
+  std::cout << std::setprecision(4) << R"({"bench":"allocation","kind":")"
+            << to_string(shape.kind) << R"(","tight":)" << std::boolalpha
+            << shape.tight << R"(,"gpus":)" << shape.gpus << R"(,"steps":)"
+            << shape.steps << R"(,"nodes":)" << shape.nodes << R"(,"cases":)"
+            << cases << R"(,"feasible":)" << of.feasible / cases
+            << R"(,"solved":)" << of.solved / cases << R"(,"median_ms":)"
+            << quantile(of.cpu_ms, 0.5) << R"(,"p99_ms":)"
+            << quantile(of.cpu_ms, 0.99) << R"(,"p99_wall_ms":)"
+            << quantile(of.wall_ms, 0.99) << R"(,"median_branches":)"
+            << quantile(of.branches, 0.5) << R"(,"worst_gap":)"
+            << quantile(of.gap, 1);
+  if (!of.enumeration_ms.empty())
+    std::cout << R"(,"enumerated":)" << of.enumeration_ms.size()
+              << R"(,"enumeration_median_ms":)"
+              << quantile(of.enumeration_ms, 0.5) << R"(,"differing":)"
+              << of.differing;
+  std::cout << "}" << std::endl;
+}
+
+void measure(const cell_shape& shape, const bench_options& options) {
+  figures found;
+  for (int i = 0; i < options.cases; ++i)
+    measure_one(shape, options.seed + static_cast<unsigned>(i), options, found);
+  print(shape, found);
+}
+
+void measure_all(const bench_options& options) {
+  for (auto kind :
+       {variety::homogeneous, variety::few_kinds, variety::all_different})
+    for (bool tight : {false, true})
+      for (bool gpus : {false, true})
+        for (int steps : options.steps)
+          for (int nodes : options.nodes)
+            measure({steps, nodes, kind, tight, gpus}, options);
 }
 
 } // namespace
 
 int main(int argc, char** argv) {
-  auto budget_ms = argc > 1 ? std::stoi(argv[1]) : 2000;
-  for (int steps : {2, 4, 6, 8, 10})
-    for (int nodes : {5, 10, 20, 50, 100})
-      for (bool gpus : {false, true})
-        for (unsigned seed : {1U, 2U, 3U})
-          measure(steps, nodes, gpus, seed, budget_ms);
+  CLI::App app{"Times the allocation search on random cells."};
+  bench_options options;
+  app.add_option("--steps", options.steps, "Numbers of steps")->delimiter(',');
+  app.add_option("--nodes", options.nodes, "Numbers of nodes")->delimiter(',');
+  app.add_option("--cases", options.cases, "Random cases of each shape");
+  app.add_option("--budget", options.budget_ms, "Budget of a search in ms");
+  app.add_option("--seed", options.seed, "Seed of the first case");
+  app.add_option("--enumerate", options.most_enumerated,
+                 "Allocations that are still enumerated");
+  CLI11_PARSE(app, argc, argv);
+  measure_all(options);
 }

@@ -17,7 +17,10 @@ void add_node_command(CLI::App& app, action& chosen);
 void add_request_command(CLI::App& app, action& chosen);
 void add_plan_command(CLI::App& app, action& chosen);
 
-/// status, cells, nodes, tasks, instances, skills.
+/// form, transfer, release.
+void add_form_commands(CLI::App& app, action& chosen);
+
+/// status, cells, nodes, transfers, tasks, instances, skills.
 void add_show_commands(CLI::App& app, action& chosen);
 
 void add_events_command(CLI::App& app, action& chosen);

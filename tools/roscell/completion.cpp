@@ -2,6 +2,7 @@
 
 #include "tools/roscell/commands.hpp"
 #include "tools/roscell/exit_code.hpp"
+#include "tools/roscell/format.hpp"
 #include "tools/roscell/terminal.hpp"
 
 #include <CLI/CLI.hpp>
@@ -33,7 +34,12 @@ constexpr value_source sources[] = {
     {"--data-dir", "dirs"},
     {"--skills", "dirs"},
     {"--capacity", "capacity"},
+    {"--instances", "words refuse terminate reschedule"},
     {"FILE", "files"},
+    {"NODE", "ids nodes"},
+    {"NAME", "ids nodes"},
+    {"CELL", "ids cells"},
+    {"TRANSFER", "ids transfers"},
     {"TASK", "ids tasks"},
     {"INSTANCE", "ids instances"},
     {"SHELL", "words bash"},
@@ -46,13 +52,6 @@ std::string_view action_of(std::string_view name) {
   return "nothing";
 }
 
-std::string joined(const std::vector<std::string>& words, const char* between) {
-  std::string text;
-  for (const auto& word : words)
-    text += (text.empty() ? "" : between) + word;
-  return text;
-}
-
 std::vector<std::string> names_of(const CLI::Option& option) {
   std::vector<std::string> names;
   for (const auto& name : option.get_snames())
@@ -63,27 +62,33 @@ std::vector<std::string> names_of(const CLI::Option& option) {
 }
 
 /// The case of one command: its options, then what follows those of them that
-/// take a value, then its argument.
+/// take a value, then its arguments.
 std::string command_case(const CLI::App& command) {
   std::vector<std::string> flags;
+  std::vector<std::string> with_value;
   std::string values;
-  std::string_view argument = "nothing";
+  std::string arguments;
   for (const auto* option : command.get_options()) {
     if (option->get_positional()) {
-      argument = action_of(option->get_name(true));
+      arguments += " '" + std::string{action_of(option->get_name(true))} + "'";
       continue;
     }
     const auto names = names_of(*option);
     flags.insert(flags.end(), names.begin(), names.end());
-    if (option->get_items_expected_max() > 0)
-      values += "        " + joined(names, "|") + ") _roscell_"
-                + std::string{action_of(names.back())} + "; return ;;\n";
+    if (option->get_items_expected_max() == 0)
+      continue;
+    with_value.insert(with_value.end(), names.begin(), names.end());
+    values += "        " + joined(names, "|") + ") _roscell_"
+              + std::string{action_of(names.back())} + "; return ;;\n";
   }
   auto text = "    " + command.get_name() + ")\n";
   if (!values.empty())
     text += "      case $prev in\n" + values + "      esac\n";
-  return text + "      options='" + joined(flags, " ") + "'\n      argument='"
-         + std::string{argument} + "' ;;\n";
+  if (arguments.empty())
+    arguments = " nothing";
+  return text + "      options='" + joined(flags, " ")
+         + "'\n      with_value=' " + joined(with_value, " ")
+         + " '\n      arguments=(" + arguments.substr(1) + ") ;;\n";
 }
 
 constexpr auto head = R"bash(# bash completion for roscell; to use it now:
@@ -133,9 +138,26 @@ _roscell_ids() {
     awk 'NR > 1 && $1 ~ /^[A-Za-z0-9._-]+$/ { print $1 }')"
 }
 
+# The arguments before the word at the cursor are counted; the last one can be
+# repeated.
+_roscell_argument() {
+  local line i place=0 last
+  read -ra line <<< "$COMP_LINE"
+  last=${#line[@]}
+  [[ $COMP_LINE == *' ' ]] || ((last--))
+  for ((i = 2; i < last; i++)); do
+    case ${line[i]} in
+      -*) [[ $with_value != *" ${line[i]} "* ]] || ((++i)) ;;
+      *) ((++place)) ;;
+    esac
+  done
+  ((place < ${#arguments[@]})) || place=$((${#arguments[@]} - 1))
+  _roscell_${arguments[place]}
+}
+
 _roscell() {
   local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD - 1]}
-  local options argument
+  local options with_value arguments
   if ((COMP_CWORD == 1)); then
     _roscell_words "$_roscell_commands"
     return
@@ -148,7 +170,7 @@ constexpr auto tail = R"bash(    *) return ;;
   if [[ $cur == -* ]]; then
     _roscell_words "$options"
   else
-    _roscell_$argument
+    _roscell_argument
   fi
 }
 

@@ -141,4 +141,16 @@ std::vector<std::string> progress_lines(const event& e,
   return {printable(line)};
 }
 
+std::vector<std::string> movement_lines(const event& e,
+                                        const std::vector<std::string>& nodes) {
+  if (std::find(nodes.begin(), nodes.end(), e.subject) == nodes.end())
+    return {};
+  auto line = e.subject + ": " + words(e.what);
+  const auto data = particulars(e);
+  for (const auto* key : {"state", "reason"})
+    if (const auto text = text_at(data, key); !text.empty())
+      line += ": " + text;
+  return {printable(line)};
+}
+
 } // namespace roscell::cli

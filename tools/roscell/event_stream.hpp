@@ -39,4 +39,9 @@ std::string event_text(const event& e, const char* key);
 std::vector<std::string> progress_lines(const event& e,
                                         const std::string& task);
 
+/// What an event means to somebody who waits for nodes to move, in lines such
+/// as "arm-1: node joined". None if its subject is no such node.
+std::vector<std::string> movement_lines(const event& e,
+                                        const std::vector<std::string>& nodes);
+
 } // namespace roscell::cli

@@ -1,4 +1,5 @@
 #include "tools/roscell/commands.hpp"
+#include "tools/roscell/common_options.hpp"
 #include "tools/roscell/event_stream.hpp"
 #include "tools/roscell/exit_code.hpp"
 #include "tools/roscell/node_client.hpp"
@@ -55,9 +56,7 @@ void add_events_command(CLI::App& app, action& chosen) {
   command->add_option("-n,--count", options->count, "End after so many events")
       ->check(CLI::Range(uint64_t{1}, from_now_on))
       ->option_text("COUNT");
-  command->add_option("-o,--output", options->output, "Form of the events")
-      ->check(CLI::IsMember({"table", "json"}))
-      ->option_text("table|json [table]");
+  add_output_option(*command, options->output);
   command->callback([&chosen, options] {
     chosen = [options] { return show_events(*options); };
   });

@@ -35,6 +35,17 @@ std::string format_mib(double mib) {
   return format_number(mib, std::abs(mib) < 10 ? 1 : 0);
 }
 
+std::string format_bytes(double bytes) {
+  constexpr std::array units{"B", "KiB", "MiB", "GiB", "TiB"};
+  constexpr double next_unit = 1024;
+  size_t unit = 0;
+  while (bytes >= next_unit && unit + 1 < units.size()) {
+    bytes /= next_unit;
+    ++unit;
+  }
+  return format_mib(bytes) + " " + units[unit];
+}
+
 std::string format_age(std::chrono::milliseconds age) {
   const auto seconds = std::max<int64_t>(0, age.count() / 1000);
   std::array<char, 48> buffer{};
@@ -120,6 +131,17 @@ std::string printable(std::string_view text) {
     else
       result += text.substr(0, n);
     text.remove_prefix(n == 0 ? 1 : n);
+  }
+  return result;
+}
+
+std::string joined(const std::vector<std::string>& words,
+                   std::string_view between) {
+  std::string result;
+  for (const auto& word : words) {
+    if (!result.empty())
+      result += between;
+    result += word;
   }
   return result;
 }

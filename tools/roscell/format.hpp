@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 /// Numbers, times and foreign text as the tables show them, and the option
 /// values that carry a unit.
@@ -20,6 +21,10 @@ std::string format_significant(double value, int digits);
 /// below.
 std::string format_mib(double mib);
 
+/// A number of bytes with its binary unit, rounded as `format_mib` does:
+/// "512 B", "1.5 KiB", "12 MiB".
+std::string format_bytes(double bytes);
+
 /// The two largest units: "42s", "3m05s", "2h10m", "5d03h". Less than nothing
 /// is "0s".
 std::string format_age(std::chrono::milliseconds age);
@@ -34,6 +39,10 @@ std::string format_time(int64_t unix_ms);
 /// Bytes of `text` that are safe in one line of a terminal: control characters
 /// and what is not UTF-8 are shown as '?'.
 std::string printable(std::string_view text);
+
+/// The words in one line.
+std::string joined(const std::vector<std::string>& words,
+                   std::string_view between = ",");
 
 /// Columns that `text` takes: its code points.
 size_t display_width(std::string_view text);

@@ -22,12 +22,8 @@ struct logs_options {
   uint64_t tail = 0; ///< 0: all that is kept.
 };
 
-log_excerpt ask_for_log(const node_client& node, log_query query) {
-  auto reply =
-      node.post("/v1/requests", message_json(query).dump(), answer_limit);
-  if (reply.value("type", "") != log_excerpt::type)
-    throw refused(std::move(reply));
-  return reply.get<log_excerpt>();
+log_excerpt ask_for_log(const node_client& node, const log_query& query) {
+  return node.ask(message_json(query), answer_limit).get<log_excerpt>();
 }
 
 /// Prints all that is kept now, part by part. What is logged meanwhile is left

@@ -61,8 +61,9 @@ void add_network(CLI::App& command, node_options& options) {
                   "0 to 232")
       ->check(CLI::Range(0, 232))
       ->option_text("ID [99]");
-  command.add_flag("!--no-rebalance", config.rebalance,
-                   "Keep this cell out when cells are evened out");
+  command.add_flag_callback(
+      "--no-rebalance", [&config] { config.rebalance = false; },
+      "Keep this cell out when cells are evened out");
   command.add_flag("--force", config.force,
                    "Take the cell's name although another coordinator has it");
   command

@@ -99,6 +99,14 @@ json node_client::post(const std::string& path, const std::string& body,
   return document_of(to_, checked(result));
 }
 
+json node_client::ask(const json& request,
+                      std::chrono::milliseconds limit) const {
+  auto reply = post("/v1/requests", request.dump(), limit);
+  if (reply.value("type", "") == "error")
+    throw refused(std::move(reply));
+  return reply;
+}
+
 void node_client::follow(const std::string& path, const line_handler& on_line,
                          const http_cancel* cancel) const {
   http_client::options how;

@@ -57,6 +57,10 @@ public:
   json post(const std::string& path, const std::string& body,
             std::chrono::milliseconds limit) const;
 
+  /// The reply to a request of the vocabulary, waited for `limit`; an error
+  /// reply is thrown.
+  json ask(const json& request, std::chrono::milliseconds limit) const;
+
   using line_handler = std::function<bool(std::string_view line)>;
 
   /// Gives the lines of a reply that may never end to `on_line`, until that

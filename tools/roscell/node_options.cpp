@@ -1,5 +1,6 @@
 #include "tools/roscell/node_options.hpp"
 
+#include "actors/socket_address.hpp"
 #include "tools/roscell/exit_code.hpp"
 #include "tools/roscell/format.hpp"
 #include "tools/roscell/target.hpp"
@@ -35,17 +36,55 @@ void add_label(std::map<std::string, std::string>& labels,
     throw command_error{exit_usage, "--label: '" + key + "' is given twice"};
 }
 
-} // namespace
-
-node_config to_config(const node_options& options) {
-  auto config = options.config;
-  if (!config.cell.empty() && !config.coordinator)
+/// What only a coordinator can be asked for.
+void check_cell_options(const node_config& config) {
+  if (config.coordinator)
+    return;
+  if (!config.cell.empty())
     throw command_error{exit_usage, "--cell names the cell of a coordinator",
                         "add --coordinator, or --join the cell"};
+  if (config.force)
+    throw command_error{exit_usage, "--force takes a coordinator's cell name",
+                        "add --coordinator, or leave out --force"};
+  if (!config.rebalance)
+    throw command_error{exit_usage,
+                        "--no-rebalance is for a coordinator's cell",
+                        "add --coordinator, or leave out --no-rebalance"};
+}
+
+/// The ways to come into a cell exclude each other.
+void check_ways_to_join(const node_config& config) {
   if (!config.join.empty() && config.coordinator)
     throw command_error{exit_usage,
                         "a coordinator has its own cell and joins none",
                         "leave out --join or --coordinator"};
+  if (config.wait && config.coordinator)
+    throw command_error{exit_usage,
+                        "a coordinator has its own cell and waits for none",
+                        "leave out --wait or --coordinator"};
+  if (config.wait && !config.join.empty())
+    throw command_error{exit_usage,
+                        "--join goes to a cell, --wait waits to be chosen",
+                        "leave out one of them"};
+}
+
+void check_addresses(const node_config& config) {
+  for (const auto& peer : config.peers)
+    if (!parse_socket_address(peer, 1))
+      throw command_error{exit_usage,
+                          "--peer: '" + peer
+                              + "' is not ADDR[:PORT] with an IPv4 "
+                                "address",
+                          "such as 192.168.1.10"};
+}
+
+} // namespace
+
+node_config to_config(const node_options& options) {
+  auto config = options.config;
+  check_cell_options(config);
+  check_ways_to_join(config);
+  check_addresses(config);
   if (config.data_dir.empty())
     config.data_dir = default_data_dir();
   // Children run elsewhere, so nothing may depend on where we were started.

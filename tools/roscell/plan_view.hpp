@@ -7,7 +7,9 @@
 
 namespace roscell::cli {
 
-/// An allocation for people: a row per step, the score, and who was rejected.
+/// An allocation for people: a row per step, the score with its terms, a bar
+/// for each resource before and after, the alternative if one was asked for,
+/// and who was rejected.
 std::string plan_view(const task_plan& plan, const text_style& style);
 
 /// Who was rejected for which step and why; "no rejected candidates" if empty.

@@ -1,14 +1,21 @@
 #include "tools/roscell/progress.hpp"
 
-#include "tools/roscell/event_stream.hpp"
 #include "tools/roscell/terminal.hpp"
 
+#include <future>
 #include <utility>
 
 namespace roscell::cli {
 
-progress::progress(const node_client& node, std::string task)
-    : task_{std::move(task)}, reader_{[this, &node] { read(node); }} {}
+namespace {
+
+/// What takes longer than this is told about.
+constexpr std::chrono::seconds patience{1};
+
+} // namespace
+
+progress::progress(const node_client& node, event_words words)
+    : words_{std::move(words)}, reader_{[this, &node] { read(node); }} {}
 
 progress::~progress() {
   cancel_.cancel();
@@ -25,7 +32,7 @@ void progress::begin() {
 
 void progress::read(const node_client& node) {
   const auto tell_of = [this](const event& e) {
-    for (const auto& line : progress_lines(e, task_))
+    for (const auto& line : words_(e))
       tell(line);
     return true;
   };
@@ -43,6 +50,19 @@ void progress::tell(const std::string& line) {
     print_note(line);
   else
     held_.push_back(line);
+}
+
+json post_with_progress(const node_client& node, const std::string& body,
+                        std::chrono::milliseconds limit, event_words words) {
+  progress teller{node, std::move(words)};
+  auto reply = std::async(std::launch::async, [&] {
+    return node.post("/v1/requests", body, limit);
+  });
+  if (reply.wait_for(patience) == std::future_status::timeout) {
+    print_note("waiting for " + node.where().text() + " ...");
+    teller.begin();
+  }
+  return reply.get();
 }
 
 } // namespace roscell::cli

@@ -1,4 +1,6 @@
 #include "tools/roscell/commands.hpp"
+#include "tools/roscell/common_options.hpp"
+#include "tools/roscell/event_stream.hpp"
 #include "tools/roscell/exit_code.hpp"
 #include "tools/roscell/format.hpp"
 #include "tools/roscell/node_client.hpp"
@@ -8,15 +10,11 @@
 
 #include <CLI/CLI.hpp>
 
-#include <future>
 #include <memory>
 
 namespace roscell::cli {
 
 namespace {
-
-/// What takes longer than this is told about.
-constexpr std::chrono::seconds patience{1};
 
 struct request_options {
   connection_options connection;
@@ -35,37 +33,18 @@ std::string task_of(const std::string& body) {
   return task.is_string() ? task.get<std::string>() : "";
 }
 
-json post_with_progress(const node_client& node, const std::string& body,
-                        std::chrono::milliseconds limit) {
-  progress teller{node, task_of(body)};
-  auto reply = std::async(std::launch::async, [&] {
-    return node.post("/v1/requests", body, limit);
-  });
-  if (reply.wait_for(patience) == std::future_status::timeout) {
-    print_note("waiting for " + node.where().text() + " ...");
-    teller.begin();
-  }
-  return reply.get();
-}
-
 int send_request(const request_options& options) {
   const auto limit = parse_duration(options.timeout);
   const node_client node{options.connection};
   const auto body = read_file(options.file);
   const bool talkative = options.progress || stderr_is_terminal();
-  const auto reply = talkative ? post_with_progress(node, body, limit)
+  const auto words = [task = task_of(body)](const event& e) {
+    return progress_lines(e, task);
+  };
+  const auto reply = talkative ? post_with_progress(node, body, limit, words)
                                : node.post("/v1/requests", body, limit);
   print(pretty(reply));
   return reply.value("type", "") == "error" ? exit_refused : exit_done;
-}
-
-std::string check_duration(const std::string& text) {
-  try {
-    parse_duration(text);
-    return {};
-  } catch (const std::invalid_argument& e) {
-    return e.what();
-  }
 }
 
 } // namespace
@@ -84,12 +63,7 @@ void add_request_command(CLI::App& app, action& chosen) {
                    "The request; - or nothing: standard input")
       ->option_text("[-]");
   add_connection_options(*command, options->connection);
-  command
-      ->add_option("--timeout", options->timeout,
-                   "Longest wait for the reply, in seconds, or with a unit: "
-                   "500ms, 2m, 1h")
-      ->check(CLI::Validator{check_duration, "DURATION"})
-      ->option_text("SECONDS [120]");
+  add_timeout_option(*command, options->timeout);
   command->add_flag("--progress", options->progress,
                     "Tell on standard error what goes on if it takes more "
                     "than a second, even if that is no terminal");

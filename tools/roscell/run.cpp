@@ -8,10 +8,17 @@
 #include <CLI/CLI.hpp>
 
 #include <new>
+#include <stdexcept>
 
 namespace roscell::cli {
 
 namespace {
+
+int tell_of_version(const std::exception& e) {
+  print_error(std::string{"the answer is none of this version: "} + e.what(),
+              "compare `roscell --version` here and there");
+  return exit_unreachable;
+}
 
 /// Does what was chosen, and tells of what went wrong.
 int perform(const action& chosen) {
@@ -27,9 +34,10 @@ int perform(const action& chosen) {
     print_error(e.what(), e.hint);
     return e.code;
   } catch (const json::exception& e) {
-    print_error(std::string{"the answer is none of this version: "} + e.what(),
-                "compare `roscell --version` here and there");
-    return exit_unreachable;
+    return tell_of_version(e);
+  } catch (const std::invalid_argument& e) {
+    // A word that this version does not know.
+    return tell_of_version(e);
   } catch (const std::bad_alloc&) {
     print_error("out of memory");
     return exit_refused;

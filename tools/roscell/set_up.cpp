@@ -20,6 +20,7 @@ Environment:
 Examples:
   roscell node --coordinator --interface eth0
   roscell node --interface eth0 --join 192.168.1.10
+  roscell form arm-1 arm-2
   roscell request task.json
   roscell tasks --watch
 `roscell COMMAND --help` explains a command and shows how it is used.)";
@@ -38,6 +39,7 @@ void set_up(CLI::App& app, action& chosen) {
   add_node_command(app, chosen);
   add_request_command(app, chosen);
   add_plan_command(app, chosen);
+  add_form_commands(app, chosen);
   add_show_commands(app, chosen);
   add_events_command(app, chosen);
   add_logs_command(app, chosen);

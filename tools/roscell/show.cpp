@@ -1,5 +1,7 @@
 #include "tools/roscell/commands.hpp"
+#include "tools/roscell/common_options.hpp"
 #include "tools/roscell/exit_code.hpp"
+#include "tools/roscell/formation_view.hpp"
 #include "tools/roscell/node_client.hpp"
 #include "tools/roscell/terminal.hpp"
 #include "tools/roscell/views.hpp"
@@ -12,6 +14,9 @@
 namespace roscell::cli {
 
 namespace {
+
+/// A coordinator answers at once.
+constexpr std::chrono::seconds answer_limit{10};
 
 /// What one of these commands asks and how it shows the answer.
 struct subject {
@@ -30,10 +35,11 @@ std::string view_of(const json& reply, const view_style& style) {
 
 const subject subjects[] = {
     {"cells", "List the cells that the node knows of.",
-     "Examples:\n  roscell cells\n  roscell cells -o json", nullptr,
+     "Examples:\n  roscell cells\n  roscell cells --watch", nullptr,
      "/v1/cells", view_of<cell_list, cells_view>},
     {"nodes",
-     "List the nodes of the cell with their resources (used/capacity).",
+     "List the nodes of the cell with their resources (used/capacity), then "
+     "those that are in no cell.",
      "Only a coordinator can answer.\n\nExamples:\n  roscell nodes\n"
      "  roscell nodes --watch --to 192.168.1.10",
      nullptr, "/v1/cell", view_of<cell_description, members_view>},
@@ -106,19 +112,43 @@ int show_status(const show_options& options) {
       options, node, [&] { return node.get(path); }, view);
 }
 
+int show_transfers(const show_options& options) {
+  const node_client node{options.connection};
+  const auto query = message_json(transfer_query{options.argument});
+  return show(
+      options, node, [&] { return node.ask(query, answer_limit); },
+      [](const json& reply) {
+        return transfers_view(reply.get<transfer_description>(),
+                              view_style_now());
+      });
+}
+
 CLI::App* add_show_command(CLI::App& app, const char* name,
                            const char* description, const char* footer,
                            const options_ptr& options) {
   auto* command = app.add_subcommand(name, description);
   command->footer(footer);
   add_connection_options(*command, options->connection);
-  command->add_option("-o,--output", options->output, "Form of the answer")
-      ->check(CLI::IsMember({"table", "json"}))
-      ->option_text("table|json [table]");
+  add_output_option(*command, options->output);
   command->add_flag("-w,--watch", options->watch,
                     "Show it again whenever something happens; with -o json "
                     "one document per change and line. Ctrl-C ends");
   return command;
+}
+
+void add_transfers_command(CLI::App& app, action& chosen) {
+  auto options = std::make_shared<show_options>();
+  auto* command = add_show_command(
+      app, "transfers", "List the transfers and releases of the cell's nodes.",
+      "Only a coordinator can answer. Those that have ended are forgotten "
+      "after 100 others,\nand when the coordinator is started again.\n\n"
+      "Examples:\n  roscell transfers --watch\n"
+      "  roscell transfers lab-3-1 -o json",
+      options);
+  command->add_option("TRANSFER", options->argument, "Only this one");
+  command->callback([&chosen, options] {
+    chosen = [options] { return show_transfers(*options); };
+  });
 }
 
 } // namespace
@@ -145,6 +175,7 @@ void add_show_commands(CLI::App& app, action& chosen) {
       chosen = [&what, options] { return show_subject(what, *options); };
     });
   }
+  add_transfers_command(app, chosen);
 }
 
 } // namespace roscell::cli

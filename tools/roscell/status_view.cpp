@@ -78,6 +78,21 @@ std::string counted(const std::vector<instance_row>& instances) {
   return result.empty() ? "none" : result;
 }
 
+/// What the node has written to its database, and how much that is a day if it
+/// has run for long enough to tell.
+std::string disk_writes(const node_description& node, int64_t now_unix_ms) {
+  constexpr double hour_ms = 3'600'000;
+  if (node.stored_bytes <= 0)
+    return {};
+  const auto bytes = static_cast<double>(node.stored_bytes);
+  const auto age_ms = static_cast<double>(now_unix_ms)
+                      - static_cast<double>(node.started_unix_ms);
+  if (node.started_unix_ms <= 0 || age_ms < hour_ms)
+    return format_bytes(bytes) + " since the start";
+  return format_bytes(bytes) + " ("
+         + format_bytes(bytes * 24 * hour_ms / age_ms) + " a day)";
+}
+
 std::string actors_view(const std::vector<actor_row>& actors,
                         const view_style& style) {
   table t{{{"ACTOR"},
@@ -109,6 +124,7 @@ std::string node_view(const node_description& node, const view_style& style) {
   facts.add("runtime", node.runtime);
   facts.add("version", node.version);
   facts.add("up for", format_since(node.started_unix_ms, style.now_unix_ms));
+  facts.add("disk written", disk_writes(node, style.now_unix_ms));
   facts.add("skills", std::to_string(node.skills.size()));
   facts.add("instances", counted(node.instances));
   auto text = facts.text() + "\n" + resources_view(node.resources, style);

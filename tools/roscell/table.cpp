@@ -53,14 +53,15 @@ private:
 } // namespace
 
 std::string state_colour(const std::string& word) {
-  static constexpr std::string_view good[] = {"running", "active", "member",
-                                              "deployed", "optimal"};
+  static constexpr std::string_view good[] = {
+      "running", "active", "member",         "deployed",
+      "optimal", "joined", "already_member", "done"};
   static constexpr std::string_view bad[] = {"failed", "lost", "orphaned",
-                                             "degraded"};
+                                             "degraded", "returned"};
   static constexpr std::string_view moving[] = {
-      "pending",     "building",  "starting",  "stopping",
-      "joining",     "switching", "deploying", "reserved",
-      "terminating", "departing", "expected"};
+      "pending",   "building",  "starting",  "stopping",    "joining",
+      "switching", "deploying", "reserved",  "terminating", "departing",
+      "expected",  "preparing", "unresolved"};
   const auto is_in = [&](const auto& list) {
     return std::find(std::begin(list), std::end(list), word) != std::end(list);
   };

@@ -25,11 +25,9 @@ std::string mib(const amount& a) {
   return format_mib(a.used) + "/" + format_mib(a.capacity);
 }
 
-std::string joined(const std::set<std::string>& words) {
-  std::string result;
-  for (const auto& word : words)
-    result += (result.empty() ? "" : ",") + word;
-  return result;
+/// Each name once, in order.
+std::string listed(const std::set<std::string>& names) {
+  return joined({names.begin(), names.end()});
 }
 
 std::string or_nothing(const table& t, const char* what,
@@ -50,6 +48,32 @@ std::string exit_text(int code) {
   return code < 0 ? "" : std::to_string(code);
 }
 
+/// What is wrong with a cell, as its coordinator or the others tell.
+std::string trouble_of(const cell_row& row, const cell_list& cells) {
+  const auto claims = std::count_if(
+      cells.cells.begin(), cells.cells.end(),
+      [&](const cell_row& other) { return other.cell == row.cell; });
+  if (!row.trouble.empty() || claims < 2)
+    return row.trouble;
+  return std::to_string(claims) + " coordinators claim this name";
+}
+
+/// A node that is in no cell has no row, so little is known of it.
+std::vector<std::string> free_row(const free_node& node) {
+  return {node.name,
+          to_string(node_role::primary),
+          to_string(node.state),
+          "",
+          node.address,
+          "",
+          "",
+          "",
+          "",
+          "",
+          "",
+          node.cell.empty() ? "" : "it was in cell '" + node.cell + "'"};
+}
+
 } // namespace
 
 std::string cells_view(const cell_list& cells, const view_style& style) {
@@ -59,9 +83,18 @@ std::string cells_view(const cell_list& cells, const view_style& style) {
            {"ADDRESS"},
            {"DISCOVERY SERVER"}},
           {}};
-  for (const auto& row : cells.cells)
-    t.rows.push_back({row.cell, row.coordinator, std::to_string(row.size),
-                      row.address, row.discovery_server});
+  bool troubled = false;
+  for (const auto& row : cells.cells) {
+    const auto trouble = trouble_of(row, cells);
+    troubled = troubled || !trouble.empty();
+    // A coordinator counts itself, so nobody has told a size of 0.
+    t.rows.push_back({row.cell, row.coordinator,
+                      row.size == 0 ? "" : std::to_string(row.size),
+                      row.address, row.discovery_server, trouble});
+  }
+  // The cells of a row are cut to the number of columns.
+  if (troubled)
+    t.columns.push_back({"TROUBLE"});
   return or_nothing(t, "cells", style);
 }
 
@@ -89,6 +122,8 @@ std::string members_view(const cell_description& cell,
          mib(r.disk_mib), std::to_string(r.gpus.size()),
          std::to_string(row.instances.size()), row.reason});
   }
+  for (const auto& node : cell.free)
+    t.rows.push_back(free_row(node));
   return or_nothing(t, "nodes", style);
 }
 
@@ -111,7 +146,7 @@ std::string tasks_view(const task_description& tasks, const view_style& style) {
         {row.task, to_string(row.state),
          format_since(row.submitted_unix_ms, style.now_unix_ms),
          std::to_string(running) + "/" + std::to_string(row.instances.size()),
-         joined(nodes)});
+         listed(nodes)});
   }
   return or_nothing(t, "tasks", style);
 }
@@ -157,7 +192,7 @@ std::string skills_view(const skill_list& skills, const view_style& style) {
                           format_mib(r.memory_mib), format_mib(r.disk_mib),
                           r.needs_gpu() ? format_mib(r.gpu_memory_mib) : "",
                           row.skill.hash.substr(0, short_hash),
-                          joined({row.nodes.begin(), row.nodes.end()})});
+                          listed({row.nodes.begin(), row.nodes.end()})});
       }
   return or_nothing(t, "skills", style);
 }

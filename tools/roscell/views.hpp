@@ -25,6 +25,8 @@ std::string node_view(const node_description& node, const view_style& style);
 std::string cell_summary(const cell_description& cell, const view_style& style);
 
 std::string cells_view(const cell_list& cells, const view_style& style);
+
+/// The rows of the registry, and below them the nodes that are in no cell.
 std::string members_view(const cell_description& cell, const view_style& style);
 std::string tasks_view(const task_description& tasks, const view_style& style);
 std::string instances_view(const instance_description& instances,

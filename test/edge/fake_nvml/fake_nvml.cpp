@@ -11,6 +11,13 @@ struct memory {
   unsigned long long used;
 };
 
+struct process {
+  unsigned pid;
+  unsigned long long used;
+  unsigned gpu_instance;
+  unsigned compute_instance;
+};
+
 constexpr unsigned long long mib = 1024ULL * 1024ULL;
 constexpr int success = 0;
 constexpr int uninitialized = 1;
@@ -55,6 +62,30 @@ int nvmlDeviceGetMemoryInfo(void* device, memory* info) {
   info->total = (8192 + index) * mib;
   info->used = (1024 + index) * mib;
   info->free = info->total - info->used;
+  return success;
+}
+
+/// On the first GPU: one process that computes and draws, one that computes,
+/// and one whose use the driver does not know.
+int nvmlDeviceGetComputeRunningProcesses_v3(void* device, unsigned* count,
+                                            process* list) {
+  if (device != &devices[0]) {
+    *count = 0;
+    return success;
+  }
+  if (*count < 3)
+    return 7; // insufficient size
+  list[0] = {4242, 500 * mib, 0, 0};
+  list[1] = {4243, 200 * mib, 0, 0};
+  list[2] = {4244, ~0ULL, 0, 0};
+  *count = 3;
+  return success;
+}
+
+int nvmlDeviceGetGraphicsRunningProcesses_v3(void* device, unsigned* count,
+                                             process* list) {
+  *count = device == &devices[0] ? 1 : 0;
+  list[0] = {4242, 500 * mib, 0, 0};
   return success;
 }
 
