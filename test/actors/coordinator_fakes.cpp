@@ -347,6 +347,8 @@ json paper_cell::tasks() {
 }
 
 void paper_cell::write(const store_record& x) {
+  if (x.table != "tasks")
+    return;
   if (x.value.empty())
     disk.erase(x.key);
   else

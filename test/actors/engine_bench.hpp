@@ -112,8 +112,8 @@ struct engine_bench {
   }
 
   ~engine_bench() {
-    caf::anon_send_exit(runtime, caf::exit_reason::kill);
-    caf::anon_send_exit(listener, caf::exit_reason::kill);
+    end_and_await(self, runtime);
+    end_and_await(self, listener);
     engine = nullptr;
   }
 

@@ -54,6 +54,15 @@ private:
   std::deque<std::string> facts_;
 };
 
+/// Ends an actor and waits until it is gone, so that nothing that it points to
+/// is missed.
+template <class Handle>
+void end_and_await(caf::scoped_actor& self, const Handle& whom) {
+  self->monitor(whom);
+  caf::anon_send_exit(whom, caf::exit_reason::kill);
+  self->receive([](const caf::down_msg&) {});
+}
+
 struct real_time_config : caf::actor_system_config {
   real_time_config() {
     roscell::add_message_types(*this);
@@ -92,17 +101,14 @@ struct process_bench {
   ~process_bench() {
     for (const auto& instance : instances)
       ask<container_removed>(remove_container{instance, {}});
-    caf::anon_send_exit(runtime, caf::exit_reason::kill);
-    caf::anon_send_exit(listener, caf::exit_reason::kill);
+    end_and_await(self, runtime);
+    end_and_await(self, listener);
   }
 
   /// A fresh runtime that knows nothing, as after a restart of the node.
   void restart() {
-    if (runtime) {
-      self->monitor(runtime);
-      caf::anon_send_exit(runtime, caf::exit_reason::kill);
-      self->receive([](const caf::down_msg&) {});
-    }
+    if (runtime)
+      end_and_await(self, runtime);
     runtime = roscell::spawn<caf::detached>(system, context, process_runtime,
                                             config, listener);
   }
