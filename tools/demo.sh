@@ -77,13 +77,17 @@ if $containers; then
   fi
 fi
 
+public_domain=$((20 + $$ % 200))
+
 # start NAME OPTION...: starts a node and waits until it says that it is ready.
 start() {
   local name=$1
   shift
   mkfifo "$dir/$name.ready"
   # In a session of its own: Ctrl-C is for this script, which ends its nodes.
+  # In a public domain of its own: two demos do not see each other.
   setsid "$bin/roscell" node --name "$name" --interface lo --port 0 \
+    --public-domain "$public_domain" \
     --discovery-port 0 --data-dir "$dir/$name" --skills build/release/skills \
     --capacity cpu=2,memory_mib=2048,disk_mib=4096 --runtime "$runtime" \
     --ready-fd 5 "$@" 5> "$dir/$name.ready" 2> "$dir/$name.log" &
