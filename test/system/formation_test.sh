@@ -1,5 +1,5 @@
-# Cells that form by themselves and by name, exchange nodes and let them go. All
-# nodes are on loopback, where they see each other as on one network.
+# Cells that form by themselves and by name, exchange nodes and let them go. Most
+# tests are on loopback, where nodes see each other as on one network.
 
 # start_cells NAME...: coordinators that see each other.
 start_cells() {
@@ -278,4 +278,82 @@ test_only_who_proves_the_site_token_switches_a_node() {
   expect "a member" "$(post_switch two "$order" | code_of)" unauthorized
   expect "state" "$(get one /v1/node | jq -r .state)" independent
   expect "the member" "$(get two /v1/node | jq -r .state)" member
+}
+
+# start_party NAME: one of the parties of the transfers below, for the first time
+# or again.
+start_party() {
+  case $1 in
+    alpha) start_on 1 alpha --coordinator --cell alpha ;;
+    beta) start_on 2 beta --coordinator --cell beta ;;
+    n*) start_on "${1#n}" "$1" --wait ;;
+  esac
+}
+
+# await_settled NODE: until it is a member, and of one cell only.
+await_settled() {
+  local end=$((SECONDS + deadline_s)) rows
+  watch_cells alpha beta
+  while read -r -t $((end - SECONDS)) _ <&"$changes"; do
+    rows=$(row_state alpha "$1" | grep -c active)$(row_state beta "$1" \
+      | grep -c active)
+    [[ $rows == 01 || $rows == 10 ]] || continue
+    [[ $(get "$1" /v1/node | jq -r .state) == member ]] && return
+  done
+  fail "alpha: $(row_state alpha "$1"), beta: $(row_state beta "$1"), $1:" \
+    "$(get "$1" /v1/node | jq -r .state)"
+}
+
+# die_at WATCHED EVENT VICTIM: n3 is transferred, and the victim is killed when
+# the watched node tells of that event.
+die_at() {
+  local from=alpha to=beta line stream reader
+  [[ $(row_state beta n3) == active ]] && from=beta to=alpha
+  local watched=$1 victim=$3
+  [[ $watched == old ]] && watched=$from
+  [[ $watched == new ]] && watched=$to
+  [[ $victim == old ]] && victim=$from
+  [[ $victim == new ]] && victim=$to
+  local last
+  last=$(timeout 2 "$ROSCELL" events --since 0 -o json \
+    --to "$scratch/$watched/node.sock" | tail -1 | jq .sequence)
+  exec {stream}< <(exec "$ROSCELL" events --since "$last" -o json \
+    --to "$scratch/$watched/node.sock" 2> /dev/null)
+  reader=$!
+  transfer $from n3 $to > "$scratch/transfer.json" 2> /dev/null &
+  local asker=$!
+  while read -r -t "$deadline_s" line <&"$stream"; do
+    [[ $line == *"\"$2\""* ]] && break
+  done
+  kill -KILL "${pid[$victim]}"
+  kill "$reader" 2> /dev/null
+  exec {stream}<&-
+  wait "$asker"
+  timeout "$deadline_s" tail --pid="${pid[$victim]}" -f /dev/null
+  start_party "$victim"
+  await_settled n3
+  echo "$2, $3: $(jq -r '.error.code // .to' "$scratch/transfer.json")" >&2
+}
+
+test_a_transfer_survives_the_death_of_each_party_at_each_step() {
+  bridge_hosts 6
+  make_site_token
+  local name victim
+  for name in alpha beta n3 n4 n5 n6; do
+    start_party $name
+  done
+  for name in n3 n4 n5 n6; do
+    await alpha ".event == \"node_appeared\" and .subject == \"$name\"" \
+      > /dev/null
+  done
+  form alpha n3 n4 n5 n6 > /dev/null
+  for victim in n3 old new; do
+    die_at old node_departing $victim
+    die_at n3 switch_accepted $victim
+    die_at new node_joined $victim
+  done
+  for name in n4 n5 n6; do
+    await_settled $name
+    expect "$name" "$(row_state alpha $name)" active
+  done
 }

@@ -29,7 +29,7 @@ in_scratch() {
     trap 'clean_up 2> /dev/null; rm -rf "$scratch"' EXIT
     use_skills
     "$@"
-  )
+  ) 2> >(grep -v Killed >&2) # What the shell says of nodes that have been ended.
 }
 
 # One coordinator of the four dies in the middle of every third batch, and in

@@ -54,7 +54,7 @@ template <class Reply>
 Reply show(const form_options& options, const json& request,
            std::string (*view)(const Reply&, const view_style&)) {
   const auto reply = send(options, request);
-  const auto result = reply.get<Reply>();
+  auto result = reply.get<Reply>();
   print(options.output == "json" ? pretty(reply)
                                  : view(result, view_style_now()));
   return result;
