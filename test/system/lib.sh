@@ -45,8 +45,9 @@ start_node() {
     --ready-fd 5 "$@" 5> "$ready" 2>> "$scratch/$name.log" &
   pid[$name]=$!
   echo "${pid[$name]}" >> "$scratch/pids"
-  # The node's end, ready or not, ends the wait too.
-  { tail --pid="${pid[$name]}" -f /dev/null; echo gone > "$ready"; } &
+  # The node's end, ready or not, ends the wait too. By the descriptor, because
+  # the path may be that of the node's next start then.
+  { tail --pid="${pid[$name]}" -f /dev/null; echo gone >&"$ready_fd"; } &
   local said=
   read -r -t "$deadline_s" said <&"$ready_fd" || true
   exec {ready_fd}<&-
