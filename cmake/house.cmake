@@ -28,12 +28,17 @@ if(ROSCELL_TIDY)
   set(CMAKE_CXX_CLANG_TIDY ${CLANG_TIDY} --quiet)
 endif()
 
-# roscell_library(name FOLDER): a static library of the .cpp files that lie
-# directly in the calling folder or in the folders named after it.
+# roscell_library(name FOLDER...): a static library of the .cpp files that lie
+# directly in the calling folder or in the folders named after it; `FOLDER/**`
+# takes the folders inside that folder too.
 function(roscell_library name)
   set(sources)
   foreach(folder . ${ARGN})
-    file(GLOB found CONFIGURE_DEPENDS ${folder}/*.cpp)
+    if(folder MATCHES "^(.*)/[*][*]$")
+      file(GLOB_RECURSE found CONFIGURE_DEPENDS ${CMAKE_MATCH_1}/*.cpp)
+    else()
+      file(GLOB found CONFIGURE_DEPENDS ${folder}/*.cpp)
+    endif()
     list(APPEND sources ${found})
   endforeach()
   add_library(${name} STATIC ${sources})

@@ -11,7 +11,8 @@
 
 /// What a member and its coordinator say to each other over their session.
 /// Every frame is an envelope: a request and its reply share an id, a notice
-/// has none. The handshake's frames are in actors/edge/session_handshake.hpp.
+/// has none. The handshake's frames are in
+/// actors/edge/session/session_handshake.hpp.
 namespace roscell {
 
 struct session_request {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "actors/house.hpp"
+#include "actors/house/house.hpp"
 #include "messages/type_ids.hpp"
 
 #include <caf/actor_system.hpp>

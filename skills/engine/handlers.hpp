@@ -2,7 +2,7 @@
 
 #include "skills/engine/environment.hpp"
 #include "skills/engine/frame.hpp"
-#include "skills/engine/stop_event.hpp"
+#include "skills/engine/life/stop_event.hpp"
 
 #include <functional>
 #include <string>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "skills/engine/stop_event.hpp"
+#include "skills/engine/life/stop_event.hpp"
 
 namespace roscell::engine {
 

@@ -2,11 +2,11 @@
 
 #include "skills/engine/errors.hpp"
 #include "skills/engine/frame_queue.hpp"
-#include "skills/engine/heartbeat.hpp"
-#include "skills/engine/liveness.hpp"
-#include "skills/engine/notify_socket.hpp"
+#include "skills/engine/life/heartbeat.hpp"
+#include "skills/engine/life/liveness.hpp"
+#include "skills/engine/life/notify_socket.hpp"
+#include "skills/engine/life/processing_times.hpp"
 #include "skills/engine/output_ports.hpp"
-#include "skills/engine/processing_times.hpp"
 #include "skills/engine/registry.hpp"
 
 #include <atomic>

@@ -1,7 +1,7 @@
 #include "skills/engine/registry.hpp"
 
 #include "skills/engine/errors.hpp"
-#include "skills/engine/file_protocol.hpp"
+#include "skills/engine/file/file_protocol.hpp"
 
 namespace roscell::engine {
 

@@ -1,8 +1,8 @@
 #include "skills/engine/run.hpp"
 
+#include "skills/engine/life/signal_watch.hpp"
 #include "skills/engine/log_line.hpp"
 #include "skills/engine/primitive_base_engine.hpp"
-#include "skills/engine/signal_watch.hpp"
 
 #include <iostream>
 

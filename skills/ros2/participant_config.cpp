@@ -1,7 +1,7 @@
 #include "skills/ros2/participant_config.hpp"
 
 #include "skills/engine/errors.hpp"
-#include "skills/engine/unique_fd.hpp"
+#include "skills/engine/life/unique_fd.hpp"
 #include "skills/ros2/names.hpp"
 
 #include <arpa/inet.h>

@@ -1,5 +1,5 @@
-#include "actors/edge/announcement.hpp"
-#include "actors/edge/discovery_probe.hpp"
+#include "actors/edge/dds/announcement.hpp"
+#include "actors/edge/dds/rtps/discovery_probe.hpp"
 
 #include <cstdint>
 #include <cstdlib>

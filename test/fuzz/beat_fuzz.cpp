@@ -1,4 +1,4 @@
-#include "actors/edge/beat_packet.hpp"
+#include "actors/edge/session/beat_packet.hpp"
 
 #include <cstdlib>
 #include <string_view>

@@ -1,4 +1,4 @@
-#include "actors/edge/discovery_filter.hpp"
+#include "actors/edge/dds/rtps/discovery_filter.hpp"
 
 #include <cstdint>
 #include <cstdlib>

@@ -1,6 +1,6 @@
-#include "actors/edge/engine_log.hpp"
-#include "actors/edge/line_splitter.hpp"
-#include "actors/edge/utf8.hpp"
+#include "actors/edge/engine/engine_log.hpp"
+#include "actors/edge/io/line_splitter.hpp"
+#include "actors/edge/io/utf8.hpp"
 
 #include <algorithm>
 #include <cstdlib>

@@ -1,4 +1,4 @@
-#include "actors/edge/session_handshake.hpp"
+#include "actors/edge/session/session_handshake.hpp"
 
 #include <cstdlib>
 #include <string_view>

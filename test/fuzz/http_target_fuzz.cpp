@@ -1,4 +1,4 @@
-#include "actors/edge/http_target.hpp"
+#include "actors/edge/http/http_target.hpp"
 
 #include <cstdlib>
 #include <string_view>

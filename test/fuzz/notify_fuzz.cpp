@@ -1,5 +1,5 @@
-#include "actors/edge/notification.hpp"
-#include "actors/edge/utf8.hpp"
+#include "actors/edge/io/utf8.hpp"
+#include "actors/edge/process/notification.hpp"
 
 #include <cstdlib>
 #include <string_view>

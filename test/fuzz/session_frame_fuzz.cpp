@@ -1,6 +1,6 @@
 // Arbitrary bytes as a frame of a session: the envelope, and the message in it
 // as the struct that its receiver gets.
-#include "actors/edge/session_frames.hpp"
+#include "actors/edge/session/session_frames.hpp"
 #include "messages/allocation_report.hpp"
 #include "messages/cell.hpp"
 #include "messages/event.hpp"

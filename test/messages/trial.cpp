@@ -1,6 +1,6 @@
 #include "test/messages/trial.hpp"
 
-#include "actors/edge/session_frames.hpp"
+#include "actors/edge/session/session_frames.hpp"
 #include "messages/allocation_report.hpp"
 #include "messages/cell.hpp"
 #include "messages/event.hpp"

@@ -2,7 +2,7 @@
 
 #include "skills/engine/registry.hpp"
 
-#include "actors/edge/discovery_server.hpp"
+#include "actors/edge/dds/discovery_server.hpp"
 
 #include "test/skills/support.hpp"
 

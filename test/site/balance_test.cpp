@@ -1,4 +1,4 @@
-#include "actors/cell_balance.hpp"
+#include "actors/cell/cell_balance.hpp"
 #include "test/site/site_watch.hpp"
 
 #include <algorithm>

@@ -55,7 +55,7 @@ membership_config membership_setup(const site_party& x) {
   return result;
 }
 
-/// Starts the membership as actors/node.cpp does.
+/// Starts the membership as actors/node/node_builder.cpp does.
 void start_membership(site& place, site_party& x) {
   membership_parts parts;
   parts.discovery = part<discovery_actor>(x);

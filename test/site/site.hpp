@@ -1,7 +1,7 @@
 #pragma once
 
-#include "actors/cell_coordinator.hpp"
-#include "actors/membership.hpp"
+#include "actors/cell/cell_coordinator.hpp"
+#include "actors/membership/membership.hpp"
 #include "test/lossy_link.hpp"
 
 #include <array>

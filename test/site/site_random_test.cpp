@@ -1,4 +1,4 @@
-#include "actors/session_timeouts.hpp"
+#include "actors/house/session_timeouts.hpp"
 #include "test/site/site_watch.hpp"
 
 #include <cstdlib>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "skills/engine/unique_fd.hpp"
+#include "skills/engine/life/unique_fd.hpp"
 
 #include "test/skills/temp_folder.hpp"
 

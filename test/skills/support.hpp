@@ -1,8 +1,8 @@
 #pragma once
 
 #include "skills/engine/handlers.hpp"
-#include "skills/engine/stop_event.hpp"
-#include "skills/engine/unique_fd.hpp"
+#include "skills/engine/life/stop_event.hpp"
+#include "skills/engine/life/unique_fd.hpp"
 
 #include "test/skills/temp_folder.hpp"
 

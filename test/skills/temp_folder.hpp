@@ -1,6 +1,6 @@
 #pragma once
 
-#include "skills/engine/inotify_watch.hpp"
+#include "skills/engine/file/inotify_watch.hpp"
 
 #include <poll.h>
 #include <sys/inotify.h>

@@ -1,5 +1,5 @@
-#include "actors/allocation/allocation.hpp"
-#include "actors/allocation/assignment.hpp"
+#include "actors/placement/search/allocation.hpp"
+#include "actors/placement/search/assignment.hpp"
 #include "tools/bench/allocation_cells.hpp"
 
 #include <CLI/CLI.hpp>

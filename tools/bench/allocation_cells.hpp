@@ -1,6 +1,6 @@
 #pragma once
 
-#include "actors/allocation/problem.hpp"
+#include "actors/placement/search/problem.hpp"
 
 #include <random>
 #include <string>

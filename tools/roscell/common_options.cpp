@@ -1,6 +1,6 @@
 #include "tools/roscell/common_options.hpp"
 
-#include "tools/roscell/format.hpp"
+#include "tools/roscell/view/format.hpp"
 
 #include <CLI/CLI.hpp>
 

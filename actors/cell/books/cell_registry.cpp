@@ -1,0 +1,244 @@
+#include "actors/cell/books/cell_registry.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace roscell {
+
+member_claim claim_of(const registry_row& row) {
+  return {row.identity.name, row.identity.uuid, row.identity.epoch,
+          row.state == row_state::active};
+}
+
+std::optional<std::string>
+cell_registry::refusal(const node_identity& who,
+                       const registry_time& now) const {
+  if (auto i = by_uuid_.find(who.uuid); i != by_uuid_.end())
+    if (who.epoch < i->second.row.identity.epoch)
+      return "the registration of epoch " + std::to_string(who.epoch)
+             + " is older than epoch "
+             + std::to_string(i->second.row.identity.epoch)
+             + ", which has been seen";
+  const auto* namesake = find_name(who.name);
+  if (!namesake || namesake->row.identity.uuid == who.uuid)
+    return std::nullopt;
+  const auto& row = namesake->row;
+  const bool free = row.state == row_state::lost
+                    && now.steady - namesake->inactive_since > name_held;
+  if (free)
+    return std::nullopt;
+  return "the name '" + who.name + "' belongs to the node with UUID "
+         + row.identity.uuid + " at " + row.identity.address;
+}
+
+registry_entry&
+cell_registry::reserve(const node_identity& who,
+                       std::chrono::steady_clock::time_point until,
+                       const registry_time& now) {
+  auto& entry = by_uuid_[who.uuid];
+  if (entry.row.identity.uuid.empty()) {
+    entry.row.identity = who;
+    entry.row.resources.name = who.name;
+    entry.row.state = row_state::reserved;
+    entry.row.since_unix_ms = now.unix_ms;
+  }
+  entry.held_until = until;
+  return entry;
+}
+
+std::vector<std::string>
+cell_registry::drop_overdue(std::chrono::steady_clock::time_point now) {
+  std::vector<std::string> result;
+  for (const auto& [uuid, entry] : by_uuid_)
+    if (entry.row.state == row_state::reserved && entry.held_until <= now)
+      result.push_back(uuid);
+  for (const auto& uuid : result)
+    by_uuid_.erase(uuid);
+  return result;
+}
+
+std::chrono::steady_clock::time_point cell_registry::next_overdue() const {
+  auto result = std::chrono::steady_clock::time_point::max();
+  for (const auto& [uuid, entry] : by_uuid_)
+    if (entry.row.state == row_state::reserved)
+      result = std::min(result, entry.held_until);
+  return result;
+}
+
+void cell_registry::expect(const member_record& known,
+                           const registry_time& now) {
+  auto& entry = by_uuid_[known.identity.uuid];
+  entry.row.identity = known.identity;
+  entry.row.resources.name = known.identity.name;
+  entry.row.since_unix_ms = now.unix_ms;
+  entry.row.reason = "not seen since the coordinator was started";
+  entry.origin = known.origin;
+}
+
+void cell_registry::depart(registry_entry& entry, std::string transfer,
+                           const registry_time& now) {
+  entry.row.state = row_state::departing;
+  entry.row.since_unix_ms = now.unix_ms;
+  entry.transfer = std::move(transfer);
+}
+
+void cell_registry::stay(registry_entry& entry, const registry_time& now) {
+  entry.row.state = row_state::active;
+  entry.row.since_unix_ms = now.unix_ms;
+  entry.row.reason.clear();
+  entry.transfer.clear();
+}
+
+registry_entry& cell_registry::activate(registry_entry entry,
+                                        const registry_time& now) {
+  // A namesake that was given up makes way.
+  if (auto* old = find_name(entry.row.identity.name))
+    if (old->row.identity.uuid != entry.row.identity.uuid)
+      erase(old->row.identity.uuid);
+  entry.row.state = row_state::active;
+  entry.row.since_unix_ms = now.unix_ms;
+  entry.row.reason.clear();
+  auto& place = by_uuid_[entry.row.identity.uuid];
+  place = std::move(entry);
+  return place;
+}
+
+registry_entry* cell_registry::find_member(const std::string& uuid,
+                                           const member_actor& member) {
+  auto* entry = find_uuid(uuid);
+  return entry && entry->member && entry->member == member ? entry : nullptr;
+}
+
+registry_entry* cell_registry::find_uuid(const std::string& uuid) {
+  auto i = by_uuid_.find(uuid);
+  return i == by_uuid_.end() ? nullptr : &i->second;
+}
+
+const registry_entry* cell_registry::find_name(const std::string& name) const {
+  for (const auto& [uuid, entry] : by_uuid_)
+    if (entry.row.identity.name == name)
+      return &entry;
+  return nullptr;
+}
+
+registry_entry* cell_registry::find_name(const std::string& name) {
+  return const_cast<registry_entry*>(std::as_const(*this).find_name(name));
+}
+
+void cell_registry::deactivate(registry_entry& entry, row_state state,
+                               std::string reason, const registry_time& now) {
+  entry.row.state = state;
+  entry.row.reason = std::move(reason);
+  entry.row.since_unix_ms = now.unix_ms;
+  entry.inactive_since = now.steady;
+  entry.agent = nullptr;
+  entry.member = nullptr;
+  entry.transfer.clear();
+}
+
+void cell_registry::erase(const std::string& uuid) {
+  by_uuid_.erase(uuid);
+}
+
+void cell_registry::update_instance(const instance_row& instance) {
+  auto* entry = find_name(instance.node);
+  if (!entry)
+    return;
+  auto& known = entry->row.instances;
+  auto i = std::find_if(known.begin(), known.end(), [&](const auto& x) {
+    return x.spec.instance == instance.spec.instance;
+  });
+  if (i == known.end())
+    known.push_back(instance);
+  else
+    *i = instance;
+}
+
+void cell_registry::erase_instance(const std::string& instance) {
+  for (auto& [uuid, entry] : by_uuid_) {
+    auto& known = entry.row.instances;
+    known.erase(std::remove_if(
+                    known.begin(), known.end(),
+                    [&](const auto& x) { return x.spec.instance == instance; }),
+                known.end());
+  }
+}
+
+const instance_row*
+cell_registry::find_instance(const std::string& instance) const {
+  for (const auto& [uuid, entry] : by_uuid_)
+    for (const auto& x : entry.row.instances)
+      if (x.spec.instance == instance)
+        return &x;
+  return nullptr;
+}
+
+std::vector<registry_row> cell_registry::rows() const {
+  std::vector<registry_row> result;
+  for (const auto& [uuid, entry] : by_uuid_)
+    result.push_back(entry.row);
+  std::sort(result.begin(), result.end(), [](const auto& x, const auto& y) {
+    return x.identity.name < y.identity.name;
+  });
+  return result;
+}
+
+size_t cell_registry::active_count() const {
+  return static_cast<size_t>(
+      std::count_if(by_uuid_.begin(), by_uuid_.end(), [](const auto& x) {
+        return x.second.row.state == row_state::active;
+      }));
+}
+
+size_t cell_registry::size() const {
+  return static_cast<size_t>(
+      std::count_if(by_uuid_.begin(), by_uuid_.end(), [](const auto& x) {
+        const auto state = x.second.row.state;
+        return state == row_state::active || state == row_state::reserved
+               || state == row_state::departing;
+      }));
+}
+
+std::vector<member_claim> cell_registry::claims() const {
+  std::vector<member_claim> result;
+  for (const auto& [uuid, entry] : by_uuid_)
+    result.push_back(claim_of(entry.row));
+  return result;
+}
+
+std::vector<skill_row>
+cell_registry::skills(const std::string& operation) const {
+  std::map<std::string, skill_row> by_hash;
+  for (const auto& [uuid, entry] : by_uuid_) {
+    if (entry.row.state != row_state::active)
+      continue;
+    for (const auto& skill : entry.skills) {
+      if (!operation.empty() && skill.descriptor.operation != operation)
+        continue;
+      auto& row = by_hash[skill.hash];
+      row.skill = skill;
+      row.nodes.push_back(entry.row.identity.name);
+    }
+  }
+  std::vector<skill_row> result;
+  for (auto& [hash, row] : by_hash) {
+    std::sort(row.nodes.begin(), row.nodes.end());
+    result.push_back(std::move(row));
+  }
+  return result;
+}
+
+void cell_registry::for_each(
+    const std::function<void(registry_entry&)>& visit) {
+  for (auto& [uuid, entry] : by_uuid_)
+    visit(entry);
+}
+
+void cell_registry::for_each_active(
+    const std::function<void(registry_entry&)>& visit) {
+  for (auto& [uuid, entry] : by_uuid_)
+    if (entry.row.state == row_state::active)
+      visit(entry);
+}
+
+} // namespace roscell

@@ -1,0 +1,168 @@
+#include "actors/cell/cell_balance.hpp"
+
+#include "actors/cell/cell_members.hpp"
+#include "actors/cell/cell_peers.hpp"
+#include "actors/cell/cell_places.hpp"
+#include "actors/cell/cell_transfers.hpp"
+#include "actors/house/session_timeouts.hpp"
+#include "messages/failure.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+namespace roscell {
+
+namespace {
+
+using self_pointer = coordinator_pointer;
+using time_point = std::chrono::steady_clock::time_point;
+
+/// Nodes that are joining, and coordinators that are appearing, get this long.
+constexpr std::chrono::seconds settling_span{2};
+
+std::vector<cell_size> sizes_of(const cell_coordinator_state& st) {
+  std::vector<cell_size> result;
+  result.push_back({st.setup.self.uuid, st.setup.cell,
+                    static_cast<int64_t>(st.registry.size())});
+  for (const auto& [uuid, peer] : st.peers)
+    if (peer.actor && peer.told && peer.standing.rebalance)
+      result.push_back({uuid, peer.standing.place.cell, peer.size()});
+  return result;
+}
+
+std::string cell_of(const std::vector<cell_size>& cells,
+                    const std::string& uuid) {
+  for (const auto& x : cells)
+    if (x.uuid == uuid)
+      return x.cell;
+  return {};
+}
+
+/// One cell has done what it could. Once all have, it is looked at again as
+/// long as something moves.
+void on_surrendered(self_pointer self, bool moved) {
+  auto& st = self->state;
+  --st.balancing;
+  if (moved)
+    arm_balance(self);
+}
+
+void order_move(self_pointer self, const cell_move& move,
+                const std::string& target) {
+  auto& st = self->state;
+  ++st.balancing;
+  st.context.tell("cells_rebalanced", target, {{"members", move.count}});
+  const member_surrender request{target, move.count};
+  auto done = [self](const members_surrendered& x) {
+    on_surrendered(self, !x.nodes.empty());
+  };
+  auto failed = [self](const caf::error&) { on_surrendered(self, false); };
+  if (move.from == st.setup.self.uuid)
+    self->request(cell_coordinator_actor{self}, transfer_timeout, request)
+        .then(done, failed);
+  else
+    self->request(st.peers[move.from].actor, transfer_timeout, request)
+        .then(done, failed);
+}
+
+/// Whether a member may be moved without asking anybody.
+bool is_movable(const cell_coordinator_state& st, const registry_entry& x) {
+  return x.row.state == row_state::active && x.member
+         && x.origin == join_origin::discovered && x.row.instances.empty()
+         && st.tasks.wanted_on(x.row.identity.name).empty();
+}
+
+std::vector<std::string> movable(self_pointer self, size_t count) {
+  std::vector<std::string> result;
+  self->state.registry.for_each_active([&](registry_entry& x) {
+    if (result.size() < count && is_movable(self->state, x))
+      result.push_back(x.row.identity.name);
+  });
+  return result;
+}
+
+} // namespace
+
+std::vector<cell_move> plan_moves(std::vector<cell_size> cells) {
+  std::sort(cells.begin(), cells.end(), [](const auto& x, const auto& y) {
+    return x.size != y.size ? x.size > y.size : x.uuid < y.uuid;
+  });
+  int64_t total = 0;
+  for (const auto& x : cells)
+    total += x.size;
+  const auto count = static_cast<int64_t>(cells.size());
+  std::vector<int64_t> surplus;
+  for (int64_t i = 0; i < count; ++i) {
+    const auto& x = cells[static_cast<size_t>(i)];
+    surplus.push_back(x.size - total / count - (i < total % count ? 1 : 0));
+  }
+  std::vector<cell_move> result;
+  size_t to = cells.size();
+  for (size_t from = 0; from < cells.size(); ++from) {
+    while (surplus[from] > 0) {
+      while (surplus[to - 1] >= 0)
+        --to;
+      const auto n = std::min(surplus[from], -surplus[to - 1]);
+      result.push_back({cells[from].uuid, cells[to - 1].uuid, n});
+      surplus[from] -= n;
+      surplus[to - 1] += n;
+    }
+  }
+  return result;
+}
+
+void arm_balance(self_pointer self) {
+  if (!self->state.setup.rebalance)
+    return;
+  self->state.balance_due = self->clock().now() + settling_span;
+  set_timer(self);
+}
+
+void balance_if_due(self_pointer self) {
+  auto& st = self->state;
+  if (self->clock().now() < st.balance_due || st.balancing > 0)
+    return;
+  st.balance_due = time_point::max();
+  if (!gives_places(self))
+    return;
+  const auto cells = sizes_of(st);
+  for (const auto& move : plan_moves(cells))
+    order_move(self, move, cell_of(cells, move.to));
+}
+
+caf::result<members_surrendered>
+surrender_members(self_pointer self, const member_surrender& request) {
+  auto& st = self->state;
+  if (!st.setup.rebalance)
+    return fail(error_code::conflict,
+                "cell '" + st.setup.cell + "' is not to be evened out");
+  struct tally {
+    size_t open = 1;
+    members_surrendered result;
+  };
+  auto promise = self->make_response_promise<members_surrendered>();
+  auto state = std::make_shared<tally>();
+  auto finish_one = [state, promise]() mutable {
+    if (--state->open == 0)
+      promise.deliver(std::move(state->result));
+  };
+  for (const auto& name : movable(self, static_cast<size_t>(request.count))) {
+    ++state->open;
+    transfer_wish wish;
+    wish.node = name;
+    wish.target = request.target;
+    wish.origin = join_origin::discovered;
+    start_transfer(self, wish,
+                   [state, finish_one, name](const cell_transfer&,
+                                             const failure* why) mutable {
+                     if (!why)
+                       state->result.nodes.push_back(name);
+                     finish_one();
+                   });
+  }
+  finish_one();
+  return promise;
+}
+
+} // namespace roscell

@@ -1,0 +1,163 @@
+#include "actors/cell/cell_coordinator.hpp"
+
+#include "actors/cell/cell_balance.hpp"
+#include "actors/cell/cell_formation.hpp"
+#include "actors/cell/cell_members.hpp"
+#include "actors/cell/cell_peers.hpp"
+#include "actors/cell/cell_places.hpp"
+#include "actors/cell/cell_tasks.hpp"
+#include "actors/cell/cell_transfers.hpp"
+#include "messages/failure.hpp"
+
+#include <utility>
+
+namespace roscell {
+
+namespace {
+
+using self_pointer = coordinator_pointer;
+
+/// Added to what the node itself may wait for a log.
+constexpr std::chrono::seconds log_margin{8};
+
+caf::error unknown(const std::string& what, const std::string& id) {
+  return fail(error_code::unknown_task, "no " + what + " '" + id + "' is known",
+              "/" + what, "`roscell " + what + "s` lists them");
+}
+
+std::vector<task_row> describe_all_tasks(self_pointer self) {
+  std::vector<task_row> result;
+  for (const auto& [task, entry] : self->state.tasks.entries())
+    if (entry.intent)
+      result.push_back(describe_task(self, entry.record));
+  return result;
+}
+
+cell_description describe(self_pointer self) {
+  const auto& st = self->state;
+  return {st.setup.cell,
+          st.setup.self.name,
+          st.setup.self.address,
+          st.setup.discovery_server,
+          st.setup.incarnation,
+          st.registry.rows(),
+          describe_all_tasks(self),
+          list_free_nodes(self)};
+}
+
+caf::result<task_description> answer(self_pointer self,
+                                     const task_query& query) {
+  if (query.task.empty())
+    return task_description{describe_all_tasks(self)};
+  const auto* entry = self->state.tasks.find(query.task);
+  if (!entry || !entry->intent)
+    return unknown("task", query.task);
+  return task_description{{describe_task(self, entry->record)}};
+}
+
+caf::result<instance_description> answer(self_pointer self,
+                                         const instance_query& query) {
+  instance_description result;
+  for (const auto& row : self->state.registry.rows())
+    for (const auto& x : row.instances)
+      if ((query.instance.empty() || x.spec.instance == query.instance)
+          && (query.task.empty() || x.spec.task == query.task))
+        result.instances.push_back(x);
+  if (!query.instance.empty() && result.instances.empty())
+    return unknown("instance", query.instance);
+  return result;
+}
+
+caf::result<log_excerpt> answer(self_pointer self, const log_query& query) {
+  auto& registry = self->state.registry;
+  const auto* instance = registry.find_instance(query.instance);
+  if (!instance)
+    return unknown("instance", query.instance);
+  const auto* entry = registry.find_name(instance->node);
+  if (!entry || !entry->agent)
+    return fail(error_code::unreachable,
+                "node '" + instance->node + "', which has the log, is away",
+                "/instance", "try again when `roscell nodes` shows it active");
+  auto promise = self->make_response_promise<log_excerpt>();
+  self->request(entry->agent,
+                log_margin + std::chrono::milliseconds{query.wait_ms}, query)
+      .then(
+          [promise](log_excerpt& x) mutable { promise.deliver(std::move(x)); },
+          [promise](caf::error& why) mutable {
+            promise.deliver(std::move(why));
+          });
+  return promise;
+}
+
+json summary(self_pointer self) {
+  const auto& st = self->state;
+  return {{"cell", st.setup.cell},
+          {"incarnation", st.setup.incarnation},
+          {"nodes", st.registry.rows()},
+          {"tasks", describe_all_tasks(self)},
+          {"turn", st.turn},
+          {"waiting", st.waiting.size()},
+          {"cells", list_cells(self)},
+          {"free", list_free_nodes(self)},
+          {"places", st.places.size()},
+          {"transfers", st.transfers.size()},
+          {"balancing", st.balancing}};
+}
+
+} // namespace
+
+cell_coordinator_actor::behavior_type
+cell_coordinator(self_pointer self, const house& context,
+                 const coordinator_setup& setup) {
+  self->state.context = context;
+  self->state.setup = setup;
+  add_own_row(self);
+  restore_members(self);
+  restore_transfers(self);
+  restore_tasks(self);
+  reconcile_own_node(self);
+  measure_own_node(self);
+  appear(self);
+  self->set_down_handler([self](const caf::down_msg& down) {
+    on_pipeline_down(self, down.source);
+    on_member_down(self, down.source);
+  });
+  return {
+      [self](const state_query&) { return state_of(summary(self)); },
+      [self](const session_admitted& x) { on_session_admitted(self, x); },
+      [self](const register_node& x) { return register_member(self, x); },
+      [self](const depart_node& x) { return depart_member(self, x); },
+      [self](const member_lost& x) { on_member_lost(self, x); },
+      [self](const instance_changed& x) { on_instance_changed(self, x); },
+      [self](const cell_query&) { return describe(self); },
+      [self](const cell_list_query&) { return cell_list{list_cells(self)}; },
+      [self](const task_query& x) { return answer(self, x); },
+      [self](const instance_query& x) { return answer(self, x); },
+      [self](const log_query& x) { return answer(self, x); },
+      [self](const skill_query& x) {
+        return skill_list{self->state.registry.skills(x.operation)};
+      },
+      [self](const claim_task& x) { return claim_turn(self, x); },
+      [self](const collect_resources&) { return collect_cell_resources(self); },
+      [self](const find_agents& x) { return answer_agents(self, x); },
+      [self](const record_intent& x) { return hold_resources(self, x); },
+      [self](const record_outcome& x) { return settle_task(self, x); },
+      [self](const task_termination& x) { return terminate(self, x); },
+      [self](const presence_seen& x) { on_presence_seen(self, x.who); },
+      [self](const presence_gone& x) { on_presence_gone(self, x.who); },
+      [self](const peer_opened& x) { on_peer_opened(self, x); },
+      [self](const peer_lost& x) { on_peer_lost(self, x); },
+      [self](const peer_told& x) { on_peer_told(self, x); },
+      [self](const peer_changed& x) { on_peer_changed(self, x); },
+      [self](const place_request& x) { return grant_place(self, x); },
+      [self](const place_reservation& x) { return reserve_place(self, x); },
+      [self](const member_surrender& x) { return surrender_members(self, x); },
+      [self](const cell_formation& x) { return form_cell(self, x); },
+      [self](const node_transfer& x) { return transfer_node(self, x); },
+      [self](const node_release& x) { return release_node(self, x); },
+      [self](const transfer_query& x) { return describe_transfers(self, x); },
+      [self](caf::tick_atom, uint64_t number) { on_tick(self, number); },
+  };
+}
+
+} // namespace roscell

@@ -1,0 +1,246 @@
+#include "actors/cell/cell_formation.hpp"
+
+#include "actors/cell/cell_members.hpp"
+#include "actors/cell/cell_peers.hpp"
+#include "actors/cell/cell_places.hpp"
+#include "actors/house/session_timeouts.hpp"
+#include "messages/failure.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <memory>
+#include <utility>
+
+namespace roscell {
+
+namespace {
+
+using self_pointer = coordinator_pointer;
+using outcome_done = std::function<void(formation_outcome)>;
+
+/// A nonce is fetched, then the switch is written down.
+constexpr std::chrono::seconds call_timeout{12};
+
+/// From the node's word that it comes to its registration.
+constexpr std::chrono::seconds arrival_span{25};
+
+constexpr std::chrono::seconds place_span{40};
+
+formation_outcome failed(const std::string& node, const failure& why) {
+  formation_outcome result;
+  result.node = node;
+  result.code = to_word(why.code);
+  result.message = why.message;
+  result.hint = why.hint;
+  return result;
+}
+
+formation_outcome joined(const std::string& node, const std::string& from) {
+  formation_outcome result;
+  result.node = node;
+  result.result = formation_result::joined;
+  result.from = from;
+  return result;
+}
+
+/// Answers when the node has a row that is active, or when it took too long.
+void await_arrival(self_pointer self, const std::string& uuid,
+                   const formation_outcome& success, const outcome_done& done) {
+  auto answer = [success, done](const failure* why) {
+    done(why ? failed(success.node, *why) : success);
+  };
+  self->state.arrivals.emplace(
+      uuid, awaited_arrival{self->clock().now() + arrival_span, answer});
+  set_timer(self);
+}
+
+node_presence find_presence(const cell_coordinator_state& st,
+                            const std::string& node) {
+  node_presence result;
+  for (const auto& [uuid, who] : st.presences)
+    if (who.name == node && who.role != "coordinator"
+        && who.epoch >= result.epoch)
+      result = who;
+  return result;
+}
+
+bool is_coordinator(const cell_coordinator_state& st, const std::string& node) {
+  for (const auto& [uuid, who] : st.presences)
+    if (who.name == node && who.role == "coordinator")
+      return true;
+  return node == st.setup.self.name;
+}
+
+/// Brings in a node that is in no cell, by its REST API.
+void bring_in_free(self_pointer self, const node_presence& who,
+                   const outcome_done& done) {
+  auto& st = self->state;
+  auto kept =
+      reserve_here(self, {who.name, who.uuid, who.epoch,
+                          std::chrono::milliseconds{place_span}.count()});
+  if (!kept)
+    return done(failed(who.name, to_failure(kept.error())));
+  registration_switch order;
+  order.transfer = st.setup.cell + "-" + std::to_string(st.setup.incarnation)
+                   + "-" + std::to_string(++st.last_transfer);
+  order.node = who.name;
+  order.uuid = who.uuid;
+  order.epoch = who.epoch;
+  order.target = {own_address(st.setup)};
+  await_arrival(self, who.uuid, joined(who.name, ""), done);
+  self->request(st.setup.registration, call_timeout,
+                switch_node{who.address, order})
+      .then([](const switch_accepted&) {},
+            [self, who](const caf::error& err) {
+              auto& state = self->state;
+              auto* entry = state.registry.find_uuid(who.uuid);
+              if (entry && entry->row.state == row_state::reserved)
+                drop_row(self, who.uuid);
+              const auto why = to_failure(err);
+              // What it announced may be long out of date.
+              if (why.code == error_code::unreachable)
+                state.presences.erase(who.uuid);
+              settle_arrivals(self, who.uuid, &why);
+            });
+}
+
+/// Has another coordinator transfer a member of its cell to this one.
+void bring_over(self_pointer self, const peer_entry& peer,
+                const std::string& node, instance_policy policy,
+                const outcome_done& done) {
+  node_transfer order{node, self->state.setup.cell, policy, true};
+  self->request(peer.actor, transfer_timeout, order)
+      .then([done](const node_transferred& x) { done(joined(x.node, x.from)); },
+            [node, done](const caf::error& why) {
+              done(failed(node, to_failure(why)));
+            });
+}
+
+/// What becomes of a node that has a row here; false if it has none that
+/// settles it.
+bool settle_known(self_pointer self, const std::string& node,
+                  const outcome_done& done) {
+  auto& st = self->state;
+  const auto* entry = st.registry.find_name(node);
+  if (!entry)
+    return false;
+  const auto& row = entry->row;
+  formation_outcome result;
+  result.node = node;
+  switch (row.state) {
+  case row_state::active:
+    result.result = formation_result::already_member;
+    done(result);
+    return true;
+  case row_state::reserved:
+    await_arrival(self, row.identity.uuid, joined(node, ""), done);
+    return true;
+  case row_state::departing:
+    done(failed(node, {error_code::conflict, "node '" + node + "' is departing",
+                       "", "its transfer is '" + entry->transfer + "'"}));
+    return true;
+  default:
+    return false;
+  }
+}
+
+void bring_in(self_pointer self, const std::string& node,
+              instance_policy policy, const outcome_done& done) {
+  auto& st = self->state;
+  if (settle_known(self, node, done))
+    return;
+  if (is_coordinator(st, node))
+    return done(failed(node, {error_code::conflict,
+                              "'" + node
+                                  + "' coordinates a cell: a coordination "
+                                    "node cannot leave its cell"}));
+  const auto* peer = find_peer_with(self, node);
+  const auto who = find_presence(st, node);
+  // A node that says itself that it is in no cell knows best, unless a cell has
+  // news that are newer.
+  int64_t known = -1;
+  if (peer)
+    for (const auto& [uuid, claim] : peer->members)
+      if (claim.name == node)
+        known = claim.epoch;
+  if (!who.uuid.empty() && who.epoch >= known)
+    return bring_in_free(self, who, done);
+  if (peer)
+    return bring_over(self, *peer, node, policy, done);
+  const auto* entry = st.registry.find_name(node);
+  if (entry)
+    return done(failed(node, {error_code::unreachable,
+                              "node '" + node + "' is "
+                                  + std::string{to_word(entry->row.state)},
+                              "", "try again when it is back"}));
+  done(failed(node,
+              {error_code::unknown_node, "no node '" + node + "' is visible",
+               "", "start it, with --peer where multicast does not reach"}));
+}
+
+} // namespace
+
+caf::result<cell_formed> form_cell(self_pointer self,
+                                   const cell_formation& request) {
+  struct tally {
+    size_t open = 1;
+    cell_formed result;
+  };
+  auto promise = self->make_response_promise<cell_formed>();
+  auto state = std::make_shared<tally>();
+  state->result.cell = self->state.setup.cell;
+  state->result.outcomes.resize(request.members.size());
+  auto finish_one = [state, promise]() mutable {
+    if (--state->open == 0)
+      promise.deliver(std::move(state->result));
+  };
+  for (size_t i = 0; i < request.members.size(); ++i) {
+    ++state->open;
+    bring_in(self, request.members[i], request.instances,
+             [state, i, finish_one](formation_outcome outcome) mutable {
+               state->result.outcomes[i] = std::move(outcome);
+               finish_one();
+             });
+  }
+  finish_one();
+  return promise;
+}
+
+void settle_arrivals(self_pointer self, const std::string& uuid,
+                     const failure* why) {
+  auto& all = self->state.arrivals;
+  const auto [begin, end] = all.equal_range(uuid);
+  std::vector<awaited_arrival> waiting;
+  for (auto i = begin; i != end; ++i)
+    waiting.push_back(i->second);
+  all.erase(begin, end);
+  for (const auto& x : waiting)
+    x.done(why);
+}
+
+void settle_overdue_arrivals(self_pointer self) {
+  auto& all = self->state.arrivals;
+  std::vector<awaited_arrival> overdue;
+  for (auto i = all.begin(); i != all.end();) {
+    if (i->second.deadline > self->clock().now()) {
+      ++i;
+      continue;
+    }
+    overdue.push_back(i->second);
+    i = all.erase(i);
+  }
+  const failure why{error_code::unresolved,
+                    "the node was told to join and has not done so in time", "",
+                    "send the request again; see the events of the node"};
+  for (const auto& x : overdue)
+    x.done(&why);
+}
+
+std::chrono::steady_clock::time_point next_arrival_deadline(self_pointer self) {
+  auto result = std::chrono::steady_clock::time_point::max();
+  for (const auto& [uuid, x] : self->state.arrivals)
+    result = std::min(result, x.deadline);
+  return result;
+}
+
+} // namespace roscell

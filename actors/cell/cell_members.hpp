@@ -1,0 +1,53 @@
+#pragma once
+
+#include "actors/cell/cell_coordinator.hpp"
+
+/// What the CELL COORDINATOR does about its members.
+namespace roscell {
+
+/// Gives the coordination node its own row.
+void add_own_row(coordinator_pointer self);
+
+/// Keeps, stops and starts instances on the coordination node itself as a
+/// registration does for other nodes. Called once the tasks are restored.
+void reconcile_own_node(coordinator_pointer self);
+
+/// Asks what this node offers, so that the registry shows it from the start.
+void measure_own_node(coordinator_pointer self);
+
+void on_session_admitted(coordinator_pointer self,
+                         const session_admitted& fact);
+caf::result<node_registered> register_member(coordinator_pointer self,
+                                             const register_node& request);
+caf::result<node_departed> depart_member(coordinator_pointer self,
+                                         const depart_node& request);
+void on_member_lost(coordinator_pointer self, const member_lost& fact);
+
+/// The present moment, as the registry wants it.
+registry_time now_of(coordinator_pointer self);
+
+/// Sets the timer to whatever is due first; it rings in `on_tick`.
+void set_timer(coordinator_pointer self);
+void on_tick(coordinator_pointer self, uint64_t number);
+
+/// Writes a record, or removes it if its value is empty. A store that fails is
+/// told of, and does not stop the work.
+void store(coordinator_pointer self, const store_record& record);
+
+/// Rows that an earlier run of the coordinator had, as `expected`.
+void restore_members(coordinator_pointer self);
+
+/// Forgets a node.
+void drop_row(coordinator_pointer self, const std::string& uuid);
+
+/// A member has ended. One that could not say so is lost.
+void on_member_down(coordinator_pointer self, const caf::actor_addr& gone);
+
+void on_instance_changed(coordinator_pointer self,
+                         const instance_changed& fact);
+
+/// Asks every active node for its resources, and takes off what deploying tasks
+/// hold that the nodes do not know of yet.
+caf::result<cell_resources> collect_cell_resources(coordinator_pointer self);
+
+} // namespace roscell

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "actors/cell/cell_coordinator.hpp"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace roscell {
+
+/// Moves what these tasks run on a node that is about to leave to the active
+/// members, where the scheduler places it. All or nothing: the new instances
+/// run before the old ones end, and if one of them does not come up, or there
+/// is no room for all, nothing has changed and `done` gets the failure. The
+/// tasks run.
+void move_tasks(coordinator_pointer self, const std::string& node,
+                const std::vector<std::string>& tasks,
+                const std::function<void(const failure*)>& done);
+
+} // namespace roscell

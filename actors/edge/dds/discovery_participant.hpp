@@ -1,0 +1,90 @@
+#pragma once
+
+#include "actors/edge/dds/discovery_sighting.hpp"
+#include "actors/edge/io/edge_error.hpp"
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include <fastdds/rtps/attributes/RTPSParticipantAttributes.h>
+#include <fastdds/rtps/participant/RTPSParticipantListener.h>
+
+/// INTERNAL to this folder: what servers, clients and the public participant
+/// have in common. We use Fast DDS's RTPS layer, not its DDS layer:
+/// discovery is all that we want of it.
+namespace roscell {
+
+/// ROS 2 allows the domains 0 to 232; beyond, Fast DDS calls `exit`.
+constexpr std::uint32_t max_domain_id = 232;
+
+struct participant_settings {
+  std::string address; ///< The one local IPv4 address that it uses.
+  std::string announcement;
+  std::chrono::seconds lease{600};
+  /// Half of a lease would do; a third lets one announcement get lost.
+  std::chrono::seconds announcement_period{200};
+  /// The most bytes in one datagram, sent or received. It costs memory: a
+  /// buffer of this size for each direction.
+  std::uint32_t max_message_bytes = 16384;
+};
+
+/// `schema_violation` when it is over `max_announcement_bytes`.
+std::optional<edge_error> check_announcement(const std::string& bytes);
+
+/// `schema_violation` for a domain, periods or an announcement out of bounds.
+std::optional<edge_error> check_settings(std::uint32_t domain_id,
+                                         const participant_settings& settings);
+
+eprosima::fastrtps::rtps::Locator_t udp_locator(const std::string& address,
+                                                std::uint16_t port);
+
+/// Attributes with everything set that does not depend on the kind of
+/// participant. Its discovery and user traffic share `port`.
+eprosima::fastrtps::rtps::RTPSParticipantAttributes
+make_attributes(const participant_settings& settings, std::uint16_t port);
+
+/// Owns one RTPS participant.
+class rtps_participant final
+    : eprosima::fastrtps::rtps::RTPSParticipantListener {
+public:
+  /// Null when Fast DDS refuses, which it explains in its log only.
+  /// `attributes` get a participant id of our own making.
+  static std::unique_ptr<rtps_participant>
+  create(std::uint32_t domain_id,
+         eprosima::fastrtps::rtps::RTPSParticipantAttributes attributes,
+         on_sighting callback);
+
+  /// Says farewell to the others. The callback is not called any more once
+  /// this has begun; not to be called by the callback.
+  ~rtps_participant() override;
+
+  rtps_participant(const rtps_participant&) = delete;
+  rtps_participant& operator=(const rtps_participant&) = delete;
+
+  /// Replaces the USER_DATA, and sends it to all who know us.
+  void update_announcement(const std::string& bytes);
+
+  /// Sends the own data to all who know us.
+  void announce();
+
+  /// The UDP port on which it takes discovery data: the one asked for, or the
+  /// next that was free.
+  std::uint16_t port() const;
+
+private:
+  explicit rtps_participant(on_sighting callback);
+
+  void onParticipantDiscovery(
+      eprosima::fastrtps::rtps::RTPSParticipant*,
+      eprosima::fastrtps::rtps::ParticipantDiscoveryInfo&& info) override;
+
+  std::mutex mutex_; // Held while the callback runs.
+  on_sighting callback_;
+  eprosima::fastrtps::rtps::RTPSParticipant* participant_ = nullptr;
+};
+
+} // namespace roscell

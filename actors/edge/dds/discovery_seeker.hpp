@@ -1,0 +1,76 @@
+#pragma once
+
+#include "actors/edge/dds/discovery_address.hpp"
+#include "actors/edge/dds/rtps/discovery_probe.hpp"
+
+#include <chrono>
+#include <deque>
+#include <functional>
+#include <optional>
+#include <string>
+
+/// INTERNAL to this folder.
+namespace roscell {
+
+/// An event that another thread can raise and `poll` can wait for.
+class wake_event {
+public:
+  wake_event();
+  ~wake_event();
+  wake_event(const wake_event&) = delete;
+  wake_event& operator=(const wake_event&) = delete;
+
+  int fd() const {
+    return fd_;
+  }
+
+  void raise();
+
+  /// Waits until it was raised, at most for `limit` unless that is negative,
+  /// and takes it back. True when it was raised.
+  bool wait(std::chrono::milliseconds limit);
+
+private:
+  int fd_;
+};
+
+/// Asks one address for the discovery server behind it, until it answers.
+class server_seeker {
+public:
+  using report_function = std::function<void(const std::string&)>;
+
+  /// `report` is told why there is no answer yet, whenever the reason changes.
+  server_seeker(const sockaddr_in& server, std::string local_address,
+                std::chrono::milliseconds max_interval, report_function report);
+
+  /// Blocks until a server with a well-known prefix answers, or until `wake`
+  /// is raised: then it gives none, and `wake` is taken back.
+  std::optional<guid_prefix> seek(wake_event& wake);
+
+private:
+  using clock = std::chrono::steady_clock;
+
+  void ask(const udp_socket& socket);
+
+  /// Waits for an answer until `deadline`; sets `woken` when `wake` was raised.
+  std::optional<guid_prefix> await(const udp_socket& socket, wake_event& wake,
+                                   clock::time_point deadline, bool& woken);
+
+  /// Reads all that has come.
+  std::optional<guid_prefix> receive(const udp_socket& socket);
+
+  /// Takes the questions back that the server may still remember.
+  void say_farewell(const udp_socket& socket);
+
+  void send(const udp_socket& socket, const std::vector<std::uint8_t>& bytes);
+  void report(const std::string& reason);
+
+  sockaddr_in server_;
+  std::string local_address_;
+  std::chrono::milliseconds max_interval_;
+  report_function report_;
+  std::string reported_;
+  std::deque<guid_prefix> asked_; // The latest, as those who asked.
+};
+
+} // namespace roscell

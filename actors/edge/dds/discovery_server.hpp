@@ -1,0 +1,75 @@
+#pragma once
+
+#include "actors/edge/dds/discovery_sighting.hpp"
+#include "actors/edge/io/edge_error.hpp"
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace roscell {
+
+struct cell_server_options {
+  std::string address;         ///< An IPv4 address of this host.
+  std::uint16_t port = 11811;  ///< UDP; 0 picks a free one.
+  std::uint8_t server_id = 0;  ///< n of the GUID prefix 44.53.n.…
+  std::uint32_t domain_id = 0; ///< The ROS domain, 0 to 232.
+  std::string announcement;    ///< At most `max_announcement_bytes`.
+  /// So long a silent client is remembered, and this server by its clients.
+  std::chrono::seconds lease{600};
+  std::chrono::seconds announcement_period{200}; ///< Shorter than the lease.
+};
+
+/// A cell's discovery server: the SERVER participant that ROS 2 nodes of the
+/// cell, and our own `cell_client`s, register with.
+///
+/// Fast DDS itself would take 110 ms to tell a new client the announcement.
+/// We send it as soon as a client appears, to all clients, as Fast DDS cannot
+/// do less; so only while there are at most `max_greeted_clients`, and at most
+/// once in `greeting_interval`.
+///
+/// A killed server (no farewell) that starts again at the same address finds
+/// its clients again as they announce themselves, within their announcement
+/// period; what they do not notice is written at `cell_client`.
+///
+/// Two servers of one process must not have the same id: Fast DDS would mix
+/// them up.
+class cell_server {
+public:
+  static constexpr std::size_t max_greeted_clients = 32;
+  static constexpr std::chrono::milliseconds greeting_interval{20};
+
+  /// Starts the server. Refused with `conflict` (port in use), `unreachable`
+  /// (no such address here), `unauthorized` (port below 1024),
+  /// `schema_violation` (an option is out of bounds) or `internal` (Fast DDS
+  /// refuses). `on_client` may be empty; it is called on Fast DDS's threads,
+  /// for every participant of the cell, ROS 2 nodes included, and must not
+  /// call this object.
+  static edge_result<std::unique_ptr<cell_server>>
+  open(const cell_server_options& options, on_sighting on_client = {});
+
+  /// Calls `close`.
+  ~cell_server();
+
+  cell_server(const cell_server&) = delete;
+  cell_server& operator=(const cell_server&) = delete;
+
+  /// Where it listens.
+  std::uint16_t port() const;
+
+  /// Tells all clients. `schema_violation` when it is too long.
+  std::optional<edge_error> update_announcement(const std::string& bytes);
+
+  /// Says farewell to the clients, who notice at once, and ends. Takes a few
+  /// milliseconds. `on_client` is not called any more when it returns.
+  void close();
+
+private:
+  class impl;
+  explicit cell_server(std::unique_ptr<impl> x);
+  std::unique_ptr<impl> impl_;
+};
+
+} // namespace roscell

@@ -1,0 +1,252 @@
+#include "actors/edge/dds/public_presence.hpp"
+
+#include "actors/edge/dds/discovery_address.hpp"
+#include "actors/edge/dds/discovery_participant.hpp"
+#include "actors/edge/dds/herald.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <map>
+#include <random>
+#include <utility>
+
+namespace roscell {
+
+namespace {
+
+namespace rtps = eprosima::fastrtps::rtps;
+
+using namespace std::chrono_literals;
+
+/// RTPS 2.3, 9.6.1.4.1.
+constexpr const char* multicast_group = "239.255.0.1";
+
+/// RTPS 2.3, 9.6.1.1: PB + DG * domain, the discovery multicast port.
+std::uint16_t multicast_port(std::uint32_t domain_id) {
+  return static_cast<std::uint16_t>(7400 + 250 * domain_id);
+}
+
+/// PB + DG * domain + d1 + PG * participant.
+std::uint16_t unicast_port(std::uint32_t domain_id, unsigned place) {
+  return static_cast<std::uint16_t>(multicast_port(domain_id) + 10 + 2 * place);
+}
+
+participant_settings to_settings(const presence_options& options) {
+  participant_settings result;
+  result.address = options.address;
+  result.announcement = options.announcement;
+  result.lease = options.lease;
+  result.announcement_period = options.announcement_period;
+  return result;
+}
+
+edge_error bad_peer(const std::string& text) {
+  return {error_code::schema_violation,
+          "\"" + text.substr(0, 64) + "\" is no peer",
+          "write an IPv4 address, or an address and a UDP port as in "
+          "10.0.0.5:32160"};
+}
+
+/// The places where the peer in `text` may listen; none if it is no peer.
+std::vector<rtps::Locator_t> peer_locators(const std::string& text,
+                                           std::uint32_t domain_id) {
+  std::vector<rtps::Locator_t> result;
+  auto colon = text.find(':');
+  auto address = text.substr(0, colon);
+  if (!to_socket_address(address, 0))
+    return result;
+  if (colon == std::string::npos) {
+    for (unsigned place = 0; place < presence_places; ++place)
+      result.push_back(udp_locator(address, unicast_port(domain_id, place)));
+    return result;
+  }
+  std::uint16_t port = 0;
+  const char* last = text.data() + text.size();
+  auto [ptr, ec] = std::from_chars(text.data() + colon + 1, last, port);
+  if (ec == std::errc{} && ptr == last && port != 0)
+    result.push_back(udp_locator(address, port));
+  return result;
+}
+
+edge_result<rtps::LocatorList_t> all_peers(const presence_options& options) {
+  rtps::LocatorList_t result;
+  for (auto& peer : options.peers) {
+    auto locators = peer_locators(peer, options.domain_id);
+    if (locators.empty())
+      return bad_peer(peer);
+    for (auto& locator : locators)
+      result.push_back(locator);
+  }
+  return result;
+}
+
+/// The first of the well-known places that is free, else any port. Whoever
+/// takes it before us makes Fast DDS try the ports that follow.
+edge_result<std::uint16_t> free_port(const presence_options& options) {
+  for (unsigned place = 0; place < presence_places; ++place) {
+    auto port = unicast_port(options.domain_id, place);
+    auto bound = udp_socket::bind(options.address, port);
+    auto* error = std::get_if<edge_error>(&bound);
+    if (error == nullptr)
+      return port;
+    if (error->code != error_code::conflict)
+      return *error;
+  }
+  auto bound = udp_socket::bind(options.address, 0);
+  if (auto* error = std::get_if<edge_error>(&bound))
+    return *error;
+  return ntohs(std::get<udp_socket>(bound).local().sin_port);
+}
+
+auto presence_attributes(const presence_options& options, std::uint16_t port,
+                         const rtps::LocatorList_t& peers) {
+  auto result = make_attributes(to_settings(options), port);
+  auto group = udp_locator(multicast_group, multicast_port(options.domain_id));
+  result.builtin.metatrafficMulticastLocatorList.push_back(group);
+  result.builtin.initialPeersList = peers;
+  result.builtin.initialPeersList.push_back(group);
+  auto& discovery = result.builtin.discovery_config;
+  discovery.discoveryProtocol = rtps::DiscoveryProtocol_t::SIMPLE;
+  // Nobody here has topics; without these, those who meet exchange nothing but
+  // their announcements.
+  discovery.m_simpleEDP.use_PublicationReaderANDSubscriptionWriter = false;
+  discovery.m_simpleEDP.use_PublicationWriterANDSubscriptionReader = false;
+  // More than one, as nothing is acknowledged.
+  discovery.initial_announcements.count = 3;
+  discovery.initial_announcements.period = {0, 100'000'000};
+  return result;
+}
+
+/// When a newcomer is answered, and again when what was said may have got lost.
+/// Not by all at the same moment.
+std::vector<std::chrono::milliseconds> answer_delays() {
+  std::random_device source;
+  std::uniform_int_distribution<int> first{0, 10};
+  return {std::chrono::milliseconds{first(source)}, 60ms, 200ms, 600ms};
+}
+
+/// However many newcomers there are, it is not said more often.
+constexpr std::chrono::milliseconds answer_pause{25};
+
+} // namespace
+
+class public_presence::impl {
+public:
+  explicit impl(presence_events events)
+      : events_(std::move(events)),
+        herald_(answer_delays(), answer_pause,
+                [this] { participant_->announce(); }) {}
+
+  ~impl() {
+    close();
+  }
+
+  bool open(const presence_options& options, std::uint16_t port,
+            const rtps::LocatorList_t& peers) {
+    participant_ = rtps_participant::create(
+        options.domain_id, presence_attributes(options, port, peers),
+        [this](const sighting& seen) { on_sighting(seen); });
+    if (participant_ == nullptr)
+      return false;
+    port_ = participant_->port();
+    herald_.start();
+    return true;
+  }
+
+  void update(const std::string& bytes) {
+    if (participant_ == nullptr)
+      return;
+    participant_->update_announcement(bytes);
+    herald_.ask();
+  }
+
+  void close() {
+    herald_.stop();
+    participant_.reset();
+  }
+
+  std::uint16_t port() const {
+    return port_;
+  }
+
+private:
+  /// Runs on Fast DDS's threads, one call at a time.
+  void on_sighting(const sighting& seen) {
+    if (seen.what == sighting::kind::left || seen.what == sighting::kind::lost)
+      forget(seen.prefix);
+    else if (auto said = decode(seen.announcement))
+      remember(seen.prefix, *said);
+  }
+
+  void remember(const guid_prefix& who, const announcement& said) {
+    auto [entry, added] = known_.try_emplace(who, said);
+    if (added)
+      herald_.ask();
+    else if (entry->second == said)
+      return;
+    entry->second = said;
+    if (events_.on_seen)
+      events_.on_seen(said);
+  }
+
+  void forget(const guid_prefix& who) {
+    const auto entry = known_.extract(who);
+    if (!entry || !events_.on_gone)
+      return;
+    // What was killed and has started again is there, though its former
+    // presence ends only now.
+    const auto& said = entry.mapped();
+    const bool lives_on =
+        std::any_of(known_.begin(), known_.end(),
+                    [&](const auto& x) { return x.second.uuid == said.uuid; });
+    if (!lives_on)
+      events_.on_gone(said);
+  }
+
+  presence_events events_;
+  std::map<guid_prefix, announcement> known_; // Touched in sightings only.
+  std::uint16_t port_ = 0;
+  herald herald_;
+  std::unique_ptr<rtps_participant> participant_;
+};
+
+public_presence::public_presence(std::unique_ptr<impl> x)
+    : impl_(std::move(x)) {}
+
+edge_result<std::unique_ptr<public_presence>>
+public_presence::open(const presence_options& options, presence_events events) {
+  if (auto error = check_settings(options.domain_id, to_settings(options)))
+    return *std::move(error);
+  auto peers = all_peers(options);
+  if (auto* error = std::get_if<edge_error>(&peers))
+    return *error;
+  auto port = free_port(options);
+  if (auto* error = std::get_if<edge_error>(&port))
+    return *error;
+  auto x = std::make_unique<impl>(std::move(events));
+  if (x->open(options, std::get<std::uint16_t>(port), std::get<0>(peers)))
+    return std::unique_ptr<public_presence>{new public_presence(std::move(x))};
+  return edge_error{error_code::internal,
+                    "Fast DDS does not create a participant on "
+                        + options.address,
+                    "its own log says why"};
+}
+
+public_presence::~public_presence() = default;
+
+std::optional<edge_error> public_presence::update(const std::string& bytes) {
+  if (auto error = check_announcement(bytes))
+    return error;
+  impl_->update(bytes);
+  return std::nullopt;
+}
+
+void public_presence::close() {
+  impl_->close();
+}
+
+std::uint16_t public_presence::port() const {
+  return impl_->port();
+}
+
+} // namespace roscell

@@ -1,0 +1,79 @@
+#pragma once
+
+#include "actors/edge/dds/announcement.hpp"
+#include "actors/edge/io/edge_error.hpp"
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace roscell {
+
+struct presence_options {
+  std::string address; ///< An IPv4 address of this host; nothing else is used.
+  std::uint32_t domain_id = 99; ///< Of the site, 0 to 232.
+  /// Others to greet directly, where multicast does not reach: "ADDR", for the
+  /// first `presence_places` of that host, or "ADDR:PORT".
+  std::vector<std::string> peers;
+  std::string announcement; ///< At most `max_announcement_bytes`.
+  /// So long the others remember one that fell silent without a farewell.
+  std::chrono::seconds lease{600};
+  std::chrono::seconds announcement_period{200}; ///< Shorter than the lease.
+};
+
+/// Called on a thread of Fast DDS, one at a time for one presence. They must
+/// not call the presence.
+struct presence_events {
+  /// Somebody appeared, or announces something else. Never the own one.
+  std::function<void(const announcement&)> on_seen;
+  /// Somebody left or was silent for its lease; with what it said last. Not
+  /// called for the former presence of one that was killed and has started
+  /// again, told by its UUID.
+  std::function<void(const announcement&)> on_gone;
+};
+
+/// So many presences on one host are reached by the host's address alone.
+constexpr unsigned presence_places = 4;
+
+/// A node's presence on the public domain of the site: a participant of simple
+/// discovery (multicast 239.255.0.1 with TTL 1, and the given peers) that has
+/// no topics and says its announcement, nothing else. Idle, it sends one
+/// datagram to the group and to each peer in `announcement_period`.
+///
+/// Announcements are neither acknowledged nor authenticated: what is seen is a
+/// hint about whom to talk to.
+class public_presence {
+public:
+  /// Starts it. Refused with `unreachable` (no such address here),
+  /// `schema_violation` (an option is out of bounds) or `internal` (Fast DDS
+  /// refuses).
+  static edge_result<std::unique_ptr<public_presence>>
+  open(const presence_options& options, presence_events events);
+
+  /// Calls `close`.
+  ~public_presence();
+
+  public_presence(const public_presence&) = delete;
+  public_presence& operator=(const public_presence&) = delete;
+
+  /// Tells all. `schema_violation` when it is too long.
+  std::optional<edge_error> update(const std::string& announcement);
+
+  /// Says farewell and ends. Takes a few milliseconds. No event is called any
+  /// more when it returns.
+  void close();
+
+  /// The UDP port for peers that know this host's address only.
+  std::uint16_t port() const;
+
+private:
+  class impl;
+  explicit public_presence(std::unique_ptr<impl> x);
+  std::unique_ptr<impl> impl_;
+};
+
+} // namespace roscell

@@ -1,0 +1,200 @@
+#include "actors/edge/dds/rtps/discovery_probe.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <random>
+#include <string_view>
+
+namespace roscell {
+
+namespace {
+
+using bytes = std::vector<std::uint8_t>;
+
+constexpr std::array<std::uint8_t, 4> participant_entity{0, 0, 1, 0xc1};
+constexpr std::array<std::uint8_t, 4> pdp_writer_entity{0, 1, 0, 0xc2};
+constexpr std::array<std::uint8_t, 4> pdp_reader_entity{0, 1, 0, 0xc7};
+
+/// "RTPS", protocol 2.3, vendor eProsima: servers of Fast DDS take no other.
+constexpr std::array<std::uint8_t, 8> rtps_header{'R', 'T', 'P', 'S',
+                                                  2,   3,   1,   0x0f};
+
+/// Parameter ids of RTPS 2.3, 9.6.2.2, and of Fast DDS.
+enum parameter : std::uint16_t {
+  sentinel = 0x01,
+  lease_duration = 0x02,
+  protocol_version = 0x15,
+  vendor_id = 0x16,
+  metatraffic_unicast_locator = 0x32,
+  participant_guid = 0x50,
+  builtin_endpoint_set = 0x58,
+  property_list = 0x59,
+  entity_name = 0x62,
+  key_hash = 0x70,
+  status_info = 0x71,
+  related_sample_identity = 0x800f,
+};
+
+template <class Range>
+void put_all(bytes& to, const Range& range) {
+  to.insert(to.end(), std::begin(range), std::end(range));
+}
+
+/// Everything here is little-endian, as the submessage's flag E says.
+template <class T>
+void put(bytes& to, T value) {
+  for (std::size_t i = 0; i < sizeof(T); ++i)
+    to.push_back(static_cast<std::uint8_t>(value >> (8 * i)));
+}
+
+/// A CDR string: its length with the final zero, padded to four bytes.
+void put_text(bytes& to, std::string_view text) {
+  put(to, static_cast<std::uint32_t>(text.size() + 1));
+  put_all(to, text);
+  do
+    to.push_back(0);
+  while (to.size() % 4 != 0);
+}
+
+void put_parameter(bytes& to, parameter id, const bytes& value) {
+  put(to, static_cast<std::uint16_t>(id));
+  put(to, static_cast<std::uint16_t>(value.size()));
+  put_all(to, value);
+}
+
+bytes guid_bytes(const guid_prefix& self,
+                 const std::array<std::uint8_t, 4>& entity) {
+  bytes result(self.begin(), self.end());
+  put_all(result, entity);
+  return result;
+}
+
+void put_sequence_number(bytes& to, std::uint32_t number) {
+  put(to, std::uint32_t{0}); // The high half comes first.
+  put(to, number);
+}
+
+/// A discovery server drops what does not carry this identity.
+bytes sample_identity(const guid_prefix& self, std::uint32_t number) {
+  bytes result = guid_bytes(self, pdp_writer_entity);
+  put_sequence_number(result, number);
+  return result;
+}
+
+bytes locator(const sockaddr_in& at) {
+  bytes result;
+  put(result, std::uint32_t{1}); // UDPv4.
+  put(result, std::uint32_t{ntohs(at.sin_port)});
+  result.resize(result.size() + 12);
+  std::array<std::uint8_t, 4> address{};
+  std::memcpy(address.data(), &at.sin_addr, address.size());
+  put_all(result, address);
+  return result;
+}
+
+bytes participant_data(const guid_prefix& self, const sockaddr_in& reply_to) {
+  bytes result{0, 3, 0, 0}; // PL_CDR_LE
+  put_parameter(result, protocol_version, {2, 3, 0, 0});
+  put_parameter(result, vendor_id, {1, 0x0f, 0, 0});
+  put_parameter(result, participant_guid, guid_bytes(self, participant_entity));
+  put_parameter(result, metatraffic_unicast_locator, locator(reply_to));
+  bytes value;
+  put(value, probe_lease_seconds);
+  put(value, std::uint32_t{0});
+  put_parameter(result, lease_duration, value);
+  // It has a participant announcer (1) and a participant detector (2).
+  put_parameter(result, builtin_endpoint_set, {3, 0, 0, 0});
+  value.clear();
+  put_text(value, probe_name);
+  put_parameter(result, entity_name, value);
+  value = {1, 0, 0, 0}; // One property.
+  put_text(value, "PARTICIPANT_TYPE");
+  put_text(value, "CLIENT");
+  put_parameter(result, property_list, value);
+  put_parameter(result, sentinel, {});
+  return result;
+}
+
+/// One datagram with one DATA submessage. `flags` are those of RTPS 2.3,
+/// 9.4.5.3: 1 little-endian, 2 inline QoS, 4 payload.
+bytes data_message(const guid_prefix& self, std::uint8_t flags,
+                   std::uint32_t number, const bytes& inline_qos,
+                   const bytes& payload) {
+  bytes body;
+  put(body, std::uint16_t{0});
+  put(body, std::uint16_t{16}); // From here to the inline QoS.
+  put_all(body, pdp_reader_entity);
+  put_all(body, pdp_writer_entity);
+  put_sequence_number(body, number);
+  put_all(body, inline_qos);
+  put_all(body, payload);
+  bytes result(rtps_header.begin(), rtps_header.end());
+  put_all(result, self);
+  result.push_back(0x15);
+  result.push_back(flags);
+  put(result, static_cast<std::uint16_t>(body.size()));
+  put_all(result, body);
+  return result;
+}
+
+} // namespace
+
+guid_prefix server_prefix(std::uint8_t id) {
+  return {0x44, 0x53, id, 0x5f, 0x45, 0x50, 0x52, 0x4f, 0x53, 0x49, 0x4d, 0x41};
+}
+
+std::optional<std::uint8_t> server_id_of(const guid_prefix& prefix) {
+  if (prefix != server_prefix(prefix[2]))
+    return std::nullopt;
+  return prefix[2];
+}
+
+std::string to_text(const guid_prefix& prefix) {
+  constexpr const char* digits = "0123456789abcdef";
+  std::string result;
+  for (auto byte : prefix) {
+    if (!result.empty())
+      result.push_back('.');
+    result.push_back(digits[byte >> 4]);
+    result.push_back(digits[byte & 15]);
+  }
+  return result;
+}
+
+guid_prefix make_probe_prefix() {
+  guid_prefix result{1, 0x0f};
+  std::random_device source;
+  for (std::size_t i = 2; i < result.size(); ++i)
+    result[i] = static_cast<std::uint8_t>(source());
+  return result;
+}
+
+std::vector<std::uint8_t> probe_question(const guid_prefix& self,
+                                         const sockaddr_in& reply_to) {
+  bytes qos;
+  put_parameter(qos, related_sample_identity, sample_identity(self, 1));
+  put_parameter(qos, sentinel, {});
+  return data_message(self, 1 | 2 | 4, 1, qos,
+                      participant_data(self, reply_to));
+}
+
+std::vector<std::uint8_t> probe_farewell(const guid_prefix& self) {
+  bytes qos;
+  put_parameter(qos, related_sample_identity, sample_identity(self, 2));
+  put_parameter(qos, key_hash, guid_bytes(self, participant_entity));
+  put_parameter(qos, status_info, {0, 0, 0, 3}); // Disposed, unregistered.
+  put_parameter(qos, sentinel, {});
+  return data_message(self, 1 | 2, 2, qos, {});
+}
+
+std::optional<guid_prefix> probe_answer(const std::uint8_t* datagram,
+                                        std::size_t size) {
+  guid_prefix result{};
+  if (size < rtps_header.size() + result.size()
+      || !std::equal(rtps_header.begin(), rtps_header.begin() + 4, datagram))
+    return std::nullopt;
+  std::copy_n(datagram + rtps_header.size(), result.size(), result.begin());
+  return result;
+}
+
+} // namespace roscell

@@ -1,0 +1,65 @@
+#include "actors/edge/disk/directory_lock.hpp"
+
+#include "actors/edge/disk/small_file.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+
+#include <cerrno>
+#include <cstring>
+#include <string>
+#include <system_error>
+#include <utility>
+
+namespace roscell {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+edge_error no_access(const fs::path& path, const std::string& why) {
+  return {error_code::internal, "cannot use '" + path.string() + "': " + why,
+          "give this user write access to it, or choose another --data-dir"};
+}
+
+edge_error held(const fs::path& folder) {
+  const auto pid = read_small_file(folder / "lock", 32);
+  const auto end = pid ? pid->find_first_not_of("0123456789") : 0;
+  const auto holder = pid ? pid->substr(0, end) : std::string{};
+  return {error_code::conflict,
+          "the data directory '" + folder.string()
+              + "' is in use by another node"
+              + (holder.empty() ? "" : " (process " + holder + ")"),
+          "stop that node, or choose another --data-dir"};
+}
+
+} // namespace
+
+directory_lock::directory_lock(unique_fd fd) : fd_(std::move(fd)) {
+  // nop
+}
+
+edge_result<directory_lock> directory_lock::take(const fs::path& folder) {
+  std::error_code error;
+  if (folder.has_parent_path())
+    fs::create_directories(folder.parent_path(), error);
+  if (error)
+    return no_access(folder.parent_path(), error.message());
+  if (::mkdir(folder.c_str(), 0700) != 0 && errno != EEXIST)
+    return no_access(folder, std::strerror(errno));
+  const auto path = folder / "lock";
+  unique_fd fd{::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600)};
+  if (!fd)
+    return no_access(path, std::strerror(errno));
+  if (::flock(fd.get(), LOCK_EX | LOCK_NB) != 0)
+    return errno == EWOULDBLOCK ? held(folder)
+                                : no_access(path, std::strerror(errno));
+  const auto pid = std::to_string(::getpid()) + '\n';
+  // Only for the error message of others.
+  if (::ftruncate(fd.get(), 0) == 0) [[maybe_unused]]
+    const auto n = ::write(fd.get(), pid.data(), pid.size());
+  return directory_lock{std::move(fd)};
+}
+
+} // namespace roscell

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "actors/edge/io/edge_error.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+namespace roscell {
+
+/// How much of a folder is read before it is refused.
+struct folder_limits {
+  size_t max_files = 10'000;
+  uint64_t max_bytes = 16ULL << 30; ///< Checkpoints of models are large.
+  int max_depth = 32;
+};
+
+/// SHA-256 over the content of a folder, as 64 hex digits: the relative paths
+/// of its files in order, whether each can be executed, and its bytes. Neither
+/// the folder's own name nor times, owners and empty folders matter. A symbolic
+/// link counts as its target's path and must not lead out of the folder.
+///
+/// Errors: schema_violation (a link that leads out, a device or pipe, more than
+/// the limits), internal (something cannot be read).
+edge_result<std::string> hash_folder(const std::filesystem::path& folder,
+                                     const folder_limits& limits = {});
+
+} // namespace roscell

@@ -1,0 +1,68 @@
+#pragma once
+
+#include "actors/edge/io/edge_error.hpp"
+
+#include <atomic>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+struct sqlite3;
+
+namespace roscell {
+
+/// Records of a node in one SQLite file: table, key, value. Writes are durable
+/// when they return and cost one sync of the disk each. The file is held
+/// exclusively. Not for two threads at once.
+class sqlite_store {
+public:
+  using record = std::pair<std::string, std::string>; ///< Key and value.
+
+  /// Opens or makes the file and checks it.
+  /// Errors: conflict (another program holds it), internal (damaged, made by a
+  /// newer version, no permission, disk full).
+  static edge_result<sqlite_store> open(const std::filesystem::path& file);
+
+  /// All records of a table, by key.
+  edge_result<std::vector<record>> load(const std::string& table);
+
+  /// Writes a record, in place of an older one. Returns what went wrong.
+  std::optional<edge_error> put(const std::string& table,
+                                const std::string& key,
+                                const std::string& value);
+
+  /// Removes a record; none of that key is no error.
+  std::optional<edge_error> remove(const std::string& table,
+                                   const std::string& key);
+
+  /// What this process has written to the file and its journal so far: whole
+  /// pages. May be called from any thread.
+  uint64_t bytes_written() const {
+    return written_->load(std::memory_order_relaxed);
+  }
+
+private:
+  struct closer {
+    void operator()(sqlite3* db) const;
+  };
+
+  sqlite_store(std::filesystem::path file, std::unique_ptr<sqlite3, closer> db);
+
+  std::optional<edge_error> prepare();
+  std::optional<edge_error> run(const char* sql,
+                                const std::vector<std::string>& values,
+                                std::vector<record>* rows = nullptr);
+  edge_error explain() const;
+  void count_written();
+
+  std::filesystem::path file_;
+  std::unique_ptr<sqlite3, closer> db_;
+  /// The store moves, and others read this meanwhile.
+  std::shared_ptr<std::atomic<uint64_t>> written_ =
+      std::make_shared<std::atomic<uint64_t>>(0);
+};
+
+} // namespace roscell

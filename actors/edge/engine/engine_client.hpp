@@ -1,0 +1,110 @@
+#pragma once
+
+#include "actors/edge/io/edge_error.hpp"
+#include "actors/edge/io/io_thread.hpp"
+
+#include <chrono>
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+
+namespace roscell {
+
+/// One request to a container engine.
+struct engine_request {
+  std::string method = "GET";
+  std::string target;         ///< Path and query, percent-encoded.
+  std::string body;           ///< JSON; empty: none.
+  std::filesystem::path file; ///< A tar file to be sent in place of `body`.
+  /// From connecting to the last byte of the answer.
+  std::chrono::milliseconds limit{10'000};
+  /// The limit counts up to the answer's first byte; the rest may take forever.
+  bool endless = false;
+};
+
+struct engine_reply {
+  int status = 0;
+  std::string body; ///< Of a stream that was opened: empty.
+
+  bool ok() const {
+    return status >= 200 && status < 300;
+  }
+};
+
+/// The engine's reply, good or bad, or why there is none: `unreachable`,
+/// `unauthorized` (no permission on the socket) or `timeout`. A broken stream
+/// is `unreachable`.
+using engine_answer = edge_result<engine_reply>;
+
+/// What comes of a streamed answer, as calls on the io thread.
+struct engine_stream_callbacks {
+  /// The engine has agreed; bytes will follow.
+  std::function<void()> on_open;
+  /// Returns whether to go on.
+  std::function<bool(std::string_view)> on_bytes;
+  /// Called once, at the end, unless the stream was cancelled.
+  std::function<void(engine_answer)> on_end;
+};
+
+class engine_exchange;
+
+/// A streamed answer, which is cancelled when this is let go. A callback that
+/// runs at that moment is not waited for.
+class engine_stream {
+public:
+  /// No stream.
+  engine_stream() = default;
+
+  engine_stream(std::shared_ptr<io_core> core,
+                std::shared_ptr<engine_exchange> exchange);
+  engine_stream(engine_stream&&) noexcept = default;
+  engine_stream& operator=(engine_stream&& other) noexcept;
+  ~engine_stream();
+
+private:
+  void cancel() noexcept;
+
+  std::shared_ptr<io_core> core_;
+  std::shared_ptr<engine_exchange> exchange_;
+};
+
+/// Speaks HTTP with a container engine (Docker, Podman) on its Unix socket,
+/// without waiting. Each request has a connection of its own. May be called
+/// from any thread.
+class engine_client {
+public:
+  /// Longest body of an answer that is no stream.
+  static constexpr size_t max_reply_bytes = 8 * 1024 * 1024;
+
+  engine_client(std::shared_ptr<io_core> core, std::string socket);
+
+  /// Calls `on_answer` once, on the io thread.
+  void request(engine_request what,
+               std::function<void(engine_answer)> on_answer) const;
+
+  engine_stream stream(engine_request what,
+                       engine_stream_callbacks calls) const;
+
+  const std::string& socket() const {
+    return socket_;
+  }
+
+private:
+  std::shared_ptr<io_core> core_;
+  std::string socket_;
+};
+
+/// What a reply that is not good says, in the engine's own words: Docker's
+/// `message`, Podman's `message` and `cause`. Code: engine_failed.
+edge_error engine_refusal(const std::string& what, const engine_reply& reply);
+
+/// Why a socket cannot be connected to, with the remedy.
+edge_error no_engine(const std::string& socket, int error_number);
+
+/// Text as it must stand in a path or a query.
+std::string percent_encoded(std::string_view text);
+
+} // namespace roscell

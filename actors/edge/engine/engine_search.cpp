@@ -1,0 +1,122 @@
+#include "actors/edge/engine/engine_search.hpp"
+
+#include "actors/edge/engine/engine_client.hpp"
+#include "actors/edge/http/http_client.hpp"
+#include "actors/edge/io/unique_fd.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <cerrno>
+#include <chrono>
+#include <cstdlib>
+#include <optional>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <variant>
+
+#include <sys/socket.h>
+#include <sys/un.h>
+
+namespace roscell {
+
+namespace {
+
+constexpr std::chrono::seconds answer_limit{2};
+
+constexpr size_t max_version_bytes = 64;
+
+/// 0, or why the socket cannot be connected to.
+int try_to_connect(const std::string& path) {
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  if (path.size() >= sizeof address.sun_path)
+    return ENAMETOOLONG;
+  path.copy(address.sun_path, sizeof address.sun_path - 1);
+  const unique_fd fd{
+      ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0)};
+  if (!fd)
+    return errno;
+  return ::connect(fd.get(), reinterpret_cast<const sockaddr*>(&address),
+                   sizeof address)
+                 == 0
+             ? 0
+             : errno;
+}
+
+/// The path in "unix:///path"; empty for any other address.
+std::string unix_path(const char* address) {
+  constexpr std::string_view scheme = "unix://";
+  const std::string_view text = address != nullptr ? address : "";
+  return text.substr(0, scheme.size()) == scheme
+             ? std::string{text.substr(scheme.size())}
+             : std::string{};
+}
+
+} // namespace
+
+std::vector<std::string> engine_sockets(const std::string& name) {
+  std::vector<std::string> result;
+  if (name != "podman") {
+    if (auto path = unix_path(std::getenv("DOCKER_HOST")); !path.empty())
+      result.push_back(std::move(path));
+    result.emplace_back("/var/run/docker.sock");
+  }
+  if (name != "docker") {
+    if (const char* dir = std::getenv("XDG_RUNTIME_DIR"))
+      result.push_back(std::string{dir} + "/podman/podman.sock");
+    result.emplace_back("/run/podman/podman.sock");
+  }
+  return result;
+}
+
+edge_result<found_engine> ask_for_engine(const std::string& socket) {
+  if (const int error = try_to_connect(socket); error != 0)
+    return no_engine(socket, error);
+  http_endpoint to;
+  to.socket_path = socket;
+  http_client::options how;
+  how.timeout = answer_limit;
+  auto answer = http_client{to}.request("GET", "/version", {}, how);
+  if (auto* why = std::get_if<edge_error>(&answer))
+    return edge_error{why->code,
+                      "the container engine on '" + socket
+                          + "' does not answer: " + why->message,
+                      "look into the engine's own log: journalctl -u docker"};
+  const auto& reply = std::get<http_reply>(answer);
+  const auto document = nlohmann::json::parse(reply.body, nullptr, false);
+  const auto version =
+      document.is_object() ? document.find("Version") : document.end();
+  if (reply.status != 200 || version == document.end() || !version->is_string())
+    return edge_error{error_code::engine_failed,
+                      "no container engine answers on '" + socket + "'",
+                      "name the engine's socket: --runtime docker:SOCKET"};
+  found_engine result;
+  result.socket = socket;
+  result.version = version->get<std::string>().substr(0, max_version_bytes);
+  result.name =
+      reply.body.find("Podman") != std::string::npos ? "podman" : "docker";
+  return result;
+}
+
+edge_result<found_engine> find_engine(const std::vector<std::string>& sockets) {
+  std::optional<edge_error> first;
+  std::optional<edge_error> first_of_one_that_exists;
+  for (const auto& socket : sockets) {
+    auto found = ask_for_engine(socket);
+    auto* why = std::get_if<edge_error>(&found);
+    if (why == nullptr)
+      return found;
+    if (!first)
+      first = *why;
+    if (!first_of_one_that_exists
+        && why->message.find("there is no socket") == std::string::npos)
+      first_of_one_that_exists = *why;
+  }
+  if (first_of_one_that_exists)
+    return *first_of_one_that_exists;
+  return first.value_or(
+      edge_error{error_code::unreachable, "no container engine was named", ""});
+}
+
+} // namespace roscell

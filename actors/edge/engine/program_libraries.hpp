@@ -1,0 +1,47 @@
+#pragma once
+
+#include "actors/edge/io/edge_error.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace roscell {
+
+/// A shared library of this host that a program needs.
+struct shared_library {
+  std::string name;           ///< What the program asks for: "libz.so.1".
+  std::filesystem::path file; ///< Where it is, without links.
+  uint64_t bytes = 0;
+  int64_t modified_unix_s = 0;
+};
+
+/// One line of what the dynamic linker says with `--list`.
+struct needed_library {
+  std::string name;
+  std::string path; ///< Empty: it is not found.
+};
+
+/// Reads the dynamic linker's words: "\tlibz.so.1 => /lib/libz.so.1 (0x7f...)".
+/// Lines of another form are left out.
+std::vector<needed_library> parse_library_list(std::string_view words);
+
+/// Whether a library belongs to the C library, which every image must bring
+/// itself: it fits to the image's own dynamic linker only.
+bool is_c_library(std::string_view name);
+
+/// What the programs and libraries in a skill folder need of this host, in the
+/// order of names: the closure that the dynamic linker finds, without what is
+/// in the folder itself and without the C library. Starts nothing of the
+/// folder. Blocks on the disk and on the dynamic linker, some milliseconds for
+/// each program.
+///
+/// Errors: engine_failed (`program` needs a library that this host has not, or
+/// is made for another machine), internal.
+edge_result<std::vector<shared_library>>
+find_libraries(const std::filesystem::path& folder,
+               const std::filesystem::path& program);
+
+} // namespace roscell

@@ -1,0 +1,88 @@
+#pragma once
+
+#include "actors/edge/host/gpu_probe.hpp"
+#include "messages/resources.hpp"
+
+#include <chrono>
+#include <deque>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace roscell {
+
+/// What a host has and what of it is in use, by whomever.
+struct host_resources {
+  std::string architecture;    ///< As container images name it: amd64, arm64.
+  bool unified_memory = false; ///< CPU and GPU share one memory (Jetson).
+  amount cpu;                  ///< In cores.
+  amount memory_mib;
+  amount disk_mib; ///< Of the file system that holds the data directory.
+  std::vector<gpu_resources> gpus;  ///< On unified memory with the index only.
+  std::vector<std::string> devices; ///< Absolute paths below /dev.
+};
+
+struct host_probe_options {
+  std::string root;     ///< Put before /proc, /sys, /dev and /etc.
+  std::string data_dir; ///< Need not exist yet.
+  std::string nvml_library = "libnvidia-ml.so.1";
+  /// How many cores this process may run on; 0 asks the kernel.
+  unsigned affinity_cores = 0;
+};
+
+/// Reads the resources of the host that this process sees. Where a cgroup or
+/// the CPU affinity gives the process less than the whole host, that is a bound
+/// like one that the operator sets (`apply_bound`, host_probe_capacity.hpp).
+///
+/// CPU use is a rate between two samples. Nothing runs in between: the owner
+/// marks samples. Not thread-safe.
+class host_probe {
+public:
+  using clock = std::chrono::steady_clock;
+
+  /// A rate over less than this says little.
+  static constexpr std::chrono::seconds min_sample_age{1};
+
+  /// A rate over more than this is no rate of now.
+  static constexpr std::chrono::seconds max_sample_age{30};
+
+  explicit host_probe(host_probe_options options);
+
+  /// Remembers the CPU counters as of `now`. Samples that follow each other
+  /// within 100 ms count as one.
+  void sample(clock::time_point now);
+
+  /// The cores in use since the newest sample that is at least
+  /// `min_sample_age` old. None when there is no such sample, or only one
+  /// older than `max_sample_age`: call `sample`, and again after
+  /// `min_sample_age`.
+  std::optional<double> cpu_used(clock::time_point now);
+
+  /// Everything; `cpu.used` as by `cpu_used`, 0 when that gives none. GPU
+  /// memory leaves out the processes of `own`.
+  host_resources read(clock::time_point now, const std::set<pid_t>& own = {});
+
+private:
+  struct cpu_sample {
+    clock::time_point at;
+    double busy_seconds = 0; ///< Of all cores since the host started.
+  };
+
+  std::optional<double> busy_seconds() const;
+  bool is_jetson() const;
+  amount memory() const;
+  amount disk() const;
+  std::vector<std::string> devices() const;
+  std::vector<gpu_resources> gpus(bool unified_memory,
+                                  const std::set<pid_t>& own);
+
+  host_probe_options options_;
+  gpu_probe gpu_probe_;
+  std::deque<cpu_sample> samples_; ///< Oldest first.
+};
+
+/// "x86_64" of `uname` is "amd64" to container images; unknown words stay.
+std::string architecture_of(std::string_view machine);
+
+} // namespace roscell

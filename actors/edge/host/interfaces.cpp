@@ -1,0 +1,157 @@
+#include "actors/edge/host/interfaces.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <tuple>
+
+#include <arpa/inet.h>
+#include <ifaddrs.h>
+#include <net/if.h>
+#include <netinet/in.h>
+#include <netpacket/packet.h>
+#include <unistd.h>
+
+namespace roscell {
+
+namespace {
+
+using ifaddrs_list = std::unique_ptr<ifaddrs, void (*)(ifaddrs*)>;
+
+ifaddrs_list read_ifaddrs() {
+  ifaddrs* head = nullptr;
+  if (getifaddrs(&head) != 0)
+    head = nullptr;
+  return {head, &freeifaddrs};
+}
+
+/// Empty when the interface has no MAC, or only zeros as loopback has.
+std::string mac_text(const sockaddr_ll& link) {
+  constexpr const char* digits = "0123456789abcdef";
+  std::string result;
+  bool any = false;
+  for (int i = 0; i < 6 && link.sll_halen == 6; ++i) {
+    result.push_back(digits[link.sll_addr[i] >> 4]);
+    result.push_back(digits[link.sll_addr[i] & 15]);
+    any = any || link.sll_addr[i] != 0;
+  }
+  return any ? result : std::string{};
+}
+
+/// The MACs by interface name, of interfaces without an IPv4 address too.
+std::map<std::string, std::string> macs_of(const ifaddrs* head) {
+  std::map<std::string, std::string> result;
+  for (auto* i = head; i != nullptr; i = i->ifa_next)
+    if (i->ifa_addr != nullptr && i->ifa_addr->sa_family == AF_PACKET)
+      result[i->ifa_name] =
+          mac_text(*reinterpret_cast<const sockaddr_ll*>(i->ifa_addr));
+  return result;
+}
+
+bool is_hardware(const std::string& name) {
+  std::error_code ec;
+  return std::filesystem::exists("/sys/class/net/" + name + "/device", ec);
+}
+
+auto rank(const interface_address& x) {
+  return std::make_tuple(x.loopback, !x.hardware, std::cref(x.name),
+                         std::cref(x.address));
+}
+
+void sort_stably(std::vector<interface_address>& all) {
+  std::sort(all.begin(), all.end(),
+            [](auto& x, auto& y) { return rank(x) < rank(y); });
+}
+
+interface_address link_only(const std::string& name, const std::string& mac) {
+  interface_address result;
+  result.name = name;
+  result.mac = mac;
+  result.hardware = is_hardware(name);
+  return result;
+}
+
+std::string usable_name(std::string_view hostname) {
+  std::string result;
+  for (unsigned char c : hostname.substr(0, 64))
+    result.push_back(std::isalnum(c) != 0 || c == '-'
+                         ? static_cast<char>(std::tolower(c))
+                         : '-');
+  return result.empty() ? "unnamed" : result;
+}
+
+} // namespace
+
+std::vector<interface_address> list_interfaces() {
+  auto head = read_ifaddrs();
+  auto macs = macs_of(head.get());
+  std::vector<interface_address> result;
+  for (auto* i = head.get(); i != nullptr; i = i->ifa_next) {
+    if (i->ifa_addr == nullptr || i->ifa_addr->sa_family != AF_INET
+        || (i->ifa_flags & IFF_UP) == 0)
+      continue;
+    auto one = link_only(i->ifa_name, macs[i->ifa_name]);
+    std::array<char, INET_ADDRSTRLEN> text{};
+    auto* in = reinterpret_cast<const sockaddr_in*>(i->ifa_addr);
+    one.address = inet_ntop(AF_INET, &in->sin_addr, text.data(), text.size());
+    one.loopback = (i->ifa_flags & IFF_LOOPBACK) != 0;
+    result.push_back(std::move(one));
+  }
+  sort_stably(result);
+  return result;
+}
+
+std::string describe_interfaces(const std::vector<interface_address>& all) {
+  std::string result;
+  for (auto& x : all)
+    result.append(result.empty() ? "" : ", ").append(x.name + ' ' + x.address);
+  return result.empty() ? "none" : result;
+}
+
+edge_result<interface_address>
+resolve_interface(std::string_view text,
+                  const std::vector<interface_address>& all) {
+  for (auto& x : all)
+    if (!text.empty() && (x.name == text || x.address == text))
+      return x;
+  return edge_error{error_code::unreachable,
+                    "\"" + std::string{text.substr(0, 64)}
+                        + "\" is neither an interface nor an IPv4 address of "
+                          "this host",
+                    "this host has: " + describe_interfaces(all)};
+}
+
+edge_result<interface_address> resolve_interface(std::string_view text) {
+  return resolve_interface(text, list_interfaces());
+}
+
+std::string mac_node_name(std::string_view chosen,
+                          const std::vector<interface_address>& all,
+                          std::string_view hostname) {
+  for (auto& x : all)
+    if (!chosen.empty() && (x.name == chosen || x.address == chosen)
+        && !x.mac.empty())
+      return "node-" + x.mac;
+  for (auto& x : all)
+    if (!x.mac.empty())
+      return "node-" + x.mac;
+  return "node-" + usable_name(hostname);
+}
+
+std::string mac_node_name(std::string_view chosen) {
+  auto all = list_interfaces();
+  for (auto& [name, mac] : macs_of(read_ifaddrs().get()))
+    if (std::none_of(all.begin(), all.end(),
+                     [&name = name](auto& x) { return x.name == name; }))
+      all.push_back(link_only(name, mac));
+  sort_stably(all);
+  std::array<char, 256> hostname{};
+  if (gethostname(hostname.data(), hostname.size() - 1) != 0)
+    hostname[0] = '\0';
+  return mac_node_name(chosen, all, hostname.data());
+}
+
+} // namespace roscell

@@ -1,0 +1,350 @@
+#include "actors/edge/http/http_connection.hpp"
+
+#include "actors/edge/http/error_body.hpp"
+#include "actors/edge/http/http_sink.hpp"
+#include "actors/edge/http/http_target.hpp"
+#include "actors/edge/io/crypto.hpp"
+#include "actors/edge/session/session_paths.hpp"
+
+#include <boost/asio/buffer.hpp>
+#include <boost/asio/write.hpp>
+#include <boost/beast/http/error.hpp>
+#include <boost/beast/http/rfc7230.hpp>
+#include <boost/beast/websocket/rfc6455.hpp>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace roscell {
+
+namespace {
+
+namespace http = boost::beast::http;
+
+constexpr size_t read_bytes = 8 * 1024;
+
+/// Of a client whose request was refused: what it still sends is read, so
+/// that it gets to read the reply, but not without end.
+constexpr size_t max_lingered_bytes = 1024 * 1024;
+
+std::string_view to_view(boost::beast::string_view text) {
+  return {text.data(), text.size()};
+}
+
+} // namespace
+
+http_connection::http_connection(std::shared_ptr<http_shared> shared,
+                                 stream_socket socket, bool local)
+    : shared_(std::move(shared)), socket_(std::move(socket)), local_(local),
+      timer_(shared_->core->context()) {
+  // nop
+}
+
+void http_connection::run() {
+  next_request();
+  limit(shared_->limits.first_byte);
+  read();
+}
+
+void http_connection::next_request() {
+  phase_ = phase::waiting;
+  header_done_ = false;
+  parser_.emplace();
+  parser_->header_limit(static_cast<uint32_t>(shared_->limits.header_bytes));
+  // The length that a header announces is checked together with the header.
+  parser_->body_limit(std::numeric_limits<uint64_t>::max());
+}
+
+void http_connection::limit(std::chrono::milliseconds time) {
+  timer_.expires_after(time);
+  timer_.async_wait([self = shared_from_this()](error ec) {
+    // A timer that was set anew while its handler was queued is not due.
+    if (!ec && self->timer_.expiry() <= clock::now())
+      self->on_time_limit();
+  });
+}
+
+void http_connection::on_time_limit() {
+  // A timer that was cancelled may still have had its handler queued.
+  if (phase_ == phase::answering || phase_ == phase::handed_over)
+    return;
+  if (phase_ != phase::reading)
+    return abort();
+  refuse(408, error_code::timeout, "the request took too long to arrive");
+}
+
+void http_connection::read() {
+  socket_.async_read_some(incoming_.prepare(read_bytes),
+                          [self = shared_from_this()](error ec, size_t size) {
+                            self->on_read(ec, size);
+                          });
+}
+
+void http_connection::on_read(error ec, size_t size) {
+  if (phase_ == phase::closed)
+    return;
+  if (ec)
+    return abort();
+  last_heard_ = clock::now();
+  if (phase_ == phase::lingering) {
+    lingered_bytes_ += size;
+    return lingered_bytes_ > max_lingered_bytes ? abort() : read();
+  }
+  if (phase_ != phase::waiting && phase_ != phase::reading)
+    return;
+  incoming_.commit(size);
+  parse();
+}
+
+void http_connection::parse() {
+  if (std::exchange(phase_, phase::reading) == phase::waiting)
+    limit(shared_->limits.whole_request);
+  while (!parser_->is_done() && incoming_.size() > 0)
+    if (!parse_some())
+      return;
+  if (parser_->is_done())
+    dispatch();
+  else
+    read();
+}
+
+/// Feeds the parser. False if the next step is not this function's to take.
+bool http_connection::parse_some() {
+  error ec;
+  incoming_.consume(parser_->put(incoming_.data(), ec));
+  if (ec && ec != http::error::need_more) {
+    on_bad_request(ec);
+    return false;
+  }
+  if (parser_->is_header_done() && !std::exchange(header_done_, true)
+      && !on_header())
+    return false;
+  if (ec == http::error::need_more && !parser_->is_done()) {
+    read();
+    return false;
+  }
+  return true;
+}
+
+void http_connection::on_bad_request(error ec) {
+  if (ec == http::error::header_limit)
+    refuse(431, error_code::schema_violation,
+           "the header of the request is larger than "
+               + std::to_string(shared_->limits.header_bytes) + " bytes");
+  else if (ec == http::error::body_limit)
+    refuse(413, error_code::malformed_json,
+           "the body of the request is larger than "
+               + std::to_string(shared_->limits.body_bytes) + " bytes");
+  else
+    refuse(400, error_code::schema_violation,
+           "this is no HTTP request: " + ec.message());
+}
+
+/// Checks what can be known before the body. False if that was the end, or
+/// something else goes on with it.
+bool http_connection::on_header() {
+  const auto& request = parser_->get();
+  const auto target = parse_target(to_view(request.target()));
+  if (!target) {
+    refuse(400, error_code::schema_violation, "the target is malformed");
+    return false;
+  }
+  if (request.method() != http::verb::get
+      && request.method() != http::verb::post) {
+    refuse(405, error_code::unknown_type, "the method is neither GET nor POST");
+    return false;
+  }
+  if (target->path == session_path && !local_) {
+    begin_session();
+    return false;
+  }
+  const bool trusted = local_ || has_token();
+  if (!trusted && !is_public(target->path)) {
+    refuse(401, error_code::unauthorized,
+           "the bearer token is missing or wrong",
+           "the node wrote it to its data directory; on the node's own host "
+           "the Unix socket needs none");
+    return false;
+  }
+  if (trusted && !local_ && !shared_->table.trust(this)) {
+    refuse(503, error_code::conflict, "too many clients are connected");
+    return false;
+  }
+  return check_body();
+}
+
+bool http_connection::has_token() const {
+  constexpr std::string_view scheme = "Bearer ";
+  const auto value = to_view(parser_->get()[http::field::authorization]);
+  return !shared_->token.empty() && value.substr(0, scheme.size()) == scheme
+         && equal_in_constant_time(value.substr(scheme.size()), shared_->token);
+}
+
+bool http_connection::is_public(const std::string& path) const {
+  const auto& open = shared_->public_paths;
+  return std::find(open.begin(), open.end(), path) != open.end();
+}
+
+bool http_connection::check_body() {
+  const auto announced = parser_->content_length();
+  if (announced && *announced > shared_->limits.body_bytes) {
+    on_bad_request(http::error::body_limit);
+    return false;
+  }
+  // For a body in chunks, whose length nobody knows.
+  parser_->body_limit(shared_->limits.body_bytes);
+  parser_->eager(true);
+  const auto expect = parser_->get()[http::field::expect];
+  if (parser_->is_done() || !boost::beast::iequals(expect, "100-continue"))
+    return true;
+  outgoing_ = "HTTP/1.1 100 Continue\r\n\r\n";
+  boost::asio::async_write(socket_, boost::asio::buffer(outgoing_),
+                           [self = shared_from_this()](error ec, size_t) {
+                             if (self->phase_ != phase::reading)
+                               return;
+                             if (ec)
+                               self->abort();
+                             else
+                               self->parse();
+                           });
+  return false;
+}
+
+void http_connection::dispatch() {
+  phase_ = phase::answering;
+  timer_.cancel();
+  auto& message = parser_->get();
+  auto target = parse_target(to_view(message.target()));
+  http_request request;
+  request.method = std::string{to_view(message.method_string())};
+  request.path = std::move(target->path);
+  request.query = std::move(target->query);
+  request.body = std::move(message.body());
+  request.local = local_;
+  responder answer{make_sink(shared_, weak_from_this())};
+  shared_->core->guarded(
+      [&] { shared_->handler(std::move(request), std::move(answer)); });
+}
+
+void http_connection::begin_session() {
+  const auto& acceptor = shared_->sessions;
+  const auto& request = parser_->get();
+  if (!acceptor)
+    return refuse(404, error_code::conflict,
+                  "this node takes no sessions, it coordinates no cell");
+  if (!boost::beast::websocket::is_upgrade(request) || !parser_->is_done()
+      || incoming_.size() > 0)
+    return refuse(400, error_code::schema_violation,
+                  "a session begins with a request for a WebSocket");
+  // Only browsers send this field. A page that someone looks at on this host
+  // must not become a member of the cell.
+  if (request.count(http::field::origin) != 0)
+    return refuse(403, error_code::unauthorized,
+                  "a session cannot be opened by a web page");
+  if (shared_->open_sessions >= shared_->limits.sessions)
+    return refuse(503, error_code::conflict, "too many sessions are open");
+  start_session(acceptor);
+}
+
+void http_connection::start_session(
+    const std::shared_ptr<const session_acceptor>& acceptor) {
+  phase_ = phase::handed_over;
+  timer_.cancel();
+  session_accept::hooks hooks;
+  hooks.on_decided = [self = shared_from_this()](bool accepted) {
+    if (accepted)
+      ++self->shared_->open_sessions;
+    self->abort();
+  };
+  hooks.on_gone = [shared = shared_] { --shared->open_sessions; };
+  auto session = std::make_shared<session_accept>(
+      shared_->core, std::move(socket_), acceptor, std::move(hooks));
+  session_ = session;
+  session->run(parser_->release());
+}
+
+void http_connection::hand_over(
+    const std::shared_ptr<stream_connection>& stream) {
+  if (phase_ != phase::answering)
+    return stream->abort();
+  phase_ = phase::handed_over;
+  stream_ = stream;
+  stream->begin(std::move(socket_), parser_->get().version() >= 11,
+                [self = shared_from_this()] { self->abort(); });
+  if (shared_->draining)
+    stream->finish();
+}
+
+void http_connection::refuse(int status, error_code code,
+                             std::string_view message, std::string_view hint) {
+  phase_ = phase::answering;
+  last_reply_ = true;
+  reply({status, json_content, error_body(code, message, hint)});
+}
+
+void http_connection::reply(const http_reply& reply) {
+  if (phase_ != phase::answering)
+    return;
+  phase_ = phase::writing;
+  last_reply_ = last_reply_ || shared_->draining || !parser_->is_done()
+                || !parser_->keep_alive();
+  outgoing_ = reply_head(reply, last_reply_);
+  // The answer to a HEAD request has no body.
+  if (!parser_->is_header_done() || parser_->get().method() != http::verb::head)
+    outgoing_ += reply.body;
+  limit(shared_->limits.write);
+  boost::asio::async_write(
+      socket_, boost::asio::buffer(outgoing_),
+      [self = shared_from_this()](error ec, size_t) { self->on_written(ec); });
+}
+
+void http_connection::on_written(error ec) {
+  if (phase_ == phase::closed)
+    return;
+  if (ec)
+    return abort();
+  outgoing_ = {};
+  if (last_reply_ || shared_->draining)
+    return linger();
+  next_request();
+  if (incoming_.size() > 0)
+    return parse();
+  incoming_.shrink_to_fit();
+  limit(shared_->limits.idle);
+  read();
+}
+
+/// Closing with unread bytes in the socket would destroy the reply on its
+/// way, so the client goes first.
+void http_connection::linger() {
+  phase_ = phase::lingering;
+  error ignored;
+  socket_.shutdown(stream_socket::shutdown_send, ignored);
+  limit(shared_->limits.grace);
+  read();
+}
+
+void http_connection::drain() {
+  if (phase_ == phase::waiting)
+    abort();
+  else if (stream_)
+    stream_->finish();
+}
+
+void http_connection::abort() {
+  if (std::exchange(phase_, phase::closed) == phase::closed)
+    return;
+  const auto self = shared_from_this();
+  timer_.cancel();
+  close_now(socket_);
+  shared_->table.remove(this);
+  if (const auto stream = std::exchange(stream_, nullptr))
+    stream->abort();
+  if (const auto session = session_.lock())
+    session->abort("the server closed the connection");
+  if (shared_->table.empty() && shared_->on_idle)
+    shared_->on_idle();
+}
+
+} // namespace roscell

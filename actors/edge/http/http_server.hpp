@@ -1,0 +1,54 @@
+#pragma once
+
+#include "actors/edge/http/http_types.hpp"
+#include "actors/edge/io/io_thread.hpp"
+#include "actors/edge/session/session_link.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace roscell {
+
+struct http_server_options {
+  std::string address = "127.0.0.1"; ///< IPv4 address of this host.
+  uint16_t port = 8420;              ///< 0: any free one.
+  std::string socket_path;           ///< Of the Unix socket; empty: none.
+  /// Bearer token that TCP clients must show; if empty, none is let in.
+  std::string token;
+  /// Paths that TCP clients may ask for without a token.
+  std::vector<std::string> public_paths{"/healthz"};
+  http_limits limits;
+  http_handler handler;
+};
+
+/// HTTP/1.1 on one TCP port and one Unix socket, with WebSocket sessions at
+/// `/v1/session` of the TCP port. It checks who may ask, bounds what may be
+/// sent, and hands requests to the handler; it knows no other path. Methods
+/// may be called from any thread.
+class http_server {
+public:
+  /// Listens at once. Errors: `conflict` if the port or the socket is in use,
+  /// `schema_violation` for an address or path that cannot be, `internal`.
+  static edge_result<std::unique_ptr<http_server>>
+  start(io_thread& io, http_server_options options);
+
+  /// Closes all connections at once, as the end of the io thread does.
+  /// Sessions that passed their handshake belong to their owners and go on.
+  virtual ~http_server() = default;
+
+  virtual uint16_t port() const = 0;
+
+  /// From now on, sessions are taken as `acceptor` says; until then they are
+  /// refused.
+  virtual void accept_sessions(session_acceptor acceptor) = 0;
+
+  /// Stops listening, lets requests in progress end within the grace period,
+  /// then calls `on_stopped` on the io thread. The Unix socket's file is gone
+  /// when this returns.
+  virtual void stop(std::function<void()> on_stopped) = 0;
+};
+
+} // namespace roscell

@@ -1,0 +1,86 @@
+#pragma once
+
+#include "actors/edge/http/http_types.hpp"
+#include "actors/edge/io/io_core.hpp"
+#include "actors/edge/session/session_link.hpp"
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+namespace roscell {
+
+class http_connection;
+
+/// Whom a connection comes from; each group has its own allowance.
+enum class http_group {
+  strangers, ///< TCP, no bearer token shown yet.
+  trusted,   ///< TCP, showed it.
+  local,     ///< The Unix socket.
+};
+
+/// INTERNAL to this folder: the connections of one server. Io thread only.
+class connection_table {
+public:
+  explicit connection_table(const http_limits& limits);
+
+  /// Whether one more can be added. Makes room among strangers by closing one.
+  bool make_room(http_group group);
+
+  void add(std::shared_ptr<http_connection> connection, http_group group);
+
+  /// Moves a stranger to the trusted; false if there is no room.
+  bool trust(const http_connection* connection);
+
+  void remove(const http_connection* connection);
+
+  /// Closes the stranger that was silent for longest, if there is one.
+  void evict_stranger();
+
+  std::vector<std::shared_ptr<http_connection>> all() const;
+
+  bool empty() const {
+    return entries_.empty();
+  }
+
+private:
+  struct entry {
+    std::shared_ptr<http_connection> connection;
+    http_group group;
+  };
+
+  size_t& count(http_group group) {
+    return counts_[static_cast<size_t>(group)];
+  }
+
+  bool full(http_group group);
+
+  std::array<size_t, 3> limits_;
+  std::array<size_t, 3> counts_{};
+  std::unordered_map<const http_connection*, entry> entries_;
+};
+
+/// INTERNAL to this folder: what the connections of one server share. All but
+/// `core` and `limits` is for the io thread only.
+struct http_shared {
+  http_shared(std::shared_ptr<io_core> on, const http_limits& bounds)
+      : core(std::move(on)), limits(bounds), table(bounds) {
+    // nop
+  }
+
+  const std::shared_ptr<io_core> core;
+  const http_limits limits;
+  std::string token;
+  std::vector<std::string> public_paths;
+  http_handler handler;
+  std::shared_ptr<const session_acceptor> sessions; ///< Null: none are taken.
+  size_t open_sessions = 0;
+  bool draining = false;         ///< Every reply is the last one.
+  std::function<void()> on_idle; ///< Called when the table gets empty.
+  connection_table table;
+};
+
+} // namespace roscell

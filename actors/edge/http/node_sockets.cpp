@@ -1,0 +1,43 @@
+#include "actors/edge/http/node_sockets.hpp"
+
+#include <utility>
+
+namespace roscell {
+
+namespace {
+
+/// Ports that the system hands out for UDP are rarely taken for TCP.
+constexpr int max_attempts = 16;
+
+edge_result<node_sockets> try_once(io_thread& io,
+                                   const http_server_options& http,
+                                   const beat_filter& filter) {
+  node_sockets result;
+  auto beat = beat_socket::open(io, {http.address, http.port, filter});
+  if (auto* why = std::get_if<edge_error>(&beat))
+    return *why;
+  result.beat = std::get<std::unique_ptr<beat_socket>>(std::move(beat));
+  auto options = http;
+  options.port = result.beat->port();
+  auto server = http_server::start(io, std::move(options));
+  if (auto* why = std::get_if<edge_error>(&server))
+    return *why;
+  result.http = std::get<std::unique_ptr<http_server>>(std::move(server));
+  return result;
+}
+
+} // namespace
+
+edge_result<node_sockets>
+open_node_sockets(io_thread& io, http_server_options http, beat_filter filter) {
+  auto result = try_once(io, http, filter);
+  for (int i = 1; i < max_attempts && http.port == 0; ++i) {
+    const auto* why = std::get_if<edge_error>(&result);
+    if (why == nullptr || why->code != error_code::conflict)
+      break;
+    result = try_once(io, http, filter);
+  }
+  return result;
+}
+
+} // namespace roscell

@@ -1,0 +1,49 @@
+#include "actors/edge/process/child_watch.hpp"
+
+#include "actors/edge/process/notify_socket.hpp"
+
+#include <chrono>
+#include <utility>
+
+namespace roscell {
+
+namespace {
+
+/// A program that talks without end causes 50 messages a second at most: what
+/// comes in between is merged, or waits in its socket.
+constexpr std::chrono::milliseconds words_pause{20};
+
+using listener = std::function<void(const notification&)>;
+
+void hear(int socket, const listener& on_notification) {
+  const auto words = receive_notifications(socket);
+  if (words.ready || words.alive || words.stopping || !words.status.empty())
+    on_notification(words);
+}
+
+} // namespace
+
+fd_watch watch_notifications(const std::shared_ptr<io_core>& core,
+                             const shared_fd& notify_socket,
+                             listener on_notification) {
+  return {core, notify_socket,
+          [notify_socket, call = std::move(on_notification)] {
+            hear(notify_socket->get(), call);
+            return true;
+          },
+          words_pause};
+}
+
+child_watch::child_watch(const std::shared_ptr<io_core>& core, shared_fd pidfd,
+                         shared_fd notify_socket, callbacks calls) {
+  words_ = watch_notifications(core, notify_socket, calls.on_notification);
+  const auto shared = std::make_shared<const callbacks>(std::move(calls));
+  end_ = fd_watch{core, std::move(pidfd), [notify_socket, shared] {
+                    // What the program said last must not come after its end.
+                    hear(notify_socket->get(), shared->on_notification);
+                    shared->on_end();
+                    return false;
+                  }};
+}
+
+} // namespace roscell

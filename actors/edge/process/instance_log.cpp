@@ -1,0 +1,158 @@
+#include "actors/edge/process/instance_log.hpp"
+
+#include "actors/edge/io/unique_fd.hpp"
+#include "actors/edge/io/utf8.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <optional>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+namespace roscell {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::string_view prefix = "log.";
+
+/// More files than a shim ever keeps; what else lies there is not ours.
+constexpr size_t max_files = 16;
+
+std::optional<int64_t> start_of(const std::string& name) {
+  if (name.compare(0, prefix.size(), prefix) != 0)
+    return std::nullopt;
+  int64_t result = 0;
+  const auto* end = name.data() + name.size();
+  const auto [rest, error] =
+      std::from_chars(name.data() + prefix.size(), end, result);
+  if (error != std::errc{} || rest != end || result < 0)
+    return std::nullopt;
+  return result;
+}
+
+/// Where the last `lines` lines of `text` begin. A newline at the very end
+/// ends the last line and begins no other.
+size_t tail_begin(std::string_view text, int64_t lines) {
+  auto at = text.size();
+  if (at > 0 && text[at - 1] == '\n')
+    --at;
+  for (; lines > 0; --lines) {
+    const auto newline = at == 0 ? text.npos : text.rfind('\n', at - 1);
+    if (newline == text.npos)
+      return 0;
+    at = newline;
+  }
+  return std::min(at + 1, text.size());
+}
+
+} // namespace
+
+instance_log::instance_log(fs::path folder) : folder_(std::move(folder)) {
+  // nop
+}
+
+bool instance_log::exists() const {
+  std::error_code error;
+  return fs::is_directory(folder_, error);
+}
+
+bool instance_log::has_ended() const {
+  std::error_code error;
+  return fs::exists(folder_ / "exit", error);
+}
+
+std::vector<instance_log::file> instance_log::files() const {
+  std::vector<file> result;
+  std::error_code error;
+  for (fs::directory_iterator i{folder_, error}, end;
+       !error && i != end && result.size() < max_files; i.increment(error)) {
+    const auto start = start_of(i->path().filename().string());
+    struct stat info {};
+    if (start && ::lstat(i->path().c_str(), &info) == 0
+        && S_ISREG(info.st_mode))
+      result.push_back({*start, static_cast<int64_t>(info.st_size)});
+  }
+  std::sort(result.begin(), result.end(),
+            [](const file& x, const file& y) { return x.start < y.start; });
+  return result;
+}
+
+/// Empty if the file is gone.
+std::string instance_log::bytes(const file& x, int64_t from,
+                                int64_t most) const {
+  const auto path = folder_ / (std::string{prefix} + std::to_string(x.start));
+  const unique_fd fd{::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW)};
+  if (!fd)
+    return {};
+  std::string result(static_cast<size_t>(most), '\0');
+  size_t size = 0;
+  while (size < result.size()) {
+    const auto n = ::pread(fd.get(), &result[size], result.size() - size,
+                           from - x.start + static_cast<int64_t>(size));
+    if (n < 0 && errno == EINTR)
+      continue;
+    if (n <= 0)
+      break;
+    size += static_cast<size_t>(n);
+  }
+  result.resize(size);
+  return result;
+}
+
+instance_log::chunk instance_log::read(int64_t from) const {
+  chunk result;
+  const auto all = files();
+  if (all.empty())
+    return result;
+  result.end = all.back().start + all.back().size;
+  result.from = std::clamp(from, all.front().start, result.end);
+  for (const auto& x : all) {
+    const auto at = result.from + static_cast<int64_t>(result.bytes.size());
+    const auto left = result.from + max_part_bytes - at;
+    const bool gap = x.start > at;
+    // The bytes of a gap are lost; what is behind it makes the next part.
+    if (left <= 0 || (gap && !result.bytes.empty()))
+      break;
+    if (x.start + x.size <= at)
+      continue;
+    if (gap)
+      result.from = x.start;
+    const auto begin = std::max(at, x.start);
+    // A file that was dropped meanwhile gives nothing, and the next is a gap.
+    result.bytes += bytes(x, begin, std::min(left, x.start + x.size - begin));
+  }
+  return result;
+}
+
+log_part instance_log::read_from(int64_t offset) const {
+  // Asked first: what the program wrote before it ended is then seen below.
+  const bool ended = has_ended();
+  auto [from, text, end] = read(offset);
+  const auto read_to = from + static_cast<int64_t>(text.size());
+  log_part result;
+  result.ended = ended && read_to >= end;
+  // The rest of a character may still be on its way.
+  if (!result.ended)
+    text.resize(text.size() - unfinished_utf8(text));
+  result.next_offset = from + static_cast<int64_t>(text.size());
+  result.text = valid_utf8(text);
+  return result;
+}
+
+log_part instance_log::read_tail(int64_t lines) const {
+  const auto all = files();
+  const auto end = all.empty() ? 0 : all.back().start + all.back().size;
+  const auto last = read(std::max<int64_t>(0, end - max_part_bytes));
+  const auto wanted = std::clamp<int64_t>(lines, 0, max_part_bytes);
+  return read_from(last.from
+                   + static_cast<int64_t>(tail_begin(last.bytes, wanted)));
+}
+
+} // namespace roscell

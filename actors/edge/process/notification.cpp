@@ -1,0 +1,63 @@
+#include "actors/edge/process/notification.hpp"
+
+#include "actors/edge/io/utf8.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace roscell {
+
+namespace {
+
+std::string status_line(std::string_view bytes) {
+  bytes = bytes.substr(0, max_status_bytes);
+  bytes.remove_suffix(unfinished_utf8(bytes));
+  auto result = valid_utf8(bytes);
+  // Replacements are longer than what they replace.
+  if (result.size() > max_status_bytes) {
+    result.resize(max_status_bytes);
+    result.resize(result.size() - unfinished_utf8(result));
+  }
+  const auto is_control = [](char c) {
+    return static_cast<unsigned char>(c) < 0x20 || c == 0x7F;
+  };
+  std::replace_if(result.begin(), result.end(), is_control, ' ');
+  return result;
+}
+
+void read_line(std::string_view line, notification& result) {
+  constexpr std::string_view status = "STATUS=";
+  if (line == "READY=1")
+    result.ready = true;
+  else if (line == "WATCHDOG=1")
+    result.alive = true;
+  else if (line == "STOPPING=1")
+    result.stopping = true;
+  else if (line.substr(0, status.size()) == status)
+    result.status = status_line(line.substr(status.size()));
+}
+
+} // namespace
+
+notification parse_notification(std::string_view datagram) {
+  notification result;
+  if (datagram.size() > max_notification_bytes)
+    return result;
+  while (!datagram.empty()) {
+    const auto end = datagram.find('\n');
+    read_line(datagram.substr(0, end), result);
+    datagram.remove_prefix(end == std::string_view::npos ? datagram.size()
+                                                         : end + 1);
+  }
+  return result;
+}
+
+void merge(notification& before, notification later) {
+  before.ready = before.ready || later.ready;
+  before.alive = before.alive || later.alive;
+  before.stopping = before.stopping || later.stopping;
+  if (!later.status.empty())
+    before.status = std::move(later.status);
+}
+
+} // namespace roscell

@@ -1,0 +1,99 @@
+#include "actors/edge/process/notify_socket.hpp"
+
+#include "actors/edge/io/crypto.hpp"
+
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <string>
+#include <utility>
+
+namespace roscell {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Linux queues net.unix.max_dgram_qlen datagrams, by default 10.
+constexpr int most_datagrams = 64;
+
+/// Marks the hash as this use's own.
+constexpr std::string_view hash_key = "roscell notify socket";
+
+edge_error failed(const std::string& what, const fs::path& path) {
+  return {error_code::engine_failed,
+          "cannot " + what + " '" + path.string()
+              + "': " + std::strerror(errno),
+          "check who owns the folder and whether its file system has room"};
+}
+
+/// Whether the folder is ours alone: in /tmp anyone may have been there first.
+bool is_own_folder(const fs::path& path) {
+  struct stat info {};
+  return ::lstat(path.c_str(), &info) == 0 && S_ISDIR(info.st_mode)
+         && info.st_uid == ::geteuid() && (info.st_mode & 022) == 0;
+}
+
+} // namespace
+
+fs::path notify_path(const fs::path& instance_dir) {
+  auto result = instance_dir / "notify";
+  if (result.native().size() < sizeof(sockaddr_un::sun_path))
+    return result;
+  const auto base = ::geteuid() == 0
+                        ? std::string{"/run/roscell-notify"}
+                        : "/tmp/roscell-notify-" + std::to_string(::geteuid());
+  const auto name = to_hex(hmac_sha256(hash_key, instance_dir.native()));
+  return fs::path{base} / name.substr(0, 32);
+}
+
+edge_result<unique_fd> open_notify_socket(const fs::path& path) {
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  if (path.native().size() >= sizeof(address.sun_path)) {
+    errno = ENAMETOOLONG;
+    return failed("make the socket", path);
+  }
+  path.native().copy(address.sun_path, sizeof(address.sun_path) - 1);
+  const auto folder = path.parent_path();
+  if (::mkdir(folder.c_str(), 0700) != 0 && errno != EEXIST)
+    return failed("make the folder", folder);
+  if (!is_own_folder(folder)) {
+    errno = EPERM;
+    return failed("trust the folder", folder);
+  }
+  unique_fd result{
+      ::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0)};
+  if (!result)
+    return failed("make a socket for", path);
+  ::unlink(path.c_str());
+  if (::bind(result.get(), reinterpret_cast<const sockaddr*>(&address),
+             sizeof(address))
+      != 0)
+    return failed("make the socket", path);
+  return result;
+}
+
+notification receive_notifications(int socket) {
+  notification result;
+  std::array<char, max_notification_bytes> buffer;
+  for (int i = 0; i < most_datagrams; ++i) {
+    const auto n =
+        ::recv(socket, buffer.data(), buffer.size(), MSG_DONTWAIT | MSG_TRUNC);
+    if (n < 0 && errno == EINTR)
+      continue;
+    if (n < 0)
+      break;
+    const auto size = static_cast<size_t>(n);
+    // With MSG_TRUNC the size is that of the datagram before it was cut.
+    if (size <= buffer.size())
+      merge(result, parse_notification({buffer.data(), size}));
+  }
+  return result;
+}
+
+} // namespace roscell

@@ -1,0 +1,54 @@
+#pragma once
+
+#include "actors/edge/io/unique_fd.hpp"
+
+#include <sys/types.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace roscell {
+
+/// Tells a process from all others that have had, or will have, its number.
+struct process_identity {
+  pid_t pid = 0;
+  uint64_t start_time = 0; ///< Clock ticks since boot (proc(5), field 22).
+};
+
+/// "<pid>:<start time>", the id of a process as a container.
+std::string to_container(const process_identity& process);
+
+/// The opposite; nothing for any other text.
+std::optional<process_identity> process_of(std::string_view container);
+
+/// Who has the number now.
+std::optional<process_identity> identify(pid_t pid);
+
+/// A descriptor for the process that can be polled for its end and signalled
+/// without mistaking another process for it. Empty if it is gone. One of its
+/// arguments must end with `marker`: after a reboot, number and start time may
+/// be those of a stranger.
+unique_fd open_process(const process_identity& process,
+                       const std::string& marker = {});
+
+/// Whether the process behind the descriptor has ended.
+bool has_ended(int pidfd);
+
+/// Takes an ended child out of the process table, so that it does not stay
+/// there as a zombie. Returns its exit code, 128 + n after signal n; nothing
+/// for the child of another process.
+std::optional<int> reap(int pidfd);
+
+/// The process of the shim that keeps its records in `dir`, as the file `pid`
+/// says.
+std::optional<process_identity>
+read_pid_record(const std::filesystem::path& dir);
+
+/// How the command of that shim ended, as the file `exit` says: its exit code,
+/// or 128 + n after signal n. Nothing as long as it has not ended in order.
+std::optional<int> read_exit_record(const std::filesystem::path& dir);
+
+} // namespace roscell

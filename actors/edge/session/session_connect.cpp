@@ -1,0 +1,133 @@
+#include "actors/edge/http/error_body.hpp"
+#include "actors/edge/session/session_dialog.hpp"
+#include "actors/edge/session/session_paths.hpp"
+
+#include <boost/asio/ip/tcp.hpp>
+#include <nlohmann/json.hpp>
+
+#include <utility>
+
+namespace roscell {
+
+namespace {
+
+namespace ip = boost::asio::ip;
+namespace ws = boost::beast::websocket;
+
+std::string name_of(const session_target& target) {
+  return target.address + ":" + std::to_string(target.port);
+}
+
+/// The joiner's side, from the TCP connection on.
+class session_connect : public session_dialog {
+public:
+  session_connect(std::shared_ptr<io_core> core, session_target target,
+                  joiner_identity identity, std::string token,
+                  session_options options,
+                  std::function<void(session_result)> callback)
+      : session_dialog(core, stream_socket{core->context()},
+                       std::move(options)),
+        target_(std::move(target)), token_(std::move(token)),
+        callback_(std::move(callback)),
+        handshake_(std::move(identity), token_, target_.expected_cell) {
+    // nop
+  }
+
+  void run() {
+    begin();
+    boost::system::error_code ec;
+    const auto address = ip::make_address_v4(target_.address, ec);
+    if (ec)
+      return fail({error_code::unreachable,
+                   "'" + target_.address + "' is not an IPv4 address", ""});
+    if (const auto refusal = check_token_for(token_, target_.address))
+      return fail(*refusal);
+    open_tcp(stream().next_layer());
+    stream().next_layer().async_connect(
+        ip::tcp::endpoint{address, target_.port},
+        [self = self_as<session_connect>()](error connect_ec) {
+          if (!self->over())
+            self->on_connected(connect_ec);
+        });
+  }
+
+protected:
+  handshake_step receive(std::string_view frame) override {
+    return handshake_.receive(frame);
+  }
+
+  void on_established(websocket&& stream) override {
+    const auto& challenge = handshake_.peer();
+    established_session session;
+    session.peer = {challenge.node,       challenge.uuid, challenge.version,
+                    target_.address,      target_.port,   challenge.cell,
+                    challenge.incarnation};
+    session.agreement = handshake_.agreement();
+    session.link =
+        websocket_link::make(core(), std::move(stream), options(), {});
+    core()->guarded([&] { callback_(std::move(session)); });
+  }
+
+  void on_refused(const edge_error& why) override {
+    callback_(why);
+  }
+
+private:
+  void on_connected(error ec) {
+    if (ec)
+      return fail(
+          {error_code::unreachable,
+           "cannot connect to " + name_of(target_) + ": " + ec.message(), ""});
+    tune_for_session(stream().next_layer(), options().user_timeout);
+    stream().async_handshake(
+        response_, name_of(target_), std::string{session_path},
+        [self = self_as<session_connect>()](error upgrade_ec) {
+          if (!self->over())
+            self->on_upgraded(upgrade_ec);
+        });
+  }
+
+  void on_upgraded(error ec) {
+    if (!ec)
+      return exchange(handshake_.hello());
+    if (ec == ws::error::upgrade_declined)
+      return fail(declined());
+    fail({error_code::unreachable,
+          name_of(target_) + " does not answer as a node: " + ec.message(),
+          ""});
+  }
+
+  /// The error in the body of an HTTP answer.
+  edge_error declined() const {
+    auto decoded = decode_frame<session_accepted>(response_.body());
+    if (const auto* why = std::get_if<edge_error>(&decoded);
+        why != nullptr && why->code != error_code::malformed_json
+        && why->code != error_code::schema_violation)
+      return *why;
+    return {error_code::conflict,
+            name_of(target_) + " takes no sessions (HTTP status "
+                + std::to_string(response_.result_int()) + ")",
+            ""};
+  }
+
+  session_target target_;
+  std::string token_;
+  std::function<void(session_result)> callback_;
+  joiner_handshake handshake_;
+  ws::response_type response_;
+};
+
+} // namespace
+
+void connect_session(io_thread& io, session_target target,
+                     joiner_identity identity, std::string token,
+                     session_options options,
+                     std::function<void(session_result)> callback) {
+  const auto& core = io.core();
+  auto joiner = std::make_shared<session_connect>(
+      core, std::move(target), std::move(identity), std::move(token),
+      std::move(options), std::move(callback));
+  core->post([joiner] { joiner->run(); });
+}
+
+} // namespace roscell

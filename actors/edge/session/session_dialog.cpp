@@ -1,0 +1,131 @@
+#include "actors/edge/session/session_dialog.hpp"
+
+#include <boost/asio/buffer.hpp>
+#include <boost/beast/core/buffers_to_string.hpp>
+
+#include <utility>
+
+namespace roscell {
+
+namespace ws = boost::beast::websocket;
+
+session_dialog::session_dialog(std::shared_ptr<io_core> core,
+                               stream_socket socket, session_options options)
+    : core_(std::move(core)), options_(std::move(options)),
+      stream_(session_socket{std::move(socket)}), timer_(core_->context()) {
+  stream_.next_layer().linger_time = options_.close_timeout;
+  stream_.read_message_max(session_frame_bounds::frame);
+  stream_.text(true);
+}
+
+void session_dialog::begin() {
+  core_->adopt(shared_from_this());
+  timer_.expires_after(options_.handshake_timeout);
+  timer_.async_wait([self = shared_from_this()](error ec) {
+    if (!ec)
+      self->abort("the handshake of the session took too long");
+  });
+}
+
+void session_dialog::exchange(std::string first) {
+  handshake_step step;
+  step.reply = std::move(first);
+  take(std::move(step));
+}
+
+void session_dialog::read() {
+  stream_.async_read(incoming_, [self = shared_from_this()](error ec, size_t) {
+    self->on_read(ec);
+  });
+}
+
+void session_dialog::on_read(error ec) {
+  if (over())
+    return;
+  if (ec)
+    return fail_with(ec);
+  const auto frame = boost::beast::buffers_to_string(incoming_.data());
+  incoming_.consume(incoming_.size());
+  take(receive(frame));
+}
+
+void session_dialog::take(handshake_step step) {
+  if (step.reply.empty())
+    return conclude(step);
+  outgoing_ = std::move(step.reply);
+  step.reply.clear();
+  stream_.async_write(boost::asio::buffer(outgoing_),
+                      [self = shared_from_this(), step](error ec, size_t) {
+                        if (self->over())
+                          return;
+                        if (ec && !step.failure)
+                          return self->fail_with(ec);
+                        self->conclude(step);
+                      });
+}
+
+void session_dialog::conclude(const handshake_step& step) {
+  if (step.failure)
+    return refuse(*step.failure);
+  if (!step.done)
+    return read();
+  if (!report_once())
+    return;
+  timer_.cancel();
+  const auto self = shared_from_this();
+  core_->release(this);
+  on_established(std::move(stream_));
+}
+
+void session_dialog::fail_with(error ec) {
+  if (ec == ws::error::closed)
+    return fail({error_code::unreachable,
+                 "the peer closed the session during the handshake", ""});
+  if (ec == ws::error::message_too_big)
+    return fail({error_code::malformed_json,
+                 "a frame of the handshake is too large", ""});
+  fail({error_code::unreachable,
+        "the connection broke during the handshake: " + ec.message(), ""});
+}
+
+void session_dialog::refuse(const edge_error& why) {
+  if (!report_once())
+    return;
+  const auto self = shared_from_this();
+  core_->guarded([&] { on_refused(why); });
+  timer_.expires_after(options_.close_timeout);
+  timer_.async_wait([self](error ec) {
+    if (!ec)
+      close_now(self->stream_.next_layer());
+  });
+  stream_.async_close(ws::close_code::policy_error, [self](error) {
+    self->timer_.cancel();
+    close_now(self->stream_.next_layer());
+    self->core_->release(self.get());
+  });
+}
+
+void session_dialog::fail(const edge_error& why) {
+  if (!report_once())
+    return;
+  const auto self = shared_from_this();
+  timer_.cancel();
+  close_now(stream_.next_layer());
+  core_->release(this);
+  core_->guarded([&] { on_refused(why); });
+}
+
+void session_dialog::abort(const std::string& why) {
+  fail({error_code::timeout, why, ""});
+}
+
+void session_dialog::on_io_stop() {
+  fail({error_code::unreachable, "the io thread stopped", ""});
+  close_now(stream_.next_layer());
+}
+
+bool session_dialog::report_once() {
+  return !std::exchange(reported_, true);
+}
+
+} // namespace roscell

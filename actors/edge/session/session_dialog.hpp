@@ -1,0 +1,84 @@
+#pragma once
+
+#include "actors/edge/session/websocket_link.hpp"
+
+#include <memory>
+#include <string>
+
+namespace roscell {
+
+/// INTERNAL to this folder: carries the frames of a handshake over a
+/// WebSocket, for either side, within the time limit. What the frames mean is
+/// the business of session_handshake. Io thread only.
+class session_dialog : public io_component,
+                       public std::enable_shared_from_this<session_dialog> {
+public:
+  using error = boost::system::error_code;
+
+  session_dialog(std::shared_ptr<io_core> core, stream_socket socket,
+                 session_options options);
+
+  /// Ends it at once with an error of code `timeout`.
+  void abort(const std::string& why);
+
+  void on_io_stop() override;
+
+protected:
+  /// Starts the clock and registers with the loop. Called first.
+  void begin();
+
+  /// The WebSocket is open: sends `first` if there is one, then takes turns.
+  void exchange(std::string first);
+
+  /// Takes one frame of the peer.
+  virtual handshake_step receive(std::string_view frame) = 0;
+
+  /// Exactly one of the two is called, once.
+  virtual void on_established(websocket&& stream) = 0;
+  virtual void on_refused(const edge_error& why) = 0;
+
+  /// Reports `why` and closes, letting the peer read what was written.
+  void refuse(const edge_error& why);
+
+  /// Reports `why` and breaks the connection.
+  void fail(const edge_error& why);
+
+  bool over() const {
+    return reported_;
+  }
+
+  websocket& stream() {
+    return stream_;
+  }
+
+  const std::shared_ptr<io_core>& core() const {
+    return core_;
+  }
+
+  const session_options& options() const {
+    return options_;
+  }
+
+  template <class Self>
+  std::shared_ptr<Self> self_as() {
+    return std::static_pointer_cast<Self>(shared_from_this());
+  }
+
+private:
+  void read();
+  void on_read(error ec);
+  void take(handshake_step step);
+  void conclude(const handshake_step& step);
+  void fail_with(error ec);
+  bool report_once();
+
+  std::shared_ptr<io_core> core_;
+  session_options options_;
+  websocket stream_;
+  boost::asio::steady_timer timer_;
+  boost::beast::flat_buffer incoming_;
+  std::string outgoing_;
+  bool reported_ = false;
+};
+
+} // namespace roscell

@@ -1,0 +1,223 @@
+#include "actors/edge/session/session_handshake.hpp"
+
+#include "actors/edge/session/transcript.hpp"
+
+#include <utility>
+
+#include <arpa/inet.h>
+
+namespace roscell {
+
+namespace {
+
+constexpr std::string_view acceptor_label = "roscell session v1 acceptor";
+constexpr std::string_view joiner_label = "roscell session v1 joiner";
+constexpr std::string_view session_label = "roscell session v1 id";
+constexpr std::string_view acceptor_beat_label = "roscell beat v1 acceptor";
+constexpr std::string_view joiner_beat_label = "roscell beat v1 joiner";
+
+/// HMAC over the label and all that both sides said.
+digest bind(std::string_view token, std::string_view label,
+            const session_hello& hello, const session_challenge& challenge) {
+  transcript said{label};
+  said.add(hello.version)
+      .add(hello.node)
+      .add(hello.uuid)
+      .add(hello.epoch)
+      .add(hello.nonce)
+      .add(challenge.version)
+      .add(challenge.node)
+      .add(challenge.uuid)
+      .add(challenge.cell)
+      .add(challenge.incarnation)
+      .add(challenge.nonce);
+  // Who has no role says the same as before there were any.
+  if (!hello.role.empty())
+    said.add(hello.role);
+  return said.sign(token);
+}
+
+std::string session_id(std::string_view token, const session_hello& hello,
+                       const session_challenge& challenge) {
+  const auto id = to_hex(bind(token, session_label, hello, challenge));
+  return id.substr(0, session_frame_bounds::session);
+}
+
+std::string_view major_of(std::string_view version) {
+  return version.substr(0, version.find('.'));
+}
+
+std::optional<edge_error> check_version(const std::string& node,
+                                        const std::string& version) {
+  if (major_of(version) == major_of(session_version))
+    return std::nullopt;
+  return edge_error{error_code::conflict,
+                    "the protocol " + version + " of node '" + node
+                        + "' and the protocol " + std::string{session_version}
+                        + " of its peer do not work together",
+                    "install the same major version of ROSCell on both"};
+}
+
+edge_error wrong_token(const std::string& node) {
+  return {error_code::unauthorized,
+          "node '" + node + "' does not know this site's token",
+          "install the same site token on both nodes"};
+}
+
+handshake_step fail(edge_error why, bool tell_peer) {
+  handshake_step step;
+  if (tell_peer)
+    step.reply = encode(why);
+  step.failure = std::move(why);
+  return step;
+}
+
+handshake_step fail_after_end() {
+  return fail({error_code::conflict, "the handshake is over", ""}, false);
+}
+
+} // namespace
+
+bool is_loopback(std::string_view address) {
+  in_addr parsed{};
+  if (inet_pton(AF_INET, std::string{address}.c_str(), &parsed) != 1)
+    return false;
+  return ntohl(parsed.s_addr) >> 24 == 127;
+}
+
+std::optional<edge_error> check_token_for(std::string_view token,
+                                          std::string_view peer_address) {
+  if (!token.empty() || is_loopback(peer_address))
+    return std::nullopt;
+  return edge_error{error_code::unauthorized,
+                    "a node without a site token speaks with its own host "
+                    "only, not with "
+                        + std::string{peer_address},
+                    "install the site token"};
+}
+
+std::string make_nonce() {
+  return to_hex(random_bytes(session_frame_bounds::nonce / 2));
+}
+
+acceptor_handshake::acceptor_handshake(acceptor_identity self,
+                                       std::string token,
+                                       std::string peer_address,
+                                       std::string nonce)
+    : token_(std::move(token)), peer_address_(std::move(peer_address)) {
+  challenge_.version = session_version;
+  challenge_.node = std::move(self.node);
+  challenge_.uuid = std::move(self.uuid);
+  challenge_.cell = std::move(self.cell);
+  challenge_.incarnation = self.incarnation;
+  challenge_.nonce = std::move(nonce);
+}
+
+handshake_step acceptor_handshake::receive(std::string_view frame) {
+  switch (std::exchange(state_, state::closed)) {
+  case state::wait_hello:
+    return on_hello(frame);
+  case state::wait_proof:
+    return on_proof(frame);
+  default:
+    return fail_after_end();
+  }
+}
+
+handshake_step acceptor_handshake::on_hello(std::string_view frame) {
+  if (auto refusal = check_token_for(token_, peer_address_))
+    return fail(*refusal, true);
+  auto decoded = decode_frame<session_hello>(frame);
+  if (auto* error = std::get_if<edge_error>(&decoded))
+    return fail(*error, true);
+  hello_ = std::get<session_hello>(std::move(decoded));
+  if (auto refusal = check_version(hello_.node, hello_.version))
+    return fail(*refusal, true);
+  challenge_.proof = to_hex(bind(token_, acceptor_label, hello_, challenge_));
+  state_ = state::wait_proof;
+  handshake_step step;
+  step.reply = encode(challenge_);
+  return step;
+}
+
+handshake_step acceptor_handshake::on_proof(std::string_view frame) {
+  auto decoded = decode_frame<session_proof>(frame);
+  if (auto* error = std::get_if<edge_error>(&decoded))
+    return fail(*error, true);
+  const auto expected = bind(token_, joiner_label, hello_, challenge_);
+  if (!is_proof(std::get<session_proof>(decoded).proof, expected))
+    return fail(wrong_token(hello_.node), true);
+  agreement_.session = session_id(token_, hello_, challenge_);
+  agreement_.keys.send = bind(token_, acceptor_beat_label, hello_, challenge_);
+  agreement_.keys.receive = bind(token_, joiner_beat_label, hello_, challenge_);
+  handshake_step step;
+  step.reply = encode(session_accepted{agreement_.session});
+  step.done = true;
+  return step;
+}
+
+joiner_handshake::joiner_handshake(joiner_identity self, std::string token,
+                                   std::string expected_cell, std::string nonce)
+    : token_(std::move(token)), expected_cell_(std::move(expected_cell)) {
+  hello_.version = session_version;
+  hello_.node = std::move(self.node);
+  hello_.uuid = std::move(self.uuid);
+  hello_.epoch = self.epoch;
+  hello_.nonce = std::move(nonce);
+  hello_.role = std::move(self.role);
+}
+
+std::string joiner_handshake::hello() const {
+  return encode(hello_);
+}
+
+handshake_step joiner_handshake::receive(std::string_view frame) {
+  switch (std::exchange(state_, state::closed)) {
+  case state::wait_challenge:
+    return on_challenge(frame);
+  case state::wait_accepted:
+    return on_accepted(frame);
+  default:
+    return fail_after_end();
+  }
+}
+
+handshake_step joiner_handshake::on_challenge(std::string_view frame) {
+  auto decoded = decode_frame<session_challenge>(frame);
+  if (auto* error = std::get_if<edge_error>(&decoded))
+    return fail(*error, false);
+  challenge_ = std::get<session_challenge>(std::move(decoded));
+  if (auto refusal = check_version(challenge_.node, challenge_.version))
+    return fail(*refusal, true);
+  const auto expected = bind(token_, acceptor_label, hello_, challenge_);
+  if (!is_proof(challenge_.proof, expected))
+    return fail(wrong_token(challenge_.node), true);
+  if (!expected_cell_.empty() && challenge_.cell != expected_cell_)
+    return fail({error_code::unknown_cell,
+                 "node '" + challenge_.node + "' coordinates cell '"
+                     + challenge_.cell + "', not '" + expected_cell_ + "'",
+                 ""},
+                true);
+  state_ = state::wait_accepted;
+  handshake_step step;
+  step.reply = encode(
+      session_proof{to_hex(bind(token_, joiner_label, hello_, challenge_))});
+  return step;
+}
+
+handshake_step joiner_handshake::on_accepted(std::string_view frame) {
+  auto decoded = decode_frame<session_accepted>(frame);
+  if (auto* error = std::get_if<edge_error>(&decoded))
+    return fail(*error, false);
+  agreement_.session = session_id(token_, hello_, challenge_);
+  if (std::get<session_accepted>(decoded).session != agreement_.session)
+    return fail(wrong_token(challenge_.node), false);
+  agreement_.keys.send = bind(token_, joiner_beat_label, hello_, challenge_);
+  agreement_.keys.receive =
+      bind(token_, acceptor_beat_label, hello_, challenge_);
+  handshake_step step;
+  step.done = true;
+  return step;
+}
+
+} // namespace roscell

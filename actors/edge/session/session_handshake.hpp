@@ -1,0 +1,149 @@
+#pragma once
+
+#include "actors/edge/io/crypto.hpp"
+#include "actors/edge/io/edge_error.hpp"
+#include "actors/edge/session/session_frames.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+/// The handshake of a session, without any input or output: each side feeds
+/// the frames it gets into its state machine and sends what comes out.
+///
+///     joiner                                acceptor
+///       | session_hello (nonce)  ------------> |
+///       | <-- session_challenge (nonce, proof) |
+///       | session_proof (proof)  ------------> |
+///       | <------------------ session_accepted |
+///
+/// Both proofs are HMAC-SHA256 under the site token, over a label that is the
+/// prover's side and everything that the hello and the challenge say: version,
+/// name, UUID, epoch and role of the joiner; version, name, UUID, cell and
+/// incarnation of the acceptor; both nonces. So a proof holds for this joiner,
+/// this target and this run only. The acceptor proves itself first, and the
+/// joiner stays silent towards one that cannot. The session id and the keys of
+/// the beat come from the same transcript under other labels.
+namespace roscell {
+
+/// Who asks for a session.
+struct joiner_identity {
+  std::string node;
+  std::string uuid;
+  int64_t epoch = 0;  ///< Of its registration; a coordinator's incarnation.
+  std::string role{}; ///< `coordinator_role`, or empty.
+};
+
+/// Who takes it.
+struct acceptor_identity {
+  std::string node;
+  std::string uuid;
+  std::string cell;
+  int64_t incarnation = 0;
+};
+
+/// Keys of the beat of one session, one per direction, so that a packet can
+/// never be reflected.
+struct beat_keys {
+  digest send{};
+  digest receive{};
+};
+
+/// What both sides know after the handshake.
+struct session_agreement {
+  std::string session; ///< 16 hexadecimal digits, unique by its nonces.
+  beat_keys keys;
+};
+
+/// One step of a side: send `reply` if there is one; then, if there is a
+/// `failure`, close; else, if `done`, the session is open.
+struct handshake_step {
+  std::string reply;
+  bool done = false;
+  std::optional<edge_error> failure;
+};
+
+/// Whether a dotted IPv4 address is in 127.0.0.0/8.
+bool is_loopback(std::string_view address);
+
+/// The refusal for a peer off this host where no site token is installed;
+/// nothing where a session may be tried.
+std::optional<edge_error> check_token_for(std::string_view token,
+                                          std::string_view peer_address);
+
+/// A fresh nonce: 32 random bytes, hexadecimal.
+std::string make_nonce();
+
+/// The acceptor's side. Every frame that is not the expected one ends it.
+class acceptor_handshake {
+public:
+  /// `peer_address` is the joiner's IPv4 address.
+  acceptor_handshake(acceptor_identity self, std::string token,
+                     std::string peer_address,
+                     std::string nonce = make_nonce());
+
+  handshake_step receive(std::string_view frame);
+
+  /// Who the joiner says it is. Proven once the handshake is done.
+  const session_hello& peer() const {
+    return hello_;
+  }
+
+  /// Valid once the handshake is done.
+  const session_agreement& agreement() const {
+    return agreement_;
+  }
+
+private:
+  enum class state { wait_hello, wait_proof, closed };
+
+  handshake_step on_hello(std::string_view frame);
+  handshake_step on_proof(std::string_view frame);
+
+  state state_ = state::wait_hello;
+  std::string token_;
+  std::string peer_address_;
+  session_hello hello_;
+  session_challenge challenge_;
+  session_agreement agreement_;
+};
+
+/// The joiner's side.
+class joiner_handshake {
+public:
+  /// `expected_cell` may be empty: then any cell will do.
+  joiner_handshake(joiner_identity self, std::string token,
+                   std::string expected_cell = {},
+                   std::string nonce = make_nonce());
+
+  /// The frame to send first.
+  std::string hello() const;
+
+  handshake_step receive(std::string_view frame);
+
+  /// Who the acceptor is. Proven once it was followed by a reply.
+  const session_challenge& peer() const {
+    return challenge_;
+  }
+
+  /// Valid once the handshake is done.
+  const session_agreement& agreement() const {
+    return agreement_;
+  }
+
+private:
+  enum class state { wait_challenge, wait_accepted, closed };
+
+  handshake_step on_challenge(std::string_view frame);
+  handshake_step on_accepted(std::string_view frame);
+
+  state state_ = state::wait_challenge;
+  std::string token_;
+  std::string expected_cell_;
+  session_hello hello_;
+  session_challenge challenge_;
+  session_agreement agreement_;
+};
+
+} // namespace roscell

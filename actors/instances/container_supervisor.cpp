@@ -1,0 +1,325 @@
+#include "actors/instances/container_supervisor.hpp"
+
+#include "actors/house/wall_clock.hpp"
+#include "actors/instances/instance_id.hpp"
+#include "actors/instances/instance_removal.hpp"
+#include "actors/instances/instance_words.hpp"
+#include "actors/instances/skill_instance.hpp"
+#include "messages/failure.hpp"
+
+#include <caf/result.hpp>
+#include <caf/send.hpp>
+
+#include <algorithm>
+#include <utility>
+
+namespace roscell {
+
+namespace {
+
+using self_pointer =
+    container_supervisor_actor::stateful_pointer<container_supervisor_state>;
+
+using limits = container_supervisor_state;
+
+/// Beyond what a log query itself wants to wait.
+constexpr std::chrono::seconds log_limit{5};
+
+constexpr int64_t max_log_wait_ms = 20'000;
+
+void on_ended(self_pointer self, const std::string& instance,
+              supervised_instance& x) {
+  x.actor = nullptr;
+  const auto error = to_error(deployment_failure(x.row));
+  for (auto& promise : std::exchange(x.deployers, {}))
+    promise.deliver(error);
+  if (x.removing)
+    clean_instance(self, instance);
+  else
+    trim_ended(self);
+}
+
+void spawn_actor(self_pointer self, supervised_instance& x, bool adopt) {
+  auto& st = self->state;
+  skill_instance_config config{
+      st.config.context,
+      caf::actor_cast<container_supervisor_actor>(self),
+      st.runtime,
+      st.config.store,
+      st.config.skills,
+      x.row,
+      adopt};
+  x.actor = spawn(self->system(), st.config.context, skill_instance, config);
+  self->monitor(x.actor);
+  caf::anon_send(x.actor, start_instance{});
+  if (x.removing)
+    caf::anon_send(x.actor, stop_instance{"removed"});
+}
+
+/// Empty if the node can run such an instance.
+caf::error check(self_pointer self, const instance_spec& spec) {
+  const auto& st = self->state;
+  if (!is_instance_id(spec.instance))
+    return fail(error_code::schema_violation,
+                "an instance id of letters, digits, '_', '-' and '.' is needed",
+                "/spec/instance");
+  const auto* folder = st.config.skills->find(spec.skill);
+  if (folder == nullptr)
+    return fail(error_code::unknown_operation,
+                "node '" + st.config.node + "' has no skill "
+                    + spec.skill.substr(0, 12) + " for '" + spec.operation
+                    + "'",
+                {}, "`roscell skills` shows which nodes have it");
+  const auto& models = folder->skill.descriptor.models;
+  const auto named = [](const std::string& name) {
+    return [&](const auto& x) { return x.name == name; };
+  };
+  const auto model =
+      std::find_if(models.begin(), models.end(), named(spec.model));
+  if (model == models.end())
+    return fail(error_code::unknown_model,
+                "the skill has no model '" + spec.model + "'", "/spec/model");
+  const auto& options = model->deployments;
+  if (std::none_of(options.begin(), options.end(), named(spec.deployment)))
+    return fail(error_code::unknown_deployment,
+                "the model has no deployment '" + spec.deployment + "'",
+                "/spec/deployment");
+  const auto live =
+      std::count_if(st.instances.begin(), st.instances.end(),
+                    [](const auto& x) { return is_live(x.second.row.state); });
+  if (static_cast<size_t>(live) >= limits::max_instances)
+    return fail(error_code::conflict,
+                "node '" + st.config.node + "' runs "
+                    + std::to_string(limits::max_instances)
+                    + " instances already");
+  return {};
+}
+
+caf::result<instance_deployed> begin(self_pointer self,
+                                     const instance_spec& spec) {
+  if (auto error = check(self, spec))
+    return error;
+  auto& x = self->state.instances[spec.instance];
+  x = supervised_instance{};
+  x.row.spec = spec;
+  x.row.node = self->state.config.node;
+  x.row.trouble = self->state.trouble;
+  spawn_actor(self, x, false);
+  auto promise = self->make_response_promise<instance_deployed>();
+  x.deployers.push_back(promise);
+  return promise;
+}
+
+caf::result<instance_deployed> deploy(self_pointer self,
+                                      const instance_spec& spec) {
+  auto* x = find_instance(self, spec.instance);
+  if (x == nullptr)
+    return begin(self, spec);
+  const auto id = "instance '" + spec.instance + "'";
+  if (x->removing)
+    return fail(error_code::conflict, id + " is being removed", {},
+                "send the request again when it is gone");
+  if (x->row.spec != spec)
+    return fail(error_code::conflict, id + " is in use by another spec");
+  switch (x->row.state) {
+  case instance_state::failed:
+    return begin(self, spec);
+  case instance_state::running:
+  case instance_state::stopped:
+    // One that has done its work is not run twice.
+    return instance_deployed{x->row};
+  default: {
+    auto promise = self->make_response_promise<instance_deployed>();
+    x->deployers.push_back(promise);
+    return promise;
+  }
+  }
+}
+
+caf::result<instance_description> describe(self_pointer self,
+                                           const instance_query& query) {
+  instance_description result;
+  for (const auto& [instance, x] : self->state.instances)
+    if ((query.instance.empty() || query.instance == instance)
+        && (query.task.empty() || query.task == x.row.spec.task))
+      result.instances.push_back(x.row);
+  if (!query.instance.empty() && result.instances.empty())
+    return fail(error_code::unknown_task,
+                "there is no instance '" + query.instance + "'", "/instance",
+                "`roscell instances` lists them");
+  return result;
+}
+
+caf::result<log_excerpt> read_log(self_pointer self, const log_query& query) {
+  if (find_instance(self, query.instance) == nullptr)
+    return fail(error_code::unknown_task,
+                "there is no instance '" + query.instance + "'", "/instance",
+                "`roscell instances` lists them");
+  const std::chrono::milliseconds wait{
+      std::clamp<int64_t>(query.wait_ms, 0, max_log_wait_ms)};
+  auto promise = self->make_response_promise<log_excerpt>();
+  self->request(self->state.runtime, wait + log_limit, query)
+      .then([promise](const log_excerpt& x) mutable { promise.deliver(x); },
+            [promise](const caf::error& x) mutable { promise.deliver(x); });
+  return promise;
+}
+
+json summary(const container_supervisor_state& st) {
+  json states = json::object();
+  size_t deployers = 0;
+  for (const auto& [instance, x] : st.instances) {
+    states[instance] = to_string(x.row.state);
+    deployers += x.deployers.size();
+  }
+  return {{"instances", states},
+          {"deployments_waiting", deployers},
+          {"removals_waiting", st.removals.size()},
+          {"runtime_deaths", st.runtime_deaths},
+          {"runtime_trouble", st.trouble}};
+}
+
+void on_changed(self_pointer self, const instance_row& row) {
+  auto* x = find_instance(self, row.spec.instance);
+  // What a killed actor has said is outdated: its successor looks for itself.
+  if (x == nullptr || !x->actor || self->current_sender() != x->actor)
+    return;
+  const bool news =
+      row.state != x->row.state || row.since_unix_ms != x->row.since_unix_ms;
+  const auto before = std::exchange(x->row, row);
+  // These two are heard here. A step of the build is no word of the skill.
+  x->row.trouble = before.trouble;
+  if (before.state != instance_state::building
+      || row.state == instance_state::building)
+    x->row.status = before.status;
+  if (news && self->state.listener)
+    self->send(self->state.listener, instance_changed{x->row});
+  if (row.state == instance_state::running) {
+    x->deaths = 0;
+    for (auto& promise : std::exchange(x->deployers, {}))
+      promise.deliver(instance_deployed{x->row});
+  } else if (!is_live(row.state)) {
+    on_ended(self, row.spec.instance, *x);
+  }
+}
+
+void on_notified(self_pointer self, const instance_notified& fact) {
+  auto* x = find_instance(self, fact.instance);
+  if (x == nullptr || !x->actor)
+    return;
+  if (!fact.status.empty())
+    x->row.status = fact.status;
+  self->send(x->actor, fact);
+}
+
+void on_exited(self_pointer self, const container_exited& fact) {
+  if (auto* x = find_instance(self, fact.instance); x != nullptr && x->actor)
+    self->send(x->actor, fact);
+}
+
+void on_troubled(self_pointer self, const std::string& trouble) {
+  auto& st = self->state;
+  if (st.trouble == trouble)
+    return;
+  st.trouble = trouble;
+  for (auto& [instance, x] : st.instances) {
+    if (!is_live(x.row.state) && x.row.trouble.empty())
+      continue;
+    x.row.trouble = is_live(x.row.state) ? trouble : std::string{};
+    if (st.listener)
+      self->send(st.listener, instance_changed{x.row});
+  }
+}
+
+void on_instance_died(self_pointer self, const std::string& instance,
+                      supervised_instance& x) {
+  auto& st = self->state;
+  st.config.context.tell("skill_instance_died", instance,
+                         {{"deaths", x.deaths + 1}});
+  if (++x.deaths <= limits::max_deaths)
+    return spawn_actor(self, x, true);
+  x.row.state = instance_state::failed;
+  x.row.since_unix_ms = unix_now_ms();
+  x.row.reason = "its supervision has failed";
+  if (st.listener)
+    self->send(st.listener, instance_changed{x.row});
+  // Nobody watches the program any more, so it must not go on.
+  caf::anon_send(st.runtime, stop_container{instance, x.row.container, 0});
+  on_ended(self, instance, x);
+}
+
+void start_runtime(self_pointer self) {
+  auto& st = self->state;
+  st.runtime =
+      st.config.make_runtime(caf::actor_cast<container_listener_actor>(self));
+  self->monitor(st.runtime);
+}
+
+void on_runtime_died(self_pointer self, const caf::error& reason) {
+  auto& st = self->state;
+  if (++st.runtime_deaths > limits::max_deaths)
+    return self->quit(reason);
+  st.config.context.tell("runtime_died", st.config.node,
+                         {{"deaths", st.runtime_deaths}});
+  start_runtime(self);
+  for (auto& [instance, x] : st.instances) {
+    if (!x.actor)
+      continue;
+    self->demonitor(x.actor.address());
+    caf::anon_send_exit(x.actor, caf::exit_reason::kill);
+    spawn_actor(self, x, true);
+  }
+}
+
+void on_down(self_pointer self, const caf::down_msg& down) {
+  auto& st = self->state;
+  if (down.source == st.runtime.address())
+    return on_runtime_died(self, down.reason);
+  // An instance's actor that ends in order has said why before.
+  if (!down.reason)
+    return;
+  for (auto& [instance, x] : st.instances)
+    if (x.actor && x.actor.address() == down.source)
+      return on_instance_died(self, instance, x);
+}
+
+void restore(self_pointer self) {
+  auto& st = self->state;
+  for (auto& row : std::exchange(st.config.restored, {})) {
+    if (!is_instance_id(row.spec.instance))
+      continue;
+    auto& x = st.instances[row.spec.instance];
+    x.row = std::move(row);
+    x.row.node = st.config.node;
+    if (is_live(x.row.state))
+      spawn_actor(self, x, true);
+  }
+  trim_ended(self);
+}
+
+} // namespace
+
+container_supervisor_actor::behavior_type
+container_supervisor(self_pointer self,
+                     const container_supervisor_config& config) {
+  self->state.config = config;
+  self->set_down_handler(
+      [self](const caf::down_msg& down) { on_down(self, down); });
+  start_runtime(self);
+  restore(self);
+  return {
+      [self](const state_query&) { return state_of(summary(self->state)); },
+      [self](const instance_deployment& x) { return deploy(self, x.spec); },
+      [self](const instance_removal& x) { return remove_instances(self, x); },
+      [self](const instance_query& x) { return describe(self, x); },
+      [self](const log_query& x) { return read_log(self, x); },
+      [self](const listen_to_instances& x) {
+        self->state.listener = x.listener;
+      },
+      [self](const container_exited& x) { on_exited(self, x); },
+      [self](const instance_notified& x) { on_notified(self, x); },
+      [self](const runtime_troubled& x) { on_troubled(self, x.message); },
+      [self](const instance_changed& x) { on_changed(self, x.instance); },
+  };
+}
+
+} // namespace roscell

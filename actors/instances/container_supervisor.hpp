@@ -1,0 +1,75 @@
+#pragma once
+
+#include "actors/house/house.hpp"
+#include "actors/instances/skill_catalogue.hpp"
+#include "messages/type_ids.hpp"
+
+#include <caf/error.hpp>
+#include <caf/typed_response_promise.hpp>
+
+#include <functional>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace roscell {
+
+struct container_supervisor_config {
+  house context;
+  std::string node; ///< The node's name, for rows.
+  shared_skill_catalogue skills;
+  /// Spawns the runtime; called again when it has died.
+  std::function<runtime_actor(container_listener_actor)> make_runtime;
+  state_store_actor store;
+  /// What the store knew when the node started.
+  std::vector<instance_row> restored;
+};
+
+/// An instance as the supervisor sees it.
+struct supervised_instance {
+  instance_row row;
+  skill_instance_actor actor; ///< Null once the instance has ended.
+  std::vector<caf::typed_response_promise<instance_deployed>> deployers;
+  bool removing = false;
+  bool cleaning = false; ///< What it left is being removed.
+  int deaths = 0;        ///< Of its actor, since it ran last.
+};
+
+/// A removal that waits for its instances to be gone.
+struct pending_removal {
+  std::set<std::string> left;
+  std::vector<std::string> gone;
+  caf::error error; ///< Of the first that could not be removed.
+  caf::typed_response_promise<instances_removed> promise;
+};
+
+/// Owns every skill instance of the node.
+struct container_supervisor_state {
+  static constexpr const char* name = "container-supervisor";
+
+  /// Live instances at a time. Each costs a shim and three descriptors.
+  static constexpr size_t max_instances = 256;
+
+  /// Ended instances whose rows and logs stay until their task is removed.
+  static constexpr size_t max_ended = 32;
+
+  /// An actor that dies more often than this will not do better next time.
+  static constexpr int max_deaths = 5;
+
+  container_supervisor_config config;
+  runtime_actor runtime;
+  int runtime_deaths = 0;
+  std::string trouble; ///< Of the engine under the runtime; empty: none.
+  instance_listener_actor listener;
+  std::map<std::string, supervised_instance> instances;
+  std::vector<pending_removal> removals;
+};
+
+/// The CONTAINER SUPERVISOR. Messages: messages/runtime.hpp.
+container_supervisor_actor::behavior_type container_supervisor(
+    container_supervisor_actor::stateful_pointer<container_supervisor_state>
+        self,
+    const container_supervisor_config& config);
+
+} // namespace roscell

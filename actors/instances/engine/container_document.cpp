@@ -1,0 +1,249 @@
+#include "actors/instances/engine/container_document.hpp"
+
+#include "actors/instances/engine/dockerfile.hpp"
+
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <optional>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+namespace roscell {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int64_t mib = 1024 * 1024;
+
+/// Docker refuses less.
+constexpr int64_t least_memory = 6 * mib;
+
+/// More than any skill of ours needs, and less than what an engine under the
+/// usual limits may grant.
+constexpr rlim_t most_files = 65'536;
+constexpr rlim_t most_processes = 4'096;
+
+bool is_device(const std::string& path) {
+  struct stat info {};
+  return ::stat(path.c_str(), &info) == 0
+         && (S_ISCHR(info.st_mode) || S_ISBLK(info.st_mode));
+}
+
+bool is_path(const io_endpoint& x) {
+  return (x.protocol == "file" || x.protocol == "video")
+         && x.endpoint.substr(0, 1) == "/";
+}
+
+/// The path without '/' at its end and without "..", as a mount point.
+std::string plain(const std::string& path) {
+  auto result = fs::path{path}.lexically_normal().string();
+  if (result.size() > 1 && result.back() == '/')
+    result.pop_back();
+  return result;
+}
+
+void add_mount(container_files& files, container_mount mount) {
+  const auto same = [&](const auto& x) { return x.target == mount.target; };
+  auto& xs = files.mounts;
+  const auto i = std::find_if(xs.begin(), xs.end(), same);
+  if (i == xs.end())
+    xs.push_back(std::move(mount));
+  else
+    i->read_only = i->read_only && mount.read_only;
+}
+
+void add_input(container_files& files, const std::string& endpoint) {
+  auto path = plain(endpoint);
+  std::error_code error;
+  if (!fs::exists(path, error))
+    path = fs::path{path}.parent_path().string();
+  if (is_device(path))
+    files.devices.push_back(path);
+  else if (fs::exists(path, error) && path.size() > 1)
+    add_mount(files, {path, path, true});
+}
+
+/// Why an output cannot be made; empty if it is there.
+std::string make_output(const std::string& endpoint) {
+  std::error_code error;
+  const auto path = plain(endpoint);
+  const bool is_folder = endpoint.back() == '/';
+  fs::create_directories(
+      is_folder ? fs::path{path} : fs::path{path}.parent_path(), error);
+  if (error || is_folder)
+    return error ? error.message() : "";
+  const int fd =
+      ::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | O_NONBLOCK, 0644);
+  if (fd < 0)
+    return std::strerror(errno);
+  ::close(fd);
+  return "";
+}
+
+std::optional<edge_error> add_output(container_files& files,
+                                     const std::string& endpoint) {
+  const auto path = plain(endpoint);
+  std::error_code error;
+  const auto why = fs::exists(path, error) ? "" : make_output(endpoint);
+  if (!why.empty())
+    return edge_error{error_code::engine_failed,
+                      "cannot make the output '" + endpoint + "': " + why,
+                      "correct the endpoint or its permissions"};
+  if (is_device(path))
+    files.devices.push_back(path);
+  else
+    add_mount(files, {path, path, false});
+  return std::nullopt;
+}
+
+/// "/host/path:/container/path[:ro]"
+void add_volume(container_files& files, std::string volume) {
+  constexpr std::string_view read_only = ":ro";
+  container_mount mount;
+  if (volume.size() > read_only.size()
+      && volume.compare(volume.size() - read_only.size(), read_only.size(),
+                        read_only)
+             == 0) {
+    mount.read_only = true;
+    volume.resize(volume.size() - read_only.size());
+  }
+  const auto colon = volume.find(":/");
+  mount.source = volume.substr(0, colon);
+  mount.target = colon == std::string::npos ? mount.source
+                                            : plain(volume.substr(colon + 1));
+  add_mount(files, std::move(mount));
+}
+
+json mount_json(const container_mount& x) {
+  return {{"Type", "bind"},
+          {"Source", x.source},
+          {"Target", x.target},
+          {"ReadOnly", x.read_only}};
+}
+
+json device_json(const std::string& path) {
+  return {{"PathOnHost", path},
+          {"PathInContainer", path},
+          {"CgroupPermissions", "rwm"}};
+}
+
+/// An engine gives its own limits, which it may not be allowed to give. What
+/// this process has is allowed.
+json limit_json(const char* name, int resource, rlim_t most) {
+  rlimit own{};
+  ::getrlimit(static_cast<__rlimit_resource_t>(resource), &own);
+  const auto value = std::min(own.rlim_cur, most);
+  return {{"Name", name}, {"Soft", value}, {"Hard", value}};
+}
+
+json environment_json(const start_container& wish) {
+  auto variables = wish.environment;
+  variables["NOTIFY_SOCKET"] =
+      std::string{container_notify_dir} + '/' + notify_socket_name;
+  // The image's own setting would be replaced, and the libraries not found.
+  if (const auto i = variables.find("LD_LIBRARY_PATH"); i != variables.end())
+    i->second = std::string{image_library_dir} + ':' + i->second;
+  // The only GPU that a container sees is its first.
+  if (wish.gpu >= 0)
+    variables["CUDA_VISIBLE_DEVICES"] = "0";
+  json result = json::array();
+  for (const auto& [name, value] : variables)
+    result.push_back(std::string{name}.append("=").append(value));
+  return result;
+}
+
+json labels_json(const start_container& wish, const container_setting& node) {
+  json result{{"roscell.node", node.node_uuid}};
+  for (const auto& [name, value] : wish.labels)
+    result["roscell." + name] = value;
+  return result;
+}
+
+void limit_resources(json& host, const resource_request& limits) {
+  if (limits.memory_mib > 0) {
+    const auto bytes = std::max(
+        least_memory, static_cast<int64_t>(std::ceil(limits.memory_mib)) * mib);
+    host["Memory"] = bytes;
+    // No swap beside it.
+    host["MemorySwap"] = bytes;
+  }
+  const double cores = std::max(1U, std::thread::hardware_concurrency());
+  if (limits.cpu > 0)
+    host["NanoCpus"] =
+        static_cast<int64_t>(std::clamp(limits.cpu, 0.01, cores) * 1e9);
+}
+
+json host_json(const start_container& wish, const container_files& files,
+               const container_setting& setting,
+               const std::string& notify_dir) {
+  // Shared memory and the discovery server's address work as for a process.
+  json result{{"NetworkMode", "host"}, {"IpcMode", "host"}};
+  auto& mounts = result["Mounts"];
+  mounts.push_back(mount_json({notify_dir, container_notify_dir, true}));
+  for (const auto& x : files.mounts)
+    mounts.push_back(mount_json(x));
+  for (const auto& x : files.devices)
+    result["Devices"].push_back(device_json(x));
+  result["Ulimits"] = {limit_json("nofile", RLIMIT_NOFILE, most_files),
+                       limit_json("nproc", RLIMIT_NPROC, most_processes)};
+  result["LogConfig"] = {{"Type", "json-file"},
+                         {"Config",
+                          {{"max-size", std::to_string(setting.log_bytes / 2)},
+                           {"max-file", "2"}}}};
+  limit_resources(result, wish.limits);
+  if (wish.gpu >= 0)
+    result["DeviceRequests"].push_back(
+        {{"Driver", "nvidia"},
+         {"DeviceIDs", json::array({std::to_string(wish.gpu)})},
+         {"Capabilities", json::array({json::array({"gpu"})})}});
+  return result;
+}
+
+} // namespace
+
+edge_result<container_files> files_of(const start_container& wish) {
+  container_files result;
+  for (const auto& x : wish.input)
+    if (is_path(x))
+      add_input(result, x.endpoint);
+  for (const auto& x : wish.output)
+    if (is_path(x))
+      if (auto error = add_output(result, x.endpoint))
+        return *error;
+  for (const auto& x : wish.devices)
+    result.devices.push_back(x);
+  for (const auto& x : wish.volumes)
+    add_volume(result, x);
+  return result;
+}
+
+std::string container_name(const std::string& instance) {
+  return "roscell-" + instance;
+}
+
+json container_document(const start_container& wish,
+                        const container_files& files,
+                        const container_setting& setting,
+                        const std::string& notify_dir) {
+  return {
+      {"Image", wish.image},
+      {"User", std::to_string(::geteuid()) + ':' + std::to_string(::getegid())},
+      {"Env", environment_json(wish)},
+      {"Labels", labels_json(wish, setting)},
+      // Signs of life come by the NOTIFY_SOCKET; the base image's own
+      // check would only cost.
+      {"Healthcheck", {{"Test", json::array({"NONE"})}}},
+      {"HostConfig", host_json(wish, files, setting, notify_dir)}};
+}
+
+} // namespace roscell

@@ -1,0 +1,76 @@
+#include "actors/instances/engine/engine_containers.hpp"
+#include "actors/instances/engine/engine_parts.hpp"
+#include "actors/instances/instance_id.hpp"
+#include "messages/failure.hpp"
+
+namespace roscell {
+
+namespace {
+
+using self_pointer = engine_runtime_pointer;
+using adoption_promise = caf::typed_response_promise<container_adopted>;
+
+void do_adopt(self_pointer self, const adopt_container& wish,
+              adoption_promise promise);
+
+void on_inspected(self_pointer self, const adopt_container& wish,
+                  const engine_answered& x, adoption_promise promise) {
+  const auto& instance = wish.instance;
+  auto* container = find_container(self, instance);
+  const auto found = object_of(x);
+  const auto id = text_at(found, "Id");
+  const auto state = object_at(found, "State");
+  if (container != nullptr && is_running(found)) {
+    if (auto error = open_words(self, instance, *container)) {
+      promise.deliver(error);
+      return forget(self, instance);
+    }
+    promise.deliver(container_adopted{true, id, -1});
+    return settle(self, instance, id);
+  }
+  if (is_lost(x))
+    self->state.waiting_adoptions.push_back(
+        [=] { do_adopt(self, wish, promise); });
+  else if (!is_good(x) && x.status != 404)
+    promise.deliver(engine_failure("the container cannot be looked at", x));
+  else if (text_at(state, "Status") == "created")
+    // The node ended before it was started.
+    promise.deliver(container_adopted{});
+  else
+    promise.deliver(container_adopted{false, id, exit_code_of(found)});
+  forget(self, instance);
+}
+
+void do_adopt(self_pointer self, const adopt_container& wish,
+              adoption_promise promise) {
+  if (auto* known = find_container(self, wish.instance)) {
+    if (known->settling)
+      known->waiting.push_back([=] { do_adopt(self, wish, promise); });
+    else
+      promise.deliver(container_adopted{true, known->id, -1});
+    return;
+  }
+  self->state.containers[wish.instance].settling = true;
+  ask_engine(
+      self,
+      to_container("GET", target_of(wish.container, wish.instance), "/json"),
+      [=](const engine_answered& x) { on_inspected(self, wish, x, promise); });
+}
+
+} // namespace
+
+caf::result<container_adopted> adopt(self_pointer self,
+                                     const adopt_container& wish) {
+  if (!is_instance_id(wish.instance))
+    return bad_id(wish.instance);
+  auto promise = self->make_response_promise<container_adopted>();
+  // An exit that nobody hears must not come between looking and listening.
+  if (self->state.connected)
+    do_adopt(self, wish, promise);
+  else
+    self->state.waiting_adoptions.push_back(
+        [=] { do_adopt(self, wish, promise); });
+  return promise;
+}
+
+} // namespace roscell

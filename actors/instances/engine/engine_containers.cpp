@@ -1,0 +1,137 @@
+#include "actors/instances/engine/engine_containers.hpp"
+
+#include "actors/edge/io/crypto.hpp"
+#include "actors/edge/process/child_watch.hpp"
+#include "actors/edge/process/notify_socket.hpp"
+#include "messages/failure.hpp"
+
+#include <caf/send.hpp>
+
+#include <system_error>
+#include <utility>
+
+namespace roscell {
+
+namespace fs = std::filesystem;
+
+using self_pointer = engine_runtime_pointer;
+
+caf::error to_caf(const edge_error& why) {
+  return fail(why.code, why.message, {}, why.hint);
+}
+
+caf::error bad_id(const std::string& instance) {
+  return fail(error_code::engine_failed,
+              "'" + instance + "' cannot be the name of a container");
+}
+
+engine_container* find_container(self_pointer self,
+                                 const std::string& instance) {
+  auto& xs = self->state.containers;
+  const auto i = xs.find(instance);
+  return i != xs.end() ? &i->second : nullptr;
+}
+
+fs::path notify_dir(self_pointer self, const std::string& instance) {
+  constexpr size_t digits = 16;
+  return self->state.config.data_dir / "notify"
+         / to_hex(hmac_sha256("roscell instance", instance)).substr(0, digits);
+}
+
+caf::error open_words(self_pointer self, const std::string& instance,
+                      engine_container& x) {
+  const auto dir = notify_dir(self, instance);
+  std::error_code problem;
+  fs::create_directories(dir, problem);
+  auto socket = open_notify_socket(dir / notify_socket_name);
+  if (auto* error = std::get_if<edge_error>(&socket))
+    return to_caf(*error);
+  // Nobody else may speak for the instance.
+  fs::permissions(dir, fs::perms::owner_all, problem);
+  x.notify_socket = share(std::get<unique_fd>(std::move(socket)));
+  x.words = watch_notifications(
+      self->state.config.io, x.notify_socket,
+      [listener = self->state.listener, instance](const notification& n) {
+        caf::anon_send(listener, instance_notified{instance, n.ready, n.alive,
+                                                   n.stopping, n.status});
+      });
+  return {};
+}
+
+void forget(self_pointer self, const std::string& instance) {
+  auto& xs = self->state.containers;
+  const auto i = xs.find(instance);
+  if (i == xs.end())
+    return;
+  const auto waiting = std::move(i->second.waiting);
+  xs.erase(i);
+  for (const auto& request : waiting)
+    request();
+}
+
+void settle(self_pointer self, const std::string& instance,
+            const std::string& id) {
+  auto* x = find_container(self, instance);
+  if (x == nullptr)
+    return;
+  x->id = id;
+  x->settling = false;
+  const auto waiting = std::exchange(x->waiting, {});
+  if (const auto code = x->early_exit)
+    on_container_ended(self, instance, id, *code);
+  for (const auto& request : waiting)
+    request();
+}
+
+engine_request to_container(std::string method, const std::string& container,
+                            const std::string& what,
+                            std::chrono::milliseconds limit) {
+  engine_request result;
+  result.method = std::move(method);
+  result.target = "/containers/" + percent_encoded(container) + what;
+  result.limit = limit;
+  return result;
+}
+
+std::string target_of(const std::string& container,
+                      const std::string& instance) {
+  return container.empty() ? container_name(instance) : container;
+}
+
+int exit_code_of(const json& container) {
+  const auto code = number_at(object_at(container, "State"), "ExitCode", -1);
+  return is_running(container) || code < 0 || code > 255
+             ? -1
+             : static_cast<int>(code);
+}
+
+bool is_running(const json& container) {
+  return flag_at(object_at(container, "State"), "Running");
+}
+
+void clean_up(self_pointer self, const std::string& instance) {
+  std::error_code ignored;
+  fs::remove_all(notify_dir(self, instance), ignored);
+}
+
+void on_container_ended(self_pointer self, const std::string& instance,
+                        const std::string& id, int exit_code) {
+  auto& st = self->state;
+  auto* x = find_container(self, instance);
+  if (x == nullptr || (!x->id.empty() && x->id != id))
+    return;
+  if (x->settling) {
+    x->early_exit = exit_code;
+    return;
+  }
+  // What the program said last must not come after its end.
+  const auto words = receive_notifications(x->notify_socket->get());
+  if (words.ready || words.stopping || !words.status.empty())
+    self->send(st.listener,
+               instance_notified{instance, words.ready, words.alive,
+                                 words.stopping, words.status});
+  self->send(st.listener, container_exited{instance, id, exit_code});
+  forget(self, instance);
+}
+
+} // namespace roscell

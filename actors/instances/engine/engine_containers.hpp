@@ -1,0 +1,57 @@
+#pragma once
+
+#include "actors/instances/engine/engine_calls.hpp"
+
+#include <chrono>
+#include <filesystem>
+#include <string>
+
+/// INTERNAL to the engine runtime: what it knows of its containers.
+namespace roscell {
+
+caf::error to_caf(const edge_error& why);
+caf::error bad_id(const std::string& instance);
+
+/// Null if none is known.
+engine_container* find_container(engine_runtime_pointer self,
+                                 const std::string& instance);
+
+/// The host's folder with the instance's NOTIFY_SOCKET: a short path, for that
+/// of a Unix socket must be, whatever the instance's name is. The container
+/// sees nothing but this folder.
+std::filesystem::path notify_dir(engine_runtime_pointer self,
+                                 const std::string& instance);
+
+/// Makes the NOTIFY_SOCKET and listens to it. Errors: engine_failed.
+caf::error open_words(engine_runtime_pointer self, const std::string& instance,
+                      engine_container& x);
+
+/// It runs, and everybody may know.
+void settle(engine_runtime_pointer self, const std::string& instance,
+            const std::string& id);
+
+/// Forgets it; whatever waited goes on.
+void forget(engine_runtime_pointer self, const std::string& instance);
+
+/// Removes what the host has of it.
+void clean_up(engine_runtime_pointer self, const std::string& instance);
+
+/// The container of an instance has ended: tells it, once.
+void on_container_ended(engine_runtime_pointer self,
+                        const std::string& instance, const std::string& id,
+                        int exit_code);
+
+engine_request
+to_container(std::string method, const std::string& container,
+             const std::string& what,
+             std::chrono::milliseconds limit = std::chrono::seconds{10});
+
+/// What a request means: its container, or the present one of the instance.
+std::string target_of(const std::string& container,
+                      const std::string& instance);
+
+/// Of an inspected container. The exit code is negative if it is not known.
+int exit_code_of(const json& container);
+bool is_running(const json& container);
+
+} // namespace roscell

@@ -1,0 +1,255 @@
+#include "actors/instances/engine/engine_parts.hpp"
+#include "actors/instances/engine/image_packer.hpp"
+#include "messages/failure.hpp"
+
+#include <caf/send.hpp>
+
+#include <chrono>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+namespace roscell {
+
+namespace {
+
+using self_pointer = engine_runtime_pointer;
+using namespace std::chrono_literals;
+
+/// Must be shorter than skill_instance's limit, so that the log goes along.
+constexpr auto build_limit = 9min;
+constexpr auto plan_limit = 60s;
+
+/// Must exceed the packer's own limit for each of its two steps.
+constexpr auto pack_limit = 11min;
+
+/// Longest line of a build that is kept, in bytes.
+constexpr size_t max_line_bytes = 512;
+
+std::string key_of(const prepare_image& wish) {
+  return wish.skill + ' ' + wish.base_image;
+}
+
+image_work* find_work(self_pointer self, const std::string& key) {
+  const auto i = self->state.works.find(key);
+  return i != self->state.works.end() ? &i->second : nullptr;
+}
+
+/// The work is over, one way or the other.
+template <class Result>
+void conclude(self_pointer self, const std::string& key, const Result& result) {
+  auto& works = self->state.works;
+  const auto i = works.find(key);
+  if (i == works.end())
+    return;
+  auto work = std::move(i->second);
+  works.erase(i);
+  std::error_code ignored;
+  if (!work.context.empty())
+    std::filesystem::remove(work.context, ignored);
+  if (work.packer)
+    caf::anon_send_exit(work.packer, caf::exit_reason::user_shutdown);
+  for (auto& x : work.waiters)
+    x.promise.deliver(result);
+}
+
+std::string joined(const std::deque<std::string>& lines) {
+  std::string result;
+  for (const auto& line : lines)
+    result += line + '\n';
+  return result;
+}
+
+/// How a failed build is told, with the end of its log.
+caf::error build_failure(const image_work& work, const std::string& why,
+                         std::string hint) {
+  const auto what =
+      "the image of '" + work.wish.operation + "' cannot be built: " + why;
+  if (!work.has_base && hint.empty())
+    hint = "the base image must be on this host or in a registry that it "
+           "reaches: docker pull "
+           + work.wish.base_image;
+  const json details{{"log_tail", joined(work.log)}};
+  return to_error(
+      {error_code::engine_failed,
+       what,
+       {},
+       std::move(hint),
+       details.dump(-1, ' ', false, json::error_handler_t::replace)});
+}
+
+void look_for_image(self_pointer self, const std::string& key);
+
+void on_built(self_pointer self, const std::string& key,
+              const engine_answered& x) {
+  auto* work = find_work(self, key);
+  if (work == nullptr)
+    return;
+  work->build = {};
+  if (is_lost(x))
+    return conclude(self, key, build_failure(*work, x.why.message, x.why.hint));
+  if (!is_good(x) || !work->error.empty()) {
+    const auto why = engine_refusal(
+        "the engine says", is_good(x) ? engine_reply{x.status, work->error}
+                                      : engine_reply{x.status, x.body});
+    return conclude(self, key, build_failure(*work, why.message, why.hint));
+  }
+  const auto spent = std::chrono::duration_cast<std::chrono::milliseconds>(
+      self->clock().now() - work->began);
+  self->state.config.context.tell(
+      "image_built", work->image,
+      {{"operation", work->wish.operation}, {"ms", spent.count()}});
+  conclude(self, key, image_prepared{work->image});
+}
+
+void build(self_pointer self, const std::string& key) {
+  auto& work = *find_work(self, key);
+  engine_request request;
+  request.method = "POST";
+  // What a base image does in a build sees the network as an instance does.
+  request.target = "/build?rm=1&forcerm=1&networkmode=host"
+                   "&dockerfile=Dockerfile&t="
+                   + percent_encoded(work.image);
+  request.file = work.context;
+  request.limit = build_limit;
+  work.began = self->clock().now();
+  auto opened =
+      stream_lines(self, std::move(request),
+                   [=](const engine_answered& x) { on_built(self, key, x); });
+  work.call = opened.call;
+  work.build = std::move(opened.stream);
+}
+
+/// A request to the packer whose answer is dropped when the work is over.
+template <class Reply, class Request, class F>
+void ask_packer(self_pointer self, const std::string& key,
+                std::chrono::milliseconds limit, const Request& what,
+                F on_reply) {
+  self->request(find_work(self, key)->packer, limit, what)
+      .then(
+          [=](const Reply& x) {
+            if (auto* work = find_work(self, key))
+              on_reply(*work, x);
+          },
+          [=](const caf::error& error) { conclude(self, key, error); });
+}
+
+void pack(self_pointer self, const std::string& key) {
+  ask_packer<image_packed>(self, key, pack_limit, pack_image{},
+                           [=](image_work& work, const image_packed& x) {
+                             work.context = x.file;
+                             build(self, key);
+                           });
+}
+
+void plan(self_pointer self, const std::string& key) {
+  auto& st = self->state;
+  auto& work = *find_work(self, key);
+  work.packer =
+      spawn<caf::detached>(self->system(), st.config.context, image_packer,
+                           st.config.data_dir / "build",
+                           caf::actor_cast<engine_runtime_actor>(self));
+  ask_packer<image_planned>(self, key, plan_limit, work.wish,
+                            [=](image_work&, const image_planned& x) {
+                              self->state.plans[key] = x.image;
+                              look_for_image(self, key);
+                            });
+}
+
+/// Takes the image if it is there, and makes it if it is not.
+void look_for_image(self_pointer self, const std::string& key) {
+  auto& work = *find_work(self, key);
+  work.image = self->state.plans.at(key);
+  engine_request request;
+  request.target = "/images/" + work.image + "/json";
+  ask_engine(self, std::move(request), [=](const engine_answered& x) {
+    auto* found = find_work(self, key);
+    if (found == nullptr)
+      return;
+    if (is_good(x))
+      return conclude(self, key, image_prepared{found->image});
+    if (x.status != 404)
+      return conclude(self, key,
+                      engine_failure("cannot look for the image", x));
+    found->packer ? pack(self, key) : plan(self, key);
+  });
+}
+
+/// The step that a line of a build tells of; empty: it tells of none.
+std::string step_of(const json& line) {
+  auto text = text_at(line, "stream");
+  if (text.empty())
+    text = text_at(line, "status") + " " + text_at(line, "progress");
+  const auto end = text.find_last_not_of(" \r\n");
+  text.resize(end == std::string::npos ? 0 : end + 1);
+  return text.substr(0, max_line_bytes);
+}
+
+/// Whether a line tells of more than the engine's own book-keeping.
+bool is_step(const std::string& line) {
+  return line.rfind(" --->", 0) != 0 && line.rfind("Removing ", 0) != 0;
+}
+
+void tell_step(self_pointer self, image_work& work) {
+  auto& st = self->state;
+  const auto step = std::exchange(work.step, {});
+  work.next_words = self->clock().now() + engine_runtime_state::words_interval;
+  st.config.context.tell("image_building", work.image, {{"step", step}});
+  for (const auto& x : work.waiters)
+    self->send(st.listener,
+               instance_notified{x.instance, false, false, false, step});
+}
+
+} // namespace
+
+caf::result<image_prepared> prepare(self_pointer self,
+                                    const prepare_image& wish) {
+  const auto key = key_of(wish);
+  auto promise = self->make_response_promise<image_prepared>();
+  auto* work = find_work(self, key);
+  const bool is_first = work == nullptr;
+  if (is_first) {
+    work = &self->state.works[key];
+    work->wish = wish;
+  }
+  work->waiters.push_back({wish.instance, promise});
+  if (is_first && self->state.plans.count(key) > 0)
+    look_for_image(self, key);
+  else if (is_first)
+    plan(self, key);
+  return promise;
+}
+
+void on_build_lines(self_pointer self, image_work& work,
+                    const std::vector<std::string>& lines) {
+  for (const auto& text : lines) {
+    const auto line = json::parse(text, nullptr, false);
+    if (!line.is_object())
+      continue;
+    const auto step = step_of(line);
+    if (auto error = text_at(line, "error"); !error.empty())
+      work.error = error;
+    if (step.empty())
+      continue;
+    work.has_base = work.has_base || step.rfind("Step 2/", 0) == 0
+                    || step.rfind("STEP 2/", 0) == 0;
+    work.log.push_back(step);
+    if (work.log.size() > engine_runtime_state::kept_build_lines)
+      work.log.pop_front();
+    if (is_step(step))
+      work.step = step;
+  }
+  tell_steps(self);
+}
+
+void tell_steps(self_pointer self) {
+  const auto now = self->clock().now();
+  for (auto& [key, work] : self->state.works) {
+    if (!work.step.empty() && now >= work.next_words)
+      tell_step(self, work);
+    else if (!work.step.empty())
+      self->state.timer.set(self, work.next_words);
+  }
+}
+
+} // namespace roscell

@@ -1,0 +1,189 @@
+#include "actors/edge/engine/engine_log.hpp"
+#include "actors/instances/engine/engine_containers.hpp"
+#include "actors/instances/engine/engine_parts.hpp"
+#include "actors/instances/instance_id.hpp"
+#include "messages/failure.hpp"
+
+#include <caf/send.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <utility>
+
+namespace roscell {
+
+namespace {
+
+using self_pointer = engine_runtime_pointer;
+
+/// As messages/instance.hpp promises.
+constexpr int64_t max_wait_ms = 20'000;
+
+caf::error no_log(const std::string& instance) {
+  return fail(error_code::unknown_task,
+              "there is no log of an instance '" + instance + "'", "/instance",
+              "`roscell instances` lists them");
+}
+
+/// Asks for whole seconds: Podman reads fractions inexactly. The collector
+/// leaves out what is too early.
+std::string log_target(const std::string& container, const log_query& query,
+                       log_ticks origin, bool follow) {
+  auto result = "/containers/" + percent_encoded(container)
+                + "/logs?stdout=true&stderr=true&timestamps=true";
+  if (query.offset < 0) {
+    const auto lines =
+        query.tail_lines > 0 ? query.tail_lines : instance_log::default_lines;
+    result += "&tail=" + std::to_string(lines);
+  } else if (query.offset > 0) {
+    const auto since_ms = (origin + query.offset) / log_ticks_per_ms;
+    result += "&since=" + std::to_string(since_ms / 1000);
+  }
+  return follow ? result + "&follow=true" : result;
+}
+
+/// The follower leaves with its answer.
+void deliver(self_pointer self, uint64_t call, log_excerpt excerpt) {
+  auto& st = self->state;
+  const auto i = st.followers.find(call);
+  if (i == st.followers.end())
+    return;
+  auto promise = i->second.promise;
+  excerpt.instance = i->second.query.instance;
+  st.followers.erase(i);
+  st.calls.erase(call);
+  promise.deliver(std::move(excerpt));
+}
+
+/// The stream has ended, and nothing that was asked for was in it.
+void on_log_ended(self_pointer self, uint64_t call, const engine_answered& x) {
+  auto& st = self->state;
+  const auto i = st.followers.find(call);
+  if (i == st.followers.end())
+    return;
+  if (is_good(x)) {
+    const auto offset = std::max<int64_t>(0, i->second.query.offset);
+    const bool ended = !i->second.running || i->second.until;
+    return deliver(self, call, {{}, {}, offset, ended});
+  }
+  auto promise = i->second.promise;
+  const auto instance = i->second.query.instance;
+  st.followers.erase(i);
+  promise.deliver(x.status == 404 ? no_log(instance)
+                                  : engine_failure("no log can be read", x));
+}
+
+/// What the io thread collects.
+struct log_reading {
+  log_collector collector;
+  bool is_whole = true; ///< Nothing is behind what was collected.
+};
+
+/// Collects on the io thread, and tells of the first part that has text.
+engine_stream_callbacks collect(self_pointer self, uint64_t call,
+                                log_range range, bool follow) {
+  const auto target = caf::actor_cast<engine_runtime_actor>(self);
+  const auto reading =
+      std::make_shared<log_reading>(log_reading{log_collector{range}});
+  engine_stream_callbacks calls;
+  calls.on_bytes = [reading, follow](std::string_view bytes) {
+    auto& [collector, is_whole] = *reading;
+    is_whole = collector.take(bytes);
+    return is_whole && !(follow && !collector.empty());
+  };
+  calls.on_end = [target, call, reading](engine_answer answer) {
+    auto& [collector, is_whole] = *reading;
+    auto end = to_message(call, std::move(answer));
+    if (collector.empty())
+      return caf::anon_send(target, std::move(end));
+    auto part = collector.part();
+    caf::anon_send(target,
+                   engine_log_read{call, std::move(part.text), part.next_offset,
+                                   is_whole && is_good(end)});
+  };
+  return calls;
+}
+
+void open_log(self_pointer self, const engine_answered& x,
+              engine_log_follower follower) {
+  auto& st = self->state;
+  const auto found = object_of(x);
+  const auto created = parse_log_time(text_at(found, "Created"));
+  const auto query = follower.query;
+  if (!is_good(x) || !created) {
+    follower.promise.deliver(x.status == 404
+                                 ? no_log(query.instance)
+                                 : engine_failure("no log can be read", x));
+    return;
+  }
+  follower.running = is_running(found);
+  const auto wait_ms = std::clamp<int64_t>(query.wait_ms, 0, max_wait_ms);
+  const bool follow =
+      follower.running && wait_ms > 0
+      && st.followers.size() < engine_runtime_state::max_followers;
+  const auto origin = *created;
+  if (follow) {
+    follower.until = self->clock().now() + std::chrono::milliseconds{wait_ms};
+    st.timer.set(self, *follower.until);
+  }
+  const auto number = std::make_shared<uint64_t>(0);
+  const auto call =
+      expect_answer(self, [self, number](const engine_answered& y) {
+        on_log_ended(self, *number, y);
+      });
+  *number = call;
+  engine_request request;
+  request.target = log_target(text_at(found, "Id"), query, origin, follow);
+  request.endless = follow;
+  const log_range range{origin, std::max<int64_t>(0, query.offset),
+                        query.offset < 0};
+  follower.stream =
+      st.client->stream(std::move(request), collect(self, call, range, follow));
+  st.followers.emplace(call, std::move(follower));
+}
+
+} // namespace
+
+caf::result<log_excerpt> read_log(self_pointer self, const log_query& query) {
+  if (!is_instance_id(query.instance))
+    return no_log(query.instance);
+  auto follower = std::make_shared<engine_log_follower>();
+  follower->query = query;
+  const auto promise = follower->promise =
+      self->make_response_promise<log_excerpt>();
+  engine_request request;
+  request.target = "/containers/"
+                   + percent_encoded(container_name(query.instance)) + "/json";
+  ask_engine(self, std::move(request), [=](const engine_answered& x) {
+    open_log(self, x, std::move(*follower));
+  });
+  return promise;
+}
+
+void on_log_read(self_pointer self, const engine_log_read& part) {
+  const auto i = self->state.followers.find(part.call);
+  if (i == self->state.followers.end())
+    return;
+  const bool ended = !i->second.running && part.is_whole;
+  deliver(self, part.call, {{}, part.text, part.next_offset, ended});
+}
+
+void release_followers(self_pointer self) {
+  auto& st = self->state;
+  const auto now = self->clock().now();
+  std::vector<uint64_t> due;
+  for (const auto& [call, x] : st.followers) {
+    if (x.until && now >= *x.until)
+      due.push_back(call);
+    else if (x.until)
+      st.timer.set(self, *x.until);
+  }
+  for (const auto call : due) {
+    const auto offset =
+        std::max<int64_t>(0, st.followers.at(call).query.offset);
+    deliver(self, call, {{}, {}, offset, false});
+  }
+}
+
+} // namespace roscell

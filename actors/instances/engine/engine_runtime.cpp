@@ -1,0 +1,83 @@
+#include "actors/instances/engine/engine_runtime.hpp"
+
+#include "actors/edge/engine/build_context.hpp"
+#include "actors/instances/engine/engine_parts.hpp"
+
+#include <utility>
+
+namespace roscell {
+
+namespace {
+
+using self_pointer = engine_runtime_pointer;
+
+void on_answered(self_pointer self, const engine_answered& x) {
+  auto& calls = self->state.calls;
+  const auto i = calls.find(x.call);
+  if (i == calls.end())
+    return;
+  const auto then = std::move(i->second);
+  calls.erase(i);
+  then(x);
+}
+
+void on_streamed(self_pointer self, const engine_streamed& x) {
+  auto& st = self->state;
+  if (x.call == st.events_call)
+    return on_event_lines(self, x.lines);
+  for (auto& [key, work] : st.works)
+    if (work.call == x.call)
+      return on_build_lines(self, work, x.lines);
+}
+
+void on_alarm(self_pointer self) {
+  auto& st = self->state;
+  const auto now = self->clock().now();
+  if (st.next_attempt && now >= *st.next_attempt)
+    watch_events(self);
+  else if (st.next_attempt)
+    st.timer.set(self, *st.next_attempt);
+  release_followers(self);
+  tell_steps(self);
+}
+
+json describe(const engine_runtime_state& st) {
+  return {{"engine", st.config.socket}, {"connected", st.connected},
+          {"trouble", st.trouble},      {"containers", st.containers.size()},
+          {"builds", st.works.size()},  {"followed_logs", st.followers.size()},
+          {"calls", st.calls.size()},   {"unwanted", st.unwanted.size()}};
+}
+
+} // namespace
+
+engine_runtime_actor::behavior_type
+engine_runtime(self_pointer self, const engine_runtime_config& config,
+               container_listener_actor listener) {
+  auto& st = self->state;
+  st.config = config;
+  st.listener = std::move(listener);
+  st.client = std::make_unique<engine_client>(config.io, config.socket);
+  self->monitor(st.listener);
+  self->set_down_handler(
+      [self](const caf::down_msg& down) { self->quit(down.reason); });
+  clean_build_contexts(config.data_dir / "build");
+  watch_events(self);
+  return {
+      [self](const state_query&) { return state_of(describe(self->state)); },
+      [self](const prepare_image& x) { return prepare(self, x); },
+      [self](const start_container& x) { return start(self, x); },
+      [self](const stop_container& x) { return stop(self, x); },
+      [self](const remove_container& x) { return remove(self, x); },
+      [self](const adopt_container& x) { return adopt(self, x); },
+      [self](const log_query& x) { return read_log(self, x); },
+      [self](const engine_answered& x) { on_answered(self, x); },
+      [self](const engine_streamed& x) { on_streamed(self, x); },
+      [self](const engine_log_read& x) { on_log_read(self, x); },
+      [self](caf::tick_atom, uint64_t number) {
+        if (self->state.timer.rings(number))
+          on_alarm(self);
+      },
+  };
+}
+
+} // namespace roscell

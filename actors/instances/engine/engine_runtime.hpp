@@ -1,0 +1,124 @@
+#pragma once
+
+#include "actors/edge/engine/engine_client.hpp"
+#include "actors/edge/io/fd_watch.hpp"
+#include "actors/house/alarm.hpp"
+#include "actors/house/backoff.hpp"
+#include "actors/house/house.hpp"
+#include "actors/instances/engine/container_document.hpp"
+#include "messages/type_ids.hpp"
+
+#include <caf/typed_response_promise.hpp>
+
+#include <chrono>
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace roscell {
+
+struct engine_runtime_config {
+  house context;
+  std::string socket; ///< The engine's Unix socket.
+  container_setting setting;
+  std::filesystem::path data_dir; ///< notify/ and build/ go below it.
+  std::shared_ptr<io_core> io;
+};
+
+/// A container that runs, or may soon.
+struct engine_container {
+  std::string id;                ///< Empty: not known yet.
+  bool settling = false;         ///< It is being started, or looked for.
+  std::optional<int> early_exit; ///< It ended while `settling`.
+  /// What was asked meanwhile.
+  std::vector<std::function<void()>> waiting;
+  shared_fd notify_socket;
+  fd_watch words;
+};
+
+/// An image that is being made ready, for whoever has asked for it.
+struct image_work {
+  struct waiter {
+    std::string instance;
+    caf::typed_response_promise<image_prepared> promise;
+  };
+
+  prepare_image wish; ///< The first one.
+  std::vector<waiter> waiters;
+  image_packer_actor packer; ///< Null: not needed so far.
+  std::string image;
+  std::string context; ///< Tar file of the build; empty: none.
+  engine_stream build;
+  uint64_t call = 0;            ///< Of `build`.
+  std::deque<std::string> log;  ///< The last lines of the build.
+  std::string error;            ///< What the engine says went wrong.
+  bool has_base = false;        ///< The base image was found.
+  std::string step;             ///< How it gets on, not told yet.
+  alarm::time_point next_words; ///< Not before is it told.
+  alarm::time_point began;
+};
+
+/// Someone who waits for more of a log.
+struct engine_log_follower {
+  caf::typed_response_promise<log_excerpt> promise;
+  log_query query;
+  bool running = false; ///< More may come after the end of what is there.
+  std::optional<alarm::time_point> until;
+  engine_stream stream;
+};
+
+/// Owns the containers of the node. It looks at files before it starts one, so
+/// it is spawned detached. Ends with its listener; the containers go on.
+struct engine_runtime_state {
+  static constexpr const char* name = "engine-runtime";
+
+  using continuation = std::function<void(const engine_answered&)>;
+
+  /// Followers of logs at a time, each with a connection to the engine. Who
+  /// comes later is answered at once.
+  static constexpr size_t max_followers = 64;
+
+  /// Lines of a build that are kept, for the case that it fails.
+  static constexpr size_t kept_build_lines = 40;
+
+  /// A build says no more than once in this time how it gets on.
+  static constexpr std::chrono::seconds words_interval{1};
+
+  engine_runtime_config config;
+  container_listener_actor listener;
+  std::unique_ptr<engine_client> client;
+
+  uint64_t last_call = 0;
+  std::map<uint64_t, continuation> calls;
+
+  /// The one stream of events, by which exits are heard.
+  engine_stream events;
+  uint64_t events_call = 0;
+  bool connected = false; ///< `events` is open.
+  std::string trouble; ///< Why it is not; empty: it is, or was not yet tried.
+  backoff pause;
+  std::optional<alarm::time_point> next_attempt;
+
+  std::map<std::string, engine_container> containers;   ///< By instance.
+  std::map<std::string, std::string> plans;             ///< Key to image name.
+  std::map<std::string, image_work> works;              ///< By key.
+  std::map<uint64_t, engine_log_follower> followers;    ///< By call.
+  std::vector<std::function<void()>> waiting_adoptions; ///< For a connection.
+  /// Instances whose containers must go, once the engine can be asked.
+  std::set<std::string> unwanted;
+  alarm timer;
+};
+
+/// The ENGINE RUNTIME. Messages: messages/runtime.hpp, messages/engine.hpp.
+engine_runtime_actor::behavior_type engine_runtime(
+    engine_runtime_actor::stateful_pointer<engine_runtime_state> self,
+    const engine_runtime_config& config, container_listener_actor listener);
+
+} // namespace roscell

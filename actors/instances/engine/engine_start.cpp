@@ -1,0 +1,133 @@
+#include "actors/instances/engine/engine_containers.hpp"
+#include "actors/instances/engine/engine_parts.hpp"
+#include "actors/instances/instance_id.hpp"
+#include "messages/failure.hpp"
+
+#include <chrono>
+#include <memory>
+#include <utility>
+#include <variant>
+
+namespace roscell {
+
+namespace {
+
+using self_pointer = engine_runtime_pointer;
+using namespace std::chrono_literals;
+
+/// Creating one copies nothing, but a loaded engine takes its time.
+constexpr auto create_limit = 20s;
+constexpr auto start_limit = 20s;
+
+caf::error runs_already(const std::string& instance) {
+  return fail(error_code::engine_failed,
+              "the instance '" + instance + "' runs already");
+}
+
+/// One start from its request to its answer.
+struct start_attempt {
+  start_container wish;
+  std::string body;
+  caf::typed_response_promise<container_started> promise;
+  bool name_was_taken = false;
+};
+
+using shared_attempt = std::shared_ptr<start_attempt>;
+
+/// Whether there is a container is not known if the engine went away.
+void give_up(self_pointer self, const shared_attempt& x, bool lost,
+             const caf::error& why) {
+  const auto& instance = x->wish.instance;
+  if (lost)
+    self->state.unwanted.insert(instance);
+  x->promise.deliver(why);
+  forget(self, instance);
+}
+
+void create(self_pointer self, const shared_attempt& x);
+
+void on_started(self_pointer self, const shared_attempt& x,
+                const std::string& id, const engine_answered& answer) {
+  if (is_good(answer) || answer.status == 304) {
+    x->promise.deliver(container_started{id});
+    return settle(self, x->wish.instance, id);
+  }
+  const auto why = engine_failure("the container cannot be started", answer);
+  if (is_lost(answer))
+    return give_up(self, x, true, why);
+  ask_engine(self, to_container("DELETE", id, "?force=true&v=true"),
+             [=](const engine_answered& removed) {
+               give_up(self, x, is_lost(removed), why);
+             });
+}
+
+/// A container that has ended makes room for its successor.
+void make_room(self_pointer self, const shared_attempt& x) {
+  const auto name = container_name(x->wish.instance);
+  ask_engine(
+      self, to_container("GET", name, "/json"), [=](const engine_answered& y) {
+        if (is_lost(y))
+          return give_up(self, x, false,
+                         engine_failure("the container cannot be created", y));
+        if (is_running(object_of(y)))
+          return give_up(self, x, false, runs_already(x->wish.instance));
+        ask_engine(self, to_container("DELETE", name, "?force=true&v=true"),
+                   [=](const engine_answered&) { create(self, x); });
+      });
+}
+
+void on_created(self_pointer self, const shared_attempt& x,
+                const engine_answered& answer) {
+  if (answer.status == 409 && !std::exchange(x->name_was_taken, true))
+    return make_room(self, x);
+  const auto id = text_at(object_of(answer), "Id");
+  if (!is_good(answer) || id.empty())
+    return give_up(self, x, is_lost(answer),
+                   engine_failure("the container cannot be created", answer));
+  if (auto* container = find_container(self, x->wish.instance))
+    container->id = id;
+  ask_engine(self, to_container("POST", id, "/start", start_limit),
+             [=](const engine_answered& y) { on_started(self, x, id, y); });
+}
+
+void create(self_pointer self, const shared_attempt& x) {
+  engine_request request;
+  request.method = "POST";
+  request.target = "/containers/create?name="
+                   + percent_encoded(container_name(x->wish.instance));
+  request.body = x->body;
+  request.limit = create_limit;
+  ask_engine(self, std::move(request),
+             [=](const engine_answered& y) { on_created(self, x, y); });
+}
+
+} // namespace
+
+caf::result<container_started> start(self_pointer self,
+                                     const start_container& wish) {
+  if (!is_instance_id(wish.instance) || wish.command.empty())
+    return bad_id(wish.instance);
+  if (find_container(self, wish.instance) != nullptr)
+    return runs_already(wish.instance);
+  const auto files = files_of(wish);
+  if (const auto* error = std::get_if<edge_error>(&files))
+    return to_caf(*error);
+  engine_container fresh;
+  if (auto error = open_words(self, wish.instance, fresh))
+    return error;
+  fresh.settling = true;
+  auto& st = self->state;
+  st.unwanted.erase(wish.instance);
+  st.containers[wish.instance] = std::move(fresh);
+  auto attempt = std::make_shared<start_attempt>();
+  attempt->wish = wish;
+  attempt->promise = self->make_response_promise<container_started>();
+  attempt->body = container_document(wish, std::get<container_files>(files),
+                                     st.config.setting,
+                                     notify_dir(self, wish.instance).string())
+                      .dump(-1, ' ', false, json::error_handler_t::replace);
+  create(self, attempt);
+  return attempt->promise;
+}
+
+} // namespace roscell

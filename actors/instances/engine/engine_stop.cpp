@@ -1,0 +1,118 @@
+#include "actors/instances/engine/engine_containers.hpp"
+#include "actors/instances/engine/engine_parts.hpp"
+#include "actors/instances/instance_id.hpp"
+#include "messages/failure.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+namespace roscell {
+
+namespace {
+
+using self_pointer = engine_runtime_pointer;
+using namespace std::chrono_literals;
+
+/// Longest time between the polite request to end and force.
+constexpr int64_t max_grace_ms = 60'000;
+
+/// For an engine to kill what does not obey, beyond the grace.
+constexpr auto force_limit = 10s;
+
+using stop_promise = caf::typed_response_promise<container_stopped>;
+
+void answer_stopped(self_pointer self, const std::string& target,
+                    stop_promise promise) {
+  ask_engine(self, to_container("GET", target, "/json"),
+             [promise](const engine_answered& x) mutable {
+               promise.deliver(container_stopped{exit_code_of(object_of(x))});
+             });
+}
+
+void do_stop(self_pointer self, const stop_container& wish,
+             stop_promise promise) {
+  const auto target = target_of(wish.container, wish.instance);
+  const auto grace_ms = std::clamp<int64_t>(wish.grace_ms, 0, max_grace_ms);
+  const auto seconds = std::to_string((grace_ms + 999) / 1000);
+  ask_engine(self,
+             to_container("POST", target, "/stop?t=" + seconds,
+                          std::chrono::milliseconds{grace_ms} + force_limit),
+             [=](const engine_answered& x) mutable {
+               if (is_lost(x))
+                 self->state.unwanted.insert(wish.instance);
+               if (is_good(x) || x.status == 304)
+                 answer_stopped(self, target, promise);
+               else if (x.status == 404)
+                 promise.deliver(container_stopped{});
+               else
+                 promise.deliver(
+                     engine_failure("the container cannot be ended", x));
+             });
+}
+
+using removal_promise = caf::typed_response_promise<container_removed>;
+
+void do_remove(self_pointer self, const remove_container& wish,
+               removal_promise promise) {
+  const auto target = target_of(wish.container, wish.instance);
+  ask_engine(
+      self, to_container("DELETE", target, "?force=true&v=true", force_limit),
+      [=](const engine_answered& x) mutable {
+        if (is_lost(x))
+          self->state.unwanted.insert(wish.instance);
+        // 409: somebody else is removing it. Without an id there may
+        // never have been one, and if there was it goes when the engine
+        // is back.
+        const bool gone = is_good(x) || x.status == 404 || x.status == 409
+                          || (is_lost(x) && wish.container.empty());
+        if (gone) {
+          forget(self, wish.instance);
+          clean_up(self, wish.instance);
+          promise.deliver(container_removed{});
+        } else {
+          promise.deliver(engine_failure("the container cannot be removed", x));
+        }
+      });
+}
+
+} // namespace
+
+caf::result<container_stopped> stop(self_pointer self,
+                                    const stop_container& wish) {
+  if (!is_instance_id(wish.instance))
+    return bad_id(wish.instance);
+  auto promise = self->make_response_promise<container_stopped>();
+  auto* x = find_container(self, wish.instance);
+  if (x != nullptr && x->settling)
+    x->waiting.push_back([=] { do_stop(self, wish, promise); });
+  else
+    do_stop(self, wish, promise);
+  return promise;
+}
+
+caf::result<container_removed> remove(self_pointer self,
+                                      const remove_container& wish) {
+  if (!is_instance_id(wish.instance))
+    return bad_id(wish.instance);
+  auto promise = self->make_response_promise<container_removed>();
+  auto* x = find_container(self, wish.instance);
+  if (x != nullptr && x->settling)
+    x->waiting.push_back([=] { do_remove(self, wish, promise); });
+  else
+    do_remove(self, wish, promise);
+  return promise;
+}
+
+void discard(self_pointer self, const std::string& instance) {
+  ask_engine(
+      self,
+      to_container("DELETE", container_name(instance), "?force=true&v=true"),
+      [=](const engine_answered& x) {
+        if (is_lost(x))
+          self->state.unwanted.insert(instance);
+        else
+          clean_up(self, instance);
+      });
+}
+
+} // namespace roscell

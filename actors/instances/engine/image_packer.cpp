@@ -1,0 +1,69 @@
+#include "actors/instances/engine/image_packer.hpp"
+
+#include "actors/instances/engine/dockerfile.hpp"
+#include "actors/instances/process/process_instance.hpp"
+#include "messages/failure.hpp"
+
+#include <caf/result.hpp>
+
+#include <utility>
+#include <variant>
+
+namespace roscell {
+
+namespace {
+
+using self_pointer = image_packer_actor::stateful_pointer<image_packer_state>;
+
+caf::error to_caf(const edge_error& why) {
+  return fail(why.code, why.message, {}, why.hint);
+}
+
+caf::result<image_planned> plan(self_pointer self, const prepare_image& wish) {
+  const auto program = find_program(wish);
+  if (const auto* error = std::get_if<edge_error>(&program))
+    return to_caf(*error);
+  auto libraries =
+      find_libraries(wish.skill_dir, std::get<std::filesystem::path>(program));
+  if (const auto* error = std::get_if<edge_error>(&libraries))
+    return to_caf(*error);
+  image_recipe recipe{
+      wish.operation, wish.skill, wish.base_image, wish.entry_point,
+      std::get<std::vector<shared_library>>(std::move(libraries))};
+  auto& content = self->state.content;
+  content.dockerfile = dockerfile_of(recipe);
+  content.skill_dir = wish.skill_dir;
+  content.libraries = std::move(recipe.libraries);
+  return image_planned{image_name(wish.operation, content.dockerfile),
+                       content.dockerfile};
+}
+
+caf::result<image_packed> pack(self_pointer self) {
+  const auto& st = self->state;
+  if (st.content.dockerfile.empty())
+    return fail(error_code::conflict, "no image has been planned");
+  const auto file = write_build_context(st.content, st.work_dir);
+  if (const auto* error = std::get_if<edge_error>(&file))
+    return to_caf(*error);
+  return image_packed{std::get<std::filesystem::path>(file).string()};
+}
+
+} // namespace
+
+image_packer_actor::behavior_type
+image_packer(self_pointer self, const std::filesystem::path& work_dir,
+             const engine_runtime_actor& owner) {
+  self->state.work_dir = work_dir;
+  self->monitor(owner);
+  self->set_down_handler(
+      [self](const caf::down_msg& down) { self->quit(down.reason); });
+  return {
+      [self](const state_query&) {
+        return state_of({{"skill", self->state.content.skill_dir.string()}});
+      },
+      [self](const prepare_image& x) { return plan(self, x); },
+      [self](const pack_image&) { return pack(self); },
+  };
+}
+
+} // namespace roscell

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "actors/edge/engine/build_context.hpp"
+#include "actors/house/house.hpp"
+#include "messages/type_ids.hpp"
+
+#include <filesystem>
+#include <string>
+
+namespace roscell {
+
+/// Prepares one image on the disk. It blocks, so it is spawned detached, and
+/// only for as long as one image is being made.
+struct image_packer_state {
+  static constexpr const char* name = "image-packer";
+
+  std::filesystem::path work_dir;
+  image_content content; ///< Of the image that was planned last.
+};
+
+/// The IMAGE PACKER. Messages: messages/engine.hpp. Ends with its owner.
+image_packer_actor::behavior_type
+image_packer(image_packer_actor::stateful_pointer<image_packer_state> self,
+             const std::filesystem::path& work_dir,
+             const engine_runtime_actor& owner);
+
+} // namespace roscell

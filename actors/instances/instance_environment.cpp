@@ -1,0 +1,46 @@
+#include "actors/instances/instance_environment.hpp"
+
+#include "messages/json_codec.hpp"
+
+namespace roscell {
+
+namespace {
+
+/// Endpoints come from checked JSON, but a text that is none must not throw.
+std::string text_of(const json& value) {
+  return value.dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
+} // namespace
+
+std::map<std::string, std::string>
+instance_environment(const instance_spec& spec,
+                     const deployment_option& deployment) {
+  using std::chrono::microseconds;
+  auto result = spec.environment;
+  result.insert(deployment.environment.begin(), deployment.environment.end());
+  const std::map<std::string, std::string> contract{
+      {"ROSCELL_TASK", spec.task},
+      {"ROSCELL_STEP", spec.step},
+      {"ROSCELL_INSTANCE", spec.instance},
+      {"ROSCELL_OPERATION", spec.operation},
+      {"ROSCELL_MODEL", spec.model},
+      {"ROSCELL_DEPLOYMENT", spec.deployment},
+      {"ROSCELL_CELL", spec.cell},
+      {"ROSCELL_INPUTS", text_of(spec.input)},
+      {"ROSCELL_OUTPUTS", text_of(spec.output)},
+      {"ROSCELL_PARAMETERS", spec.parameters.empty() ? "{}" : spec.parameters},
+      {"WATCHDOG_USEC",
+       std::to_string(microseconds{watchdog_interval}.count())},
+  };
+  for (const auto& [name, value] : contract)
+    result[name] = value;
+  if (spec.gpu >= 0) {
+    // Inside the instance CUDA counts from 0, so both are needed.
+    result["ROSCELL_GPU"] = std::to_string(spec.gpu);
+    result["CUDA_VISIBLE_DEVICES"] = std::to_string(spec.gpu);
+  }
+  return result;
+}
+
+} // namespace roscell

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "actors/instances/container_supervisor.hpp"
+
+#include <caf/result.hpp>
+
+#include <string>
+
+/// INTERNAL to the container supervisor: how instances leave its table.
+namespace roscell {
+
+using container_supervisor_pointer =
+    container_supervisor_actor::stateful_pointer<container_supervisor_state>;
+
+/// Null if there is none of that id.
+supervised_instance* find_instance(container_supervisor_pointer self,
+                                   const std::string& instance);
+
+/// Removes an ended instance's log, record and row.
+void clean_instance(container_supervisor_pointer self,
+                    const std::string& instance);
+
+/// Keeps the newest rows of ended instances only.
+void trim_ended(container_supervisor_pointer self);
+
+/// Ends one instance or all of a task, and replies when they are gone.
+caf::result<instances_removed>
+remove_instances(container_supervisor_pointer self,
+                 const instance_removal& wish);
+
+} // namespace roscell

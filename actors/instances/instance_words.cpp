@@ -1,0 +1,45 @@
+#include "actors/instances/instance_words.hpp"
+
+#include "actors/edge/io/utf8.hpp"
+#include "messages/json_codec.hpp"
+
+namespace roscell {
+
+std::string exit_words(int code) {
+  if (code < 0)
+    return "in an unknown way";
+  if (code > 128)
+    return "by signal " + std::to_string(code - 128);
+  return "with exit code " + std::to_string(code);
+}
+
+std::string last_bytes(const std::string& text, size_t max_bytes) {
+  if (text.size() <= max_bytes)
+    return text;
+  const auto begin = text.size() - max_bytes;
+  const auto line = text.find('\n', begin);
+  // One endless line is cut, maybe inside a character.
+  return line < text.size() - 1 ? text.substr(line + 1)
+                                : valid_utf8(text.substr(begin));
+}
+
+failure deployment_failure(const instance_row& row) {
+  const auto who =
+      "instance '" + row.spec.instance + "' on node '" + row.node + "'";
+  if (row.state == instance_state::stopped)
+    return {error_code::conflict,
+            who + " was stopped before it ran: " + row.reason};
+  const json details{
+      {"instance", row.spec.instance},
+      {"node", row.node},
+      {"exit_code", row.exit_code < 0 ? json(nullptr) : json(row.exit_code)},
+      {"log_tail", row.log_tail}};
+  return {error_code::engine_failed,
+          who + " failed: " + row.reason,
+          {},
+          row.log_tail.empty() ? std::string{}
+                               : "its last lines are in log_tail",
+          details.dump(-1, ' ', false, json::error_handler_t::replace)};
+}
+
+} // namespace roscell

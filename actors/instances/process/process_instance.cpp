@@ -1,0 +1,172 @@
+#include "actors/instances/process/process_instance.hpp"
+
+#include "actors/edge/process/notify_socket.hpp"
+#include "actors/edge/process/process_spawner.hpp"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <system_error>
+#include <utility>
+
+namespace roscell {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A shim needs 1 to 3 ms; a disk that hangs this long is broken.
+constexpr std::chrono::seconds start_limit{5};
+
+edge_error failed(const std::string& what, const fs::path& path,
+                  const std::string& why, std::string hint = {}) {
+  return {error_code::engine_failed, what + " '" + path.string() + "': " + why,
+          std::move(hint)};
+}
+
+edge_error no_folder(const fs::path& path, const std::string& why) {
+  return failed("cannot make the instance's folder", path, why,
+                "check that the data directory is writable and has room");
+}
+
+edge_result<unique_fd> fresh_folder(const fs::path& dir) {
+  std::error_code error;
+  fs::create_directories(dir.parent_path(), error);
+  if (!error)
+    fs::remove_all(dir, error);
+  if (error)
+    return no_folder(dir, error.message());
+  if (::mkdir(dir.c_str(), 0700) != 0)
+    return no_folder(dir, std::strerror(errno));
+  return open_notify_socket(notify_path(dir));
+}
+
+program shim_for(const process_runtime_config& config, const fs::path& dir,
+                 const start_container& wish) {
+  program result;
+  result.path = config.shim;
+  result.arguments = {
+      "--dir",       dir.string(),
+      "--log-bytes", std::to_string(config.log_bytes),
+      "--cwd",       wish.image,
+      "--",          (fs::path{wish.image} / wish.command.at(0)).string()};
+  result.arguments.insert(result.arguments.end(), wish.command.begin() + 1,
+                          wish.command.end());
+  result.environment = wish.environment;
+  result.environment["NOTIFY_SOCKET"] = notify_path(dir).string();
+  // Does not replace what was given.
+  result.environment.insert(config.environment.begin(),
+                            config.environment.end());
+  return result;
+}
+
+/// A shim that was killed has left no record. Without one, readers of the log
+/// would wait for more.
+void record_unknown_exit(const fs::path& dir) {
+  std::error_code error;
+  if (fs::is_directory(dir, error) && !fs::exists(dir / "exit", error))
+    std::ofstream{dir / "exit"} << R"({"code":null,"signal":null})" << '\n';
+}
+
+std::string variable(const char* name, const char* otherwise) {
+  const char* value = std::getenv(name);
+  return value != nullptr ? value : otherwise;
+}
+
+} // namespace
+
+std::map<std::string, std::string> basic_environment() {
+  return {{"PATH", variable("PATH", "/usr/local/bin:/usr/bin:/bin")},
+          {"HOME", variable("HOME", "/")},
+          {"LANG", variable("LANG", "C.UTF-8")}};
+}
+
+edge_result<fs::path> find_program(const prepare_image& wish) {
+  if (wish.entry_point.empty())
+    return failed("the skill in", wish.skill_dir, "names no program");
+  const auto path = fs::path{wish.skill_dir} / wish.entry_point[0];
+  std::error_code error;
+  if (!fs::is_regular_file(path, error))
+    return failed("the skill's program is missing:", path,
+                  error ? error.message() : "it is no file",
+                  "build the skill, or correct \"entry_point\" in "
+                      + (fs::path{wish.skill_dir} / "skill.json").string());
+  if (::access(path.c_str(), X_OK) != 0)
+    return failed("the skill's program cannot be run:", path,
+                  std::strerror(errno), "chmod +x " + path.string());
+  return path;
+}
+
+edge_result<process_instance> launch(const process_runtime_config& config,
+                                     const start_container& wish) {
+  const auto dir = config.instances_dir / wish.instance;
+  auto socket = fresh_folder(dir);
+  if (auto* error = std::get_if<edge_error>(&socket))
+    return *error;
+  auto started = spawn_program(shim_for(config, dir, wish), start_limit);
+  if (auto* error = std::get_if<edge_error>(&started)) {
+    record_unknown_exit(dir);
+    return *error;
+  }
+  auto& child = std::get<spawned_program>(started);
+  process_instance result;
+  result.container = to_container(child.identity);
+  result.pidfd = share(std::move(child.pidfd));
+  result.notify_socket = share(std::move(std::get<unique_fd>(socket)));
+  return result;
+}
+
+edge_result<process_instance> take_over(const process_runtime_config& config,
+                                        const std::string& instance,
+                                        const std::string& container) {
+  const auto dir = config.instances_dir / instance;
+  const auto process =
+      container.empty() ? read_pid_record(dir) : process_of(container);
+  process_instance result;
+  if (!process)
+    return result;
+  result.container = to_container(*process);
+  auto pidfd = open_process(*process, '/' + instance);
+  if (!pidfd || has_ended(pidfd.get())) {
+    if (pidfd)
+      reap(pidfd.get());
+    record_unknown_exit(dir);
+    result.exit_code = read_exit_record(dir).value_or(-1);
+    return result;
+  }
+  auto socket = open_notify_socket(notify_path(dir));
+  if (auto* error = std::get_if<edge_error>(&socket))
+    return *error;
+  result.pidfd = share(std::move(pidfd));
+  result.notify_socket = share(std::move(std::get<unique_fd>(socket)));
+  return result;
+}
+
+void conclude(const process_runtime_config& config, const std::string& instance,
+              process_instance& x) {
+  const auto dir = config.instances_dir / instance;
+  const auto shim_code = reap(x.pidfd->get()).value_or(0);
+  record_unknown_exit(dir);
+  // A shim that did its work ends with 0, whatever became of its command.
+  x.exit_code = read_exit_record(dir).value_or(shim_code != 0 ? shim_code : -1);
+  x.pidfd = nullptr;
+  x.notify_socket = nullptr;
+}
+
+edge_result<bool> clean_up(const process_runtime_config& config,
+                           const std::string& instance) {
+  const auto dir = config.instances_dir / instance;
+  std::error_code error;
+  fs::remove(notify_path(dir), error);
+  fs::remove_all(dir, error);
+  if (error)
+    return failed("cannot remove the instance's folder", dir, error.message());
+  return true;
+}
+
+} // namespace roscell

@@ -1,0 +1,65 @@
+#pragma once
+
+#include "actors/edge/io/edge_error.hpp"
+#include "actors/edge/process/child_watch.hpp"
+#include "actors/edge/process/process_identity.hpp"
+#include "messages/runtime.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+
+/// How the process runtime deals with one instance's shim and folder. All of
+/// it blocks, for some milliseconds, on processes and the disk.
+namespace roscell {
+
+struct process_runtime_config {
+  std::filesystem::path instances_dir; ///< One folder per instance goes here.
+  std::filesystem::path shim;          ///< tools/instance_shim.
+  uint64_t log_bytes = 1024 * 1024;    ///< Bound of one instance's log.
+  std::shared_ptr<io_core> io;         ///< Watches the programs.
+  /// What every program sees besides what it is given.
+  std::map<std::string, std::string> environment;
+};
+
+/// PATH, HOME and LANG of this process, with defaults for what it has not.
+std::map<std::string, std::string> basic_environment();
+
+/// A program that runs, or one that has ended.
+struct process_instance {
+  std::string container; ///< Empty: there never was one.
+  shared_fd pidfd;       ///< Of the shim; null: it has ended.
+  shared_fd notify_socket;
+  int exit_code = -1; ///< 128 + n after signal n; negative: not known.
+
+  bool runs() const {
+    return pidfd != nullptr;
+  }
+};
+
+/// The skill's program, if it can be run. Errors: engine_failed.
+edge_result<std::filesystem::path> find_program(const prepare_image& wish);
+
+/// Starts the program in a fresh folder. Errors: engine_failed.
+edge_result<process_instance> launch(const process_runtime_config& config,
+                                     const start_container& wish);
+
+/// Finds what an earlier run of the node has started, by the container's id or,
+/// where that is not known, by the records in the instance's folder. Errors:
+/// engine_failed (it runs, but its NOTIFY_SOCKET cannot be made).
+edge_result<process_instance> take_over(const process_runtime_config& config,
+                                        const std::string& instance,
+                                        const std::string& container);
+
+/// Notes that the shim has ended: reaps it and reads how its command ended.
+void conclude(const process_runtime_config& config, const std::string& instance,
+              process_instance& x);
+
+/// Removes the folder and the socket of an instance that has ended.
+/// Errors: engine_failed.
+edge_result<bool> clean_up(const process_runtime_config& config,
+                           const std::string& instance);
+
+} // namespace roscell

@@ -1,0 +1,289 @@
+#include "actors/instances/process/process_runtime.hpp"
+
+#include "actors/edge/process/pidfd.hpp"
+#include "actors/instances/instance_id.hpp"
+#include "actors/instances/process/process_logs.hpp"
+#include "messages/failure.hpp"
+
+#include <caf/result.hpp>
+#include <caf/send.hpp>
+
+#include <algorithm>
+#include <csignal>
+#include <utility>
+
+namespace roscell {
+
+namespace {
+
+using self_pointer = process_runtime_pointer;
+
+/// Longest time between the polite request to end and force.
+constexpr int64_t max_grace_ms = 60'000;
+
+caf::error to_caf(const edge_error& why) {
+  return fail(why.code, why.message, {}, why.hint);
+}
+
+caf::error bad_id(const std::string& instance) {
+  return fail(error_code::engine_failed,
+              "'" + instance + "' cannot be the name of a folder");
+}
+
+child_watch watch(self_pointer self, const std::string& instance,
+                  const process_instance& x) {
+  const auto target = caf::actor_cast<process_runtime_actor>(self);
+  const auto listener = self->state.listener;
+  child_watch::callbacks calls;
+  calls.on_notification = [listener, instance](const notification& n) {
+    caf::anon_send(listener, instance_notified{instance, n.ready, n.alive,
+                                               n.stopping, n.status});
+  };
+  calls.on_end = [target, instance, container = x.container] {
+    caf::anon_send(target, program_ended{instance, container});
+  };
+  return {self->state.config.io, x.pidfd, x.notify_socket, std::move(calls)};
+}
+
+running_process& keep(self_pointer self, const std::string& instance,
+                      process_instance x) {
+  auto& result = self->state.processes[instance];
+  result = running_process{};
+  if (x.runs())
+    result.watch = watch(self, instance, x);
+  result.process = std::move(x);
+  return result;
+}
+
+/// The instance, found on the host if it has not been asked about before.
+edge_result<running_process*> known(self_pointer self,
+                                    const std::string& instance,
+                                    const std::string& container) {
+  auto& xs = self->state.processes;
+  if (const auto i = xs.find(instance); i != xs.end())
+    return &i->second;
+  auto found = take_over(self->state.config, instance, container);
+  if (auto* error = std::get_if<edge_error>(&found))
+    return *error;
+  return &keep(self, instance, std::move(std::get<process_instance>(found)));
+}
+
+/// Whether `container` is not the present one of its instance.
+bool is_outdated(const running_process& x, const std::string& container) {
+  return !container.empty() && x.process.container != container;
+}
+
+caf::result<image_prepared> prepare(const prepare_image& wish) {
+  const auto found = find_program(wish);
+  if (const auto* error = std::get_if<edge_error>(&found))
+    return to_caf(*error);
+  return image_prepared{wish.skill_dir};
+}
+
+caf::result<container_started> start(self_pointer self,
+                                     const start_container& wish) {
+  if (!is_instance_id(wish.instance) || wish.command.empty())
+    return bad_id(wish.instance);
+  // Whatever an earlier run of the node has left must not run twice.
+  const auto before = known(self, wish.instance, {});
+  if (const auto* error = std::get_if<edge_error>(&before))
+    return to_caf(*error);
+  if (std::get<running_process*>(before)->process.runs())
+    return fail(error_code::engine_failed,
+                "the instance '" + wish.instance + "' runs already");
+  auto launched = launch(self->state.config, wish);
+  if (const auto* error = std::get_if<edge_error>(&launched))
+    return to_caf(*error);
+  const auto& x = keep(self, wish.instance,
+                       std::move(std::get<process_instance>(launched)));
+  return container_started{x.process.container};
+}
+
+caf::result<container_adopted> adopt(self_pointer self,
+                                     const adopt_container& wish) {
+  if (!is_instance_id(wish.instance))
+    return bad_id(wish.instance);
+  const auto found = known(self, wish.instance, wish.container);
+  if (const auto* error = std::get_if<edge_error>(&found))
+    return to_caf(*error);
+  if (is_outdated(*std::get<running_process*>(found), wish.container))
+    return container_adopted{false, wish.container, -1};
+  const auto& x = std::get<running_process*>(found)->process;
+  return container_adopted{x.runs(), x.container, x.exit_code};
+}
+
+void signal(const running_process& x, int number) {
+  if (x.process.runs())
+    ::pidfd_send_signal(x.process.pidfd->get(), number, nullptr, 0);
+}
+
+/// Goes to the next stage of ending and says when the one after that begins.
+void end(self_pointer self, running_process& x, ending stage,
+         alarm::time_point::duration wait) {
+  // The shim passes SIGTERM on and turns SIGQUIT into SIGKILL. Where it does
+  // not react it is killed itself, and its command dies with it.
+  signal(x, stage == ending::asked    ? SIGTERM
+            : stage == ending::killed ? SIGQUIT
+                                      : SIGKILL);
+  x.stage = stage;
+  x.next_stage = self->clock().now() + wait;
+  self->state.timer.set(self, *x.next_stage);
+}
+
+void give_up(const std::string& instance, running_process& x) {
+  const auto why = fail(error_code::engine_failed,
+                        "the instance '" + instance + "' cannot be killed", {},
+                        "it may hang on a device or a network file system");
+  for (auto& promise : std::exchange(x.stoppers, {}))
+    promise.deliver(why);
+  for (auto& promise : std::exchange(x.removers, {}))
+    promise.deliver(why);
+  x.stage = ending::none;
+  x.next_stage.reset();
+}
+
+void advance(self_pointer self, const std::string& instance,
+             running_process& x) {
+  constexpr auto wait = process_runtime_state::force_interval;
+  switch (x.stage) {
+  case ending::none:
+    break;
+  case ending::asked:
+    return end(self, x, ending::killed, wait);
+  case ending::killed:
+    return end(self, x, ending::shim_killed, wait);
+  case ending::shim_killed:
+    return give_up(instance, x);
+  }
+}
+
+caf::result<container_stopped> stop(self_pointer self,
+                                    const stop_container& wish) {
+  if (!is_instance_id(wish.instance))
+    return bad_id(wish.instance);
+  const auto found = known(self, wish.instance, wish.container);
+  if (const auto* error = std::get_if<edge_error>(&found))
+    return to_caf(*error);
+  auto& x = *std::get<running_process*>(found);
+  if (is_outdated(x, wish.container))
+    return container_stopped{};
+  if (!x.process.runs())
+    return container_stopped{x.process.exit_code};
+  const auto grace = std::clamp<int64_t>(wish.grace_ms, 0, max_grace_ms);
+  if (x.stage == ending::none)
+    end(self, x, ending::asked, std::chrono::milliseconds{grace});
+  auto promise = self->make_response_promise<container_stopped>();
+  x.stoppers.push_back(promise);
+  return promise;
+}
+
+/// Nothing if all that was left is gone.
+caf::error forget(self_pointer self, const std::string& instance) {
+  const auto done = clean_up(self->state.config, instance);
+  self->state.processes.erase(instance);
+  serve_followers(self, instance);
+  self->state.logs.erase(instance);
+  if (const auto* error = std::get_if<edge_error>(&done))
+    return to_caf(*error);
+  return {};
+}
+
+caf::result<container_removed> remove(self_pointer self,
+                                      const remove_container& wish) {
+  if (!is_instance_id(wish.instance))
+    return bad_id(wish.instance);
+  const auto found = known(self, wish.instance, wish.container);
+  if (const auto* error = std::get_if<edge_error>(&found))
+    return to_caf(*error);
+  auto& x = *std::get<running_process*>(found);
+  if (is_outdated(x, wish.container))
+    return container_removed{};
+  if (!x.process.runs()) {
+    if (auto error = forget(self, wish.instance))
+      return error;
+    return container_removed{};
+  }
+  if (x.stage == ending::none || x.stage == ending::asked)
+    end(self, x, ending::killed, process_runtime_state::force_interval);
+  auto promise = self->make_response_promise<container_removed>();
+  x.removers.push_back(promise);
+  return promise;
+}
+
+void on_end(self_pointer self, const program_ended& fact) {
+  auto& st = self->state;
+  const auto i = st.processes.find(fact.instance);
+  if (i == st.processes.end() || !i->second.process.runs()
+      || i->second.process.container != fact.container)
+    return;
+  auto& x = i->second;
+  x.watch = {};
+  conclude(st.config, fact.instance, x.process);
+  x.stage = ending::none;
+  x.next_stage.reset();
+  const auto code = x.process.exit_code;
+  self->send(st.listener,
+             container_exited{fact.instance, fact.container, code});
+  for (auto& promise : std::exchange(x.stoppers, {}))
+    promise.deliver(container_stopped{code});
+  serve_followers(self, fact.instance);
+  auto removers = std::exchange(x.removers, {});
+  if (removers.empty())
+    return;
+  const auto error = forget(self, fact.instance);
+  for (auto& promise : removers)
+    if (error)
+      promise.deliver(error);
+    else
+      promise.deliver(container_removed{});
+}
+
+void on_alarm(self_pointer self) {
+  auto& st = self->state;
+  const auto now = self->clock().now();
+  for (auto& [instance, x] : st.processes) {
+    if (x.next_stage && now >= *x.next_stage)
+      advance(self, instance, x);
+    else if (x.next_stage)
+      st.timer.set(self, *x.next_stage);
+  }
+  release_followers(self);
+}
+
+json describe(const process_runtime_state& st) {
+  const auto running =
+      std::count_if(st.processes.begin(), st.processes.end(),
+                    [](const auto& x) { return x.second.process.runs(); });
+  return {{"instances", st.processes.size()},
+          {"running", running},
+          {"followed_logs", st.logs.size()}};
+}
+
+} // namespace
+
+process_runtime_actor::behavior_type
+process_runtime(self_pointer self, const process_runtime_config& config,
+                container_listener_actor listener) {
+  self->state.config = config;
+  self->state.listener = std::move(listener);
+  self->monitor(self->state.listener);
+  self->set_down_handler(
+      [self](const caf::down_msg& down) { self->quit(down.reason); });
+  return {
+      [self](const state_query&) { return state_of(describe(self->state)); },
+      [](const prepare_image& x) { return prepare(x); },
+      [self](const start_container& x) { return start(self, x); },
+      [self](const stop_container& x) { return stop(self, x); },
+      [self](const remove_container& x) { return remove(self, x); },
+      [self](const adopt_container& x) { return adopt(self, x); },
+      [self](const log_query& x) { return read_log(self, x); },
+      [self](const program_ended& x) { on_end(self, x); },
+      [self](const log_grown& x) { serve_followers(self, x.instance); },
+      [self](caf::tick_atom, uint64_t number) {
+        if (self->state.timer.rings(number))
+          on_alarm(self);
+      },
+  };
+}
+
+} // namespace roscell

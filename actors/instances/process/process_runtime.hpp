@@ -1,0 +1,67 @@
+#pragma once
+
+#include "actors/house/alarm.hpp"
+#include "actors/house/house.hpp"
+#include "actors/instances/process/process_instance.hpp"
+#include "messages/type_ids.hpp"
+
+#include <caf/typed_response_promise.hpp>
+
+#include <chrono>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace roscell {
+
+/// How far the ending of a program has gone.
+enum class ending { none, asked, killed, shim_killed };
+
+/// One instance of the process runtime.
+struct running_process {
+  process_instance process;
+  child_watch watch;
+  ending stage = ending::none;
+  /// When the next stage begins.
+  std::optional<alarm::time_point> next_stage;
+  std::vector<caf::typed_response_promise<container_stopped>> stoppers;
+  std::vector<caf::typed_response_promise<container_removed>> removers;
+};
+
+/// Someone who waits for more of a log.
+struct log_follower {
+  log_query query;
+  alarm::time_point until;
+  caf::typed_response_promise<log_excerpt> promise;
+};
+
+struct followed_log {
+  fd_watch watch;
+  std::vector<log_follower> followers;
+};
+
+/// Owns the shims of the process instances. It blocks on processes and the
+/// disk, so it is spawned detached. Ends with its listener.
+struct process_runtime_state {
+  static constexpr const char* name = "process-runtime";
+
+  /// Followers of logs at a time. Who comes later is answered at once.
+  static constexpr size_t max_followers = 64;
+
+  /// From one stage of ending to the next, once force is used.
+  static constexpr std::chrono::seconds force_interval{2};
+
+  process_runtime_config config;
+  container_listener_actor listener;
+  std::map<std::string, running_process> processes;
+  std::map<std::string, followed_log> logs;
+  alarm timer;
+};
+
+/// The PROCESS RUNTIME. Messages: messages/runtime.hpp.
+process_runtime_actor::behavior_type process_runtime(
+    process_runtime_actor::stateful_pointer<process_runtime_state> self,
+    const process_runtime_config& config, container_listener_actor listener);
+
+} // namespace roscell

@@ -1,0 +1,66 @@
+#pragma once
+
+#include "actors/house/house.hpp"
+#include "messages/skill.hpp"
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace roscell {
+
+/// A skill that this node can run.
+struct skill_folder {
+  std::filesystem::path path; ///< Absolute, without links.
+  installed_skill skill;
+};
+
+/// Why a folder below a skill directory is no skill.
+struct skill_problem {
+  std::string path;    ///< File or folder it is about.
+  std::string where;   ///< JSON pointer into that file, may be empty.
+  std::string message; ///< What is wrong, one sentence.
+};
+
+/// The skills of a node, by content hash. Filled once and then only read, so
+/// that actors can share it.
+class skill_catalogue {
+public:
+  /// Skills that one directory may hold.
+  static constexpr size_t max_skills = 1024;
+
+  /// Longest descriptor that is read, in bytes.
+  static constexpr size_t max_descriptor_bytes = 1024 * 1024;
+
+  /// Reads every sub-folder with a `skill.json`. A bad one is left out, and
+  /// the others stay. Blocks on the disk: not for a scheduled actor.
+  static skill_catalogue scan(const std::vector<std::filesystem::path>& dirs);
+
+  /// Null if there is none with that hash.
+  const skill_folder* find(const std::string& hash) const;
+
+  /// In the order of their hashes.
+  std::vector<installed_skill> skills() const;
+
+  const std::vector<skill_problem>& problems() const {
+    return problems_;
+  }
+
+  /// Records a fact for every problem.
+  void tell_problems(const house& context) const;
+
+private:
+  void scan_directory(const std::filesystem::path& directory);
+  void add_folder(const std::filesystem::path& folder);
+  void blame(const std::filesystem::path& path, const std::string& message,
+             std::string where = {});
+
+  std::map<std::string, skill_folder> skills_;
+  std::vector<skill_problem> problems_;
+};
+
+using shared_skill_catalogue = std::shared_ptr<const skill_catalogue>;
+
+} // namespace roscell

@@ -1,0 +1,116 @@
+#include "actors/instances/skill_instance.hpp"
+
+#include "actors/instances/instance_environment.hpp"
+#include "actors/instances/instance_words.hpp"
+#include "actors/instances/skill_instance_steps.hpp"
+
+#include <utility>
+
+namespace roscell {
+
+namespace {
+
+using self_pointer = skill_instance_pointer;
+
+using limits = skill_instance_state;
+
+void on_start(self_pointer self) {
+  auto& st = self->state;
+  if (std::exchange(st.begun, true))
+    return;
+  st.config.adopt ? adopt(self) : begin_anew(self);
+}
+
+void on_stop(self_pointer self, const std::string& reason) {
+  auto& st = self->state;
+  const auto before_container = !st.config.adopt && st.row.container.empty()
+                                && st.row.state < instance_state::starting;
+  if (st.concluding || (st.begun && st.row.state == instance_state::stopping))
+    return;
+  st.begun = true;
+  if (before_container)
+    conclude(self, instance_state::stopped, reason);
+  else
+    take_down(self, instance_state::stopped, reason);
+}
+
+void on_notified(self_pointer self, const instance_notified& x) {
+  auto& st = self->state;
+  if (st.concluding)
+    return;
+  if (x.ready && st.row.state == instance_state::starting) {
+    st.ready = true;
+    // Else the runtime's answer is still on its way.
+    if (!st.row.container.empty())
+      return on_running(self);
+  }
+  if (x.alive && st.row.state == instance_state::running)
+    limit(self, watchdog_interval);
+}
+
+void on_exited(self_pointer self, const container_exited& x) {
+  auto& st = self->state;
+  if (st.concluding || x.container != st.row.container)
+    return;
+  st.row.exit_code = x.exit_code;
+  if (st.row.state == instance_state::running && x.exit_code == 0)
+    conclude(self, instance_state::stopped, "finished");
+  else if (st.row.state == instance_state::running)
+    conclude(self, instance_state::failed,
+             "it ended " + exit_words(x.exit_code));
+  else if (st.row.state == instance_state::starting)
+    conclude(self, instance_state::failed,
+             "it ended " + exit_words(x.exit_code) + " before it was ready");
+}
+
+void on_alarm(self_pointer self) {
+  using std::to_string;
+  auto& st = self->state;
+  if (!st.deadline)
+    return;
+  if (self->clock().now() < *st.deadline)
+    return st.timer.set(self, *st.deadline);
+  if (st.row.state == instance_state::running)
+    // What hangs does not listen, so force comes at once.
+    take_down(self, instance_state::failed,
+              "no sign of life for " + to_string(watchdog_interval.count())
+                  + " s",
+              std::chrono::milliseconds{0});
+  else
+    take_down(self, instance_state::failed,
+              "it was not ready within "
+                  + to_string(limits::ready_limit.count()) + " s");
+}
+
+json describe(const skill_instance_state& st) {
+  return {{"instance", st.row.spec.instance},
+          {"task", st.row.spec.task},
+          {"state", to_string(st.row.state)},
+          {"container", st.row.container},
+          {"phase", st.phase}};
+}
+
+} // namespace
+
+skill_instance_actor::behavior_type
+skill_instance(self_pointer self, const skill_instance_config& config) {
+  self->state.config = config;
+  self->state.row = config.row;
+  self->monitor(config.supervisor);
+  // The program goes on, and the next supervisor adopts it.
+  self->set_down_handler(
+      [self](const caf::down_msg& down) { self->quit(down.reason); });
+  return {
+      [self](const state_query&) { return state_of(describe(self->state)); },
+      [self](const start_instance&) { on_start(self); },
+      [self](const stop_instance& x) { on_stop(self, x.reason); },
+      [self](const container_exited& x) { on_exited(self, x); },
+      [self](const instance_notified& x) { on_notified(self, x); },
+      [self](caf::tick_atom, uint64_t number) {
+        if (self->state.timer.rings(number))
+          on_alarm(self);
+      },
+  };
+}
+
+} // namespace roscell

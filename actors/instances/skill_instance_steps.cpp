@@ -1,0 +1,161 @@
+#include "actors/instances/skill_instance_steps.hpp"
+
+#include "actors/edge/io/utf8.hpp"
+#include "actors/house/wall_clock.hpp"
+#include "actors/instances/instance_environment.hpp"
+#include "actors/instances/instance_words.hpp"
+#include "messages/failure.hpp"
+
+#include <caf/send.hpp>
+
+namespace roscell {
+
+using self_pointer = skill_instance_pointer;
+
+using limits = skill_instance_state;
+
+std::string sentence(const caf::error& error) {
+  const auto why = to_failure(error);
+  return why.hint.empty() ? why.message : why.message + " (" + why.hint + ")";
+}
+
+std::string log_tail_of(const caf::error& error) {
+  const auto details = json::parse(to_failure(error).details, nullptr, false);
+  return details.is_object() ? details.value("log_tail", "") : std::string{};
+}
+
+void record_event(self_pointer self, const char* fact) {
+  const auto& st = self->state;
+  const auto& row = st.row;
+  json data{{"task", row.spec.task},
+            {"step", row.spec.step},
+            {"state", to_string(row.state)}};
+  if (!row.reason.empty())
+    data["reason"] = row.reason;
+  if (row.exit_code >= 0)
+    data["exit_code"] = row.exit_code;
+  st.config.context.tell(fact, row.spec.instance, data);
+}
+
+void report(self_pointer self) {
+  self->send(self->state.config.supervisor, instance_changed{self->state.row});
+}
+
+namespace {
+
+void set_state(self_pointer self, instance_state next,
+               const std::string& reason) {
+  auto& st = self->state;
+  ++st.phase;
+  st.deadline.reset();
+  st.row.state = next;
+  st.row.since_unix_ms = unix_now_ms();
+  // It may quote a path, which may have any bytes.
+  st.row.reason = valid_utf8(reason.substr(0, limits::reason_bytes));
+  record_event(self, "instance_changed");
+}
+
+} // namespace
+
+void enter(self_pointer self, instance_state next, const std::string& reason) {
+  set_state(self, next, reason);
+  report(self);
+}
+
+void limit(self_pointer self, std::chrono::milliseconds span) {
+  auto& st = self->state;
+  st.deadline = self->clock().now() + span;
+  st.timer.set(self, *st.deadline);
+}
+
+store_record record_of(const instance_row& row) {
+  const json value = row;
+  return {"instances", row.spec.instance,
+          value.dump(-1, ' ', false, json::error_handler_t::replace)};
+}
+
+namespace {
+
+void finish(self_pointer self, instance_state last, const std::string& reason) {
+  set_state(self, last, reason);
+  // Before the report, after which the supervisor may remove the record.
+  // Without a sender: nobody is left to read the answer.
+  caf::anon_send(self->state.config.store, record_of(self->state.row));
+  report(self);
+  self->quit();
+}
+
+} // namespace
+
+void conclude(self_pointer self, instance_state last,
+              const std::string& reason) {
+  auto& st = self->state;
+  ++st.phase;
+  st.deadline.reset();
+  st.concluding = true;
+  if (last == instance_state::stopped)
+    return finish(self, last, reason);
+  log_query query;
+  query.instance = st.row.spec.instance;
+  ask<log_excerpt>(
+      self, st.config.runtime, limits::disk_limit, query,
+      [=](const log_excerpt& log) {
+        if (!log.text.empty())
+          self->state.row.log_tail =
+              last_bytes(log.text, limits::log_tail_bytes);
+        finish(self, last, reason);
+      },
+      [=](const caf::error&) { finish(self, last, reason); });
+}
+
+void take_down(self_pointer self, instance_state last,
+               const std::string& reason, std::chrono::milliseconds grace) {
+  auto& st = self->state;
+  enter(self, instance_state::stopping, reason);
+  ask<container_stopped>(
+      self, st.config.runtime, grace + limits::stop_limit,
+      stop_container{st.row.spec.instance, st.row.container, grace.count()},
+      [=](const container_stopped& x) {
+        self->state.row.exit_code = x.exit_code;
+        conclude(self, last, reason);
+      },
+      [=](const caf::error& error) {
+        conclude(self, instance_state::failed,
+                 reason + "; it could not be ended: " + sentence(error));
+      });
+}
+
+namespace {
+
+/// Writes how things stand. A restarted node finds the program without it,
+/// only less of its story, so a failure is no reason to end the program.
+void note(self_pointer self) {
+  auto& st = self->state;
+  const auto context = st.config.context;
+  const auto instance = st.row.spec.instance;
+  self->request(st.config.store, limits::disk_limit, record_of(st.row))
+      .then([](const record_stored&) {},
+            [=](const caf::error& error) {
+              context.tell("store_failed", instance,
+                           {{"message", valid_utf8(sentence(error))}});
+            });
+}
+
+} // namespace
+
+void on_running(self_pointer self) {
+  enter(self, instance_state::running);
+  limit(self, watchdog_interval);
+  note(self);
+}
+
+void on_started(self_pointer self, const std::string& container) {
+  self->state.row.container = container;
+  if (self->state.ready)
+    return on_running(self);
+  report(self);
+  limit(self, limits::ready_limit);
+  note(self);
+}
+
+} // namespace roscell

@@ -1,0 +1,196 @@
+#include "actors/membership/discovery.hpp"
+
+#include "actors/edge/dds/announcement.hpp"
+#include "actors/edge/io/socket_address.hpp"
+#include "messages/failure.hpp"
+
+#include <caf/actor_cast.hpp>
+
+#include <algorithm>
+#include <cctype>
+#include <utility>
+
+namespace roscell {
+
+namespace {
+
+using self_pointer = discovery_actor::stateful_pointer<discovery_state>;
+
+/// As the schemas bound names and UUIDs.
+constexpr size_t max_name_bytes = 63;
+
+/// Whether this version can talk to who announces this. Coordinators of
+/// another version are told of as an event.
+bool speaks_with(const house& context, const announcement& said) {
+  if (said.protocol_version.substr(0, 2) == "1.")
+    return true;
+  if (said.role == "coordinator")
+    context.tell("coordinator_ignored", said.node,
+                 {{"protocol_version", said.protocol_version},
+                  {"reason", "this node speaks version 1.0"}});
+  return false;
+}
+
+bool is_name(const std::string& text) {
+  const auto is_fine = [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '_' || c == '.' || c == '-';
+  };
+  return !text.empty() && text.size() <= max_name_bytes
+         && std::isalnum(static_cast<unsigned char>(text.front())) != 0
+         && std::all_of(text.begin(), text.end(), is_fine);
+}
+
+bool is_uuid(const std::string& text) {
+  const auto is_fine = [](unsigned char c) {
+    return std::isxdigit(c) != 0 || c == '-';
+  };
+  return !text.empty() && text.size() <= max_name_bytes
+         && std::all_of(text.begin(), text.end(), is_fine);
+}
+
+/// Whether a stranger's words can be what they claim to be: they end up in
+/// replies, which have schemas.
+bool is_sound(const announcement& said) {
+  const bool coordinates = said.role == "coordinator";
+  const bool free = said.role == "independent" || said.role == "orphaned";
+  if (!coordinates && !free)
+    return false;
+  if (!is_name(said.node) || !is_uuid(said.uuid)
+      || !parse_socket_address(said.session))
+    return false;
+  return coordinates
+             ? is_name(said.cell) && parse_socket_address(said.discovery)
+             : said.cell.empty() || is_name(said.cell);
+}
+
+/// On a thread of Fast DDS: tells of the coordinator behind a server.
+void on_server(const house& context, const discovery_listener_actor& listener,
+               const server_sighting& sighting) {
+  const auto said = decode(sighting.announcement);
+  if (!said || said->role != "coordinator" || !speaks_with(context, *said))
+    return;
+  caf::anon_send(listener, coordinator_found{said->cell, said->node,
+                                             said->session, said->incarnation});
+}
+
+caf::error to_caf(const edge_error& why) {
+  return fail(why.code, why.message, "", why.hint);
+}
+
+caf::result<caf::ok_atom> find(self_pointer self,
+                               const find_coordinator& wish) {
+  auto& st = self->state;
+  const auto server = parse_socket_address(wish.address);
+  if (!server)
+    return fail(error_code::unreachable, "'" + wish.address
+                                             + "' is not an address like "
+                                               "10.0.0.1:11811");
+  st.client.reset();
+  st.looking_for = wish.address;
+  announcement self_said;
+  self_said.role = "member";
+  self_said.node = st.config.node;
+  self_said.uuid = st.config.uuid;
+  cell_client_options options;
+  options.server_address = server->address;
+  options.server_port = server->port;
+  options.address = st.config.address;
+  options.domain_id = st.config.domain_id;
+  options.announcement = encode(self_said);
+  cell_client_events events;
+  events.on_server =
+      [context = st.context,
+       listener = caf::actor_cast<discovery_listener_actor>(
+           self->current_sender())](const server_sighting& sighting) {
+        on_server(context, listener, sighting);
+      };
+  auto opened = cell_client::open(options, std::move(events));
+  if (auto* why = std::get_if<edge_error>(&opened))
+    return to_caf(*why);
+  st.client = std::get<std::unique_ptr<cell_client>>(std::move(opened));
+  return caf::ok_atom_v;
+}
+
+void forget(self_pointer self) {
+  self->state.client.reset();
+  self->state.looking_for.clear();
+}
+
+node_presence to_presence(const announcement& said) {
+  return {said.role, said.node,    said.uuid,      said.epoch, said.incarnation,
+          said.cell, said.session, said.discovery, said.server};
+}
+
+announcement to_announcement(const node_presence& x) {
+  announcement result;
+  result.role = x.role;
+  result.node = x.name;
+  result.uuid = x.uuid;
+  result.epoch = x.epoch;
+  result.incarnation = x.incarnation;
+  result.cell = x.cell;
+  result.session = x.address;
+  result.discovery = x.discovery_server;
+  result.server = x.server_id;
+  return result;
+}
+
+/// Opens the public participant. Who cannot announce itself goes on without:
+/// it can still join by an address.
+void appear(self_pointer self, const presence_listener_actor& listener) {
+  auto& st = self->state;
+  presence_options options;
+  options.address = st.config.address;
+  options.domain_id = st.config.public_domain_id;
+  options.peers = st.config.peers;
+  options.announcement = st.announced;
+  presence_events events;
+  events.on_seen = [context = st.context, listener](const announcement& said) {
+    if (is_sound(said) && speaks_with(context, said))
+      caf::anon_send(listener, presence_seen{to_presence(said)});
+  };
+  events.on_gone = [listener](const announcement& said) {
+    caf::anon_send(listener, presence_gone{to_presence(said)});
+  };
+  auto opened = public_presence::open(options, std::move(events));
+  if (auto* why = std::get_if<edge_error>(&opened))
+    return st.context.tell("edge_trouble", st.config.node,
+                           {{"message", why->message}});
+  st.presence = std::get<std::unique_ptr<public_presence>>(std::move(opened));
+}
+
+void announce(self_pointer self, const announce_presence& wish) {
+  auto& st = self->state;
+  st.announced = encode(to_announcement(wish.self));
+  if (st.presence)
+    st.presence->update(st.announced);
+  else
+    appear(self,
+           caf::actor_cast<presence_listener_actor>(self->current_sender()));
+}
+
+void withdraw(self_pointer self) {
+  self->state.presence.reset();
+  self->state.announced.clear();
+}
+
+} // namespace
+
+discovery_actor::behavior_type discovery(self_pointer self,
+                                         const house& context,
+                                         const discovery_config& config) {
+  self->state.context = context;
+  self->state.config = config;
+  return {
+      [self](const state_query&) {
+        return state_of({{"looking_for", self->state.looking_for},
+                         {"announced", self->state.announced}});
+      },
+      [self](const find_coordinator& wish) { return find(self, wish); },
+      [self](const forget_coordinator&) { forget(self); },
+      [self](const announce_presence& wish) { announce(self, wish); },
+      [self](const withdraw_presence&) { withdraw(self); },
+  };
+}
+
+} // namespace roscell

@@ -1,0 +1,45 @@
+#pragma once
+
+#include "actors/edge/dds/discovery_client.hpp"
+#include "actors/edge/dds/public_presence.hpp"
+#include "actors/house/house.hpp"
+#include "messages/type_ids.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace roscell {
+
+struct discovery_config {
+  std::string address; ///< Local IPv4 address.
+  uint32_t domain_id = 0;
+  std::string node; ///< Name, for the announcement.
+  std::string uuid;
+  uint32_t public_domain_id = 99;
+  std::vector<std::string> peers; ///< "ADDR[:PORT]" besides multicast.
+};
+
+/// Owns the participants of a node: its CLIENT, and the public one. Making and
+/// deleting them takes some milliseconds, so this actor is spawned detached.
+struct discovery_state {
+  static constexpr const char* name = "discovery";
+
+  house context;
+  discovery_config config;
+  std::string looking_for;
+  std::unique_ptr<cell_client> client;
+  std::string announced; ///< In wire form; empty: nothing.
+  std::unique_ptr<public_presence> presence;
+};
+
+/// The DISCOVERY edge. Messages: messages/link.hpp. Whoever asks for a
+/// coordinator is told `coordinator_found`, again with each new announcement;
+/// whoever announces itself is told of the others. Events: edge_trouble,
+/// coordinator_ignored.
+discovery_actor::behavior_type
+discovery(discovery_actor::stateful_pointer<discovery_state> self,
+          const house& context, const discovery_config& config);
+
+} // namespace roscell

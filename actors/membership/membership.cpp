@@ -1,0 +1,231 @@
+#include "actors/membership/membership.hpp"
+
+#include "actors/house/session_timeouts.hpp"
+#include "actors/membership/membership_steps.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <utility>
+
+namespace roscell {
+
+namespace membership_steps {
+
+using phase = membership_phase;
+
+void set_timer(self_pointer self) {
+  auto& st = self->state;
+  auto when = st.frames.calls().next_deadline();
+  if (st.session)
+    when = std::min(when, st.life.next());
+  if (st.phase == phase::waiting || st.phase == phase::searching)
+    when = std::min(when, st.deadline);
+  if (when != membership_status::time_point::max())
+    st.timer.set(self, when);
+}
+
+void tell(self_pointer self, const char* what, json data) {
+  const auto& st = self->state;
+  st.context.tell(what, st.config.identity.name, data);
+}
+
+void finish_leaving(self_pointer self) {
+  auto& st = self->state;
+  ++st.attempt;
+  st.phase = phase::resting;
+  drop_session(self, "it leaves the cell");
+  self->send(st.parts.discovery, forget_coordinator{});
+  st.standing = node_state::independent;
+  st.switching.reset();
+  if (auto cell = std::exchange(st.cell, {}); !cell.empty())
+    tell(self, "cell_left", {{"cell", cell}});
+  st.coordinator.clear();
+  st.address.clear();
+  st.incarnation = 0;
+  st.trouble.clear();
+  st.refusal.clear();
+  st.pause.reset();
+  for (auto& leaver : std::exchange(st.leavers, {}))
+    leaver.deliver(node_departed{});
+  if (!st.wanted.empty())
+    begin_attempt(self);
+  else
+    withdraw_presence_now(self);
+}
+
+} // namespace membership_steps
+
+namespace {
+
+using namespace membership_steps;
+
+/// Tells the coordinator, if there is one, and then leaves.
+void leave(self_pointer self, const std::string& reason) {
+  auto& st = self->state;
+  if (st.phase == phase::leaving)
+    return;
+  if (st.phase != phase::joined)
+    return finish_leaving(self);
+  st.phase = phase::leaving;
+  st.frames.call(message_json(node_departure{reason}),
+                 self->clock().now() + departure_timeout,
+                 [self](const caf::expected<json>&) {
+                   if (self->state.phase == phase::leaving)
+                     finish_leaving(self);
+                 });
+  set_timer(self);
+}
+
+caf::result<node_departed> on_leave(self_pointer self, const leave_cell& wish) {
+  auto promise = self->make_response_promise<node_departed>();
+  self->state.leavers.push_back(promise);
+  self->state.wanted.clear();
+  self->state.seeking = false;
+  leave(self, wish.reason);
+  return promise;
+}
+
+void on_join(self_pointer self, const join_cell& wish) {
+  auto& st = self->state;
+  const bool same = st.wanted == wish.discovery_server;
+  st.wanted = wish.discovery_server;
+  if (!same)
+    st.origin = join_origin::given;
+  if (st.phase == phase::leaving)
+    return; // Done once it has left.
+  if (st.phase == phase::resting || (same && st.phase == phase::waiting)) {
+    st.pause.reset();
+    begin_attempt(self);
+  } else if (!same) {
+    leave(self, "it goes to another cell");
+  }
+}
+
+void on_seek(self_pointer self) {
+  auto& st = self->state;
+  st.seeking = true;
+  if (st.phase == phase::resting)
+    seek_place(self);
+}
+
+/// Takes up what an earlier run has stored, if the node is started as then.
+void resume(self_pointer self) {
+  auto& st = self->state;
+  st.stored = st.config.restored;
+  if (!takes_up_earlier_cell(st.config)) {
+    if (st.config.configured == "wait")
+      show_presence(self);
+    return;
+  }
+  if (st.stored->discovery_server.empty())
+    return show_presence(self);
+  st.wanted = st.stored->discovery_server;
+  st.origin = st.stored->origin;
+  st.cell = st.stored->cell;
+  st.standing = node_state::orphaned;
+  begin_attempt(self);
+}
+
+void on_instance_changed(self_pointer self, const instance_changed& fact) {
+  auto& st = self->state;
+  // A registration carries all that was before it.
+  if (st.phase == phase::joined || st.phase == phase::leaving)
+    notify(self, fact);
+  else if (st.phase == phase::registering && st.instances)
+    st.unsent[fact.instance.spec.instance] = fact;
+}
+
+void on_tick(self_pointer self, uint64_t number) {
+  auto& st = self->state;
+  if (!st.timer.rings(number))
+    return;
+  const auto now = self->clock().now();
+  if (st.phase == phase::waiting && now >= st.deadline)
+    try_again(self);
+  else if (st.phase == phase::searching && now >= st.deadline)
+    on_search_over(self);
+  st.frames.calls().expire(now);
+  keep_lease(self);
+  set_timer(self);
+}
+
+actor_state describe(const membership_status& st) {
+  return state_of({{"standing", st.standing},
+                   {"phase", st.phase},
+                   {"wanted", st.wanted},
+                   {"origin", st.origin},
+                   {"seeking", st.seeking},
+                   {"visible_coordinators", st.coordinators.size()},
+                   {"cell", st.cell},
+                   {"coordinator", st.coordinator},
+                   {"address", st.address},
+                   {"incarnation", st.incarnation},
+                   {"epoch", st.config.identity.epoch},
+                   {"attempt", st.attempt},
+                   {"trouble", st.trouble},
+                   {"pending_calls", st.frames.calls().pending()}});
+}
+
+membership_state answer(const membership_status& st) {
+  return {st.config.identity, st.standing, st.cell, st.address};
+}
+
+} // namespace
+
+bool takes_up_earlier_cell(const membership_config& config) {
+  return config.restored && config.restored->configured == config.configured;
+}
+
+membership_actor::behavior_type membership(self_pointer self, house context,
+                                           membership_parts parts,
+                                           membership_config config) {
+  auto& st = self->state;
+  st.pause = backoff{
+      static_cast<uint32_t>(std::hash<std::string>{}(config.identity.uuid))};
+  st.context = std::move(context);
+  st.parts = std::move(parts);
+  st.config = std::move(config);
+  self->set_down_handler([self](const caf::down_msg& down) {
+    if (self->state.session && down.source == self->state.session)
+      on_session_lost(self, "the session has failed");
+  });
+  resume(self);
+  return {
+      [self](const state_query&) { return describe(self->state); },
+      [self](const membership_query&) { return answer(self->state); },
+      [self](const join_cell& wish) { on_join(self, wish); },
+      [self](const seek_cell&) { on_seek(self); },
+      [self](const registration_query&) { return make_challenge(self); },
+      [self](const registration_switch& order) {
+        auto promise = self->make_response_promise<switch_accepted>();
+        on_proven_switch(self, order,
+                         [promise](caf::expected<switch_accepted> x) mutable {
+                           if (x)
+                             promise.deliver(*x);
+                           else
+                             promise.deliver(x.error());
+                         });
+        return promise;
+      },
+      [self](const leave_cell& wish) { return on_leave(self, wish); },
+      [self](const coordinator_found& found) { on_found(self, found); },
+      [self](const presence_seen& x) { on_presence_seen(self, x.who); },
+      [self](const presence_gone& x) { on_presence_gone(self, x.who); },
+      [self](const instance_changed& fact) { on_instance_changed(self, fact); },
+      [self](const frame_received& frame) {
+        if (is_from_session(self))
+          on_frame(self, frame);
+      },
+      [self](const beat_received& beat) {
+        if (is_from_session(self))
+          on_beat(self, beat);
+      },
+      [self](const session_closed& fact) {
+        if (is_from_session(self))
+          on_session_lost(self, fact.reason);
+      },
+      [self](caf::tick_atom, uint64_t number) { on_tick(self, number); },
+  };
+}
+
+} // namespace roscell

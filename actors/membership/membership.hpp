@@ -1,0 +1,146 @@
+#pragma once
+
+#include "actors/edge/session/registration_proof.hpp"
+#include "actors/house/alarm.hpp"
+#include "actors/house/backoff.hpp"
+#include "actors/house/house.hpp"
+#include "actors/session/lease.hpp"
+#include "actors/session/session_exchange.hpp"
+#include "messages/type_ids.hpp"
+
+#include <caf/typed_response_promise.hpp>
+
+#include <array>
+#include <chrono>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace roscell {
+
+/// Whom a membership works with on its node.
+struct membership_parts {
+  discovery_actor discovery;
+  session_connector_actor connector;
+  node_agent_actor agent; ///< Does what the coordinator asks for.
+  container_supervisor_actor supervisor;
+  state_store_actor store;
+  resource_probe_actor probe; ///< Gets a mark with every beat; may be invalid.
+};
+
+/// What a membership is told at its start.
+struct membership_config {
+  node_identity identity; ///< With the epoch that was stored last.
+  std::vector<installed_skill> skills;
+  /// As an earlier run has stored it. One of a cell is taken up at once.
+  std::optional<membership_record> restored;
+  std::string configured; ///< How the node is started now; see the record.
+  std::string site_token; ///< Proves switches; empty: none is installed.
+};
+
+/// Whether the node goes on where an earlier run of it was: it is started in
+/// the same way as then.
+bool takes_up_earlier_cell(const membership_config& config);
+
+/// What the membership is doing; `node_state` is what others see of it. The
+/// diagram is in docs/protocols.md.
+enum class membership_phase {
+  resting,     ///< No cell is wanted.
+  waiting,     ///< Until the next attempt.
+  asking,      ///< A coordinator for a place.
+  searching,   ///< For the discovery server.
+  opening,     ///< Storing the new epoch, then opening a session.
+  registering, ///< The session is there.
+  joined,
+  accepting, ///< A switch is being written down.
+  leaving,   ///< Still joined; the coordinator is being told.
+};
+
+constexpr auto enum_words(membership_phase) {
+  return std::array<std::string_view, 9>{
+      "resting",     "waiting", "asking",    "searching", "opening",
+      "registering", "joined",  "accepting", "leaving"};
+}
+
+/// A switch to another cell, and what the node goes back to if it fails.
+struct switch_attempt {
+  registration_switch order;
+  node_state standing = node_state::independent;
+  std::string wanted;
+  join_origin origin = join_origin::given;
+};
+
+/// Owns the node's belonging to a cell.
+struct membership_status {
+  static constexpr const char* name = "membership";
+
+  using time_point = std::chrono::steady_clock::time_point;
+
+  house context;
+  membership_parts parts;
+  membership_config config;
+
+  node_state standing = node_state::independent;
+  membership_phase phase = membership_phase::resting;
+  std::string wanted;                      ///< Discovery server; empty: none.
+  join_origin origin = join_origin::given; ///< Why that one.
+  bool seeking = false; ///< Wants a place wherever there is one.
+
+  /// The coordinators that are visible, by UUID, and those of them that did
+  /// not answer lately.
+  std::map<std::string, node_presence> coordinators;
+  std::set<std::string> silent;
+  std::string asked;                  ///< The one that is asked for a place.
+  std::optional<node_presence> shown; ///< What the node announces.
+
+  registration_challenges challenges;
+  std::optional<switch_attempt> switching;
+  std::string last_switch; ///< Its transfer.
+  std::optional<membership_record> stored;
+
+  /// The cell that the node is in, or was when it was orphaned.
+  std::string cell;
+  std::string coordinator; ///< Its name.
+  std::string address;     ///< Of its HTTP port.
+  int64_t incarnation = 0;
+  time_point joined_at;
+
+  /// Counts attempts, so that answers to an earlier one can be told.
+  uint64_t attempt = 0;
+  time_point deadline; ///< Of `waiting` and `searching`.
+  backoff pause;
+  std::string trouble; ///< Why the last attempt failed.
+  std::string refusal; ///< The last one that was told as an event.
+
+  /// What an attempt has gathered so far.
+  std::optional<coordinator_found> older; ///< Found, with an old incarnation.
+  std::string found_address;
+  std::optional<session_opened> opened;
+  std::optional<node_resources> resources;
+  std::optional<std::vector<instance_row>> instances;
+  bool registration_sent = false;
+  /// Changes since `instances` were asked for, by instance.
+  std::map<std::string, instance_changed> unsent;
+
+  session_actor session; ///< Valid while `asking`, and from `registering` on.
+  lease life;
+  session_exchange frames;
+  alarm timer;
+
+  std::vector<caf::typed_response_promise<node_departed>> leavers;
+};
+
+/// The MEMBERSHIP. Messages: messages/membership.hpp. Events: cell_joined,
+/// cell_left, coordinator_lost, join_refused, switch_accepted, switch_failed,
+/// each about this node. It stores its identity in table "identity" under the
+/// key "node" before every registration and every switch, with the epoch
+/// raised, and its `membership_record` under the key "membership" when it
+/// changes.
+membership_actor::behavior_type
+membership(membership_actor::stateful_pointer<membership_status> self,
+           house context, membership_parts parts, membership_config config);
+
+} // namespace roscell

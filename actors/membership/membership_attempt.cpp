@@ -1,0 +1,292 @@
+#include "actors/house/session_timeouts.hpp"
+#include "actors/membership/membership_steps.hpp"
+
+#include <utility>
+
+namespace roscell::membership_steps {
+
+namespace {
+
+using phase = membership_phase;
+
+/// How long a discovery server is looked for before the next pause.
+constexpr session_duration search_span{5000};
+
+/// A coordinator that has refused once is unlikely to change its mind soon.
+constexpr session_duration refusal_pause{30'000};
+
+/// Longer than the handshake's own limit.
+constexpr session_duration open_timeout{10'000};
+
+constexpr session_duration local_timeout{5000};
+
+bool is_refusal(error_code code) {
+  return code == error_code::unauthorized || code == error_code::conflict
+         || code == error_code::unknown_cell
+         || code == error_code::schema_violation
+         || code == error_code::unknown_type;
+}
+
+/// The handler for errors of a request that the present attempt needs.
+auto give_up(self_pointer self) {
+  return [self, attempt = self->state.attempt](const caf::error& why) {
+    if (self->state.attempt == attempt && self->state.phase != phase::joined
+        && self->state.phase != phase::leaving)
+      on_error(self, why);
+  };
+}
+
+// -- registering -------------------------------------------------------------
+
+void on_registered(self_pointer self, const node_registered& reply) {
+  auto& st = self->state;
+  if (reply.incarnation != st.opened->incarnation)
+    return attempt_failed(self, "the coordinator has started again meanwhile");
+  st.phase = phase::joined;
+  st.standing = node_state::member;
+  st.cell = reply.cell;
+  st.coordinator = reply.coordinator;
+  st.incarnation = reply.incarnation;
+  st.address = st.found_address;
+  st.joined_at = self->clock().now();
+  st.trouble.clear();
+  st.refusal.clear();
+  st.switching.reset();
+  withdraw_presence_now(self);
+  store_membership(self);
+  tell(self, "cell_joined",
+       {{"cell", st.cell},
+        {"coordinator", st.coordinator},
+        {"incarnation", st.incarnation},
+        {"epoch", st.config.identity.epoch}});
+  apply(self, reply.verdicts);
+  for (const auto& [instance, fact] : std::exchange(st.unsent, {}))
+    notify(self, fact);
+}
+
+node_registration registration_of(const membership_status& st) {
+  node_registration result;
+  result.identity = st.config.identity;
+  result.incarnation = st.opened->incarnation;
+  result.resources = *st.resources;
+  result.resources.name = st.config.identity.name;
+  result.skills = st.config.skills;
+  result.instances = *st.instances;
+  result.origin = st.origin;
+  if (st.switching)
+    result.transfer = st.switching->order.transfer;
+  for (auto& row : result.instances) {
+    row.node = st.config.identity.name;
+    // Hundreds of them would not fit into one frame.
+    row.log_tail.clear();
+  }
+  return result;
+}
+
+/// Registers once all that it takes is there.
+void maybe_register(self_pointer self) {
+  auto& st = self->state;
+  if (st.phase != phase::registering || !st.resources || !st.instances
+      || std::exchange(st.registration_sent, true))
+    return;
+  auto on_result = [self](caf::expected<json> body) {
+    // The calls of a session end with it, so this one is the present one.
+    auto reply = body ? reply_as<node_registered>(*body) : body.error();
+    if (self->state.phase != phase::registering)
+      return;
+    if (reply)
+      on_registered(self, *reply);
+    else
+      on_error(self, reply.error());
+  };
+  st.frames.call(message_json(registration_of(st)),
+                 self->clock().now() + registration_timeout, on_result);
+  set_timer(self);
+}
+
+/// The only cell that this attempt may end in; empty: any.
+std::string expected_cell(const membership_status& st) {
+  if (st.switching)
+    return st.switching->order.target.front().cell;
+  return st.standing == node_state::orphaned ? st.cell : std::string{};
+}
+
+void on_opened(self_pointer self, const session_opened& reply) {
+  auto& st = self->state;
+  const auto expected = expected_cell(st);
+  if (!expected.empty() && reply.cell != expected) {
+    self->send(reply.session, close_session{"this node is of another cell"});
+    return attempt_refused(self, "cell '" + reply.cell
+                                     + "' has taken the place of '" + expected
+                                     + "'");
+  }
+  st.opened = reply;
+  st.phase = phase::registering;
+  take_session(self, reply.session);
+  self->request(st.parts.supervisor, local_timeout, instance_query{})
+      .then(
+          [self, attempt = st.attempt](const instance_description& rows) {
+            if (!is_current(self, attempt, phase::registering))
+              return;
+            self->state.instances = rows.instances;
+            maybe_register(self);
+          },
+          give_up(self));
+}
+
+// -- opening -----------------------------------------------------------------
+
+void open(self_pointer self, const node_identity& who) {
+  auto& st = self->state;
+  st.config.identity = who;
+  self->request(st.parts.connector, open_timeout,
+                open_session{st.found_address, who})
+      .then(
+          [self, attempt = st.attempt](const session_opened& reply) {
+            if (is_current(self, attempt, phase::opening))
+              on_opened(self, reply);
+            else
+              self->send(reply.session, close_session{"not wanted any more"});
+          },
+          give_up(self));
+}
+
+/// A registration must not be taken for an earlier one of this node, not even
+/// after a crash: the epoch is on disk before it is used.
+void raise_epoch(self_pointer self) {
+  auto& st = self->state;
+  auto raised = st.config.identity;
+  ++raised.epoch;
+  self->request(st.parts.store, local_timeout,
+                store_record{"identity", "node", json(raised).dump()})
+      .then(
+          [self, raised, attempt = st.attempt](const record_stored&) {
+            if (is_current(self, attempt, phase::opening))
+              open(self, raised);
+          },
+          give_up(self));
+}
+
+void approach(self_pointer self, const coordinator_found& found) {
+  auto& st = self->state;
+  st.phase = phase::opening;
+  st.found_address = found.address;
+  raise_epoch(self);
+  set_timer(self);
+}
+
+/// Announcements linger: one may still be of the coordinator's earlier life.
+bool is_older(const membership_status& st, const coordinator_found& found) {
+  return found.cell == st.cell && found.coordinator == st.coordinator
+         && found.incarnation < st.incarnation;
+}
+
+} // namespace
+
+bool is_current(self_pointer self, uint64_t attempt, phase where) {
+  return self->state.attempt == attempt && self->state.phase == where;
+}
+
+void retreat(self_pointer self, const std::string& reason,
+             std::chrono::milliseconds pause) {
+  auto& st = self->state;
+  ++st.attempt;
+  st.phase = phase::waiting;
+  st.deadline = self->clock().now() + pause;
+  st.trouble = reason;
+  drop_session(self, reason);
+  self->send(st.parts.discovery, forget_coordinator{});
+  show_presence(self);
+  set_timer(self);
+}
+
+void on_error(self_pointer self, const caf::error& err) {
+  const auto why = to_failure(err);
+  if (is_refusal(why.code))
+    attempt_refused(self, why.message);
+  else
+    attempt_failed(self, why.message);
+}
+
+void try_again(self_pointer self) {
+  if (self->state.wanted.empty())
+    seek_place(self);
+  else
+    begin_attempt(self);
+}
+
+void begin_attempt(self_pointer self) {
+  auto& st = self->state;
+  ++st.attempt;
+  st.phase = phase::searching;
+  st.deadline = self->clock().now() + search_span;
+  if (st.standing == node_state::independent)
+    st.standing = node_state::joining;
+  st.older.reset();
+  st.opened.reset();
+  st.resources.reset();
+  st.instances.reset();
+  st.registration_sent = false;
+  st.unsent.clear();
+  self->request(st.parts.discovery, local_timeout, find_coordinator{st.wanted})
+      .then([](caf::ok_atom) {}, give_up(self));
+  // Measuring takes a while; it goes on beside the search.
+  self->request(st.parts.agent, resource_query_timeout - answer_margin,
+                resource_query{})
+      .then(
+          [self, attempt = st.attempt](const resource_report& report) {
+            if (self->state.attempt != attempt)
+              return;
+            self->state.resources = report.resources;
+            maybe_register(self);
+          },
+          give_up(self));
+  set_timer(self);
+}
+
+void on_found(self_pointer self, const coordinator_found& found) {
+  auto& st = self->state;
+  if (st.phase == phase::searching) {
+    if (is_older(st, found))
+      st.older = found;
+    else
+      approach(self, found);
+  } else if (st.phase == phase::joined && found.cell == st.cell
+             && found.coordinator == st.coordinator
+             && found.incarnation > st.incarnation) {
+    on_session_lost(self, "the coordinator has started again");
+  }
+}
+
+void on_search_over(self_pointer self) {
+  auto& st = self->state;
+  // Nothing newer is there: the coordinator has lost its records and counts
+  // anew. Whether it may have the node is decided by the handshake.
+  if (st.older)
+    approach(self, *st.older);
+  else
+    attempt_failed(self, "no coordinator answers at " + st.wanted);
+}
+
+void attempt_failed(self_pointer self, const std::string& reason) {
+  if (give_up_switch(self, reason))
+    return;
+  forget_place(self);
+  retreat(self, reason, self->state.pause.next());
+}
+
+void attempt_refused(self_pointer self, const std::string& reason) {
+  auto& st = self->state;
+  if (give_up_switch(self, reason))
+    return;
+  if (st.standing == node_state::joining)
+    st.standing = node_state::independent;
+  if (st.refusal != reason)
+    tell(self, "join_refused",
+         {{"reason", reason}, {"discovery_server", st.wanted}});
+  st.refusal = reason;
+  forget_place(self);
+  retreat(self, reason, refusal_pause);
+}
+
+} // namespace roscell::membership_steps

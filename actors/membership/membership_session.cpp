@@ -1,0 +1,184 @@
+#include "actors/house/session_timeouts.hpp"
+#include "actors/membership/membership_steps.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace roscell::membership_steps {
+
+namespace {
+
+using phase = membership_phase;
+
+/// Gives a request of the coordinator to the node agent and its answer, or
+/// why there is none, back.
+template <class Reply, class Request>
+void forward(self_pointer self, uint64_t id, const Request& what,
+             session_duration timeout) {
+  auto answer = [self, session = self->state.session.id(), id](json body) {
+    if (self->state.session && self->state.session.id() == session)
+      self->state.frames.answer(id, body);
+  };
+  self->request(self->state.parts.agent, timeout - answer_margin, what)
+      .then([answer](const Reply& reply) { answer(message_json(reply)); },
+            [answer](const caf::error& why) {
+              answer(error_reply(to_failure(why)));
+            });
+}
+
+template <class Reply, class Request>
+void decode_and_forward(self_pointer self, const session_inquiry& x,
+                        session_duration timeout) {
+  auto what = decode<Request>(x.body);
+  if (auto* why = std::get_if<failure>(&what))
+    self->state.frames.answer(*x.id, error_reply(*why));
+  else
+    forward<Reply>(self, *x.id, std::get<Request>(what), timeout);
+}
+
+void forward_log_query(self_pointer self, const session_inquiry& x) {
+  const session_duration wait{x.body.value("wait_ms", int64_t{0})};
+  decode_and_forward<log_excerpt, log_query>(
+      self, x,
+      std::clamp(wait, session_duration{0}, max_log_wait) + log_query_timeout);
+}
+
+/// The coordinator moves this node, or lets it go.
+void on_switch(self_pointer self, const session_inquiry& x) {
+  auto order = decode<registration_switch>(x.body);
+  if (auto* why = std::get_if<failure>(&order))
+    return self->state.frames.answer(*x.id, error_reply(*why));
+  auto reply = [self, session = self->state.session.id(),
+                id = *x.id](const caf::expected<switch_accepted>& outcome) {
+    auto& st = self->state;
+    if (!st.session || st.session.id() != session)
+      return;
+    st.frames.answer(id, outcome ? message_json(*outcome)
+                                 : error_reply(to_failure(outcome.error())));
+  };
+  on_coordinators_switch(self, std::get<registration_switch>(order), reply);
+}
+
+void on_request(self_pointer self, const session_inquiry& x) {
+  const auto type = x.type();
+  if (type == registration_switch::type)
+    return on_switch(self, x);
+  if (type == resource_query::type)
+    decode_and_forward<resource_report, resource_query>(self, x,
+                                                        resource_query_timeout);
+  else if (type == instance_reservation::type)
+    decode_and_forward<instances_reserved, instance_reservation>(
+        self, x, resource_query_timeout);
+  else if (type == instance_deployment::type)
+    decode_and_forward<instance_deployed, instance_deployment>(
+        self, x, deployment_timeout);
+  else if (type == instance_removal::type)
+    decode_and_forward<instances_removed, instance_removal>(self, x,
+                                                            removal_timeout);
+  else if (type == log_query::type)
+    forward_log_query(self, x);
+  else
+    self->state.frames.answer(
+        *x.id, error_reply({error_code::unknown_type,
+                            "a coordinator may not ask for this", "/type"}));
+}
+
+/// Says that the node lives, which is a good moment to look at its CPU too.
+void send_beat_now(self_pointer self, beat_kind kind) {
+  auto& st = self->state;
+  self->send(st.session, send_beat{kind});
+  if (st.parts.probe && kind == beat_kind::beat)
+    self->send(st.parts.probe, mark_sample{});
+}
+
+} // namespace
+
+void take_session(self_pointer self, const session_actor& session) {
+  auto& st = self->state;
+  st.session = session;
+  st.life = lease{lease_side::member, self->clock().now()};
+  st.frames = session_exchange{[self](std::string text) {
+    self->send(self->state.session, send_frame{std::move(text)});
+  }};
+  self->monitor(session);
+  self->send(session, own_session{caf::actor_cast<session_owner_actor>(self)});
+  set_timer(self);
+}
+
+void drop_session(self_pointer self, const std::string& reason) {
+  auto& st = self->state;
+  if (!st.session)
+    return;
+  auto session = std::exchange(st.session, nullptr);
+  self->demonitor(session.address());
+  self->send(session, close_session{reason});
+  // Taken away first: nothing that fails now may send on it.
+  auto frames = std::exchange(st.frames, session_exchange{});
+  frames.calls().fail_all(reason);
+}
+
+bool is_from_session(self_pointer self) {
+  const auto& sender = self->current_sender();
+  const auto& session = self->state.session;
+  return sender && session && sender->id() == session.id();
+}
+
+void on_frame(self_pointer self, const frame_received& frame) {
+  auto& st = self->state;
+  st.life.heard(self->clock().now());
+  auto x = st.frames.receive(frame.text);
+  // A notice of the coordinator has no meaning yet; a later version's may.
+  if (x && x->id)
+    on_request(self, *x);
+  if (st.frames.hopeless())
+    on_session_lost(self, "the coordinator sent frames that make no sense");
+  set_timer(self);
+}
+
+void on_beat(self_pointer self, const beat_received& beat) {
+  if (auto answer = self->state.life.heard_beat(beat.kind, self->clock().now()))
+    send_beat_now(self, *answer);
+}
+
+void on_session_lost(self_pointer self, const std::string& reason) {
+  auto& st = self->state;
+  switch (st.phase) {
+  case phase::asking:
+  case phase::registering:
+    return attempt_failed(self, reason);
+  case phase::accepting:
+    return drop_session(self, reason);
+  case phase::leaving:
+    return finish_leaving(self);
+  case phase::joined:
+    break;
+  default:
+    return;
+  }
+  st.standing = node_state::orphaned;
+  tell(self, "coordinator_lost", {{"cell", st.cell}, {"reason", reason}});
+  // One that lasted ends the series of attempts before it.
+  if (self->clock().now() - st.joined_at >= lease_span)
+    st.pause.reset();
+  attempt_failed(self, reason);
+}
+
+void keep_lease(self_pointer self) {
+  auto& st = self->state;
+  const auto now = self->clock().now();
+  if (!st.session || now < st.life.next())
+    return;
+  const auto next = st.life.due(now);
+  if (next.over)
+    on_session_lost(self, "silent for 8 s");
+  else if (next.send)
+    send_beat_now(self, *next.send);
+}
+
+void notify(self_pointer self, const instance_changed& fact) {
+  auto x = fact;
+  x.instance.node = self->state.config.identity.name;
+  self->state.frames.notify(message_json(x));
+}
+
+} // namespace roscell::membership_steps

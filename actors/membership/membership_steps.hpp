@@ -1,0 +1,95 @@
+#pragma once
+
+#include "actors/membership/membership.hpp"
+
+#include <caf/error.hpp>
+#include <caf/expected.hpp>
+
+#include <chrono>
+#include <functional>
+#include <string>
+
+/// INTERNAL to the membership: the steps that its files share.
+namespace roscell::membership_steps {
+
+using self_pointer = membership_actor::stateful_pointer<membership_status>;
+
+/// Sets the timer to whatever is due first.
+void set_timer(self_pointer self);
+
+/// Tells a fact about this node, with where it concerns.
+void tell(self_pointer self, const char* what, json data);
+
+// -- membership_attempt.cpp: from nothing to joined ---------------------------
+
+void begin_attempt(self_pointer self);
+void on_found(self_pointer self, const coordinator_found& found);
+/// The time of `searching` is over.
+void on_search_over(self_pointer self);
+/// The attempt came to nothing; the next one follows after a pause.
+void attempt_failed(self_pointer self, const std::string& reason);
+/// The coordinator does not want this node; asked again, but slowly.
+void attempt_refused(self_pointer self, const std::string& reason);
+/// What is to be done once the time of `waiting` is over.
+void try_again(self_pointer self);
+/// The present attempt is over; the next one follows after `pause`.
+void retreat(self_pointer self, const std::string& reason,
+             std::chrono::milliseconds pause);
+/// What to do when a request of the present attempt has failed.
+void on_error(self_pointer self, const caf::error& why);
+bool is_current(self_pointer self, uint64_t attempt, membership_phase where);
+
+// -- membership_places.cpp: being seen, seeing others, asking for a place -----
+
+/// Announces the node as independent or orphaned.
+void show_presence(self_pointer self);
+void withdraw_presence_now(self_pointer self);
+void on_presence_seen(self_pointer self, const node_presence& who);
+void on_presence_gone(self_pointer self, const node_presence& who);
+/// Looks for a place, or waits until a coordinator appears.
+void seek_place(self_pointer self);
+/// The place that the node asked for came to nothing.
+void forget_place(self_pointer self);
+
+// -- membership_switch.cpp: from one registration to another ------------------
+
+using switch_reply = std::function<void(caf::expected<switch_accepted>)>;
+
+registration_challenge make_challenge(self_pointer self);
+/// By the REST API, where it has to be proven.
+void on_proven_switch(self_pointer self, const registration_switch& order,
+                      switch_reply reply);
+/// By the session of the present coordinator.
+void on_coordinators_switch(self_pointer self, const registration_switch& order,
+                            switch_reply reply);
+/// Goes back to what was before the switch; false if there is none.
+bool give_up_switch(self_pointer self, const std::string& reason);
+/// Writes down where the node belongs now, if that has changed.
+void store_membership(self_pointer self);
+
+// -- membership_session.cpp: what comes and goes over the session -------------
+
+/// Takes a session over.
+void take_session(self_pointer self, const session_actor& session);
+/// Closes the session if there is one; its pending calls fail.
+void drop_session(self_pointer self, const std::string& reason);
+/// Whether the present message comes from the present session.
+bool is_from_session(self_pointer self);
+void on_frame(self_pointer self, const frame_received& frame);
+void on_beat(self_pointer self, const beat_received& beat);
+void on_session_lost(self_pointer self, const std::string& reason);
+/// Does what the lease wants.
+void keep_lease(self_pointer self);
+void notify(self_pointer self, const instance_changed& fact);
+
+// -- membership_verdicts.cpp --------------------------------------------------
+
+/// Stops and starts what the coordinator has decided on.
+void apply(self_pointer self, const std::vector<instance_verdict>& verdicts);
+
+// -- membership.cpp -----------------------------------------------------------
+
+/// The last step of leaving.
+void finish_leaving(self_pointer self);
+
+} // namespace roscell::membership_steps

@@ -1,0 +1,267 @@
+#include "actors/edge/io/socket_address.hpp"
+#include "actors/edge/session/session_handshake.hpp"
+#include "actors/house/session_timeouts.hpp"
+#include "actors/membership/membership_steps.hpp"
+#include "actors/session/registration_order.hpp"
+
+#include <utility>
+
+namespace roscell::membership_steps {
+
+namespace {
+
+using phase = membership_phase;
+
+constexpr session_duration local_timeout{5000};
+
+/// Whether a proof with this token says anything: without one, only programs
+/// of this host may be trusted, and only they reach a node on loopback.
+bool can_be_proven(const membership_status& st) {
+  const auto own = parse_socket_address(st.config.identity.address);
+  return !st.config.site_token.empty() || (own && is_loopback(own->address));
+}
+
+std::optional<caf::error> refusal(const membership_status& st,
+                                  const registration_switch& order) {
+  const auto& me = st.config.identity;
+  if (order.node != me.name || order.uuid != me.uuid)
+    return fail(error_code::unknown_node,
+                "this is node '" + me.name + "' with UUID " + me.uuid, "/node");
+  if (st.switching || st.phase == phase::accepting
+      || st.phase == phase::leaving)
+    return fail(error_code::conflict,
+                "node '" + me.name + "' is " + std::string{to_word(st.standing)}
+                    + " already",
+                "", "ask again when it has come to rest");
+  if (order.epoch != me.epoch)
+    return fail(error_code::conflict,
+                "the switch is for epoch " + std::to_string(order.epoch)
+                    + ", and node '" + me.name + "' is at epoch "
+                    + std::to_string(me.epoch),
+                "/epoch", "ask the node for its present epoch first");
+  return std::nullopt;
+}
+
+/// From here on only the new registration counts.
+void go_independent(self_pointer self) {
+  auto& st = self->state;
+  st.seeking = false;
+  st.wanted.clear();
+  finish_leaving(self);
+  show_presence(self);
+}
+
+void go_to_target(self_pointer self) {
+  auto& st = self->state;
+  drop_session(self, "it goes to another cell");
+  self->send(st.parts.discovery, forget_coordinator{});
+  const auto& order = st.switching->order;
+  st.wanted = order.target.front().discovery_server;
+  st.origin = order.origin;
+  st.pause.reset();
+  begin_attempt(self);
+}
+
+/// Ends what an orphan runs: it carries the address of the old cell's server.
+void end_instances(self_pointer self) {
+  self->request(self->state.parts.supervisor, local_timeout, instance_query{})
+      .then(
+          [self](const instance_description& known) {
+            for (const auto& x : known.instances)
+              self->request(self->state.parts.agent, removal_timeout,
+                            instance_removal{x.spec.task, x.spec.instance})
+                  .then([](const instances_removed&) {},
+                        [](const caf::error&) {
+                          // The new cell's verdict ends what is left.
+                        });
+          },
+          [](const caf::error&) {
+            // The same.
+          });
+}
+
+void depart(self_pointer self) {
+  auto& st = self->state;
+  const auto& order = st.switching->order;
+  tell(self, "switch_accepted",
+       {{"transfer", order.transfer},
+        {"cell", order.target.empty() ? "" : order.target.front().cell},
+        {"epoch", st.config.identity.epoch}});
+  if (st.switching->standing == node_state::orphaned)
+    end_instances(self);
+  if (order.target.empty())
+    go_independent(self);
+  else
+    go_to_target(self);
+}
+
+/// The switch could not be written down, so it does not happen.
+void stay(self_pointer self) {
+  auto& st = self->state;
+  const auto before = *std::exchange(st.switching, std::nullopt);
+  st.standing = before.standing;
+  st.phase = st.session ? phase::joined : phase::waiting;
+  if (before.standing == node_state::member && !st.session) {
+    st.standing = node_state::orphaned;
+    st.deadline = self->clock().now();
+  }
+  set_timer(self);
+}
+
+membership_record record_of(const membership_status& st) {
+  membership_record result;
+  result.configured = st.config.configured;
+  if (st.standing == node_state::member) {
+    result.discovery_server = st.wanted;
+    result.cell = st.cell;
+    result.origin = st.origin;
+  }
+  return result;
+}
+
+store_record to_store(const membership_record& x) {
+  return {"identity", "membership", json(x).dump()};
+}
+
+/// Writes the raised epoch; a released node also writes that it is released,
+/// so that it does not come back when it is started again.
+void write_down(self_pointer self, const switch_reply& reply) {
+  auto& st = self->state;
+  auto raised = st.config.identity;
+  ++raised.epoch;
+  auto undo = [self, reply](const caf::error& why) {
+    stay(self);
+    reply(why);
+  };
+  auto done = [self, reply, raised] {
+    self->state.config.identity = raised;
+    reply(switch_accepted{raised.epoch});
+    depart(self);
+  };
+  const bool release = st.switching->order.target.empty();
+  self->request(st.parts.store, local_timeout,
+                store_record{"identity", "node", json(raised).dump()})
+      .then(
+          [self, done, undo, release](const record_stored&) {
+            if (!release)
+              return done();
+            const auto record = record_of(self->state);
+            self->request(self->state.parts.store, local_timeout,
+                          to_store(record))
+                .then(
+                    [self, done, record](const record_stored&) {
+                      self->state.stored = record;
+                      done();
+                    },
+                    undo);
+          },
+          undo);
+}
+
+void accept(self_pointer self, const registration_switch& order,
+            const switch_reply& reply) {
+  auto& st = self->state;
+  if (st.phase != phase::joined) {
+    // An attempt that is under way ends here.
+    ++st.attempt;
+    drop_session(self, "it has been told to go elsewhere");
+    self->send(st.parts.discovery, forget_coordinator{});
+  }
+  const auto before = st.standing == node_state::joining
+                          ? node_state::independent
+                          : st.standing;
+  st.switching = switch_attempt{order, before, st.wanted, st.origin};
+  st.last_switch = order.transfer;
+  st.standing = node_state::switching;
+  st.phase = phase::accepting;
+  write_down(self, reply);
+}
+
+bool is_repetition(const membership_status& st,
+                   const registration_switch& order) {
+  return order.transfer == st.last_switch
+         && order.node == st.config.identity.name
+         && order.uuid == st.config.identity.uuid;
+}
+
+} // namespace
+
+registration_challenge make_challenge(self_pointer self) {
+  auto& st = self->state;
+  const auto& me = st.config.identity;
+  return {me.name, me.uuid, me.epoch, std::string{to_word(st.standing)},
+          st.challenges.issue(self->clock().now())};
+}
+
+void on_proven_switch(self_pointer self, const registration_switch& order,
+                      switch_reply reply) {
+  auto& st = self->state;
+  const bool fresh = st.challenges.redeem(order.nonce, self->clock().now());
+  if (!can_be_proven(st))
+    return reply(fail(error_code::unauthorized,
+                      "this node has no site token, so nobody can switch it",
+                      "", "install the site token"));
+  if (!fresh || !proves(order_of(order), st.config.site_token, order.proof))
+    return reply(fail(error_code::unauthorized,
+                      "the switch is not proven with the site token and a "
+                      "nonce of this node that is still good",
+                      "/proof", "ask for a registration_challenge first"));
+  if (is_repetition(st, order))
+    return reply(switch_accepted{st.config.identity.epoch});
+  if (auto why = refusal(st, order))
+    return reply(std::move(*why));
+  if (st.standing == node_state::member)
+    return reply(fail(error_code::unauthorized,
+                      "node '" + order.node + "' is a member of cell '"
+                          + st.cell + "': only its coordinator can switch it",
+                      "", "ask a coordinator for a node_transfer"));
+  accept(self, order, reply);
+}
+
+void on_coordinators_switch(self_pointer self, const registration_switch& order,
+                            switch_reply reply) {
+  auto& st = self->state;
+  if (is_repetition(st, order))
+    return reply(switch_accepted{st.config.identity.epoch});
+  if (auto why = refusal(st, order))
+    return reply(std::move(*why));
+  if (st.phase != phase::joined)
+    return reply(fail(error_code::conflict, "this node is not registered yet"));
+  accept(self, order, reply);
+}
+
+bool give_up_switch(self_pointer self, const std::string& reason) {
+  auto& st = self->state;
+  if (!st.switching)
+    return false;
+  const auto before = *std::exchange(st.switching, std::nullopt);
+  tell(self, "switch_failed",
+       {{"transfer", before.order.transfer},
+        {"cell", before.order.target.front().cell},
+        {"reason", reason}});
+  st.wanted = before.wanted;
+  st.origin = before.origin;
+  // It has no session with its old coordinator any more, but goes back there.
+  st.standing = before.standing == node_state::member ? node_state::orphaned
+                                                      : before.standing;
+  st.pause.reset();
+  retreat(self, reason, session_duration{0});
+  return true;
+}
+
+void store_membership(self_pointer self) {
+  auto& st = self->state;
+  const auto record = record_of(st);
+  if (st.stored == record)
+    return;
+  st.stored = record;
+  self->request(st.parts.store, local_timeout, to_store(record))
+      .then([](const record_stored&) {},
+            [self](const caf::error&) {
+              // The state store has told of it; written again at the next
+              // registration.
+              self->state.stored.reset();
+            });
+}
+
+} // namespace roscell::membership_steps

@@ -1,0 +1,57 @@
+#include "actors/node/event_log.hpp"
+
+#include "actors/house/wall_clock.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace roscell {
+
+namespace {
+
+using self_pointer = event_log_actor::stateful_pointer<event_log_state>;
+
+void record(self_pointer self, const record_event& fact) {
+  auto& st = self->state;
+  event x{++st.last_sequence, unix_now_ms(), fact.what, fact.subject,
+          fact.data};
+  for (const auto& listener : st.listeners)
+    self->send(listener, x);
+  st.kept.push_back(std::move(x));
+  if (st.kept.size() > event_log_state::kept_events)
+    st.kept.pop_front();
+}
+
+void subscribe(self_pointer self, const subscribe_events& wish) {
+  for (const auto& x : self->state.kept)
+    if (x.sequence > wish.since)
+      self->send(wish.listener, x);
+  self->monitor(wish.listener);
+  self->state.listeners.push_back(wish.listener);
+}
+
+void forget(self_pointer self, const caf::actor_addr& gone) {
+  auto& xs = self->state.listeners;
+  xs.erase(std::remove_if(xs.begin(), xs.end(),
+                          [&](const auto& x) { return x.address() == gone; }),
+           xs.end());
+}
+
+} // namespace
+
+event_log_actor::behavior_type event_log(self_pointer self) {
+  self->set_down_handler(
+      [self](const caf::down_msg& down) { forget(self, down.source); });
+  return {
+      [self](const state_query&) {
+        const auto& st = self->state;
+        return state_of({{"last_sequence", st.last_sequence},
+                         {"kept", st.kept.size()},
+                         {"listeners", st.listeners.size()}});
+      },
+      [self](const record_event& fact) { record(self, fact); },
+      [self](const subscribe_events& wish) { subscribe(self, wish); },
+  };
+}
+
+} // namespace roscell

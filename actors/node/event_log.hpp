@@ -1,0 +1,27 @@
+#pragma once
+
+#include "actors/house/house.hpp"
+#include "messages/type_ids.hpp"
+
+#include <deque>
+#include <vector>
+
+namespace roscell {
+
+/// Owns the node's facts: it numbers them, keeps the newest and hands them on.
+struct event_log_state {
+  static constexpr const char* name = "event-log";
+
+  /// How many facts a listener that comes late can still get.
+  static constexpr size_t kept_events = 1000;
+
+  uint64_t last_sequence = 0;
+  std::deque<event> kept;
+  std::vector<event_listener_actor> listeners;
+};
+
+/// The EVENT LOG. Messages: messages/introspection.hpp.
+event_log_actor::behavior_type
+event_log(event_log_actor::stateful_pointer<event_log_state> self);
+
+} // namespace roscell

@@ -1,0 +1,156 @@
+#include "actors/node/node.hpp"
+
+#include "actors/house/wall_clock.hpp"
+#include "messages/failure.hpp"
+
+#include <caf/typed_response_promise.hpp>
+
+#include <chrono>
+#include <utility>
+
+namespace roscell {
+
+namespace {
+
+using self_pointer = node_pointer;
+
+constexpr const char* version = "0.1.0";
+
+constexpr std::chrono::seconds part_timeout{5};
+
+/// Longest wait for the coordinator's word when the node leaves.
+constexpr std::chrono::seconds leave_timeout{3};
+
+/// A description whose parts come from several actors.
+struct description_draft {
+  node_description result;
+  size_t open = 3;
+  caf::typed_response_promise<node_description> promise;
+
+  void finish_one() {
+    if (--open == 0)
+      promise.deliver(std::move(result));
+  }
+};
+
+using shared_draft = std::shared_ptr<description_draft>;
+
+node_description first_draft(self_pointer self, const node_query& query) {
+  const auto& parts = self->state.parts;
+  node_description result;
+  result.identity = parts.identity;
+  result.version = version;
+  result.runtime = parts.config.runtime;
+  result.started_unix_ms = self->state.started_unix_ms;
+  result.skills = parts.skills;
+  result.stored_bytes = static_cast<int64_t>(parts.database->bytes_written());
+  if (query.actors)
+    result.actors = parts.context.directory->rows();
+  if (parts.config.coordinator) {
+    result.role = node_role::coordinator;
+    result.state = node_state::member;
+    result.cell = parts.config.cell;
+    result.coordinator = parts.identity.address;
+  }
+  return result;
+}
+
+void ask_membership(self_pointer self, const shared_draft& draft) {
+  const auto& membership = self->state.parts.services->membership;
+  if (!membership)
+    return draft->finish_one();
+  self->request(membership, part_timeout, membership_query{})
+      .then(
+          [draft](const membership_state& x) {
+            draft->result.identity = x.identity;
+            draft->result.state = x.state;
+            draft->result.cell = x.cell;
+            draft->result.coordinator = x.coordinator;
+            draft->finish_one();
+          },
+          [draft](const caf::error&) { draft->finish_one(); });
+}
+
+caf::result<node_description> describe(self_pointer self,
+                                       const node_query& query) {
+  auto draft = std::make_shared<description_draft>();
+  draft->result = first_draft(self, query);
+  draft->promise = self->make_response_promise<node_description>();
+  const auto& parts = self->state.parts;
+  self->request(parts.services->supervisor, part_timeout, instance_query{})
+      .then(
+          [draft](instance_description& x) {
+            draft->result.instances = std::move(x.instances);
+            draft->finish_one();
+          },
+          [draft](const caf::error&) { draft->finish_one(); });
+  self->request(parts.agent, part_timeout, resource_query{})
+      .then(
+          [draft](resource_report& x) {
+            draft->result.resources = std::move(x.resources);
+            draft->finish_one();
+          },
+          [draft](const caf::error&) { draft->finish_one(); });
+  ask_membership(self, draft);
+  return draft->promise;
+}
+
+/// The last step: instances go on, everything else ends, and the node with it.
+void end_children(self_pointer self) {
+  auto& parts = self->state.parts;
+  for (auto i = parts.children.rbegin(); i != parts.children.rend(); ++i)
+    self->send_exit(*i, caf::exit_reason::user_shutdown);
+}
+
+void stop(self_pointer self) {
+  auto& st = self->state;
+  if (std::exchange(st.stopping, true))
+    return;
+  st.parts.context.tell("node_stopping", st.parts.identity.name);
+  // No new requests; those in progress get a moment.
+  st.parts.edges->sockets.http->stop([] {});
+  const auto& membership = st.parts.services->membership;
+  if (!membership)
+    return end_children(self);
+  self->request(membership, leave_timeout, leave_cell{"the node is stopping"})
+      .then([self](const node_departed&) { end_children(self); },
+            [self](const caf::error&) { end_children(self); });
+}
+
+void on_child_down(self_pointer self, const caf::down_msg& down) {
+  auto& st = self->state;
+  if (--st.open_children == 0)
+    return self->quit(st.end_reason);
+  if (std::exchange(st.stopping, true))
+    return;
+  st.end_reason = fail(error_code::internal, "a part of the node has died: "
+                                                 + to_string(down.reason));
+  end_children(self);
+}
+
+} // namespace
+
+node_actor::behavior_type node(self_pointer self, const node_parts& parts) {
+  self->state.parts = parts;
+  self->state.started_unix_ms = unix_now_ms();
+  for (const auto& child : parts.children)
+    self->monitor(child);
+  self->state.open_children = parts.children.size();
+  self->set_down_handler(
+      [self](const caf::down_msg& down) { on_child_down(self, down); });
+  parts.context.tell(
+      "node_started", parts.identity.name,
+      {{"address", parts.identity.address}, {"runtime", parts.config.runtime}});
+  return {
+      [self](const state_query&) {
+        const auto& st = self->state;
+        return state_of({{"name", st.parts.identity.name},
+                         {"stopping", st.stopping},
+                         {"children", st.parts.children.size()}});
+      },
+      [self](const node_query& query) { return describe(self, query); },
+      [self](const stop_node&) { stop(self); },
+  };
+}
+
+} // namespace roscell

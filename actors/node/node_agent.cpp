@@ -1,0 +1,211 @@
+#include "actors/node/node_agent.hpp"
+
+#include "actors/placement/reservation.hpp"
+#include "actors/placement/search/report/text.hpp"
+
+#include <caf/expected.hpp>
+#include <caf/typed_response_promise.hpp>
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <functional>
+#include <optional>
+#include <utility>
+
+namespace roscell {
+
+namespace {
+
+using self_pointer = node_agent_actor::stateful_pointer<node_agent_state>;
+
+constexpr std::chrono::seconds query_timeout{5};
+
+/// An image may have to be built, with a base image that must be fetched.
+constexpr std::chrono::minutes deployment_timeout{15};
+
+/// Grace time, force, and the removal of what is left.
+constexpr std::chrono::seconds removal_timeout{35};
+
+constexpr std::chrono::seconds log_margin{5};
+
+/// Hands a request on and its answer back.
+template <class Reply, class Message>
+caf::result<Reply> forward(self_pointer self, std::chrono::milliseconds timeout,
+                           const Message& message) {
+  auto promise = self->make_response_promise<Reply>();
+  self->request(self->state.config.supervisor, timeout, message)
+      .then([promise](Reply& x) mutable { promise.deliver(std::move(x)); },
+            [promise](caf::error& why) mutable {
+              promise.deliver(std::move(why));
+            });
+  return promise;
+}
+
+/// The session leader of a process instance, whose id is "<pid>:<start>".
+/// Engines have other ids; what their containers use is not subtracted.
+std::optional<int64_t> session_of(const instance_row& instance) {
+  int64_t pid = 0;
+  const auto* end = instance.container.data() + instance.container.size();
+  const auto read = std::from_chars(instance.container.data(), end, pid);
+  if (read.ec != std::errc{} || read.ptr == end || *read.ptr != ':')
+    return std::nullopt;
+  return pid;
+}
+
+/// An instance that the supervisor knows counts as such, whatever its state.
+void add_kept_room(self_pointer self,
+                   const std::vector<instance_row>& instances,
+                   resource_report& to) {
+  auto& kept = self->state.kept;
+  for (auto i = kept.begin(); i != kept.end();) {
+    const bool known =
+        std::any_of(instances.begin(), instances.end(),
+                    [&](const auto& x) { return x.spec.instance == i->first; });
+    if (i->second.until <= self->clock().now()) {
+      i = kept.erase(i);
+      continue;
+    }
+    if (!known) {
+      reserve(to.resources, i->second.spec.resources, i->second.spec.gpu);
+      to.reserved.push_back(i->first);
+    }
+    ++i;
+  }
+}
+
+/// What the node has and what of it is in use, room that is kept included.
+resource_report complete(self_pointer self, node_resources resources,
+                         const std::vector<instance_row>& instances) {
+  const auto& config = self->state.config;
+  resources.name = config.node;
+  resources.labels = config.labels;
+  for (const auto& device : config.devices)
+    if (std::find(resources.devices.begin(), resources.devices.end(), device)
+        == resources.devices.end())
+      resources.devices.push_back(device);
+  for (const auto& x : instances)
+    if (is_live(x.state))
+      reserve(resources, x.spec.resources, x.spec.gpu);
+  resource_report result{std::move(resources), {}};
+  add_kept_room(self, instances, result);
+  return result;
+}
+
+/// Reads the host, then calls `done` with a report or an error.
+void measure(self_pointer self,
+             const std::function<void(caf::expected<resource_report>)>& done) {
+  auto on_error = [done](const caf::error& why) { done(why); };
+  auto on_known = [self, done, on_error](instance_description& known) {
+    measure_host wish;
+    for (const auto& x : known.instances)
+      if (const auto session = session_of(x); session && is_live(x.state))
+        wish.sessions.push_back(*session);
+    self->request(self->state.config.probe, query_timeout, std::move(wish))
+        .then(
+            [self, done, known](host_measured& host) {
+              done(complete(self, std::move(host.resources), known.instances));
+            },
+            on_error);
+  };
+  self->request(self->state.config.supervisor, query_timeout, instance_query{})
+      .then(on_known, on_error);
+}
+
+caf::result<resource_report> report(self_pointer self) {
+  ++self->state.reports;
+  auto promise = self->make_response_promise<resource_report>();
+  measure(self, [promise](caf::expected<resource_report> x) mutable {
+    if (x)
+      promise.deliver(std::move(*x));
+    else
+      promise.deliver(std::move(x.error()));
+  });
+  return promise;
+}
+
+/// Keeps room for an instance, if there is some; else says why not.
+std::optional<std::string> keep_room(self_pointer self, node_resources& node,
+                                     const instance_spec& spec) {
+  const auto missing = shortages(node, spec.resources, spec.gpu);
+  if (!missing.empty())
+    return allocation::enumerated(missing);
+  reserve(node, spec.resources, spec.gpu);
+  self->state.kept[spec.instance] = {
+      spec, self->clock().now() + node_agent_state::longest_reservation};
+  return std::nullopt;
+}
+
+void give_up_room(self_pointer self, const std::string& task,
+                  const std::string& instance) {
+  auto& kept = self->state.kept;
+  for (auto i = kept.begin(); i != kept.end();)
+    if (i->second.spec.task == task
+        && (instance.empty() || i->first == instance))
+      i = kept.erase(i);
+    else
+      ++i;
+}
+
+/// What a task had before is given up, so that a repeated one counts once.
+caf::result<instances_reserved> keep(self_pointer self,
+                                     const instance_reservation& wish) {
+  give_up_room(self, wish.task, "");
+  auto promise = self->make_response_promise<instances_reserved>();
+  measure(self, [=](caf::expected<resource_report> now) mutable {
+    if (!now) {
+      promise.deliver(std::move(now.error()));
+      return;
+    }
+    instances_reserved reply;
+    for (const auto& spec : wish.specs)
+      if (auto why = keep_room(self, now->resources, spec))
+        reply.refused.push_back({spec.instance, *why});
+    promise.deliver(std::move(reply));
+  });
+  return promise;
+}
+
+/// Room is kept until the instance runs or has failed: from the supervisor's
+/// first word of it on, it counts there.
+caf::result<instance_deployed> deploy(self_pointer self,
+                                      const instance_deployment& wish) {
+  auto promise = self->make_response_promise<instance_deployed>();
+  self->request(self->state.config.supervisor, deployment_timeout, wish)
+      .then(
+          [promise](instance_deployed& x) mutable {
+            promise.deliver(std::move(x));
+          },
+          [self, promise, wish](caf::error& why) mutable {
+            give_up_room(self, wish.spec.task, wish.spec.instance);
+            promise.deliver(std::move(why));
+          });
+  return promise;
+}
+
+} // namespace
+
+node_agent_actor::behavior_type node_agent(self_pointer self,
+                                           const node_agent_config& config) {
+  self->state.config = config;
+  return {
+      [self](const state_query&) {
+        return state_of({{"node", self->state.config.node},
+                         {"reports", self->state.reports},
+                         {"rooms_kept", self->state.kept.size()}});
+      },
+      [self](const resource_query&) { return report(self); },
+      [self](const instance_reservation& x) { return keep(self, x); },
+      [self](const instance_deployment& x) { return deploy(self, x); },
+      [self](const instance_removal& x) {
+        give_up_room(self, x.task, x.instance);
+        return forward<instances_removed>(self, removal_timeout, x);
+      },
+      [self](const log_query& x) {
+        return forward<log_excerpt>(
+            self, log_margin + std::chrono::milliseconds{x.wait_ms}, x);
+      },
+  };
+}
+
+} // namespace roscell

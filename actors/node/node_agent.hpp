@@ -1,0 +1,46 @@
+#pragma once
+
+#include "actors/house/house.hpp"
+#include "messages/type_ids.hpp"
+
+#include <caf/actor_clock.hpp>
+
+#include <chrono>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace roscell {
+
+struct node_agent_config {
+  std::string node; ///< Its name.
+  std::map<std::string, std::string> labels;
+  std::vector<std::string> devices; ///< Offered besides those found.
+  container_supervisor_actor supervisor;
+  resource_probe_actor probe;
+};
+
+/// Room that is kept for an instance which is not there yet.
+struct kept_room {
+  instance_spec spec;
+  caf::actor_clock::time_point until;
+};
+
+/// Answers for the local node what a coordinator asks of it.
+struct node_agent_state {
+  static constexpr const char* name = "node-agent";
+
+  /// From a reservation to its deployment only a record is written.
+  static constexpr std::chrono::minutes longest_reservation{1};
+
+  node_agent_config config;
+  std::map<std::string, kept_room> kept; ///< By instance.
+  uint64_t reports = 0;
+};
+
+/// The local NODE AGENT. Messages: messages/agent.hpp.
+node_agent_actor::behavior_type
+node_agent(node_agent_actor::stateful_pointer<node_agent_state> self,
+           const node_agent_config& config);
+
+} // namespace roscell

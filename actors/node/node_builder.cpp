@@ -1,0 +1,327 @@
+#include "actors/node/node_builder.hpp"
+
+#include "actors/cell/cell_coordinator.hpp"
+#include "actors/edge/host/interfaces.hpp"
+#include "actors/edge/io/socket_address.hpp"
+#include "actors/instances/container_supervisor.hpp"
+#include "actors/membership/discovery.hpp"
+#include "actors/membership/membership.hpp"
+#include "actors/node/event_log.hpp"
+#include "actors/node/node.hpp"
+#include "actors/node/node_agent.hpp"
+#include "actors/node/node_runtime.hpp"
+#include "actors/node/resource_probe.hpp"
+#include "actors/node/state_store.hpp"
+#include "actors/placement/scheduler.hpp"
+#include "actors/requests/handlers/registry.hpp"
+#include "actors/requests/request_router.hpp"
+#include "actors/requests/rest.hpp"
+#include "actors/session/registration_client.hpp"
+#include "actors/session/session_connector.hpp"
+#include "schemas/message_catalogue.hpp"
+
+#include <caf/actor_cast.hpp>
+
+#include <filesystem>
+#include <utility>
+
+namespace roscell {
+
+namespace {
+
+constexpr uint16_t default_discovery_port = 11811;
+
+caf::error to_caf(const edge_error& why) {
+  return fail(why.code, why.message, "", why.hint);
+}
+
+/// Refuses words that would make every message of this node invalid.
+caf::error check_words(const std::string& option,
+                       const node_resources& resources) {
+  const auto errors = document_errors("resource_report",
+                                      message_json(resource_report{resources}));
+  if (errors.empty())
+    return caf::none;
+  return fail(error_code::schema_violation, option + ": " + errors[0].expected);
+}
+
+caf::error check_words(const node_config& config) {
+  node_resources plain;
+  plain.architecture = "amd64";
+  plain.name = config.name;
+  if (auto why = check_words("--name", plain))
+    return why;
+  plain.name = config.cell;
+  if (auto why = check_words("--cell", plain))
+    return why;
+  plain.labels = config.labels;
+  if (auto why = check_words("--label", plain))
+    return why;
+  plain.devices = config.devices;
+  return check_words("--device", plain);
+}
+
+/// Checks the options and fills in what was left out.
+caf::error complete(node_config& config) {
+  auto chosen = resolve_interface(config.address);
+  if (auto* why = std::get_if<edge_error>(&chosen))
+    return to_caf(*why);
+  config.address = std::get<interface_address>(chosen).address;
+  if (config.name.empty())
+    config.name = mac_node_name(config.address);
+  if (config.cell.empty())
+    config.cell = config.name;
+  if (auto why = check_words(config))
+    return why;
+  if (config.coordinator && !config.join.empty())
+    return fail(error_code::schema_violation,
+                "a coordination node does not join another cell", "",
+                "leave out --join or --coordinator");
+  if (config.wait && (config.coordinator || !config.join.empty()))
+    return fail(error_code::schema_violation,
+                "a node that waits to be chosen neither coordinates a cell nor "
+                "joins one",
+                "", "leave out --wait");
+  if (config.join.empty())
+    return caf::none;
+  const auto server = parse_socket_address(config.join, default_discovery_port);
+  if (!server)
+    return fail(
+        error_code::schema_violation,
+        "'" + config.join + "' is not the address of a discovery server", "",
+        "give --join ADDR[:PORT], such as 10.0.0.1 or "
+        "10.0.0.1:11811");
+  config.join = to_string(*server);
+  return caf::none;
+}
+
+/// Starts the actors of a node, those first that others need.
+class node_builder {
+public:
+  node_builder(caf::actor_system& system, node_config config, node_data data,
+               house context, std::shared_ptr<node_edges> edges,
+               capacity_bound bound, chosen_runtime runtime)
+      : system_(system), data_(std::move(data)), bound_(std::move(bound)),
+        runtime_(std::move(runtime)) {
+    parts_.config = std::move(config);
+    parts_.context = std::move(context);
+    parts_.edges = std::move(edges);
+    parts_.lock = data_.lock;
+    parts_.database = data_.database;
+    parts_.services = std::make_shared<node_services>();
+    parts_.services->context = parts_.context;
+    parts_.identity = data_.identity;
+    parts_.identity.name = parts_.config.name;
+    parts_.identity.address = parts_.edges->http_address;
+  }
+
+  node_actor build() {
+    add(parts_.context.events);
+    read_skills();
+    start_supervision();
+    if (parts_.config.coordinator)
+      start_coordination();
+    else
+      start_membership();
+    start_requests();
+    return parts_.services->node;
+  }
+
+private:
+  template <class Handle>
+  Handle add(Handle child) {
+    parts_.children.push_back(caf::actor_cast<caf::actor>(child));
+    return child;
+  }
+
+  template <caf::spawn_options Options = caf::no_spawn_options, class Function,
+            class... Args>
+  auto start(Function function, Args&&... args) {
+    return add(spawn<Options>(system_, parts_.context, function,
+                              std::forward<Args>(args)...));
+  }
+
+  void read_skills() {
+    auto dirs = parts_.config.skill_dirs;
+    // The default place need not be there; one that was named must be.
+    const auto own = parts_.config.data_dir / "skills";
+    if (std::filesystem::is_directory(own))
+      dirs.push_back(own);
+    auto catalogue =
+        std::make_shared<skill_catalogue>(skill_catalogue::scan(dirs));
+    catalogue->tell_problems(parts_.context);
+    parts_.skills = catalogue->skills();
+    catalogue_ = std::move(catalogue);
+  }
+
+  void start_supervision() {
+    auto& config = parts_.config;
+    store_ = start<caf::detached>(state_store, data_.database);
+    container_supervisor_config supervision;
+    supervision.context = parts_.context;
+    supervision.node = config.name;
+    supervision.skills = catalogue_;
+    supervision.make_runtime =
+        runtime_factory(system_, parts_.context, config, runtime_,
+                        data_.identity.uuid, *parts_.edges->io);
+    supervision.store = store_;
+    supervision.restored = data_.instances;
+    parts_.services->supervisor = start(container_supervisor, supervision);
+    resource_probe_config probing;
+    probing.host.data_dir = config.data_dir.string();
+    probing.bound = bound_;
+    probe_ = start<caf::detached>(resource_probe, probing);
+    parts_.agent =
+        start(node_agent,
+              node_agent_config{config.name, config.labels, config.devices,
+                                parts_.services->supervisor, probe_});
+  }
+
+  void start_coordination() {
+    const auto& config = parts_.config;
+    coordinator_setup setup;
+    setup.cell = config.cell;
+    setup.discovery_server = parts_.edges->discovery_server;
+    setup.incarnation = data_.incarnation;
+    setup.self = parts_.identity;
+    setup.skills = parts_.skills;
+    setup.agent = parts_.agent;
+    setup.supervisor = parts_.services->supervisor;
+    setup.store = store_;
+    setup.tasks = data_.tasks;
+    setup.members = data_.members;
+    setup.transfers = data_.transfers;
+    setup.server_id = parts_.edges->server_id;
+    setup.rebalance = config.rebalance;
+    setup.environment = {
+        {"ROS_DOMAIN_ID", std::to_string(config.ros_domain_id)},
+        {"ROS_DISCOVERY_SERVER", std::string(parts_.edges->server_id, ';')
+                                     + parts_.edges->discovery_server}};
+    setup.searches = std::make_shared<search_guard>();
+    setup.scheduler = start<caf::detached>(scheduler, setup.searches);
+    setup.discovery = start_discovery();
+    setup.connector = start_connector();
+    setup.registration = start(
+        registration_client,
+        registration_client_config{parts_.edges->io.get(), data_.site_token});
+    parts_.services->scheduler = setup.scheduler;
+    auto coordinator = start(cell_coordinator, parts_.context, setup);
+    parts_.services->coordinator = coordinator;
+    caf::anon_send(parts_.services->supervisor,
+                   listen_to_instances{coordinator});
+    admit_sessions(
+        system_, parts_.context, *parts_.edges,
+        {config.name, parts_.identity.uuid, config.cell, data_.incarnation},
+        data_.site_token, coordinator);
+  }
+
+  discovery_actor start_discovery() {
+    const auto& config = parts_.config;
+    return start<caf::detached>(
+        discovery, parts_.context,
+        discovery_config{config.address, config.ros_domain_id, config.name,
+                         parts_.identity.uuid, config.public_domain_id,
+                         config.peers});
+  }
+
+  session_connector_actor start_connector() {
+    return start(session_connector, parts_.context,
+                 connector_parts{parts_.edges->io.get(),
+                                 parts_.edges->sockets.beat.get(),
+                                 data_.site_token});
+  }
+
+  membership_config membership_setup() const {
+    const auto& config = parts_.config;
+    membership_config result;
+    result.identity = parts_.identity;
+    result.skills = parts_.skills;
+    result.restored = data_.membership;
+    result.configured = config.wait ? "wait" : config.join;
+    result.site_token = data_.site_token;
+    return result;
+  }
+
+  void start_membership() {
+    const auto& config = parts_.config;
+    membership_parts with;
+    with.discovery = start_discovery();
+    with.connector = start_connector();
+    with.agent = parts_.agent;
+    with.supervisor = parts_.services->supervisor;
+    with.store = store_;
+    with.probe = probe_;
+    const auto how = membership_setup();
+    auto member = start(membership, parts_.context, with, how);
+    parts_.services->membership = member;
+    caf::anon_send(parts_.services->supervisor, listen_to_instances{member});
+    if (takes_up_earlier_cell(how) || config.wait)
+      return;
+    if (config.join.empty())
+      caf::anon_send(member, seek_cell{});
+    else
+      caf::anon_send(member, join_cell{config.join});
+  }
+
+  void start_requests() {
+    auto registry = std::make_shared<const request_registry>(
+        make_registry(parts_.config.coordinator));
+    auto router = start(request_router, registry,
+                        std::shared_ptr<const node_services>(parts_.services));
+    parts_.services->node = spawn(system_, parts_.context, node, parts_);
+    parts_.edges->handler->set(
+        make_rest_handler(system_, {parts_.context, router}));
+  }
+
+  caf::actor_system& system_;
+  node_data data_;
+  capacity_bound bound_;
+  chosen_runtime runtime_;
+  node_parts parts_;
+  shared_skill_catalogue catalogue_;
+  state_store_actor store_;
+  resource_probe_actor probe_;
+};
+
+} // namespace
+
+caf::expected<running_node> spawn_node(caf::actor_system& system,
+                                       const node_config& wanted) {
+  auto config = wanted;
+  if (auto why = complete(config))
+    return why;
+  auto bound = parse_capacity(config.capacity);
+  if (auto* why = std::get_if<edge_error>(&bound))
+    return to_caf(*why);
+  auto runtime = choose_runtime(config);
+  if (!runtime)
+    return runtime.error();
+  config.runtime = runtime->name;
+  auto data = open_node_data(config);
+  if (!data)
+    return data.error();
+  house context{std::make_shared<actor_directory>(), {}};
+  context.events = spawn(system, context, event_log);
+  auto edges = open_edges(config, *data, context);
+  if (!edges) {
+    caf::anon_send_exit(context.events, caf::exit_reason::user_shutdown);
+    return edges.error();
+  }
+  running_node result;
+  result.events = context.events;
+  result.name = config.name;
+  result.http_address = (*edges)->http_address;
+  result.socket = (*edges)->socket_path;
+  result.discovery_server = (*edges)->discovery_server;
+  result.token_file = data->token_file;
+  result.runtime = runtime->name;
+  result.runtime_reason = runtime->reason;
+  node_builder builder{system,           std::move(config),
+                       std::move(*data), context,
+                       *edges,           std::get<capacity_bound>(bound),
+                       *runtime};
+  result.actor = builder.build();
+  return result;
+}
+
+} // namespace roscell

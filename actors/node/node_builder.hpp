@@ -1,0 +1,38 @@
+#pragma once
+
+#include "actors/node/node_config.hpp"
+#include "messages/actors.hpp"
+#include "messages/failure.hpp"
+
+#include <caf/actor_system.hpp>
+#include <caf/expected.hpp>
+
+#include <string>
+
+namespace roscell {
+
+/// A node that runs: its root actor and where it can be reached.
+struct running_node {
+  node_actor actor;       ///< `stop_node` ends it in order.
+  event_log_actor events; ///< The node's facts, for whoever embeds it.
+  std::string name;
+  std::string http_address;     ///< "ip:port" that was really bound.
+  std::string socket;           ///< Path of the Unix socket.
+  std::string discovery_server; ///< "ip:port"; coordinators only.
+  std::string token_file;       ///< Bearer token for HTTP over TCP.
+  std::string runtime;          ///< "process", "docker" or "podman".
+  std::string runtime_reason;   ///< Why this one, one sentence.
+};
+
+/// Starts a node inside `system`, which the caller owns and has configured with
+/// `roscell::add_message_types`. Blocks until its ports are
+/// open. Neither installs signal handlers nor ends the process.
+///
+/// Errors: conflict (a port or the data directory is in use), unreachable (the
+/// address is not of this host, the container engine that was asked for does
+/// not answer), unauthorized (no permission on the engine's socket),
+/// schema_violation (a bad option, named).
+caf::expected<running_node> spawn_node(caf::actor_system& system,
+                                       const node_config& config);
+
+} // namespace roscell

@@ -1,0 +1,44 @@
+#pragma once
+
+#include "actors/cell/books/cell_registry.hpp"
+#include "actors/cell/books/task_table.hpp"
+#include "actors/edge/disk/directory_lock.hpp"
+#include "actors/edge/disk/sqlite_store.hpp"
+#include "actors/node/node_config.hpp"
+#include "messages/membership.hpp"
+#include "messages/node.hpp"
+
+#include <caf/expected.hpp>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace roscell {
+
+/// What a node keeps in its data directory, as found at the start.
+struct node_data {
+  std::shared_ptr<directory_lock> lock; ///< Held while the node lives.
+  std::shared_ptr<sqlite_store> database;
+  node_identity identity;  ///< UUID and epoch; name and address are not set.
+  int64_t incarnation = 0; ///< Of the coordinator, already raised.
+  std::optional<membership_record> membership; ///< Of a primary node.
+  std::vector<member_record> members;          ///< Of a coordinator.
+  std::vector<transfer_row> transfers;         ///< The same; those left open.
+  std::vector<instance_row> instances;
+  std::vector<task_record> tasks;
+  std::string token_file;
+  std::string token;      ///< Bearer token for HTTP over TCP.
+  std::string site_token; ///< Empty: none is installed.
+};
+
+/// Opens the data directory, making it and what belongs into it at the first
+/// start: a UUID, and the bearer token in a file that only its owner can read.
+/// Blocks on the disk.
+///
+/// Errors: conflict (another node uses the directory), internal (no permission,
+/// disk full, damaged database), unauthorized (a bad site token file).
+caf::expected<node_data> open_node_data(const node_config& config);
+
+} // namespace roscell

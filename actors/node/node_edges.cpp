@@ -1,0 +1,174 @@
+#include "actors/node/node_edges.hpp"
+
+#include "actors/edge/dds/announcement.hpp"
+#include "actors/edge/dds/site_survey.hpp"
+#include "actors/requests/rest_routes.hpp"
+#include "actors/session/wire_session.hpp"
+#include "messages/failure.hpp"
+
+#include <set>
+#include <utility>
+
+namespace roscell {
+
+namespace {
+
+caf::error to_caf(const edge_error& why) {
+  return fail(why.code, why.message, "", why.hint);
+}
+
+std::string socket_path(const node_config& config) {
+  return (config.socket.empty() ? config.data_dir / "node.sock" : config.socket)
+      .string();
+}
+
+caf::error open_http(const node_config& config, const node_data& data,
+                     node_edges& edges) {
+  http_server_options options;
+  options.address = config.address;
+  options.port = config.http_port;
+  options.socket_path = edges.socket_path = socket_path(config);
+  options.token = data.token;
+  options.public_paths.push_back(registration_path);
+  options.handler = [handler = edges.handler](http_request request,
+                                              const responder& answer) {
+    (*handler)(std::move(request), answer);
+  };
+  auto opened = open_node_sockets(*edges.io, std::move(options));
+  if (auto* why = std::get_if<edge_error>(&opened))
+    return to_caf(*why);
+  edges.sockets = std::get<node_sockets>(std::move(opened));
+  edges.http_address =
+      config.address + ":" + std::to_string(edges.sockets.http->port());
+  return caf::none;
+}
+
+/// A coordinator that is there answers within some milliseconds; one that does
+/// not in this time is told of when it is seen.
+constexpr std::chrono::milliseconds survey_span{60};
+
+caf::error name_in_use(const announcement& other) {
+  return fail(error_code::conflict,
+              "the cell name '" + other.cell + "' is in use: node '"
+                  + other.node + "' at " + other.session + " coordinates it",
+              "", "choose another --cell, or take it over with --force");
+}
+
+/// Looks at the coordinators that are there: cell names and server ids in use.
+caf::error survey(const node_config& config, const node_data& data,
+                  node_edges& edges) {
+  presence_options options;
+  options.address = config.address;
+  options.domain_id = config.public_domain_id;
+  options.peers = config.peers;
+  const auto claims_our_name = [&](const announcement& x) {
+    return x.role == "coordinator" && x.cell == config.cell
+           && x.uuid != data.identity.uuid;
+  };
+  auto seen = survey_site(options, survey_span, claims_our_name);
+  if (auto* why = std::get_if<edge_error>(&seen))
+    return to_caf(*why);
+  std::set<int64_t> used;
+  for (const auto& x : std::get<std::vector<announcement>>(seen)) {
+    if (claims_our_name(x) && !config.force)
+      return name_in_use(x);
+    if (x.role == "coordinator" && x.uuid != data.identity.uuid)
+      used.insert(x.server);
+  }
+  while (edges.server_id < UINT8_MAX && used.count(edges.server_id) > 0)
+    ++edges.server_id;
+  edges.server_id = config.server_id.value_or(edges.server_id);
+  return caf::none;
+}
+
+caf::error open_discovery(const node_config& config, const node_data& data,
+                          node_edges& edges) {
+  announcement said;
+  said.role = "coordinator";
+  said.node = config.name;
+  said.cell = config.cell;
+  said.session = edges.http_address;
+  said.uuid = data.identity.uuid;
+  said.incarnation = data.incarnation;
+  cell_server_options options;
+  options.address = config.address;
+  options.port = config.discovery_port;
+  options.server_id = edges.server_id;
+  options.domain_id = config.ros_domain_id;
+  options.announcement = encode(said);
+  auto opened = cell_server::open(options);
+  if (auto* why = std::get_if<edge_error>(&opened))
+    return to_caf(*why);
+  edges.discovery = std::get<std::unique_ptr<cell_server>>(std::move(opened));
+  edges.discovery_server =
+      config.address + ":" + std::to_string(edges.discovery->port());
+  return caf::none;
+}
+
+} // namespace
+
+void late_handler::set(http_handler handler) {
+  std::lock_guard guard{mutex_};
+  handler_ = std::move(handler);
+}
+
+void late_handler::operator()(http_request request,
+                              const responder& answer) const {
+  http_handler handler;
+  {
+    std::lock_guard guard{mutex_};
+    handler = handler_;
+  }
+  if (handler)
+    handler(std::move(request), answer);
+  else
+    answer.error(503, error_code::conflict, "the node is still starting");
+}
+
+caf::expected<std::shared_ptr<node_edges>> open_edges(const node_config& config,
+                                                      const node_data& data,
+                                                      const house& context) {
+  auto edges = std::make_shared<node_edges>();
+  edges->io = std::make_unique<io_thread>([context](const std::string& text) {
+    context.tell("edge_trouble", "", {{"message", text}});
+  });
+  if (auto why = open_http(config, data, *edges))
+    return why;
+  if (!config.coordinator)
+    return edges;
+  if (auto why = survey(config, data, *edges))
+    return why;
+  if (auto why = open_discovery(config, data, *edges))
+    return why;
+  return edges;
+}
+
+void admit_sessions(caf::actor_system& system, const house& context,
+                    node_edges& edges, const acceptor_identity& identity,
+                    const std::string& site_token,
+                    const cell_coordinator_actor& coordinator) {
+  session_acceptor acceptor;
+  acceptor.identity = identity;
+  acceptor.token = site_token;
+  acceptor.on_session = [&system, context, beats = edges.sockets.beat.get(),
+                         coordinator](established_session session) {
+    node_identity peer;
+    peer.name = session.peer.node;
+    peer.uuid = session.peer.uuid;
+    peer.epoch = session.peer.number;
+    peer.address = session.peer.address;
+    const auto role = session.peer.role == to_word(node_role::coordinator)
+                          ? node_role::coordinator
+                          : node_role::primary;
+    auto actor = spawn_session(system, context, *beats, std::move(session), 0);
+    caf::anon_send(coordinator, session_admitted{actor, std::move(peer), role});
+  };
+  acceptor.on_refused = [context](const std::string& address,
+                                  const edge_error& why) {
+    context.tell("session_refused", address,
+                 {{"code", why.code}, {"message", why.message}});
+  };
+  edges.sockets.http->accept_sessions(std::move(acceptor));
+}
+
+} // namespace roscell

@@ -1,0 +1,108 @@
+#include "actors/node/node_runtime.hpp"
+
+#include "actors/edge/engine/engine_search.hpp"
+#include "actors/instances/engine/engine_runtime.hpp"
+#include "actors/instances/process/process_runtime.hpp"
+#include "messages/failure.hpp"
+
+#include <filesystem>
+#include <system_error>
+#include <utility>
+#include <variant>
+
+#include <unistd.h>
+
+namespace roscell {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* shim_name = "roscell-instance-shim";
+
+/// The shim beside this program, as it is built and as it is installed.
+fs::path find_shim() {
+  std::error_code problem;
+  const auto program = fs::read_symlink("/proc/self/exe", problem);
+  return program.parent_path() / shim_name;
+}
+
+caf::expected<chosen_runtime> choose_processes(const node_config& config,
+                                               std::string why) {
+  chosen_runtime result;
+  result.name = "process";
+  result.reason = std::move(why);
+  result.shim = config.shim.empty() ? find_shim() : config.shim;
+  if (::access(result.shim.c_str(), X_OK) != 0)
+    return fail(error_code::engine_failed,
+                "cannot run the instance shim '" + result.shim.string() + "'",
+                "", "install roscell-instance-shim beside roscell");
+  return result;
+}
+
+chosen_runtime choose_engine(const found_engine& engine) {
+  return {engine.name,
+          engine.socket,
+          {},
+          engine.name + " " + engine.version + " answers on '" + engine.socket
+              + "'"};
+}
+
+std::function<runtime_actor(container_listener_actor)>
+process_factory(caf::actor_system& system, const house& context,
+                const node_config& config, const chosen_runtime& chosen,
+                const io_thread& io) {
+  process_runtime_config setup;
+  setup.instances_dir = config.data_dir / "instances";
+  setup.shim = chosen.shim;
+  setup.log_bytes = config.log_bytes;
+  setup.io = io.core();
+  setup.environment = basic_environment();
+  return [&system, context, setup](const container_listener_actor& listener) {
+    return runtime_actor{spawn<caf::detached>(system, context, process_runtime,
+                                              setup, listener)};
+  };
+}
+
+} // namespace
+
+caf::expected<chosen_runtime> choose_runtime(const node_config& config) {
+  const auto colon = config.runtime.find(':');
+  const auto name = config.runtime.substr(0, colon);
+  if (name == "process" && colon == std::string::npos)
+    return choose_processes(config, "it was asked for");
+  if (name != "auto" && name != "docker" && name != "podman")
+    return fail(error_code::schema_violation,
+                "there is no runtime '" + config.runtime + "'", "",
+                "give auto, process, docker[:SOCKET] or podman[:SOCKET]");
+  const auto engine = find_engine(
+      colon == std::string::npos
+          ? engine_sockets(name)
+          : std::vector<std::string>{config.runtime.substr(colon + 1)});
+  if (const auto* found = std::get_if<found_engine>(&engine))
+    return choose_engine(*found);
+  const auto& why = std::get<edge_error>(engine);
+  if (name == "auto" && colon == std::string::npos)
+    return choose_processes(config, why.message + " (" + why.hint + ")");
+  return fail(why.code, why.message, "", why.hint);
+}
+
+std::function<runtime_actor(container_listener_actor)>
+runtime_factory(caf::actor_system& system, const house& context,
+                const node_config& config, const chosen_runtime& chosen,
+                const std::string& node_uuid, const io_thread& io) {
+  if (chosen.socket.empty())
+    return process_factory(system, context, config, chosen, io);
+  engine_runtime_config setup;
+  setup.context = context;
+  setup.socket = chosen.socket;
+  setup.setting = {node_uuid, config.log_bytes};
+  setup.data_dir = config.data_dir;
+  setup.io = io.core();
+  return [&system, context, setup](const container_listener_actor& listener) {
+    return runtime_actor{
+        spawn<caf::detached>(system, context, engine_runtime, setup, listener)};
+  };
+}
+
+} // namespace roscell

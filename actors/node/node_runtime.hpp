@@ -1,0 +1,38 @@
+#pragma once
+
+#include "actors/edge/io/io_thread.hpp"
+#include "actors/house/house.hpp"
+#include "actors/node/node_config.hpp"
+#include "messages/type_ids.hpp"
+
+#include <caf/expected.hpp>
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+namespace roscell {
+
+/// What runs the instances of a node.
+struct chosen_runtime {
+  std::string name;           ///< "process", "docker" or "podman".
+  std::string socket;         ///< Of the engine; empty: there is none.
+  std::filesystem::path shim; ///< For processes.
+  std::string reason;         ///< Why this one, a sentence for the operator.
+};
+
+/// Finds what the configuration asks for; `auto` takes an engine if one answers
+/// and processes if none does. Waits for an engine's answer, 2 s at most.
+///
+/// Errors: schema_violation (an unknown runtime), unreachable, unauthorized,
+/// timeout or engine_failed (the engine that was asked for), engine_failed
+/// (the shim is missing).
+caf::expected<chosen_runtime> choose_runtime(const node_config& config);
+
+/// Spawns the runtime that was chosen.
+std::function<runtime_actor(container_listener_actor)>
+runtime_factory(caf::actor_system& system, const house& context,
+                const node_config& config, const chosen_runtime& chosen,
+                const std::string& node_uuid, const io_thread& io);
+
+} // namespace roscell

@@ -1,0 +1,114 @@
+#include "actors/node/resource_probe.hpp"
+
+#include "actors/edge/host/host_probe_processes.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace roscell {
+
+namespace {
+
+using self_pointer =
+    resource_probe_actor::stateful_pointer<resource_probe_state>;
+using clock = host_probe::clock;
+
+/// CPU seconds of our instances; nothing is read where there are none.
+process_usage instance_usage(self_pointer self) {
+  const auto& st = self->state;
+  if (st.sessions.empty())
+    return {};
+  return usage_of_sessions(st.sessions, st.config.host.root);
+}
+
+void mark(self_pointer self, clock::time_point now) {
+  auto& st = self->state;
+  st.probe->sample(now);
+  st.samples.push_back({now, instance_usage(self).cpu_seconds});
+  while (st.samples.size() > 1
+         && now - st.samples[1].at >= host_probe::max_sample_age)
+    st.samples.pop_front();
+}
+
+/// Cores that our instances have used since the newest sample of some age.
+double instance_cpu(const resource_probe_state& st, clock::time_point now,
+                    double cpu_seconds) {
+  for (auto i = st.samples.rbegin(); i != st.samples.rend(); ++i) {
+    const std::chrono::duration<double> span = now - i->at;
+    if (span >= host_probe::min_sample_age)
+      return std::max(0.0, (cpu_seconds - i->cpu_seconds) / span.count());
+  }
+  return 0;
+}
+
+node_resources convert(const host_resources& host) {
+  node_resources result;
+  result.architecture = host.architecture;
+  result.unified_memory = host.unified_memory;
+  result.cpu = host.cpu;
+  result.memory_mib = host.memory_mib;
+  result.disk_mib = host.disk_mib;
+  result.gpus = host.gpus;
+  result.devices = host.devices;
+  return result;
+}
+
+/// Reads the host and takes off what our instances use: they count with what
+/// they have reserved instead.
+host_measured measure(self_pointer self, clock::time_point now) {
+  auto& st = self->state;
+  ++st.measurements;
+  const auto ours = instance_usage(self);
+  auto host = st.probe->read(now, ours.pids);
+  host.cpu.used =
+      std::max(0.0, host.cpu.used - instance_cpu(st, now, ours.cpu_seconds));
+  host.memory_mib.used = std::max(0.0, host.memory_mib.used - ours.rss_mib);
+  return {convert(apply_bound(std::move(host), st.config.bound))};
+}
+
+caf::result<host_measured> answer(self_pointer self, const measure_host& wish) {
+  auto& st = self->state;
+  const auto now = self->clock().now();
+  st.sessions = {wish.sessions.begin(), wish.sessions.end()};
+  if (st.probe->cpu_used(now)) {
+    auto result = measure(self, now);
+    mark(self, now);
+    return result;
+  }
+  if (st.waiting.empty())
+    mark(self, now);
+  auto promise = self->make_response_promise<host_measured>();
+  st.waiting.push_back({st.sessions, promise});
+  st.timer.set(self, now + host_probe::min_sample_age);
+  return promise;
+}
+
+void on_tick(self_pointer self, uint64_t number) {
+  auto& st = self->state;
+  if (!st.timer.rings(number))
+    return;
+  for (auto& x : std::exchange(st.waiting, {})) {
+    st.sessions = x.sessions;
+    x.promise.deliver(measure(self, self->clock().now()));
+  }
+}
+
+} // namespace
+
+resource_probe_actor::behavior_type
+resource_probe(self_pointer self, const resource_probe_config& config) {
+  self->state.config = config;
+  self->state.probe = std::make_unique<host_probe>(config.host);
+  mark(self, self->clock().now());
+  return {
+      [self](const state_query&) {
+        return state_of({{"measurements", self->state.measurements},
+                         {"waiting", self->state.waiting.size()}});
+      },
+      [self](const measure_host& wish) { return answer(self, wish); },
+      [self](const mark_sample&) { mark(self, self->clock().now()); },
+      [self](caf::tick_atom, uint64_t number) { on_tick(self, number); },
+  };
+}
+
+} // namespace roscell

@@ -1,0 +1,61 @@
+#pragma once
+
+#include "actors/edge/host/host_probe.hpp"
+#include "actors/edge/host/host_probe_capacity.hpp"
+#include "actors/house/alarm.hpp"
+#include "actors/house/house.hpp"
+#include "messages/type_ids.hpp"
+
+#include <caf/typed_response_promise.hpp>
+
+#include <chrono>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <sys/types.h>
+
+namespace roscell {
+
+struct resource_probe_config {
+  host_probe_options host;
+  capacity_bound bound;
+};
+
+/// CPU seconds that our instances had used at some time.
+struct instance_sample {
+  host_probe::clock::time_point at;
+  double cpu_seconds = 0;
+};
+
+/// A measurement that waits until a CPU sample is old enough.
+struct waiting_measurement {
+  std::set<pid_t> sessions;
+  caf::typed_response_promise<host_measured> promise;
+};
+
+/// Reads the host when asked. A read of /proc and the first one of NVML can
+/// take long, so this actor is spawned detached.
+struct resource_probe_state {
+  static constexpr const char* name = "resource-probe";
+
+  resource_probe_config config;
+  std::unique_ptr<host_probe> probe;
+  std::set<pid_t> sessions; ///< Of our instances, as last heard.
+  std::deque<instance_sample> samples;
+  std::vector<waiting_measurement> waiting;
+  alarm timer;
+  uint64_t measurements = 0;
+};
+
+/// The RESOURCE PROBE. Messages: messages/agent.hpp. It answers at once where a
+/// sample of the last seconds is there, else after one second.
+resource_probe_actor::behavior_type resource_probe(
+    resource_probe_actor::stateful_pointer<resource_probe_state> self,
+    const resource_probe_config& config);
+
+} // namespace roscell

@@ -1,0 +1,62 @@
+#include "actors/placement/instance_specs.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <random>
+#include <utility>
+
+namespace roscell {
+
+namespace {
+
+/// Eight hex digits that no other instance of the task has had.
+std::string random_suffix() {
+  std::random_device source;
+  char text[9];
+  std::snprintf(text, sizeof(text), "%08x", static_cast<unsigned>(source()));
+  return text;
+}
+
+const deployment_option& chosen_option(const resolved_step& step,
+                                       const std::string& name) {
+  const auto& options = step.model.deployments;
+  return *std::find_if(options.begin(), options.end(),
+                       [&](const auto& x) { return x.name == name; });
+}
+
+} // namespace
+
+std::string merge_parameters(const std::string& base,
+                             const std::string& override_text) {
+  json result = base.empty() ? json::object() : json::parse(base);
+  if (!override_text.empty())
+    result.update(json::parse(override_text));
+  return result.dump();
+}
+
+std::vector<instance_spec> make_specs(const allocated_task& task) {
+  std::vector<instance_spec> result;
+  for (size_t i = 0; i < task.steps.size(); ++i) {
+    const auto& x = task.steps[i];
+    const auto& placed = task.plan.allocations[i];
+    const auto& option = chosen_option(x, placed.deployment);
+    instance_spec spec;
+    spec.instance = task.request.task + "-" + x.step.id + "-" + random_suffix();
+    spec.task = task.request.task;
+    spec.step = x.step.id;
+    spec.operation = x.step.operation;
+    spec.model = x.step.model;
+    spec.deployment = option.name;
+    spec.skill = x.skill.hash;
+    spec.gpu = placed.gpu;
+    spec.input = x.step.input;
+    spec.output = x.step.output;
+    spec.parameters = merge_parameters(x.model.parameters, x.step.parameters);
+    spec.environment = option.environment;
+    spec.resources = option.resources;
+    result.push_back(std::move(spec));
+  }
+  return result;
+}
+
+} // namespace roscell

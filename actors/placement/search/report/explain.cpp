@@ -1,0 +1,150 @@
+#include "actors/placement/search/report/explain.hpp"
+
+#include "actors/placement/search/report/reasons.hpp"
+#include "actors/placement/search/report/text.hpp"
+
+#include <algorithm>
+
+namespace roscell::allocation {
+
+namespace {
+
+/// Names of steps in quotes, with the word before them: "steps 'a' and 'b'".
+std::string named(const problem& asked, const std::vector<std::size_t>& steps) {
+  std::vector<std::string> names;
+  names.reserve(steps.size());
+  for (auto i : steps)
+    names.push_back(quoted(asked.steps[i].id));
+  return (steps.size() == 1 ? "step " : "steps ") + enumerated(names);
+}
+
+class explainer {
+public:
+  explainer(const search_space& space, const std::vector<std::size_t>& conflict)
+      : space_(space), conflict_(conflict),
+        text_(conflict_text(space.asked, space.candidates, conflict)) {}
+
+  rejected_candidate explain(std::size_t step, const candidate& choice) const {
+    std::vector<reason> reasons;
+    auto rivals = rivals_of(step, choice.node);
+    if (!rivals.empty())
+      for (auto kind : {cpu, memory, disk, gpu_memory})
+        add_shortage(reasons, kind, step, choice, rivals);
+    if (reasons.empty())
+      reasons.push_back(
+          {reason_kind::combination, 0, 0, 0, "fits alone, but " + text_});
+    return rejection(space_.asked, step, choice, std::move(reasons));
+  }
+
+private:
+  /// The other steps of the conflict that could use this node; none when this
+  /// step is not part of it.
+  std::vector<std::size_t> rivals_of(std::size_t step, std::size_t node) const {
+    std::vector<std::size_t> rivals;
+    if (std::find(conflict_.begin(), conflict_.end(), step) == conflict_.end())
+      return rivals;
+    for (auto other : conflict_) {
+      const auto& from = space_.candidates.from[other];
+      if (other != step && from[node] < from[node + 1])
+        rivals.push_back(other);
+    }
+    return rivals;
+  }
+
+  /// What the candidate takes of the node. GPU memory of a unified-memory
+  /// node comes out of its memory.
+  double takes(resource kind, std::size_t step, const candidate& choice) const {
+    const auto& way = space_.way(step, choice);
+    bool unified = space_.asked.nodes[choice.node].unified_memory;
+    switch (kind) {
+    case cpu:
+      return way.cpu;
+    case memory:
+      return way.memory_mib + (unified ? way.gpu_memory_mib : 0);
+    case disk:
+      return way.disk_mib;
+    default:
+      return unified ? 0 : way.gpu_memory_mib;
+    }
+  }
+
+  double least_takes(resource kind, std::size_t step, std::size_t node) const {
+    const auto& from = space_.candidates.from[step];
+    auto least = takes(kind, step, space_.choice(step, from[node]));
+    for (auto c = from[node] + 1; c < from[node + 1]; ++c)
+      least = std::min(least, takes(kind, step, space_.choice(step, c)));
+    return least;
+  }
+
+  /// Over all GPUs of the node for GPU memory.
+  double free(resource kind, std::size_t node) const {
+    const auto& host = space_.asked.nodes[node];
+    auto left = [](const amount& of) {
+      return std::max(0.0, of.capacity - of.used);
+    };
+    switch (kind) {
+    case cpu:
+      return left(host.cpu);
+    case memory:
+      return left(host.memory_mib);
+    case disk:
+      return left(host.disk_mib);
+    default: {
+      double sum = 0;
+      for (const auto& card : host.gpus)
+        sum += left(card.memory_mib);
+      return sum;
+    }
+    }
+  }
+
+  void add_shortage(std::vector<reason>& to, resource kind, std::size_t step,
+                    const candidate& choice,
+                    const std::vector<std::size_t>& rivals) const {
+    share together{takes(kind, step, choice), free(kind, choice.node)};
+    if (together.request <= 0)
+      return;
+    for (auto rival : rivals)
+      together.request += least_takes(kind, rival, choice.node);
+    if (together.fits())
+      return;
+    to.push_back({reason_kind::combination, together.request, together.free,
+                  together.request - together.free,
+                  "fits alone, but " + text_ + "; with "
+                      + named(space_.asked, rivals) + " this node "
+                      + shortage_text(kind, together.request, together.free)});
+  }
+
+  const search_space& space_;
+  const std::vector<std::size_t>& conflict_;
+  const std::string text_;
+};
+
+} // namespace
+
+std::vector<rejected_candidate>
+explain_conflict(const search_space& space,
+                 const std::vector<std::size_t>& conflict) {
+  explainer explains(space, conflict);
+  std::vector<rejected_candidate> rejected;
+  for (std::size_t i = 0; i < space.steps(); ++i)
+    for (const auto& choice : space.candidates.of[i])
+      rejected.push_back(explains.explain(i, choice));
+  return rejected;
+}
+
+std::string conflict_text(const problem& asked, const candidate_set& candidates,
+                          const std::vector<std::size_t>& conflict) {
+  if (conflict.size() > 1)
+    return named(asked, conflict) + " cannot be placed together";
+  const auto step = conflict.front();
+  if (asked.steps[step].deployments.empty())
+    return named(asked, conflict) + " has no deployment option to choose from";
+  if (asked.nodes.empty())
+    return "there is no node";
+  return named(asked, conflict)
+         + (candidates.of[step].empty() ? " fits on no node"
+                                        : " cannot be placed");
+}
+
+} // namespace roscell::allocation

@@ -1,0 +1,259 @@
+#include "actors/placement/task_allocation.hpp"
+
+#include "actors/placement/search/allocation.hpp"
+#include "actors/placement/search/report/alternative.hpp"
+#include "actors/placement/search/report/use.hpp"
+#include "actors/placement/skill_resolution.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace roscell {
+
+namespace {
+
+allocation::amount convert(const amount& x) {
+  return {x.capacity, x.used};
+}
+
+allocation::node convert(const node_resources& x) {
+  allocation::node result{x.name,
+                          x.architecture,
+                          x.unified_memory,
+                          convert(x.cpu),
+                          convert(x.memory_mib),
+                          convert(x.disk_mib),
+                          {},
+                          x.labels,
+                          x.devices};
+  for (const auto& gpu : x.gpus)
+    result.gpus.push_back({gpu.index, convert(gpu.memory_mib)});
+  return result;
+}
+
+allocation::deployment convert(const deployment_option& x) {
+  const auto& r = x.resources;
+  return {x.name,
+          x.architectures,
+          r.cpu,
+          r.memory_mib,
+          r.disk_mib,
+          r.needs_gpu(),
+          r.needs_gpu() ? r.gpu_memory_mib : 0,
+          x.devices,
+          x.labels};
+}
+
+/// Position of what a name is of; the size of the list if of none.
+template <class List, class Name>
+size_t position(const List& list, const std::string& wanted, Name name) {
+  return static_cast<size_t>(
+      std::find_if(list.begin(), list.end(),
+                   [&](const auto& x) { return name(x) == wanted; })
+      - list.begin());
+}
+
+size_t step_position(const allocate_task& asked, const std::string& id) {
+  return position(asked.steps, id, [](const auto& x) { return x.step.id; });
+}
+
+void add_exclusion(const allocate_task& asked, const excluded_candidate& x,
+                   allocation::problem& to) {
+  auto by_name = [](const auto& y) { return y.name; };
+  const auto step = step_position(asked, x.step);
+  if (step == asked.steps.size())
+    return;
+  to.excluded.push_back(
+      {step, position(asked.nodes, x.node, by_name),
+       position(asked.steps[step].model.deployments, x.deployment, by_name),
+       x.gpu, x.reason});
+}
+
+allocation::problem convert(const allocate_task& asked) {
+  allocation::problem result;
+  for (const auto& node : asked.nodes)
+    result.nodes.push_back(convert(node));
+  for (const auto& x : asked.steps) {
+    allocation::step step{
+        x.step.id, {}, x.step.labels, {x.nodes.begin(), x.nodes.end()}};
+    for (const auto& option : x.model.deployments)
+      step.deployments.push_back(convert(option));
+    result.steps.push_back(std::move(step));
+  }
+  for (const auto& x : asked.excluded)
+    add_exclusion(asked, x, result);
+  return result;
+}
+
+/// Puts names where the search speaks of positions.
+class plan_writer {
+public:
+  plan_writer(const allocate_task& asked, const allocation::result& found,
+              double alpha = allocation::problem{}.alpha)
+      : asked_(asked), found_(found), alpha_(alpha) {}
+
+  task_plan plan() const {
+    task_plan result;
+    result.task = asked_.task;
+    result.optimal = found_.optimal();
+    result.score = score();
+    result.allocations = allocations();
+    result.rejected = rejected();
+    result.warnings = found_.warnings;
+    result.states = static_cast<int64_t>(found_.expanded);
+    return result;
+  }
+
+  allocation_score score() const {
+    const auto& value = found_.value;
+    return {
+        value.total,        value.balance,
+        value.load,         alpha_,
+        found_.lower_bound, std::max(0.0, value.total - found_.lower_bound)};
+  }
+
+  std::vector<step_allocation> allocations() const {
+    std::vector<step_allocation> result;
+    for (const auto& x : found_.placements)
+      result.push_back(describe(x));
+    return result;
+  }
+
+  std::vector<rejected_candidate> rejected() const {
+    std::vector<rejected_candidate> result;
+    for (const auto& x : found_.rejected) {
+      rejected_candidate row{step(x.step).step.id,
+                             asked_.nodes[x.node].name,
+                             deployment(x.step, x.deployment),
+                             {},
+                             {},
+                             x.gpu};
+      const auto gpu =
+          x.gpu < 0 ? std::string{} : "GPU " + std::to_string(x.gpu) + ": ";
+      for (const auto& reason : x.reasons) {
+        row.reasons.push_back(
+            (reason.kind == allocation::reason_kind::gpu_memory ? gpu : "")
+            + reason.text);
+        row.causes.push_back({allocation::to_string(reason.kind), reason.needed,
+                              std::max(0.0, reason.free), reason.short_by});
+      }
+      result.push_back(std::move(row));
+    }
+    return result;
+  }
+
+private:
+  const resolved_step& step(size_t i) const {
+    return asked_.steps[i];
+  }
+
+  std::string deployment(size_t step_index, size_t i) const {
+    return step(step_index).model.deployments[i].name;
+  }
+
+  step_allocation describe(const allocation::placement& x) const {
+    return {step(x.step).step.id,
+            asked_.nodes[x.node].name,
+            deployment(x.step, x.deployment),
+            x.gpu,
+            {x.shares.cpu, x.shares.memory, x.shares.disk,
+             x.shares.gpu_memory.value_or(-1)},
+            x.variance,
+            x.bonus};
+  }
+
+  const allocate_task& asked_;
+  const allocation::result& found_;
+  double alpha_;
+};
+
+std::vector<resource_use> uses_in(const allocate_task& asked,
+                                  const allocation::problem& problem,
+                                  const allocation::result& found) {
+  std::vector<resource_use> result;
+  for (const auto& x : allocation::uses(problem, found.placements))
+    result.push_back(
+        {asked.nodes[x.node].name, x.name, x.capacity, x.before, x.after});
+  return result;
+}
+
+step_alternative alternative_to(const allocate_task& asked,
+                                const allocation::problem& problem,
+                                const allocation::result& chosen, size_t step,
+                                const allocation::limits& limits) {
+  const auto other = allocation::alternative(problem, chosen, step, limits);
+  const plan_writer writer{asked, other, problem.alpha};
+  step_alternative result;
+  result.step = asked.steps[step].step.id;
+  result.optimal = other.optimal() && chosen.optimal();
+  if (!other.has_allocation()) {
+    result.obstacle = other.message;
+    return result;
+  }
+  result.extra = other.value.total - chosen.value.total;
+  result.score = writer.score();
+  result.allocations = writer.allocations();
+  return result;
+}
+
+failure refusal(const allocate_task& asked, const allocation::result& found) {
+  using allocation::outcome;
+  if (found.what == outcome::invalid)
+    return {error_code::schema_violation, found.message, "",
+            "every resource is a finite number that is not negative"};
+  if (found.what == outcome::undecided)
+    return {error_code::timeout, found.message, "/pipeline",
+            "ask for fewer steps at once, or name the deployments"};
+  failure result{error_code::no_feasible_allocation, found.message, "/pipeline",
+                 "`rejected` says for each candidate what is in the way"};
+  result.details =
+      json{{"rejected", plan_writer{asked, found}.rejected()}}.dump();
+  return result;
+}
+
+} // namespace
+
+std::variant<task_plan, failure>
+allocate(const allocate_task& asked, std::chrono::milliseconds budget,
+         const std::function<bool()>& cancelled) {
+  const auto why = step_position(asked, asked.why);
+  if (!asked.why.empty() && why == asked.steps.size())
+    return failure{error_code::schema_violation,
+                   "there is no step '" + asked.why + "'", "/why",
+                   "name the id of a step of the pipeline"};
+  allocation::limits limits;
+  limits.budget = budget;
+  limits.cancelled = cancelled;
+  const auto problem = convert(asked);
+  const auto found = allocation::allocate(problem, limits);
+  if (!found.has_allocation())
+    return refusal(asked, found);
+  auto plan = plan_writer{asked, found, problem.alpha}.plan();
+  plan.use = uses_in(asked, problem, found);
+  if (!asked.why.empty())
+    plan.alternatives = {alternative_to(asked, problem, found, why, limits)};
+  return plan;
+}
+
+std::variant<task_plan, failure> allocate_offline(const plan_document& document,
+                                                  const std::string& why) {
+  std::vector<skill_row> skills;
+  for (const auto& descriptor : document.skills) {
+    skill_row row{{"", descriptor}, {}};
+    for (const auto& node : document.nodes)
+      row.nodes.push_back(node.name);
+    skills.push_back(std::move(row));
+  }
+  auto steps =
+      resolve_steps(document.request.pipeline, skills, "/request/pipeline");
+  if (auto* problem = std::get_if<failure>(&steps))
+    return std::move(*problem);
+  return allocate({document.request.task,
+                   std::get<std::vector<resolved_step>>(std::move(steps)),
+                   document.nodes,
+                   {},
+                   why},
+                  offline_allocation_budget);
+}
+
+} // namespace roscell

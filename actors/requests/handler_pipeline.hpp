@@ -1,0 +1,14 @@
+#pragma once
+
+#include "actors/requests/request_registry.hpp"
+
+namespace roscell {
+
+/// Carries one request through its handlers and ends with it, so that whatever
+/// kills it fails that request only: the next one gets a new actor.
+/// Messages: messages/coordination.hpp.
+handler_pipeline_actor::behavior_type
+handler_pipeline(pipeline_pointer self, const request_runner& run,
+                 const std::shared_ptr<const node_services>& services);
+
+} // namespace roscell

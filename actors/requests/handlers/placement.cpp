@@ -1,0 +1,197 @@
+#include "actors/placement/instance_specs.hpp"
+#include "actors/requests/handlers/task_pipeline.hpp"
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <utility>
+
+namespace roscell {
+
+namespace {
+
+/// How often a task is placed anew because nodes refused or left.
+constexpr int most_rounds = 3;
+
+/// A member measures its host for it.
+constexpr std::chrono::seconds reservation_timeout{10};
+
+/// One task on its way to a place where every member keeps room for it. Lives
+/// as long as the requests that hold it.
+class placing : public std::enable_shared_from_this<placing> {
+public:
+  placing(const request_context& context, resourced_task task,
+          outcome<reserved_task> done)
+      : context_(context), task_(std::move(task)), done_(std::move(done)) {}
+
+  void search() {
+    allocate_task question{
+        task_.request.task, task_.steps, task_.nodes, held_.refused, {}};
+    ask<task_plan>(context_.services->scheduler, search_timeout,
+                   std::move(question),
+                   [](placing& self, task_plan& plan) { self.adopt(plan); });
+  }
+
+private:
+  /// Asks on behalf of the task. A conflict means that a node has left: the
+  /// task is placed anew.
+  template <class Reply, class Handle, class Message>
+  void ask(const Handle& whom, std::chrono::milliseconds timeout,
+           Message message, void (*on_reply)(placing&, Reply&)) {
+    auto self = shared_from_this();
+    context_.self->request(whom, timeout, std::move(message))
+        .then([self, on_reply](Reply& x) { on_reply(*self, x); },
+              [self](const caf::error& why) { self->on_error(why); });
+  }
+
+  void on_error(const caf::error& error) {
+    auto why = to_failure(error);
+    if (why.code == error_code::conflict)
+      return start_again(std::move(why));
+    if (why.code == error_code::no_feasible_allocation
+        && !held_.refused.empty())
+      why.hint = refusals() + "; " + why.hint;
+    done_.fail(std::move(why));
+  }
+
+  void adopt(task_plan& plan) {
+    held_.task = {task_.request, task_.steps, std::move(plan)};
+    held_.specs = make_specs(held_.task);
+    find_agents question;
+    for (const auto& x : held_.task.plan.allocations)
+      question.nodes.push_back(x.node);
+    ask<agents_found>(
+        context_.services->coordinator, local_timeout, std::move(question),
+        [](placing& self, agents_found& found) { self.reserve(found); });
+  }
+
+  /// One request per node, all at once.
+  void reserve(agents_found& found) {
+    held_.agents = std::move(found.agents);
+    wishes_.clear();
+    for (size_t i = 0; i < held_.specs.size(); ++i) {
+      held_.specs[i].cell = found.cell;
+      auto& wish = wishes_[held_.task.plan.allocations[i].node];
+      wish.agent = held_.agents[i];
+      wish.message.task = task_.request.task;
+      wish.message.specs.push_back(held_.specs[i]);
+    }
+    new_refusals_ = 0;
+    open_ = wishes_.size();
+    for (const auto& [node, wish] : wishes_)
+      reserve_on(node, wish.agent, wish.message);
+  }
+
+  void reserve_on(const std::string& node, const node_agent_actor& agent,
+                  const instance_reservation& wish) {
+    auto self = shared_from_this();
+    context_.self->request(agent, reservation_timeout, wish)
+        .then(
+            [self](const instances_reserved& reply) {
+              for (const auto& x : reply.refused)
+                self->add_refusal(x.instance, x.reason);
+              self->finish_one();
+            },
+            [self, node, wish](const caf::error& error) {
+              const auto why = to_failure(error);
+              for (const auto& spec : wish.specs)
+                self->add_refusal(spec.instance,
+                                  "node '" + node + "': " + why.message);
+              self->finish_one();
+            });
+  }
+
+  void add_refusal(const std::string& instance, const std::string& reason) {
+    for (size_t i = 0; i < held_.specs.size(); ++i) {
+      if (held_.specs[i].instance != instance)
+        continue;
+      const auto& x = held_.task.plan.allocations[i];
+      held_.refused.push_back({x.step, x.node, x.deployment, x.gpu,
+                               "refused by the node: " + reason});
+      context_.home().tell("allocation_refused", task_.request.task,
+                           {{"step", x.step},
+                            {"node", x.node},
+                            {"deployment", x.deployment},
+                            {"reason", reason}});
+      ++new_refusals_;
+    }
+  }
+
+  void finish_one() {
+    if (--open_ > 0)
+      return;
+    if (new_refusals_ == 0)
+      return done_.deliver(std::move(held_));
+    start_again({error_code::no_feasible_allocation, refusals(), "/pipeline",
+                 "the nodes' resources change; send the request again"});
+  }
+
+  /// Gives up what is kept, looks at the cell again and searches once more;
+  /// ends with `why` if that was done often enough.
+  void start_again(failure why) {
+    auto self = shared_from_this();
+    auto next = [self, why] {
+      if (++self->rounds_ > most_rounds)
+        return self->done_.fail(why);
+      self->ask<cell_resources>(self->context_.services->coordinator,
+                                local_timeout, collect_resources{},
+                                [](placing& x, cell_resources& cell) {
+                                  x.task_.nodes = std::move(cell.nodes);
+                                  x.search();
+                                });
+    };
+    give_up_room(next);
+  }
+
+  void give_up_room(const std::function<void()>& next) {
+    auto wishes = std::exchange(wishes_, {});
+    auto open = std::make_shared<size_t>(wishes.size());
+    if (*open == 0)
+      return next();
+    auto finish = [open, next] {
+      if (--*open == 0)
+        next();
+    };
+    for (const auto& [node, wish] : wishes)
+      context_.self
+          ->request(wish.agent, reservation_timeout,
+                    instance_removal{task_.request.task, ""})
+          .then([finish](const instances_removed&) { finish(); },
+                [finish](const caf::error&) { finish(); });
+  }
+
+  std::string refusals() const {
+    std::string text = "nodes refused";
+    const char* before = " ";
+    for (const auto& x : held_.refused) {
+      text += before + ("step '" + x.step) + "' on '" + x.node + "' ("
+              + x.reason + ")";
+      before = ", ";
+    }
+    return text;
+  }
+
+  struct wish {
+    node_agent_actor agent;
+    instance_reservation message;
+  };
+
+  request_context context_;
+  resourced_task task_;
+  outcome<reserved_task> done_;
+  reserved_task held_;
+  std::map<std::string, wish> wishes_; ///< By node.
+  size_t open_ = 0;
+  size_t new_refusals_ = 0;
+  int rounds_ = 0;
+};
+
+} // namespace
+
+void place_with_room(const request_context& context, resourced_task task,
+                     outcome<reserved_task> done) {
+  std::make_shared<placing>(context, std::move(task), std::move(done))
+      ->search();
+}
+
+} // namespace roscell

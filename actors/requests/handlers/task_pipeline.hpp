@@ -1,0 +1,85 @@
+#pragma once
+
+#include "actors/requests/request_context.hpp"
+
+#include <optional>
+#include <vector>
+
+/// The handlers of `task_request` and `task_plan_query`. Each one's output is
+/// the next one's input; registry.cpp puts them in order.
+namespace roscell {
+
+/// What a plan query thinks otherwise than the cell is.
+struct what_if {
+  std::vector<std::string> without;
+  std::vector<node_resources> with;
+  std::string why; ///< A step whose best alternative is asked for.
+};
+
+/// A request whose turn it is.
+struct claimed_task {
+  task_request request;
+  what_if other;
+};
+
+struct resolved_task {
+  task_request request;
+  std::vector<resolved_step> steps;
+  what_if other;
+};
+
+struct resourced_task {
+  task_request request;
+  std::vector<resolved_step> steps;
+  std::vector<node_resources> nodes;
+  std::string why;
+};
+
+struct allocated_task {
+  task_request request;
+  std::vector<resolved_step> steps;
+  task_plan plan;
+};
+
+/// Placed where the members keep room for it.
+struct reserved_task {
+  allocated_task task;
+  std::vector<instance_spec> specs;
+  std::vector<node_agent_actor> agents; ///< One per spec.
+  std::vector<excluded_candidate> refused;
+};
+
+/// What will be deployed where; the resources are held.
+struct intended_task {
+  task_accepted reply;
+  std::vector<instance_spec> specs;
+  std::vector<node_agent_actor> agents; ///< One per spec.
+};
+
+/// How the deployment of the steps went.
+struct deployed_task {
+  task_accepted reply;
+  std::optional<failure> problem; ///< Of the first step that did not come up.
+};
+
+/// Waits for the turn. The same request again ends here with the first reply.
+void claim(const request_context&, task_request, outcome<claimed_task>);
+void adopt_plan_query(const request_context&, task_plan_query,
+                      outcome<claimed_task>);
+void resolve_skills(const request_context&, claimed_task,
+                    outcome<resolved_task>);
+void collect(const request_context&, resolved_task, outcome<resourced_task>);
+void place(const request_context&, resourced_task, outcome<allocated_task>);
+void present_plan(const request_context&, allocated_task, outcome<task_plan>);
+/// Allocates, and has the members keep room; where one refuses, again without
+/// what it refused. In placement.cpp.
+void place_with_room(const request_context&, resourced_task,
+                     outcome<reserved_task>);
+void record_plan(const request_context&, reserved_task, outcome<intended_task>);
+/// Starts all steps at once and waits until all run or one has failed.
+void deploy(const request_context&, intended_task, outcome<deployed_task>);
+/// A failed deployment is rolled back before its error is returned.
+void record_result(const request_context&, deployed_task,
+                   outcome<task_accepted>);
+
+} // namespace roscell

@@ -1,0 +1,207 @@
+#include "actors/requests/request_router.hpp"
+
+#include "actors/requests/handler_pipeline.hpp"
+#include "schemas/document.hpp"
+#include "schemas/message_catalogue.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <functional>
+#include <utility>
+
+namespace roscell {
+
+namespace {
+
+using self_pointer =
+    request_router_actor::stateful_pointer<request_router_state>;
+using promise_type = caf::typed_response_promise<request_routed>;
+
+/// Longest life of a request: an image may have to be built for it.
+constexpr std::chrono::minutes request_timeout{15};
+
+request_routed refusal(self_pointer self, const failure& why) {
+  ++self->state.refused;
+  return {error_reply(why).dump(-1, ' ', false, json::error_handler_t::replace),
+          to_string(why.code)};
+}
+
+/// Removes a remembered request and gives those who wait for it.
+std::vector<promise_type> forget(self_pointer self, const std::string& id) {
+  auto& st = self->state;
+  auto i = st.remembered.find(id);
+  if (i == st.remembered.end())
+    return {};
+  auto waiting = std::move(i->second.waiting);
+  st.remembered_bytes -= i->second.body.size() + i->second.reply.size();
+  st.remembered.erase(i);
+  auto& order = st.remembered_order;
+  order.erase(std::remove(order.begin(), order.end(), id), order.end());
+  return waiting;
+}
+
+/// Drops the oldest finished answers beyond the limit.
+void trim(self_pointer self) {
+  auto& st = self->state;
+  while (st.remembered.size() > request_router_state::remembered_limit
+         || st.remembered_bytes
+                > request_router_state::remembered_bytes_limit) {
+    auto i = std::find_if(
+        st.remembered_order.begin(), st.remembered_order.end(),
+        [&](const auto& id) { return !st.remembered.at(id).reply.empty(); });
+    if (i == st.remembered_order.end())
+      return;
+    const auto id = *i;
+    forget(self, id);
+  }
+}
+
+void answer(self_pointer self, const std::string& id, promise_type promise,
+            const request_routed& reply) {
+  promise.deliver(reply);
+  if (id.empty())
+    return;
+  if (reply.refusal.empty()) {
+    auto& entry = self->state.remembered[id];
+    entry.reply = reply.text;
+    self->state.remembered_bytes += reply.text.size();
+    for (auto& other : entry.waiting)
+      other.deliver(reply);
+    entry.waiting.clear();
+    trim(self);
+  } else {
+    // A refused request may be tried again under its id.
+    for (auto& other : forget(self, id))
+      other.deliver(reply);
+  }
+}
+
+/// Answers the request of a pipeline, unless that has been done.
+void settle(self_pointer self, const caf::actor_addr& worker,
+            const std::function<request_routed()>& reply) {
+  auto& running = self->state.running;
+  auto i = running.find(worker);
+  if (i == running.end())
+    return;
+  const auto request = std::move(i->second);
+  running.erase(i);
+  answer(self, request.id, request.promise, reply());
+}
+
+/// A pipeline that is killed cannot answer: it is answered for.
+void on_pipeline_down(self_pointer self, const caf::down_msg& down) {
+  settle(self, down.source, [&] {
+    const bool has_words = down.reason.category() == caf::atom("roscell");
+    return refusal(self,
+                   to_failure(has_words ? down.reason
+                                        : caf::make_error(
+                                            caf::sec::request_receiver_down)));
+  });
+}
+
+/// Gives each request a pipeline of its own.
+void dispatch(self_pointer self, const request_runner& run,
+              const std::string& id, std::string text, promise_type promise) {
+  const auto& services = self->state.services;
+  auto worker =
+      spawn(self->system(), services->context, handler_pipeline, run, services);
+  const auto address = worker.address();
+  self->state.running[address] = {id, worker, std::move(promise)};
+  self->monitor(worker);
+  self->request(worker, request_timeout, process_request{std::move(text)})
+      .then(
+          [self, address](request_processed& done) {
+            settle(self, address, [&] {
+              return request_routed{std::move(done.text), ""};
+            });
+          },
+          [self, address](const caf::error& why) {
+            self->send_exit(address, caf::exit_reason::user_shutdown);
+            settle(self, address,
+                   [&] { return refusal(self, to_failure(why)); });
+          });
+}
+
+/// Handles a `request_id` that has been seen. True if that settles it.
+bool recall(self_pointer self, const std::string& id, const std::string& body,
+            promise_type& promise) {
+  auto i = self->state.remembered.find(id);
+  if (i == self->state.remembered.end())
+    return false;
+  auto& known = i->second;
+  if (known.body != body)
+    promise.deliver(
+        refusal(self, {error_code::conflict,
+                       "request_id '" + id + "' was used for another request",
+                       "/request_id", "choose an id that has not been used"}));
+  else if (known.reply.empty())
+    known.waiting.push_back(promise);
+  else
+    promise.deliver(request_routed{known.reply, ""});
+  return true;
+}
+
+failure unknown_type(const std::string& type, bool coordinates) {
+  failure why{error_code::unknown_type,
+              "this node has no handler for '" + type + "'", "/type"};
+  if (!coordinates)
+    why.hint = "send it to the coordination node of the cell; "
+               "`roscell status` tells its address";
+  return why;
+}
+
+caf::result<request_routed> route(self_pointer self,
+                                  const route_request& request) {
+  auto& st = self->state;
+  ++st.routed;
+  auto parsed = parse_document(request.text);
+  if (auto* why = std::get_if<failure>(&parsed))
+    return refusal(self, *why);
+  const auto& document = std::get<json>(parsed);
+  if (auto why = validate_message(document, {message_kind::request}))
+    return refusal(self, *why);
+  const auto type = document.at("type").get<std::string>();
+  if (!request.only.empty() && type != request.only)
+    return refusal(self, {error_code::unauthorized,
+                          "only a '" + request.only + "' is taken here",
+                          "/type", "send it to /v1/requests"});
+  const auto* run = st.registry->find(type);
+  if (!run)
+    return refusal(
+        self, unknown_type(type, static_cast<bool>(st.services->coordinator)));
+  const auto id = document.value("request_id", "");
+  auto body = document.dump();
+  auto promise = self->make_response_promise<request_routed>();
+  if (!id.empty()) {
+    if (recall(self, id, body, promise))
+      return promise;
+    st.remembered[id].body = body;
+    st.remembered_bytes += body.size();
+    st.remembered_order.push_back(id);
+  }
+  dispatch(self, *run, id, std::move(body), promise);
+  return promise;
+}
+
+} // namespace
+
+request_router_actor::behavior_type
+request_router(self_pointer self,
+               const std::shared_ptr<const request_registry>& registry,
+               const std::shared_ptr<const node_services>& services) {
+  self->state.registry = registry;
+  self->state.services = services;
+  self->set_down_handler(
+      [self](const caf::down_msg& down) { on_pipeline_down(self, down); });
+  return {
+      [self](const state_query&) {
+        const auto& st = self->state;
+        return state_of({{"routed", st.routed},
+                         {"refused", st.refused},
+                         {"remembered", st.remembered.size()}});
+      },
+      [self](const route_request& request) { return route(self, request); },
+  };
+}
+
+} // namespace roscell

@@ -1,0 +1,56 @@
+#pragma once
+
+#include "actors/requests/request_registry.hpp"
+
+#include <caf/actor_addr.hpp>
+#include <caf/typed_response_promise.hpp>
+
+#include <deque>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace roscell {
+
+/// A request with a `request_id`: the same one again gets the same answer.
+struct remembered_request {
+  std::string body;
+  std::string reply; ///< Empty while it is being worked on.
+  std::vector<caf::typed_response_promise<request_routed>> waiting;
+};
+
+/// A request that a pipeline works on.
+struct running_request {
+  std::string id; ///< Its `request_id`, may be empty.
+  handler_pipeline_actor worker;
+  caf::typed_response_promise<request_routed> promise;
+};
+
+/// Owns the registry of requests and the answers of those that carry an id.
+struct request_router_state {
+  static constexpr const char* name = "request-router";
+
+  /// How many answers are remembered; the oldest goes first.
+  static constexpr size_t remembered_limit = 256;
+
+  /// How much memory they may take, requests included.
+  static constexpr size_t remembered_bytes_limit = 4 * 1024 * 1024;
+
+  std::shared_ptr<const request_registry> registry;
+  std::shared_ptr<const node_services> services;
+  std::map<std::string, remembered_request> remembered;
+  std::deque<std::string> remembered_order;
+  size_t remembered_bytes = 0;
+  std::map<caf::actor_addr, running_request> running; ///< By pipeline.
+  uint64_t routed = 0;
+  uint64_t refused = 0;
+};
+
+/// The REQUEST ROUTER. Messages: messages/coordination.hpp.
+request_router_actor::behavior_type request_router(
+    request_router_actor::stateful_pointer<request_router_state> self,
+    const std::shared_ptr<const request_registry>& registry,
+    const std::shared_ptr<const node_services>& services);
+
+} // namespace roscell

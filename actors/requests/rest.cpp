@@ -1,0 +1,86 @@
+#include "actors/requests/rest.hpp"
+
+#include "actors/requests/rest_routes.hpp"
+#include "actors/requests/rest_streams.hpp"
+
+#include <caf/typed_event_based_actor.hpp>
+
+#include <chrono>
+#include <string>
+#include <utility>
+
+namespace roscell {
+
+namespace {
+
+/// Longer than the router's own limit, so that its answer always comes first.
+constexpr std::chrono::minutes router_timeout{16};
+
+/// One HTTP request that waits for the router.
+struct rest_exchange_state {
+  static constexpr const char* name = "rest-exchange";
+};
+
+introspected_actor::behavior_type
+rest_exchange(introspected_actor::stateful_pointer<rest_exchange_state> self,
+              const request_router_actor& router, const json_request& what,
+              const responder& answer) {
+  self->request(router, router_timeout, route_request{what.text, what.only})
+      .then(
+          [self, answer](const request_routed& done) {
+            const int status = done.refusal.empty()
+                                   ? 200
+                                   : http_status(error_code_from(done.refusal));
+            answer.reply(status, json_content, done.text);
+            self->quit();
+          },
+          [self, answer](const caf::error& why) {
+            const auto problem = to_failure(why);
+            answer.error(http_status(problem.code), problem.code,
+                         problem.message, problem.hint);
+            self->quit();
+          });
+  return {
+      [](const state_query&) { return state_of(json::object()); },
+  };
+}
+
+/// Starts what a route asks for.
+struct route_starter {
+  caf::actor_system& system;
+  const rest_services& services;
+  const responder& answer;
+
+  void operator()(const json_request& x) const {
+    spawn(system, services.context, rest_exchange, services.router, x, answer);
+  }
+
+  void operator()(const event_stream_request& x) const {
+    start_event_stream(system, services.context,
+                       answer.stream(event_stream_content), x.since);
+  }
+
+  void operator()(const log_stream_request& x) const {
+    spawn(system, services.context, log_stream, services.router, x, answer);
+  }
+
+  void operator()(const health_check&) const {
+    answer.reply(200, json_content, R"({"status":"ok"})");
+  }
+
+  void operator()(const failure& why) const {
+    answer.reply(http_status(why.code), json_content, error_reply(why).dump());
+  }
+};
+
+} // namespace
+
+http_handler make_rest_handler(caf::actor_system& system,
+                               const rest_services& services) {
+  return [&system, services](const http_request& request,
+                             const responder& answer) {
+    std::visit(route_starter{system, services, answer}, route_of(request));
+  };
+}
+
+} // namespace roscell

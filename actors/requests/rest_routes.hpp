@@ -1,0 +1,46 @@
+#pragma once
+
+#include "actors/edge/http/http_types.hpp"
+#include "messages/failure.hpp"
+#include "messages/instance.hpp"
+
+#include <cstdint>
+#include <string>
+#include <variant>
+
+namespace roscell {
+
+/// `GET /healthz`: the node lives.
+struct health_check {};
+
+/// `GET /v1/events?since=N`: server-sent events.
+struct event_stream_request {
+  uint64_t since = 0;
+};
+
+/// `GET /v1/instances/{id}/logs?tail=N&offset=N&follow=1`: plain text.
+struct log_stream_request {
+  log_query query;
+  bool follow = false;
+};
+
+/// Everything else is one JSON request for the router.
+struct json_request {
+  std::string text;
+  std::string only; ///< The one message type that is allowed; empty: any.
+};
+
+/// What an HTTP request asks for, or why it asks for nothing.
+using rest_route = std::variant<json_request, event_stream_request,
+                                log_stream_request, health_check, failure>;
+
+/// Where nodes are told to switch; needs no bearer token.
+inline constexpr const char* registration_path = "/v1/registration";
+
+/// The paths of the REST interface; docs/operations.md lists them.
+rest_route route_of(const http_request& request);
+
+/// HTTP status of a refusal.
+int http_status(error_code code);
+
+} // namespace roscell

@@ -1,0 +1,130 @@
+#include "actors/requests/rest_streams.hpp"
+
+#include "schemas/decode.hpp"
+
+#include <chrono>
+#include <string>
+#include <utility>
+
+namespace roscell {
+
+namespace {
+
+constexpr const char* text_content = "text/plain; charset=utf-8";
+
+/// How long one question for more of a log may wait at the node.
+constexpr std::chrono::milliseconds log_wait{20'000};
+
+constexpr std::chrono::seconds log_answer_timeout{60};
+
+struct event_stream_state {
+  static constexpr const char* name = "event-stream";
+
+  uint64_t written = 0;
+};
+
+event_stream_actor::behavior_type
+event_stream(event_stream_actor::stateful_pointer<event_stream_state> self,
+             const std::shared_ptr<http_stream>& stream) {
+  return {
+      [self](const state_query&) {
+        return state_of({{"written", self->state.written}});
+      },
+      [self, stream](const event& x) {
+        ++self->state.written;
+        const auto data = message_json(x).dump(-1, ' ', false,
+                                               json::error_handler_t::replace);
+        if (!stream->write("id: " + std::to_string(x.sequence)
+                           + "\nevent: " + x.what + "\ndata: " + data + "\n\n"))
+          self->quit();
+      },
+  };
+}
+
+using log_pointer = introspected_actor::stateful_pointer<log_stream_state>;
+
+void ask_for_more(log_pointer self);
+
+void finish(log_pointer self) {
+  if (self->state.stream)
+    self->state.stream->close();
+  self->quit();
+}
+
+void on_excerpt(log_pointer self, const log_excerpt& excerpt) {
+  auto& st = self->state;
+  const bool more = st.wish.follow && !excerpt.ended;
+  if (!st.stream && !more) {
+    st.answer->reply(200, text_content, excerpt.text);
+    return finish(self);
+  }
+  if (!st.stream) {
+    st.stream = st.answer->stream(text_content);
+    st.stream->on_closed([me = introspected_actor{self}] {
+      caf::anon_send_exit(me, caf::exit_reason::user_shutdown);
+    });
+  }
+  if (!excerpt.text.empty() && !st.stream->write(excerpt.text))
+    return finish(self);
+  if (!more)
+    return finish(self);
+  st.wish.query.offset = excerpt.next_offset;
+  st.wish.query.wait_ms = log_wait.count();
+  ask_for_more(self);
+}
+
+void on_reply(log_pointer self, const request_routed& reply) {
+  auto& st = self->state;
+  if (!reply.refusal.empty()) {
+    // Once bytes have been sent, the end of the stream is all that can be told.
+    if (!st.stream)
+      st.answer->reply(http_status(error_code_from(reply.refusal)),
+                       json_content, reply.text);
+    return finish(self);
+  }
+  auto excerpt = decode<log_excerpt>(json::parse(reply.text));
+  if (auto* x = std::get_if<log_excerpt>(&excerpt))
+    on_excerpt(self, *x);
+  else
+    finish(self);
+}
+
+void ask_for_more(log_pointer self) {
+  auto& st = self->state;
+  self->request(st.router, log_answer_timeout,
+                route_request{message_json(st.wish.query).dump()})
+      .then([self](const request_routed& reply) { on_reply(self, reply); },
+            [self](const caf::error&) { finish(self); });
+}
+
+} // namespace
+
+void start_event_stream(caf::actor_system& system, const house& context,
+                        const std::shared_ptr<http_stream>& stream,
+                        uint64_t since) {
+  // A first comment makes the client see at once that it is connected.
+  stream->write(": events of this node\n\n");
+  auto listener = spawn(system, context, event_stream, stream);
+  caf::anon_send(context.events, subscribe_events{listener, since});
+  stream->on_closed([listener] {
+    caf::anon_send_exit(listener, caf::exit_reason::user_shutdown);
+  });
+}
+
+introspected_actor::behavior_type log_stream(log_pointer self,
+                                             const request_router_actor& router,
+                                             const log_stream_request& wish,
+                                             const responder& answer) {
+  self->state.router = router;
+  self->state.wish = wish;
+  self->state.answer = answer;
+  ask_for_more(self);
+  return {
+      [self](const state_query&) {
+        return state_of({{"instance", self->state.wish.query.instance},
+                         {"offset", self->state.wish.query.offset}});
+      },
+  };
+}
+
+} // namespace roscell

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "actors/edge/http/http_types.hpp"
+#include "actors/house/house.hpp"
+#include "actors/requests/rest_routes.hpp"
+#include "messages/type_ids.hpp"
+
+#include <memory>
+#include <optional>
+
+/// Answers without an end: the event stream, and logs that are followed.
+namespace roscell {
+
+/// An EVENT STREAM writes each fact as one server-sent event.
+using event_stream_actor = introspected_actor::extend<caf::reacts_to<event>>;
+
+/// Starts one that ends when its client goes.
+void start_event_stream(caf::actor_system& system, const house& context,
+                        const std::shared_ptr<http_stream>& stream,
+                        uint64_t since);
+
+struct log_stream_state {
+  static constexpr const char* name = "log-stream";
+
+  request_router_actor router;
+  log_stream_request wish;
+  std::optional<responder> answer;     ///< Set before anything else happens.
+  std::shared_ptr<http_stream> stream; ///< Made with the first excerpt.
+};
+
+/// A LOG STREAM asks for one excerpt after the other; each question waits at
+/// the instance's node until there is something to say. Speaks to the router
+/// like any other client.
+introspected_actor::behavior_type
+log_stream(introspected_actor::stateful_pointer<log_stream_state> self,
+           const request_router_actor& router, const log_stream_request& wish,
+           const responder& answer);
+
+} // namespace roscell

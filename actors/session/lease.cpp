@@ -1,0 +1,69 @@
+#include "actors/session/lease.hpp"
+
+#include <algorithm>
+
+namespace roscell {
+
+lease::lease(lease_side side, time_point now)
+    : side_(side), heard_(now), next_(now + beat_period),
+      next_beat_(now + beat_period) {
+  if (side == lease_side::coordinator)
+    next_ += probe_interval;
+}
+
+void lease::heard(time_point now) {
+  heard_ = now;
+  unanswered_ = false;
+}
+
+std::optional<beat_kind> lease::heard_beat(beat_kind kind, time_point now) {
+  heard(now);
+  switch (kind) {
+  case beat_kind::beat:
+    return beat_kind::ack;
+  case beat_kind::probe:
+    return beat_kind::beat;
+  case beat_kind::ack:
+    break;
+  }
+  return std::nullopt;
+}
+
+lease::step lease::due(time_point now) {
+  if (now >= end())
+    return {true, std::nullopt};
+  auto result =
+      side_ == lease_side::member ? member_due(now) : coordinator_due(now);
+  next_ = std::min(next_, end());
+  return result;
+}
+
+lease::step lease::member_due(time_point now) {
+  if (!unanswered_ && now < next_beat_) {
+    next_ = next_beat_;
+    return {};
+  }
+  if (!unanswered_) {
+    unanswered_ = true;
+    next_beat_ = now + beat_period;
+  }
+  next_ = repeat_at(now);
+  return {false, beat_kind::beat};
+}
+
+lease::step lease::coordinator_due(time_point now) {
+  const auto missed_at = heard_ + beat_period + probe_interval;
+  if (now < missed_at) {
+    next_ = missed_at;
+    return {};
+  }
+  next_ = repeat_at(now);
+  return {false, beat_kind::probe};
+}
+
+lease::time_point lease::repeat_at(time_point now) const {
+  const bool urgent = end() - now <= urgent_span;
+  return now + (urgent ? urgent_probe_interval : probe_interval);
+}
+
+} // namespace roscell

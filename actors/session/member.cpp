@@ -1,0 +1,331 @@
+#include "actors/session/member.hpp"
+
+#include "actors/house/session_timeouts.hpp"
+
+#include <caf/typed_response_promise.hpp>
+
+#include <algorithm>
+#include <utility>
+
+namespace roscell {
+
+namespace {
+
+using self_pointer = member_actor::stateful_pointer<member_state>;
+
+using phase = member_phase;
+
+auto now(self_pointer self) {
+  return self->clock().now();
+}
+
+void set_timer(self_pointer self) {
+  auto& st = self->state;
+  if (st.ended)
+    return;
+  auto when = std::min(st.life.next(), st.frames.calls().next_deadline());
+  if (st.phase == phase::awaiting)
+    when = std::min(when, st.registration_deadline);
+  st.timer.set(self, when);
+}
+
+/// Closes the session and ends the actor.
+void end(self_pointer self, const std::string& reason) {
+  auto& st = self->state;
+  if (std::exchange(st.ended, true))
+    return;
+  st.frames.calls().fail_all("node '" + st.peer.name
+                             + "' is out of reach: " + reason);
+  if (st.announced && st.phase != phase::departed)
+    self->send(
+        st.coordinator,
+        member_lost{st.peer.uuid, caf::actor_cast<member_actor>(self), reason});
+  self->send(st.session, close_session{reason});
+  self->quit();
+}
+
+void refuse(self_pointer self, uint64_t id, const failure& why) {
+  self->state.frames.answer(id, error_reply(why));
+}
+
+// -- what the node asks ------------------------------------------------------
+
+/// What a node says of itself is believed, except who it is.
+void set_name(node_registration& x, const std::string& name) {
+  x.identity.name = name;
+  x.resources.name = name;
+  for (auto& row : x.instances)
+    row.node = name;
+}
+
+bool is_proven(const node_identity& claimed, const node_identity& proven) {
+  return claimed.name == proven.name && claimed.uuid == proven.uuid
+         && claimed.epoch == proven.epoch;
+}
+
+void on_row_refused(self_pointer self, uint64_t id, const caf::error& why) {
+  const auto reason = to_failure(why);
+  refuse(self, id, reason);
+  end(self, reason.message);
+}
+
+void ask_for_row(self_pointer self, uint64_t id, node_registration wish) {
+  auto& st = self->state;
+  st.phase = phase::registering;
+  st.announced = true;
+  set_name(wish, st.peer.name);
+  self->request(
+          st.coordinator, row_timeout,
+          register_node{std::move(wish), caf::actor_cast<member_actor>(self)})
+      .then(
+          [self, id](const node_registered& reply) {
+            self->state.phase = phase::active;
+            self->state.frames.answer(id, message_json(reply));
+          },
+          [self, id](const caf::error& why) { on_row_refused(self, id, why); });
+}
+
+void on_registration(self_pointer self, uint64_t id, const json& body) {
+  auto& st = self->state;
+  auto wish = decode<node_registration>(body);
+  if (auto* why = std::get_if<failure>(&wish))
+    return refuse(self, id, *why);
+  if (st.phase != phase::awaiting)
+    return refuse(self, id,
+                  {error_code::conflict, "this session is registered already"});
+  auto& registration = std::get<node_registration>(wish);
+  if (is_proven(registration.identity, st.peer))
+    return ask_for_row(self, id, std::move(registration));
+  refuse(self, id,
+         {error_code::unauthorized,
+          "the registration is not of the node that opened the session",
+          "/identity"});
+  end(self, "it registered with another identity than it proved");
+}
+
+void on_departure(self_pointer self, uint64_t id, const json& body) {
+  auto& st = self->state;
+  const auto reason = body.value("reason", "");
+  st.phase = phase::departing;
+  self->request(st.coordinator, departure_timeout,
+                depart_node{st.peer.uuid, caf::actor_cast<member_actor>(self),
+                            reason})
+      .then(
+          [self, id](const node_departed& reply) {
+            self->state.phase = phase::departed;
+            self->state.frames.answer(id, message_json(reply));
+          },
+          [self, id](const caf::error& why) { on_row_refused(self, id, why); });
+}
+
+/// A node that is in no cell wants a place. It ends the session when it has
+/// been told.
+void on_place_request(self_pointer self, uint64_t id, const json& body) {
+  auto& st = self->state;
+  auto wish = decode<place_request>(body);
+  if (auto* why = std::get_if<failure>(&wish))
+    return refuse(self, id, *why);
+  auto& x = std::get<place_request>(wish);
+  x.name = st.peer.name;
+  x.uuid = st.peer.uuid;
+  self->request(st.coordinator, place_timeout, x)
+      .then(
+          [self, id](const place_granted& reply) {
+            self->state.frames.answer(id, message_json(reply));
+          },
+          [self, id](const caf::error& why) {
+            refuse(self, id, to_failure(why));
+          });
+}
+
+void on_request(self_pointer self, uint64_t id, const session_inquiry& x) {
+  const auto type = x.type();
+  if (type == place_request::type && self->state.phase == phase::awaiting)
+    return on_place_request(self, id, x.body);
+  if (type == node_registration::type)
+    return on_registration(self, id, x.body);
+  if (self->state.phase != phase::active) {
+    refuse(self, id,
+           {error_code::conflict, "this session has no registered node"});
+    if (self->state.phase == phase::awaiting)
+      end(self, "its first request was no registration");
+    return;
+  }
+  if (type == node_departure::type)
+    return on_departure(self, id, x.body);
+  refuse(self, id,
+         {error_code::unknown_type, "a member may not ask for this", "/type"});
+}
+
+void on_notice(self_pointer self, const json& body) {
+  auto& st = self->state;
+  if (body.value("type", "") != instance_changed::type
+      || st.phase != phase::active)
+    return;
+  auto fact = decode<instance_changed>(body);
+  if (auto* x = std::get_if<instance_changed>(&fact)) {
+    x->instance.node = st.peer.name;
+    self->send(st.coordinator, *x);
+  }
+}
+
+// -- what the session brings -------------------------------------------------
+
+bool is_from_session(self_pointer self) {
+  const auto& sender = self->current_sender();
+  return sender && sender->id() == self->state.session.id();
+}
+
+void on_frame(self_pointer self, const frame_received& frame) {
+  auto& st = self->state;
+  if (st.ended || !is_from_session(self))
+    return;
+  st.life.heard(now(self));
+  if (auto x = st.frames.receive(frame.text)) {
+    if (x->id)
+      on_request(self, *x->id, *x);
+    else
+      on_notice(self, x->body);
+  }
+  if (st.frames.hopeless())
+    end(self, "it sent frames that make no sense");
+  set_timer(self);
+}
+
+void on_beat(self_pointer self, const beat_received& beat) {
+  auto& st = self->state;
+  if (st.ended || !is_from_session(self))
+    return;
+  if (auto answer = st.life.heard_beat(beat.kind, now(self)))
+    self->send(st.session, send_beat{*answer});
+}
+
+void on_tick(self_pointer self, uint64_t number) {
+  auto& st = self->state;
+  if (st.ended || !st.timer.rings(number))
+    return;
+  const auto time = now(self);
+  if (st.phase == phase::awaiting && time >= st.registration_deadline)
+    return end(self, "it did not register in time");
+  st.frames.calls().expire(time);
+  if (time >= st.life.next()) {
+    const auto next = st.life.due(time);
+    if (next.over)
+      return end(self, "silent for 8 s");
+    if (next.send)
+      self->send(st.session, send_beat{*next.send});
+  }
+  set_timer(self);
+}
+
+// -- what the coordinator asks -----------------------------------------------
+
+/// A check of what the node answered, or a correction of it.
+template <class Reply>
+using review = std::function<void(Reply&)>;
+
+template <class Reply, class Request>
+caf::result<Reply> ask_node(self_pointer self, const Request& what,
+                            session_duration timeout,
+                            const review<Reply>& look = nullptr) {
+  auto& st = self->state;
+  if (st.phase != phase::active)
+    return fail(error_code::unreachable,
+                "node '" + st.peer.name + "' is not a member now");
+  auto promise = self->make_response_promise<Reply>();
+  auto on_result = [promise, look](caf::expected<json> body) mutable {
+    auto reply = body ? reply_as<Reply>(*body) : body.error();
+    if (reply && look)
+      look(*reply);
+    if (reply)
+      promise.deliver(std::move(*reply));
+    else
+      promise.deliver(std::move(reply.error()));
+  };
+  st.frames.call(message_json(what), now(self) + timeout, std::move(on_result));
+  set_timer(self);
+  return promise;
+}
+
+actor_state describe(self_pointer self) {
+  const auto& st = self->state;
+  const auto silence = now(self) - st.life.last_heard();
+  return state_of(
+      {{"node", st.peer.name},
+       {"uuid", st.peer.uuid},
+       {"epoch", st.peer.epoch},
+       {"phase", st.phase},
+       {"pending_calls", st.frames.calls().pending()},
+       {"silent_ms",
+        std::chrono::duration_cast<std::chrono::milliseconds>(silence)
+            .count()}});
+}
+
+void take_over(self_pointer self, session_admitted accepted,
+               cell_coordinator_actor coordinator) {
+  auto& st = self->state;
+  st.session = std::move(accepted.session);
+  st.peer = std::move(accepted.peer);
+  st.coordinator = std::move(coordinator);
+  st.life = lease{lease_side::coordinator, now(self)};
+  st.registration_deadline = now(self) + registration_limit;
+  st.frames = session_exchange{[self](std::string text) {
+    self->send(self->state.session, send_frame{std::move(text)});
+  }};
+  self->monitor(st.session);
+  self->monitor(st.coordinator);
+  self->set_down_handler([self](const caf::down_msg& down) {
+    end(self, down.source == self->state.session
+                  ? "its session has failed"
+                  : "the coordinator has stopped");
+  });
+  self->send(st.session,
+             own_session{caf::actor_cast<session_owner_actor>(self)});
+  set_timer(self);
+}
+
+} // namespace
+
+member_actor::behavior_type member(self_pointer self, session_admitted accepted,
+                                   cell_coordinator_actor coordinator) {
+  take_over(self, std::move(accepted), std::move(coordinator));
+  return {
+      [self](const state_query&) { return describe(self); },
+      [self](const resource_query& x) {
+        return ask_node<resource_report>(
+            self, x, resource_query_timeout, [self](resource_report& report) {
+              report.resources.name = self->state.peer.name;
+            });
+      },
+      [self](const instance_reservation& x) {
+        return ask_node<instances_reserved>(self, x, resource_query_timeout);
+      },
+      [self](const instance_deployment& x) {
+        return ask_node<instance_deployed>(
+            self, x, deployment_timeout, [self](instance_deployed& reply) {
+              reply.instance.node = self->state.peer.name;
+            });
+      },
+      [self](const instance_removal& x) {
+        return ask_node<instances_removed>(self, x, removal_timeout);
+      },
+      [self](const registration_switch& x) {
+        return ask_node<switch_accepted>(self, x, switch_timeout);
+      },
+      [self](const log_query& x) {
+        const auto wait = std::clamp(session_duration{x.wait_ms},
+                                     session_duration{0}, max_log_wait);
+        return ask_node<log_excerpt>(self, x, wait + log_query_timeout);
+      },
+      [self](const frame_received& frame) { on_frame(self, frame); },
+      [self](const beat_received& beat) { on_beat(self, beat); },
+      [self](const session_closed& fact) {
+        if (is_from_session(self))
+          end(self, fact.reason);
+      },
+      [self](const close_session& wish) { end(self, wish.reason); },
+      [self](caf::tick_atom, uint64_t number) { on_tick(self, number); },
+  };
+}
+
+} // namespace roscell

@@ -1,0 +1,49 @@
+#pragma once
+
+#include "actors/house/alarm.hpp"
+#include "actors/house/house.hpp"
+#include "actors/session/lease.hpp"
+#include "actors/session/session_exchange.hpp"
+#include "messages/type_ids.hpp"
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace roscell {
+
+/// Where a member's session stands; the diagram is in docs/protocols.md.
+enum class member_phase { awaiting, registering, active, departing, departed };
+
+constexpr auto enum_words(member_phase) {
+  return std::array<std::string_view, 5>{"awaiting", "registering", "active",
+                                         "departing", "departed"};
+}
+
+/// Owns one node's session, as its coordinator sees it.
+struct member_state {
+  static constexpr const char* name = "member";
+
+  session_actor session;
+  node_identity peer; ///< As the handshake has proved it.
+  cell_coordinator_actor coordinator;
+
+  member_phase phase = member_phase::awaiting;
+  lease life;
+  session_exchange frames;
+  alarm timer;
+  std::chrono::steady_clock::time_point registration_deadline;
+  bool announced = false; ///< The coordinator has been told of this member.
+  bool ended = false;
+};
+
+/// The MEMBER. Messages: messages/membership.hpp. It takes the session over at
+/// once and ends with it, telling the coordinator `member_lost` unless the node
+/// has departed. Its death closes the session too.
+member_actor::behavior_type
+member(member_actor::stateful_pointer<member_state> self,
+       session_admitted accepted, cell_coordinator_actor coordinator);
+
+} // namespace roscell

@@ -1,0 +1,237 @@
+#include "actors/session/peer.hpp"
+
+#include "actors/house/session_timeouts.hpp"
+
+#include <caf/actor_cast.hpp>
+#include <caf/typed_response_promise.hpp>
+
+#include <algorithm>
+#include <utility>
+
+namespace roscell {
+
+namespace {
+
+using self_pointer = peer_actor::stateful_pointer<peer_state>;
+
+auto now(self_pointer self) {
+  return self->clock().now();
+}
+
+void set_timer(self_pointer self) {
+  auto& st = self->state;
+  if (!st.ended)
+    st.timer.set(self,
+                 std::min(st.life.next(), st.frames.calls().next_deadline()));
+}
+
+/// Closes the session and ends the actor.
+void end(self_pointer self, const std::string& reason) {
+  auto& st = self->state;
+  if (std::exchange(st.ended, true))
+    return;
+  st.frames.calls().fail_all("the coordinator of cell '" + st.cell
+                             + "' is out of reach: " + reason);
+  self->send(st.setup.coordinator,
+             peer_lost{peer_actor{self}, st.setup.uuid, reason});
+  self->send(st.setup.session, close_session{reason});
+  self->quit();
+}
+
+// -- what the other coordinator asks ------------------------------------------
+
+template <class Reply, class Request>
+void pass_on(self_pointer self, const session_inquiry& x,
+             session_duration timeout) {
+  auto what = decode<Request>(x.body);
+  if (auto* why = std::get_if<failure>(&what))
+    return self->state.frames.answer(*x.id, error_reply(*why));
+  auto answer = [self, id = *x.id](const json& body) {
+    if (!self->state.ended)
+      self->state.frames.answer(id, body);
+  };
+  self->request(self->state.setup.coordinator, timeout,
+                std::get<Request>(std::move(what)))
+      .then([answer](const Reply& reply) { answer(message_json(reply)); },
+            [answer](const caf::error& why) {
+              answer(error_reply(to_failure(why)));
+            });
+}
+
+void on_question(self_pointer self, const session_inquiry& x) {
+  const auto type = x.type();
+  if (type == place_request::type)
+    pass_on<place_granted, place_request>(self, x, place_timeout);
+  else if (type == place_reservation::type)
+    pass_on<place_reserved, place_reservation>(self, x, peer_timeout);
+  else if (type == member_surrender::type)
+    pass_on<members_surrendered, member_surrender>(self, x, transfer_timeout);
+  else if (type == node_transfer::type)
+    pass_on<node_transferred, node_transfer>(self, x, transfer_timeout);
+  else if (type == node_release::type)
+    pass_on<node_released, node_release>(self, x, transfer_timeout);
+  else
+    self->state.frames.answer(
+        *x.id, error_reply({error_code::unknown_type,
+                            "a coordinator may not ask for this", "/type"}));
+}
+
+void on_notice(self_pointer self, const json& body) {
+  auto& st = self->state;
+  const auto type = body.value("type", "");
+  if (type == cell_standing::type) {
+    auto told = decode<cell_standing>(body);
+    auto* standing = std::get_if<cell_standing>(&told);
+    if (!standing || standing->uuid != st.setup.uuid)
+      return end(self, "it says that it is another one than it proved");
+    st.cell = standing->place.cell;
+    self->send(st.setup.coordinator,
+               peer_told{peer_actor{self}, std::move(*standing)});
+  } else if (type == cell_changed::type) {
+    auto told = decode<cell_changed>(body);
+    if (auto* change = std::get_if<cell_changed>(&told))
+      self->send(st.setup.coordinator,
+                 peer_changed{peer_actor{self}, std::move(*change)});
+  }
+}
+
+// -- what the session brings
+// ---------------------------------------------------
+
+bool is_from_session(self_pointer self) {
+  const auto& sender = self->current_sender();
+  return sender && sender->id() == self->state.setup.session.id();
+}
+
+void on_frame(self_pointer self, const frame_received& frame) {
+  auto& st = self->state;
+  if (st.ended || !is_from_session(self))
+    return;
+  st.life.heard(now(self));
+  if (auto x = st.frames.receive(frame.text)) {
+    if (x->id)
+      on_question(self, *x);
+    else
+      on_notice(self, x->body);
+  }
+  if (st.frames.hopeless())
+    end(self, "it sent frames that make no sense");
+  set_timer(self);
+}
+
+void on_beat(self_pointer self, const beat_received& beat) {
+  auto& st = self->state;
+  if (st.ended || !is_from_session(self))
+    return;
+  if (auto answer = st.life.heard_beat(beat.kind, now(self)))
+    self->send(st.setup.session, send_beat{*answer});
+}
+
+void on_tick(self_pointer self, uint64_t number) {
+  auto& st = self->state;
+  if (st.ended || !st.timer.rings(number))
+    return;
+  const auto time = now(self);
+  st.frames.calls().expire(time);
+  if (time >= st.life.next()) {
+    const auto next = st.life.due(time);
+    if (next.over)
+      return end(self, "silent for 8 s");
+    if (next.send)
+      self->send(st.setup.session, send_beat{*next.send});
+  }
+  set_timer(self);
+}
+
+// -- what the own coordinator asks
+// ---------------------------------------------
+
+template <class Reply, class Request>
+caf::result<Reply> ask(self_pointer self, const Request& what,
+                       session_duration timeout) {
+  auto promise = self->make_response_promise<Reply>();
+  self->state.frames.call(message_json(what), now(self) + timeout,
+                          [promise](const caf::expected<json>& body) mutable {
+                            auto reply =
+                                body ? reply_as<Reply>(*body) : body.error();
+                            if (reply)
+                              promise.deliver(std::move(*reply));
+                            else
+                              promise.deliver(std::move(reply.error()));
+                          });
+  set_timer(self);
+  return promise;
+}
+
+template <class Fact>
+void tell(self_pointer self, const Fact& fact) {
+  if (!self->state.ended)
+    self->state.frames.notify(message_json(fact));
+}
+
+actor_state describe(self_pointer self) {
+  const auto& st = self->state;
+  return state_of({{"cell", st.cell},
+                   {"uuid", st.setup.uuid},
+                   {"opened_here", st.setup.opened_here},
+                   {"pending_calls", st.frames.calls().pending()}});
+}
+
+void take_over(self_pointer self, const peer_setup& setup) {
+  auto& st = self->state;
+  st.setup = setup;
+  st.life =
+      lease{setup.opened_here ? lease_side::member : lease_side::coordinator,
+            now(self)};
+  st.frames = session_exchange{[self](std::string text) {
+    self->send(self->state.setup.session, send_frame{std::move(text)});
+  }};
+  self->monitor(setup.session);
+  self->monitor(setup.coordinator);
+  self->set_down_handler([self](const caf::down_msg& down) {
+    end(self, down.source == self->state.setup.session
+                  ? "its session has failed"
+                  : "the coordinator has stopped");
+  });
+  self->send(setup.session,
+             own_session{caf::actor_cast<session_owner_actor>(self)});
+  self->send(setup.coordinator,
+             peer_opened{peer_actor{self}, setup.uuid, setup.opened_here});
+  set_timer(self);
+}
+
+} // namespace
+
+peer_actor::behavior_type peer(self_pointer self, const peer_setup& setup) {
+  take_over(self, setup);
+  return {
+      [self](const state_query&) { return describe(self); },
+      [self](const place_request& x) {
+        return ask<place_granted>(self, x, place_timeout - answer_margin);
+      },
+      [self](const place_reservation& x) {
+        return ask<place_reserved>(self, x, peer_timeout);
+      },
+      [self](const member_surrender& x) {
+        return ask<members_surrendered>(self, x, transfer_timeout);
+      },
+      [self](const node_transfer& x) {
+        return ask<node_transferred>(self, x, transfer_timeout);
+      },
+      [self](const node_release& x) {
+        return ask<node_released>(self, x, transfer_timeout);
+      },
+      [self](const cell_standing& x) { tell(self, x); },
+      [self](const cell_changed& x) { tell(self, x); },
+      [self](const frame_received& frame) { on_frame(self, frame); },
+      [self](const beat_received& beat) { on_beat(self, beat); },
+      [self](const session_closed& fact) {
+        if (is_from_session(self))
+          end(self, fact.reason);
+      },
+      [self](const close_session& wish) { end(self, wish.reason); },
+      [self](caf::tick_atom, uint64_t number) { on_tick(self, number); },
+  };
+}
+
+} // namespace roscell

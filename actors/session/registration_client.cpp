@@ -1,0 +1,142 @@
+#include "actors/session/registration_client.hpp"
+
+#include "actors/edge/http/http_exchange.hpp"
+#include "actors/edge/io/socket_address.hpp"
+#include "actors/edge/session/registration_proof.hpp"
+#include "actors/edge/session/session_handshake.hpp"
+#include "actors/requests/rest_routes.hpp"
+#include "actors/session/registration_order.hpp"
+#include "messages/failure.hpp"
+#include "schemas/decode.hpp"
+#include "schemas/document.hpp"
+
+#include <caf/send.hpp>
+
+#include <optional>
+#include <utility>
+#include <variant>
+
+namespace roscell {
+
+namespace {
+
+using self_pointer =
+    registration_client_actor::stateful_pointer<registration_client_state>;
+
+constexpr std::chrono::milliseconds call_timeout{5000};
+
+/// On the io thread: turns an outcome into a message.
+node_answered to_message(uint64_t call, edge_result<http_reply> result) {
+  node_answered answer;
+  answer.call = call;
+  if (auto* why = std::get_if<edge_error>(&result))
+    answer.problem = {why->code, why->message, "", why->hint, ""};
+  else
+    answer.body = std::move(std::get<http_reply>(result).body);
+  return answer;
+}
+
+void send(self_pointer self, uint64_t call, const std::string& method,
+          const std::string& body) {
+  auto& st = self->state;
+  const auto to = *parse_socket_address(st.calls.at(call).wish.address);
+  exchange_http(
+      *st.config.io,
+      {to.address, to.port, method, registration_path, body, call_timeout},
+      [me = registration_client_actor{self},
+       call](edge_result<http_reply> result) {
+        caf::anon_send(me, to_message(call, std::move(result)));
+      });
+}
+
+/// The answer as `Reply`, or why it is none.
+template <class Reply>
+std::variant<Reply, failure> read(const node_answered& answer) {
+  if (answer.body.empty())
+    return answer.problem;
+  auto parsed = parse_document(answer.body);
+  if (auto* why = std::get_if<failure>(&parsed))
+    return failure{error_code::unreachable,
+                   "what answers there is no node of ROSCell: " + why->message};
+  const auto& document = std::get<json>(parsed);
+  if (document.value("type", "") == "error")
+    return failure_from(document);
+  return decode<Reply>(document);
+}
+
+void end(self_pointer self, uint64_t call,
+         std::variant<switch_accepted, failure> outcome) {
+  auto node = self->state.calls.extract(call);
+  auto& promise = node.mapped().promise;
+  if (auto* why = std::get_if<failure>(&outcome))
+    promise.deliver(to_error(*why));
+  else
+    promise.deliver(std::get<switch_accepted>(outcome));
+}
+
+void on_challenge(self_pointer self, uint64_t call,
+                  const registration_challenge& challenge) {
+  auto& st = self->state;
+  auto& x = st.calls.at(call);
+  auto& order = x.wish.order;
+  if (challenge.uuid != order.uuid || challenge.node != order.node)
+    return end(self, call,
+               failure{error_code::unknown_node,
+                       "at " + x.wish.address + " there is node '"
+                           + challenge.node + "' with UUID " + challenge.uuid
+                           + ", not '" + order.node + "'"});
+  // What the node announces may be a little older than what it says now.
+  order.epoch = challenge.epoch;
+  order.nonce = challenge.nonce;
+  order.proof = prove(order_of(order), st.config.site_token);
+  x.proven = true;
+  send(self, call, "POST", message_json(order).dump());
+}
+
+void on_answer(self_pointer self, const node_answered& answer) {
+  auto i = self->state.calls.find(answer.call);
+  if (i == self->state.calls.end())
+    return;
+  if (i->second.proven)
+    return end(self, answer.call, read<switch_accepted>(answer));
+  auto challenge = read<registration_challenge>(answer);
+  if (auto* why = std::get_if<failure>(&challenge))
+    end(self, answer.call, *why);
+  else
+    on_challenge(self, answer.call,
+                 std::get<registration_challenge>(challenge));
+}
+
+caf::result<switch_accepted> call_node(self_pointer self,
+                                       const switch_node& wish) {
+  auto& st = self->state;
+  const auto to = parse_socket_address(wish.address);
+  if (!to)
+    return fail(error_code::unreachable,
+                "'" + wish.address + "' is not an address like 10.0.0.1:8420");
+  if (auto why = check_token_for(st.config.site_token, to->address))
+    return fail(why->code, why->message, "", why->hint);
+  auto promise = self->make_response_promise<switch_accepted>();
+  const auto call = ++st.last_call;
+  st.calls.emplace(call, registration_call{wish, false, promise});
+  send(self, call, "GET", "");
+  return promise;
+}
+
+} // namespace
+
+registration_client_actor::behavior_type
+registration_client(self_pointer self,
+                    const registration_client_config& config) {
+  self->state.config = config;
+  return {
+      [self](const state_query&) {
+        return state_of({{"calls", self->state.last_call},
+                         {"pending", self->state.calls.size()}});
+      },
+      [self](const switch_node& wish) { return call_node(self, wish); },
+      [self](const node_answered& x) { on_answer(self, x); },
+  };
+}
+
+} // namespace roscell

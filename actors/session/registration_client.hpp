@@ -1,0 +1,41 @@
+#pragma once
+
+#include "actors/edge/io/io_thread.hpp"
+#include "actors/house/house.hpp"
+#include "messages/type_ids.hpp"
+
+#include <caf/typed_response_promise.hpp>
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+namespace roscell {
+
+struct registration_client_config {
+  io_thread* io = nullptr;
+  std::string site_token; ///< Empty: none is installed.
+};
+
+/// A node that is being told to switch.
+struct registration_call {
+  switch_node wish;
+  bool proven = false; ///< The switch has been sent; else the nonce is awaited.
+  caf::typed_response_promise<switch_accepted> promise;
+};
+
+struct registration_client_state {
+  static constexpr const char* name = "registration-client";
+
+  registration_client_config config;
+  uint64_t last_call = 0;
+  std::map<uint64_t, registration_call> calls;
+};
+
+/// The REGISTRATION CLIENT. Messages: messages/peer.hpp. It asks a node for a
+/// nonce and sends it the switch with a proof.
+registration_client_actor::behavior_type registration_client(
+    registration_client_actor::stateful_pointer<registration_client_state> self,
+    const registration_client_config& config);
+
+} // namespace roscell

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "actors/edge/io/io_thread.hpp"
+#include "actors/edge/session/beat_socket.hpp"
+#include "actors/house/house.hpp"
+#include "messages/type_ids.hpp"
+
+#include <caf/typed_response_promise.hpp>
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+
+namespace roscell {
+
+/// What sessions are made with. The edges outlive every actor.
+struct connector_parts {
+  io_thread* io = nullptr;
+  beat_socket* beats = nullptr;
+  std::string site_token; ///< Empty: loopback only.
+};
+
+/// Opens sessions to coordinators.
+struct session_connector_state {
+  static constexpr const char* name = "session-connector";
+
+  house context;
+  connector_parts parts;
+  uint64_t attempts = 0;
+  std::map<uint64_t, caf::typed_response_promise<session_opened>> pending;
+};
+
+/// The SESSION CONNECTOR. Messages: messages/link.hpp.
+session_connector_actor::behavior_type session_connector(
+    session_connector_actor::stateful_pointer<session_connector_state> self,
+    const house& context, const connector_parts& parts);
+
+} // namespace roscell

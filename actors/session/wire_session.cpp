@@ -1,0 +1,148 @@
+#include "actors/session/wire_session.hpp"
+
+#include <mutex>
+#include <utility>
+
+namespace roscell {
+
+void session_wire::add_undone(std::function<void()> done) {
+  std::lock_guard guard{mutex_};
+  undone_.push_back(std::move(done));
+}
+
+std::function<void()> session_wire::take_undone() {
+  std::lock_guard guard{mutex_};
+  if (undone_.empty())
+    return {};
+  auto done = std::move(undone_.front());
+  undone_.pop_front();
+  return done;
+}
+
+namespace {
+
+using self_pointer = session_actor::stateful_pointer<wire_session_state>;
+
+/// Longest time in which an owner takes a frame; one that is so late is stuck.
+constexpr std::chrono::seconds owner_answer_timeout{30};
+
+void end(self_pointer self, const std::string& reason) {
+  auto& st = self->state;
+  if (st.owner)
+    self->send(st.owner, session_closed{reason});
+  st.wire->link->close(reason);
+  self->quit();
+}
+
+/// Allows the connection to read one more frame.
+void let_read_on(self_pointer self) {
+  if (auto done = self->state.wire->take_undone())
+    done();
+}
+
+void hand_over(self_pointer self, const frame_received& frame) {
+  self->request(self->state.owner, owner_answer_timeout, frame)
+      .then([self] { let_read_on(self); },
+            [self](const caf::error&) {
+              end(self, "the receiving side is overloaded");
+            });
+}
+
+void on_frame(self_pointer self, const frame_received& frame) {
+  ++self->state.frames_in;
+  if (self->state.owner)
+    hand_over(self, frame);
+  else
+    self->state.early_frames.push_back(frame);
+}
+
+void take_owner(self_pointer self, const own_session& wish) {
+  auto& st = self->state;
+  st.owner = wish.owner;
+  self->monitor(wish.owner);
+  for (const auto& frame : std::exchange(st.early_frames, {}))
+    hand_over(self, frame);
+}
+
+void send_text(self_pointer self, const send_frame& frame) {
+  ++self->state.frames_out;
+  self->state.wire->link->send(frame.text);
+}
+
+} // namespace
+
+session_actor::behavior_type
+wire_session(self_pointer self, const std::shared_ptr<session_wire>& wire,
+             const std::string& peer) {
+  self->state.wire = wire;
+  self->state.peer = peer;
+  self->set_down_handler(
+      [self](const caf::down_msg&) { end(self, "the owner has ended"); });
+  return {
+      [self](const state_query&) {
+        const auto& st = self->state;
+        return state_of({{"peer", st.peer},
+                         {"frames_in", st.frames_in},
+                         {"frames_out", st.frames_out},
+                         {"queued_bytes", st.wire->link->queued_bytes()}});
+      },
+      [self](const own_session& wish) { take_owner(self, wish); },
+      [self](const send_frame& frame) { send_text(self, frame); },
+      [self](const send_beat& beat) {
+        self->state.wire->beats->send(beat.kind, ++self->state.beat_sequence);
+      },
+      [self](const close_session& wish) { end(self, wish.reason); },
+      [self](const frame_received& frame) { on_frame(self, frame); },
+      [self](const beat_received& beat) {
+        if (self->state.owner)
+          self->send(self->state.owner, beat);
+      },
+      [self](const session_closed& fact) { end(self, fact.reason); },
+  };
+}
+
+namespace {
+
+/// Words for why a connection ended.
+std::string reason_of(const session_end& fact) {
+  switch (fact.why) {
+  case session_end::cause::closed_there:
+    return "closed by the peer: " + fact.reason;
+  case session_end::cause::lost:
+    return "the connection was lost";
+  default:
+    return fact.reason;
+  }
+}
+
+} // namespace
+
+session_actor spawn_session(caf::actor_system& system, const house& context,
+                            beat_socket& beats, established_session session,
+                            uint16_t beat_port) {
+  auto wire = std::make_shared<session_wire>();
+  wire->link = session.link;
+  auto self = spawn(system, context, wire_session, wire, session.peer.node);
+  beat_registration place{session.agreement, "", 0, {}};
+  if (beat_port != 0) {
+    place.address = session.peer.address;
+    place.port = beat_port;
+  }
+  place.on_beat = [self](beat_kind kind, uint32_t) {
+    caf::anon_send(self, beat_received{kind});
+  };
+  wire->beats = beats.register_session(std::move(place));
+  session_callbacks callbacks;
+  callbacks.on_frame = [self, wire](std::string text,
+                                    std::function<void()> done) {
+    wire->add_undone(std::move(done));
+    caf::anon_send(self, frame_received{std::move(text)});
+  };
+  callbacks.on_closed = [self](const session_end& fact) {
+    caf::anon_send(self, session_closed{reason_of(fact)});
+  };
+  session.link->start(std::move(callbacks));
+  return self;
+}
+
+} // namespace roscell

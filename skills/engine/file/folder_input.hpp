@@ -1,0 +1,47 @@
+#pragma once
+
+#include "skills/engine/file/file_reading.hpp"
+#include "skills/engine/file/inotify_watch.hpp"
+#include "skills/engine/handlers.hpp"
+#include "skills/engine/pacer.hpp"
+
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+namespace roscell::engine {
+
+/// Reads the regular files of a folder in the order of their names, and then
+/// those that are renamed into it or closed by a writer, in that order. See
+/// file_protocol.hpp.
+class folder_input : public input_handler {
+public:
+  explicit folder_input(const stream_context& input);
+
+  void open() override;
+  void run(frame_sink& sink, const stop_event& stop) override;
+
+private:
+  std::vector<std::string> list() const;
+  bool is_left_out(const std::string& name) const;
+  bool push_all(frame_sink& sink, const stop_event& stop);
+  bool push_file(const std::string& name, frame_sink& sink,
+                 const stop_event& stop);
+  bool on_event(const inotify_watch::event& e, frame_sink& sink,
+                const stop_event& stop);
+  bool begin_again(frame_sink& sink, const stop_event& stop);
+  bool follow(frame_sink& sink, const stop_event& stop);
+
+  const std::string path_;
+  const file_options options_;
+  const bool images_only_;
+  const say_function say_;
+  pacer pacer_;
+  std::optional<inotify_watch> changes_;
+  /// What has been read of each file that is in the folder now, because a
+  /// file may be found both by listing and by an event.
+  std::unordered_map<std::string, file_identity> done_;
+};
+
+} // namespace roscell::engine

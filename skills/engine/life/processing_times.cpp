@@ -1,0 +1,57 @@
+#include "skills/engine/life/processing_times.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace roscell::engine {
+
+namespace {
+
+/// A value below 16 has a bucket of its own. Above, the bucket is given by the
+/// position of the highest bit and the four bits below it.
+std::size_t bucket_of(std::uint64_t value) {
+  if (value < 16)
+    return value;
+  auto high = 63 - __builtin_clzll(value);
+  auto top_bits = value >> (high - 4);
+  return static_cast<std::size_t>(high - 4) * 16 + top_bits;
+}
+
+/// The middle of a bucket.
+std::uint64_t value_of(std::size_t bucket) {
+  if (bucket < 16)
+    return bucket;
+  auto shift = bucket / 16 - 1;
+  auto least = static_cast<std::uint64_t>(16 + bucket % 16) << shift;
+  return least + ((std::uint64_t{1} << shift) - 1) / 2;
+}
+
+} // namespace
+
+void processing_times::add(duration time) {
+  auto value = std::max<duration::rep>(time.count(), 0);
+  std::lock_guard guard{mutex_};
+  ++buckets_.at(bucket_of(static_cast<std::uint64_t>(value)));
+  ++count_;
+}
+
+std::uint64_t processing_times::count() const {
+  std::lock_guard guard{mutex_};
+  return count_;
+}
+
+processing_times::duration processing_times::quantile(double q) const {
+  std::lock_guard guard{mutex_};
+  auto share = std::ceil(std::clamp(q, 0.0, 1.0) * static_cast<double>(count_));
+  auto rank = std::max<std::uint64_t>(static_cast<std::uint64_t>(share), 1);
+  std::uint64_t below = 0;
+  for (std::size_t i = 0; i < buckets_.size(); ++i) {
+    below += buckets_[i];
+    if (below >= rank)
+      return duration{value_of(i)};
+  }
+  return duration{0};
+}
+
+} // namespace roscell::engine

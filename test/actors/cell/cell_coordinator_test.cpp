@@ -1,0 +1,352 @@
+#include "test/actors/fakes/coordinator_fakes.hpp"
+
+namespace roscell::test {
+
+namespace {
+
+failure why(const caf::expected<node_registered>& x) {
+  REQUIRE_FALSE(x);
+  return to_failure(x.error());
+}
+
+std::string state_of_task(paper_cell& cell, const std::string& task) {
+  const auto reply = cell.request({{"type", "task_query"}, {"task", task}});
+  REQUIRE(reply.at("type") == "task_description");
+  return reply.at("tasks")[0].at("state").get<std::string>();
+}
+
+/// An instance of the skill, as a node or a record has it.
+instance_spec some_spec(const std::string& id, const std::string& task) {
+  instance_spec result;
+  result.instance = id;
+  result.task = task;
+  result.step = "s0";
+  result.operation = "echo";
+  result.model = "plain";
+  result.deployment = "cpu-1";
+  result.resources = {1, 100, 10};
+  return result;
+}
+
+task_record some_record(const std::string& task, task_state state,
+                        const std::vector<std::string>& nodes) {
+  task_record result;
+  result.task = task;
+  result.request = "{}";
+  result.accepted = R"({"type":"task_accepted"})";
+  result.state = state;
+  for (const auto& node : nodes) {
+    result.specs.push_back(some_spec(task + "-on-" + node, task));
+    result.nodes.push_back(node);
+  }
+  return result;
+}
+
+std::string verdict_of(const node_registered& reply, const std::string& id) {
+  for (const auto& x : reply.verdicts)
+    if (x.instance == id)
+      return to_string(x.what);
+  return "none";
+}
+
+} // namespace
+
+TEST_CASE_METHOD(paper_cell, "The coordination node has a row of its own",
+                 "[cell_coordinator]") {
+  const auto cell = request({{"type", "cell_query"}});
+  CHECK(cell.at("cell") == "lab");
+  CHECK(cell.at("coordinator") == "base");
+  CHECK(cell.at("incarnation") == 3);
+  REQUIRE(cell.at("nodes").size() == 1);
+  CHECK(cell.at("nodes")[0].at("role") == "coordinator");
+  CHECK(cell.at("nodes")[0].at("state") == "active");
+  const auto list = request({{"type", "cell_list_query"}});
+  CHECK(list.at("cells")[0].at("size") == 1);
+}
+
+TEST_CASE_METHOD(paper_cell, "A node that registers gets a row",
+                 "[cell_coordinator]") {
+  auto& arm = make_agent("arm");
+  const auto reply = enter(arm);
+  REQUIRE(reply);
+  CHECK(reply->cell == "lab");
+  CHECK(reply->coordinator == "base");
+  CHECK(reply->incarnation == 3);
+  CHECK(reply->verdicts.empty());
+  CHECK(row("arm").state == row_state::active);
+  CHECK(row("arm").role == node_role::primary);
+  CHECK(count("node_joined") == 1);
+  CHECK(request({{"type", "skill_query"}}).at("skills")[0].at("nodes")
+        == json{"arm", "base"});
+}
+
+TEST_CASE_METHOD(paper_cell, "A name that another UUID has is refused",
+                 "[cell_coordinator]") {
+  add("arm");
+  auto& other = make_agent("arm");
+  other.identity.uuid = "another";
+  const auto refused = why(enter(other));
+  CHECK(refused.code == error_code::conflict);
+  CHECK(refused.message.find("uuid-of-arm") != std::string::npos);
+  CHECK(refused.hint.find("--name") != std::string::npos);
+  CHECK(row("arm").identity.uuid == "uuid-of-arm");
+  CHECK(count("node_joined") == 1);
+  other.identity.name = "base";
+  CHECK(why(enter(other)).code == error_code::conflict);
+}
+
+TEST_CASE_METHOD(paper_cell,
+                 "A lost node's name is free for others after one lease",
+                 "[cell_coordinator]") {
+  auto& arm = add("arm");
+  lose(arm);
+  auto& other = make_agent("arm");
+  other.identity.uuid = "another";
+  time.advance(8000ms);
+  CHECK_FALSE(enter(other));
+  time.advance(100ms);
+  CHECK(enter(other));
+  CHECK(row("arm").identity.uuid == "another");
+}
+
+TEST_CASE_METHOD(paper_cell,
+                 "A copy of the coordination node's data is refused",
+                 "[cell_coordinator]") {
+  auto& copy = make_agent("copy");
+  copy.identity.uuid = base.identity.uuid;
+  copy.identity.epoch = 9;
+  CHECK(why(enter(copy)).code == error_code::conflict);
+  CHECK(row("base").state == row_state::active);
+  CHECK(row("base").role == node_role::coordinator);
+}
+
+TEST_CASE_METHOD(paper_cell, "A registration of an old epoch is refused",
+                 "[cell_coordinator]") {
+  auto& arm = make_agent("arm");
+  arm.identity.epoch = 5;
+  REQUIRE(enter(arm));
+  arm.identity.epoch = 4;
+  CHECK(why(enter(arm)).code == error_code::conflict);
+  CHECK(row("arm").identity.epoch == 5);
+}
+
+TEST_CASE_METHOD(paper_cell,
+                 "A node that comes back takes its row over from its old self",
+                 "[cell_coordinator]") {
+  auto& old = add("arm");
+  auto& again = make_agent("arm");
+  again.identity.epoch = 2;
+  REQUIRE(enter(again));
+  CHECK(old.closed.size() == 1);
+  CHECK(again.closed.empty());
+  CHECK(row("arm").identity.epoch == 2);
+  CHECK(request({{"type", "cell_query"}}).at("nodes").size() == 2);
+  // What its old session still tells is ignored.
+  lose(old);
+  depart(old);
+  time.kill(old.actor);
+  CHECK(row("arm").state == row_state::active);
+  CHECK(count("node_lost") == 0);
+  CHECK(count("node_left") == 0);
+}
+
+TEST_CASE_METHOD(paper_cell, "A lost node keeps its row until it is back",
+                 "[cell_coordinator]") {
+  auto& arm = add("arm");
+  lose(arm);
+  CHECK(row("arm").state == row_state::lost);
+  CHECK(row("arm").reason == "gone");
+  CHECK(count("node_lost") == 1);
+  REQUIRE(enter(arm));
+  CHECK(row("arm").state == row_state::active);
+  CHECK(row("arm").reason.empty());
+}
+
+TEST_CASE_METHOD(paper_cell, "A node whose member fails without a word is lost",
+                 "[cell_coordinator]") {
+  auto& arm = add("arm");
+  time.kill(arm.actor);
+  CHECK(row("arm").state == row_state::lost);
+  CHECK(count("node_lost") == 1);
+}
+
+TEST_CASE_METHOD(paper_cell, "A node that leaves without instances is gone",
+                 "[cell_coordinator]") {
+  auto& arm = add("arm");
+  depart(arm);
+  CHECK(request({{"type", "cell_query"}}).at("nodes").size() == 1);
+  CHECK(count("node_left") == 1);
+  depart(arm);
+  CHECK(count("node_left") == 1);
+}
+
+TEST_CASE_METHOD(paper_cell, "A node that leaves with instances is expected",
+                 "[cell_coordinator]") {
+  auto& arm = add("arm");
+  request(echo_task("t", {echo_step("s0", 1, "arm")}));
+  depart(arm);
+  CHECK(row("arm").state == row_state::expected);
+  CHECK(row("arm").reason == "shut down");
+  CHECK(row("arm").instances.size() == 1);
+  CHECK(state_of_task(*this, "t") == "degraded");
+  const auto back = enter(arm);
+  REQUIRE(back);
+  CHECK(back->verdicts.size() == 1);
+  CHECK(back->verdicts[0].what == verdict::keep);
+  CHECK(state_of_task(*this, "t") == "running");
+}
+
+TEST_CASE_METHOD(paper_cell,
+                 "A task is degraded while an instance of it does not run",
+                 "[cell_coordinator]") {
+  auto& arm = add("arm");
+  request(echo_task("t", {echo_step("s0", 1, "arm"), echo_step("s1", 1)}));
+  CHECK(state_of_task(*this, "t") == "running");
+  auto broken = arm.running.begin()->second;
+  broken.state = instance_state::failed;
+  broken.exit_code = 3;
+  broken.reason = "it exited with code 3";
+  caf::anon_send(coordinator, instance_changed{broken});
+  time.settle();
+  CHECK(state_of_task(*this, "t") == "degraded");
+  const auto shown =
+      request({{"type", "instance_query"}, {"instance", broken.spec.instance}});
+  CHECK(shown.at("instances")[0].at("exit_code") == 3);
+  REQUIRE(count("instance_changed") >= 1);
+  CHECK(facts.back().data.at("reason") == "it exited with code 3");
+  caf::anon_send(coordinator, instance_changed{arm.running.begin()->second});
+  time.settle();
+  CHECK(state_of_task(*this, "t") == "running");
+  lose(arm);
+  CHECK(state_of_task(*this, "t") == "degraded");
+}
+
+TEST_CASE_METHOD(paper_cell, "An ended instance that no task wants is dropped",
+                 "[cell_coordinator]") {
+  auto& arm = add("arm");
+  auto row_on_arm = row_of(some_spec("x", "gone"), "arm");
+  caf::anon_send(coordinator, instance_changed{row_on_arm});
+  time.settle();
+  CHECK(row("arm").instances.size() == 1);
+  row_on_arm.state = instance_state::stopped;
+  caf::anon_send(coordinator, instance_changed{row_on_arm});
+  time.settle();
+  CHECK(row("arm").instances.empty());
+  CHECK(arm.removals.empty());
+}
+
+TEST_CASE_METHOD(paper_cell,
+                 "A node that registers is told what to keep, stop and start",
+                 "[cell_coordinator]") {
+  auto& arm = add("arm");
+  request(
+      echo_task("t", {echo_step("s0", 1, "arm"), echo_step("s1", 1, "arm")}));
+  REQUIRE(arm.running.size() == 2);
+  const auto kept = arm.running.begin()->first;
+  const auto missing = arm.running.rbegin()->second.spec;
+  arm.running.erase(missing.instance);
+  arm.running["stray"] = row_of(some_spec("stray", "nobody's"), "arm");
+  const auto reply = enter(arm);
+  REQUIRE(reply);
+  CHECK(reply->verdicts.size() == 3);
+  CHECK(verdict_of(*reply, kept) == "keep");
+  CHECK(verdict_of(*reply, "stray") == "stop");
+  CHECK(verdict_of(*reply, missing.instance) == "start");
+  for (const auto& x : reply->verdicts)
+    if (x.what == verdict::start) {
+      REQUIRE(x.spec.size() == 1);
+      CHECK(x.spec[0] == missing);
+    } else {
+      CHECK(x.spec.empty());
+    }
+  REQUIRE(row("arm").instances.size() == 1);
+  CHECK(row("arm").instances[0].spec.instance == kept);
+}
+
+TEST_CASE("A restarted coordinator takes its running tasks up again",
+          "[cell_coordinator]") {
+  paper_cell cell{{some_record("t", task_state::running, {"arm", "leg"}),
+                   some_record("half", task_state::deploying, {"arm"}),
+                   some_record("ending", task_state::terminating, {"arm"})}};
+  CHECK(cell.disk.size() == 1);
+  CHECK(state_of_task(cell, "t") == "degraded");
+  auto& arm = cell.make_agent("arm");
+  arm.running["t-on-arm"] = row_of(some_spec("t-on-arm", "t"), "arm");
+  arm.running["half-on-arm"] = row_of(some_spec("half-on-arm", "half"), "arm");
+  arm.running["ending-on-arm"] =
+      row_of(some_spec("ending-on-arm", "ending"), "arm");
+  const auto first = cell.enter(arm);
+  REQUIRE(first);
+  CHECK(verdict_of(*first, "t-on-arm") == "keep");
+  CHECK(verdict_of(*first, "half-on-arm") == "stop");
+  CHECK(verdict_of(*first, "ending-on-arm") == "stop");
+  auto& leg = cell.make_agent("leg");
+  const auto second = cell.enter(leg);
+  REQUIRE(second);
+  CHECK(verdict_of(*second, "t-on-leg") == "start");
+  caf::anon_send(cell.coordinator,
+                 instance_changed{row_of(some_spec("t-on-leg", "t"), "leg")});
+  cell.time.settle();
+  CHECK(state_of_task(cell, "t") == "running");
+  CHECK(error_of(cell.request(echo_task("t", {echo_step("s0", 1)})))
+        == "task_exists");
+  const auto end = cell.request(termination("t"));
+  CHECK(end.at("type") == "task_terminated");
+  CHECK(end.at("instances") == json{"t-on-arm", "t-on-leg"});
+}
+
+TEST_CASE("A restarted coordinator puts its own node in order",
+          "[cell_coordinator]") {
+  auto missing = some_record("missing", task_state::running, {"base"});
+  paper_cell cell{{some_record("t", task_state::running, {"base"}), missing},
+                  {row_of(some_spec("t-on-base", "t"), "base"),
+                   row_of(some_spec("stray", "nobody's"), "base")}};
+  CHECK(state_of_task(cell, "t") == "running");
+  CHECK(state_of_task(cell, "missing") == "running");
+  CHECK(cell.base.running.count("t-on-base") == 1);
+  CHECK(cell.base.running.count("stray") == 0);
+  REQUIRE(cell.base.deployments.size() == 1);
+  CHECK(cell.base.deployments[0] == missing.specs[0]);
+  REQUIRE(cell.base.removals.size() == 1);
+  CHECK(cell.base.removals[0].instance == "stray");
+}
+
+TEST_CASE_METHOD(paper_cell,
+                 "What a task wants on a node that is away is still held",
+                 "[cell_coordinator]") {
+  auto& arm = add("arm");
+  request(echo_task("t", {echo_step("s0", 3, "arm")}));
+  lose(arm);
+  arm.running.clear();
+  REQUIRE(enter(arm));
+  CHECK(error_of(request(echo_task("u", {echo_step("s0", 2, "arm")})))
+        == "no_feasible_allocation");
+  CHECK(request(echo_task("u", {echo_step("s0", 1, "arm")})).at("type")
+        == "task_accepted");
+}
+
+TEST_CASE_METHOD(paper_cell, "What is unknown is refused by its id",
+                 "[cell_coordinator]") {
+  auto reply = request({{"type", "task_query"}, {"task", "x"}});
+  CHECK(error_of(reply) == "unknown_task");
+  CHECK(reply.at("error").at("where") == "/task");
+  reply = request({{"type", "instance_query"}, {"instance", "x"}});
+  CHECK(error_of(reply) == "unknown_task");
+  CHECK(reply.at("error").at("where") == "/instance");
+  CHECK(error_of(request({{"type", "log_query"}, {"instance", "x"}}))
+        == "unknown_task");
+  CHECK(request({{"type", "instance_query"}}).at("instances").empty());
+}
+
+TEST_CASE_METHOD(paper_cell, "A log comes from the node that has it",
+                 "[cell_coordinator]") {
+  auto& arm = add("arm");
+  request(echo_task("t", {echo_step("s0", 1, "arm")}));
+  const json query{{"type", "log_query"},
+                   {"instance", arm.running.begin()->first}};
+  CHECK(request(query).at("text") == "hello from arm");
+  lose(arm);
+  CHECK(error_of(request(query)) == "unreachable");
+}
+
+} // namespace roscell::test

@@ -1,0 +1,130 @@
+#include "actors/edge/dds/announcement.hpp"
+#include "discovery_fixture.hpp"
+
+#include <arpa/inet.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+using namespace roscell;
+using namespace roscell::test;
+
+namespace {
+
+/// A probe whose property names a version of discovery servers that is no
+/// number.
+std::vector<std::uint8_t> poisoned_question() {
+  auto bytes = probe_question(make_probe_prefix(), sockaddr_in{});
+  const std::string type = "PARTICIPANT_TYPE";
+  auto at = std::search(bytes.begin(), bytes.end(), type.begin(), type.end());
+  REQUIRE(at != bytes.end());
+  // The name DS_VERSION, 11 bytes with its zero, padded to 12; then a value.
+  const std::string poison{"\x0b\0\0\0DS_VERSION\0\0\x02\0\0\0x\0\0\0", 24};
+  std::copy(poison.begin(), poison.end(), at - 4);
+  return bytes;
+}
+
+void send_to(std::uint16_t port, const std::vector<std::uint8_t>& bytes) {
+  sockaddr_in to{};
+  to.sin_family = AF_INET;
+  to.sin_port = htons(port);
+  to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  int fd = socket(AF_INET, SOCK_DGRAM, 0);
+  sendto(fd, bytes.data(), bytes.size(), 0,
+         reinterpret_cast<const sockaddr*>(&to), sizeof(to));
+  ::close(fd);
+}
+
+} // namespace
+
+TEST_CASE("a discovery server on port 0 says which port it took",
+          "[discovery]") {
+  auto server = must_open(local_server(1, ""));
+  CHECK(server->port() != 0);
+}
+
+TEST_CASE("a discovery server names the port that is in use", "[discovery]") {
+  auto first = must_open(local_server(1, ""));
+  auto options = local_server(2, "");
+  options.port = first->port();
+  auto error = error_of(cell_server::open(options));
+  CHECK(error.code == error_code::conflict);
+  CHECK(error.message
+        == "UDP port " + std::to_string(first->port())
+               + " on 127.0.0.1 is in use");
+}
+
+TEST_CASE("a discovery server refuses an address of another host and lists "
+          "this host's",
+          "[discovery]") {
+  // 192.0.2.0/24 is for documentation; 127.0.0.12 can be bound, but belongs
+  // to no interface.
+  for (const char* address :
+       {"192.0.2.9", "127.0.0.12", "0.0.0.0", "::1", "x"}) {
+    auto options = local_server(1, "");
+    options.address = address;
+    auto error = error_of(cell_server::open(options));
+    CHECK(error.code == error_code::unreachable);
+    CHECK(error.message
+          == std::string{address} + " is not an address of this host");
+    CHECK(error.hint.find("lo 127.0.0.1") != std::string::npos);
+  }
+}
+
+TEST_CASE("a discovery server refuses options out of bounds", "[discovery]") {
+  auto too_long = local_server(1, std::string(max_announcement_bytes + 1, 'x'));
+  CHECK(error_of(cell_server::open(too_long)).message
+        == "an announcement of 1025 bytes is over the limit of 1024");
+  auto domain = local_server(1, "");
+  domain.domain_id = 233;
+  CHECK(error_of(cell_server::open(domain)).message
+        == "ROS domain 233 is over 232");
+  auto lease = local_server(1, "");
+  lease.announcement_period = lease.lease;
+  CHECK(error_of(cell_server::open(lease)).code
+        == error_code::schema_violation);
+}
+
+TEST_CASE("a discovery server can run in the highest ROS domain",
+          "[discovery]") {
+  auto options = local_server(1, "high");
+  options.domain_id = 232;
+  auto server = must_open(options);
+  diary seen;
+  auto member = client_of(server->port());
+  member.domain_id = 232;
+  auto client = must_open(member, writing_to(seen));
+  CHECK(seen.wait_for("1 high"));
+}
+
+TEST_CASE("a discovery server reports members, not those who only ask",
+          "[discovery]") {
+  diary clients;
+  diary members;
+  auto server = must_open(local_server(1, "hi"), [&](const sighting& seen) {
+    clients.add((seen.what == sighting::kind::appeared ? "+" : "-")
+                + seen.announcement);
+  });
+  auto client = must_open(client_of(server->port()), writing_to(members));
+  REQUIRE(members.wait_for("1 hi"));
+  REQUIRE(clients.wait_for("+member"));
+  client->close();
+  REQUIRE(clients.wait_for("-member"));
+  CHECK(clients.entries() == std::vector<std::string>{"+member", "-member"});
+}
+
+TEST_CASE("a discovery server survives a participant that Fast DDS chokes on",
+          "[discovery]") {
+  auto server = must_open(local_server(1, "alive"));
+  send_to(server->port(), poisoned_question());
+  send_to(server->port(), {'R', 'T', 'P', 'S'});
+  diary seen;
+  auto client = must_open(client_of(server->port()), writing_to(seen));
+  CHECK(seen.wait_for("1 alive"));
+}
+
+TEST_CASE("a discovery server can be closed twice", "[discovery]") {
+  auto server = must_open(local_server(1, ""));
+  server->close();
+  server->close();
+  CHECK_FALSE(server->update_announcement("late"));
+}

@@ -1,0 +1,304 @@
+#include "test/actors/edge/io/edge_fixture.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include <dirent.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+namespace roscell::test::wire {
+
+namespace {
+
+/// The last bytes of an error's body.
+constexpr const char* end_of_error = "\"error\"}";
+
+bool starts_with(const std::string& text, const std::string& start) {
+  return text.compare(0, start.size(), start) == 0;
+}
+
+/// The highest descriptor in use, and so what a limit must exceed.
+int highest_fd() {
+  int result = 0;
+  DIR* folder = ::opendir("/proc/self/fd");
+  while (const auto* entry = ::readdir(folder))
+    result = std::max(result, std::atoi(entry->d_name));
+  ::closedir(folder);
+  return result;
+}
+
+/// No new descriptor can be opened while this lives.
+class no_descriptors {
+public:
+  no_descriptors() {
+    // Gaps below the highest one are filled, else they could still be used.
+    const int top = highest_fd() + 1;
+    ::getrlimit(RLIMIT_NOFILE, &before_);
+    auto now = before_;
+    now.rlim_cur = static_cast<rlim_t>(top);
+    ::setrlimit(RLIMIT_NOFILE, &now);
+    for (int fd = ::dup(0); fd >= 0; fd = ::dup(0))
+      fillers_.push_back(fd);
+  }
+
+  no_descriptors(const no_descriptors&) = delete;
+  no_descriptors& operator=(const no_descriptors&) = delete;
+
+  ~no_descriptors() {
+    for (const int fd : fillers_)
+      ::close(fd);
+    ::setrlimit(RLIMIT_NOFILE, &before_);
+  }
+
+private:
+  rlimit before_{};
+  std::vector<int> fillers_;
+};
+
+} // namespace
+
+TEST_CASE("a body of 100 MB is refused before it is read") {
+  http_fixture node;
+  raw_client client{node.server->port()};
+  client.send("POST /v1/requests HTTP/1.1\r\nAuthorization: Bearer "
+              + std::string{bearer} + "\r\nContent-Length: 100000000\r\n\r\n");
+  const auto reply = client.read_until(end_of_error);
+  CHECK(starts_with(reply, "HTTP/1.1 413 "));
+  CHECK(reply.find("malformed_json") != std::string::npos);
+  CHECK(reply.find("Connection: close") != std::string::npos);
+}
+
+TEST_CASE("a client that sends 100 MB regardless gets the refusal, too") {
+  http_fixture node;
+  const std::string body(100'000'000, 'x');
+  const auto reply =
+      expect(node.tcp_client().request("POST", "/v1/requests", body, {}));
+  CHECK(reply.status == 413);
+  raw_client client{node.socket_path()};
+  client.send("POST / HTTP/1.1\r\nContent-Length: 100000000\r\n\r\n");
+  CHECK_FALSE(client.send(body));
+  CHECK(node.requests.size() == 0);
+}
+
+TEST_CASE("a body in chunks is refused once it is too long") {
+  http_limits limits;
+  limits.body_bytes = 1000;
+  http_fixture node{limits};
+  raw_client client{node.socket_path()};
+  client.send("POST /echo HTTP/1.1\r\nTransfer-Encoding: chunked\r\n\r\n");
+  const auto chunk = "1f4\r\n" + std::string(500, 'x') + "\r\n";
+  client.send(chunk + chunk + chunk);
+  CHECK(starts_with(client.read_until(end_of_error), "HTTP/1.1 413 "));
+}
+
+TEST_CASE("a body of exactly the limit is taken") {
+  http_limits limits;
+  limits.body_bytes = 1000;
+  http_fixture node{limits};
+  const std::string body(1000, 'x');
+  const auto client = node.tcp_client();
+  CHECK(expect(client.request("POST", "/echo", body, {})).status == 200);
+  CHECK(expect(client.request("POST", "/echo", body + "x", {})).status == 413);
+}
+
+TEST_CASE("a header of 9 KiB is refused, with or without an end") {
+  http_fixture node;
+  raw_client client{node.socket_path()};
+  client.send("GET /echo HTTP/1.1\r\nX: " + std::string(9 * 1024, 'x')
+              + "\r\n\r\n");
+  CHECK(starts_with(client.read_until(end_of_error), "HTTP/1.1 431 "));
+  raw_client endless{node.socket_path()};
+  endless.send("GET /" + std::string(9 * 1024, 'x'));
+  CHECK(starts_with(endless.read_until(end_of_error), "HTTP/1.1 431 "));
+}
+
+TEST_CASE("a request that takes too long to arrive gets 408") {
+  http_limits limits;
+  limits.whole_request = 50ms;
+  http_fixture node{limits};
+  raw_client in_header{node.server->port()};
+  in_header.send("GET /ec");
+  CHECK(starts_with(in_header.read_to_end(), "HTTP/1.1 408 "));
+  raw_client in_body{node.server->port()};
+  in_body.send("POST /echo HTTP/1.1\r\nAuthorization: Bearer "
+               + std::string{bearer} + "\r\nContent-Length: 10\r\n\r\nabc");
+  CHECK(starts_with(in_body.read_to_end(), "HTTP/1.1 408 "));
+}
+
+TEST_CASE("bytes that trickle in do not extend the time for a request") {
+  http_limits limits;
+  limits.whole_request = 50ms;
+  http_fixture node{limits};
+  raw_client client{node.server->port()};
+  const auto deadline = std::chrono::steady_clock::now() + patience;
+  // Each read of the server is waited for, so it sees them one by one.
+  while (!client.is_readable() && std::chrono::steady_clock::now() < deadline) {
+    client.send("x");
+    settle(node.io);
+  }
+  CHECK(starts_with(client.read_until(end_of_error), "HTTP/1.1 408 "));
+}
+
+TEST_CASE("a client that never says a word is closed") {
+  http_limits limits;
+  limits.first_byte = 50ms;
+  http_fixture node{limits};
+  CHECK(raw_client{node.server->port()}.read_to_end().empty());
+  CHECK(raw_client{node.socket_path()}.read_to_end().empty());
+}
+
+TEST_CASE("a connection that rests too long between requests is closed") {
+  http_limits limits;
+  limits.idle = 50ms;
+  http_fixture node{limits};
+  raw_client client{node.server->port()};
+  client.send(get("/echo"));
+  CHECK(starts_with(client.read_to_end(), "HTTP/1.1 200 OK\r\n"));
+}
+
+TEST_CASE("a request in progress has all the time its handler needs") {
+  http_limits limits;
+  limits.first_byte = limits.whole_request = limits.idle = limits.write = 20ms;
+  http_fixture node{limits};
+  raw_client client{node.server->port()};
+  client.send(get("/slow"));
+  const auto asked = node.requests.take();
+  raw_client idle{node.server->port()};
+  CHECK(idle.read_to_end().empty());
+  raw_client late{node.server->port()};
+  late.send("GET");
+  CHECK(starts_with(late.read_to_end(), "HTTP/1.1 408 "));
+  asked.answer.reply(200, "text/plain", "worth the wait");
+  CHECK(client.read_to_end().find("worth the wait") != std::string::npos);
+}
+
+TEST_CASE("300 silent connections keep nobody out who speaks") {
+  http_limits limits;
+  limits.first_byte = 1h;
+  http_fixture node{limits};
+  std::vector<raw_client> crowd;
+  for (int i = 0; i < 300; ++i)
+    crowd.emplace_back(node.server->port());
+  CHECK(expect(node.local_client().request("GET", "/echo", {}, {})).status
+        == 200);
+  CHECK(expect(node.tcp_client().request("GET", "/echo", {}, {})).status
+        == 200);
+  const auto closed =
+      std::count_if(crowd.begin(), crowd.end(),
+                    [](raw_client& client) { return client.is_closed(); });
+  CHECK(closed >= 300 - static_cast<int>(limits.strangers));
+}
+
+TEST_CASE("the stranger that was silent for longest makes room") {
+  http_limits limits;
+  limits.strangers = 2;
+  http_fixture node{limits};
+  raw_client first{node.server->port()};
+  first.send("GET /healthz HTTP/1.1\r\n\r\n");
+  first.read_until("tcp ");
+  raw_client second{node.server->port()};
+  second.send("GET /healthz HTTP/1.1\r\n\r\n");
+  second.read_until("tcp ");
+  first.send("GET /healthz HTTP/1.1\r\n\r\n");
+  first.read_until("tcp ");
+  raw_client third{node.server->port()};
+  CHECK(second.read_to_end().empty());
+  CHECK_FALSE(first.is_closed());
+}
+
+TEST_CASE("who posts to a public path stays a stranger with bounded bodies") {
+  http_limits limits;
+  limits.strangers = 1;
+  limits.body_bytes = 8;
+  http_fixture node{limits};
+  const auto post = [](const std::string& path, const std::string& body) {
+    return "POST " + path + " HTTP/1.1\r\nContent-Length: "
+           + std::to_string(body.size()) + "\r\n\r\n" + body;
+  };
+  raw_client first{node.server->port()};
+  for (const auto* body : {"{}", "12345678"}) {
+    first.send(post("/healthz", body));
+    const auto reply = first.read_until(std::string{"tcp "} + body);
+    CHECK(starts_with(reply, "HTTP/1.1 200 "));
+  }
+  raw_client second{node.server->port()};
+  CHECK(first.read_to_end().empty());
+  second.send(post("/healthz", "123456789"));
+  CHECK(starts_with(second.read_to_end(), "HTTP/1.1 413 "));
+  // What only begins like a public path is none.
+  for (const auto* path : {"/healthz/", "/healthz2", "//healthz", "/"}) {
+    raw_client other{node.server->port()};
+    other.send(post(path, "{}"));
+    CHECK(starts_with(other.read_to_end(), "HTTP/1.1 401 "));
+  }
+  CHECK(node.requests.size() == 0);
+}
+
+TEST_CASE("a client that showed its token is no stranger any more") {
+  http_limits limits;
+  limits.strangers = 1;
+  limits.trusted = 1;
+  http_fixture node{limits};
+  raw_client trusted{node.server->port()};
+  trusted.send(get("/echo"));
+  trusted.read_until("tcp ");
+  raw_client stranger{node.server->port()};
+  stranger.send("GET /healthz HTTP/1.1\r\n\r\n");
+  stranger.read_until("tcp ");
+  raw_client other{node.server->port()};
+  CHECK(stranger.read_to_end().empty());
+  other.send(get("/echo"));
+  CHECK(starts_with(other.read_to_end(), "HTTP/1.1 503 "));
+  trusted.send(get("/echo"));
+  CHECK(starts_with(trusted.read_until("tcp "), "HTTP/1.1 200 "));
+  // The place is free again once its holder has gone.
+  trusted.close();
+  std::string reply;
+  while (!starts_with(reply, "HTTP/1.1 200 "))
+    reply = [&] {
+      raw_client again{node.server->port()};
+      again.send(get("/echo", "Connection: close\r\n"));
+      return again.read_to_end();
+    }();
+}
+
+TEST_CASE("a client of the Unix socket over the limit is told so") {
+  http_limits limits;
+  limits.local = 1;
+  http_fixture node{limits};
+  raw_client first{node.socket_path()};
+  first.send("GET /echo HTTP/1.1\r\n\r\n");
+  first.read_until("local ");
+  raw_client second{node.socket_path()};
+  const auto reply = second.read_to_end();
+  CHECK(starts_with(reply, "HTTP/1.1 503 "));
+  CHECK(reply.find("too many clients") != std::string::npos);
+}
+
+TEST_CASE("a shortage of descriptors is waited out") {
+  http_fixture node;
+  raw_client silent{node.server->port()};
+  raw_client spoken{node.server->port()};
+  spoken.send(get("/echo"));
+  spoken.read_until("tcp ");
+  const int fd = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  sockaddr_storage address{};
+  socklen_t size = sizeof address;
+  ::getpeername(spoken.fd(), reinterpret_cast<sockaddr*>(&address), &size);
+  {
+    const no_descriptors shortage;
+    REQUIRE(::connect(fd, reinterpret_cast<sockaddr*>(&address), size) == 0);
+    CHECK(node.log.take().find("cannot take connections") != std::string::npos);
+    // A stranger is given up for whoever comes.
+    CHECK(silent.read_to_end().empty());
+  }
+  const auto request = get("/echo");
+  ::send(fd, request.data(), request.size(), MSG_NOSIGNAL);
+  std::string buffer(100, '\0');
+  CHECK(::recv(fd, buffer.data(), buffer.size(), 0) > 0);
+  ::close(fd);
+}
+
+} // namespace roscell::test::wire

@@ -1,0 +1,315 @@
+#include "test/actors/edge/io/edge_fixture.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <fstream>
+#include <thread>
+
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace roscell::test::wire {
+
+namespace {
+
+http_reply ask(const http_client& client, const std::string& path,
+               const std::string& method = "GET", const std::string& body = {},
+               const http_client::options& how = {}) {
+  return expect(client.request(method, path, body, how));
+}
+
+std::string code_of(const std::string& body) {
+  const auto json = nlohmann::json::parse(body);
+  CHECK(json.at("type") == "error");
+  const auto& error = json.at("error");
+  CHECK(error.at("message").get<std::string>() != "");
+  CHECK(error.count("where") == 1);
+  CHECK(error.count("hint") == 1);
+  return error.at("code");
+}
+
+/// The body of a raw reply.
+std::string body_of(const std::string& reply) {
+  return reply.substr(reply.find("\r\n\r\n") + 4);
+}
+
+} // namespace
+
+TEST_CASE("a request arrives with its parts decoded, by TCP and by socket") {
+  http_fixture node;
+  const auto remote = ask(node.tcp_client(), "/echo?a=1&b=x%20y+z&c", "POST",
+                          R"({"type":"cell_query"})");
+  CHECK(remote.status == 200);
+  CHECK(remote.content_type == "text/plain");
+  CHECK(remote.body
+        == R"(POST /echo a=1 b=x y z c= tcp {"type":"cell_query"})");
+  CHECK(ask(node.local_client(), "/%65cho").body == "GET /echo local ");
+}
+
+TEST_CASE("TCP needs the bearer token but for public paths") {
+  http_fixture node;
+  for (const auto* token :
+       {"", "wrong", "the-bearer-toke", "the-bearer-token2"}) {
+    const auto reply = ask(node.tcp_client(token), "/echo");
+    CHECK(reply.status == 401);
+    CHECK(code_of(reply.body) == "unauthorized");
+    CHECK(ask(node.tcp_client(token), "/healthz").status == 200);
+  }
+  CHECK(ask(node.tcp_client(), "/echo").status == 200);
+  CHECK(node.requests.size() == 0);
+}
+
+TEST_CASE("a server without a token lets nobody in by TCP") {
+  io_thread io;
+  http_server_options options;
+  options.port = 0;
+  options.handler = [](const http_request&, const responder&) {};
+  const auto server = expect(http_server::start(io, options));
+  raw_client client{server->port()};
+  client.send("GET / HTTP/1.1\r\nAuthorization: Bearer \r\n\r\n");
+  CHECK(client.read_to_end().find("401") != std::string::npos);
+}
+
+TEST_CASE("methods other than GET and POST are refused") {
+  http_fixture node;
+  for (const auto* method : {"OPTIONS", "DELETE", "PUT", "BREW"}) {
+    const auto reply = ask(node.tcp_client(), "/echo", method);
+    CHECK(reply.status == 405);
+    CHECK(code_of(reply.body) == "unknown_type");
+  }
+  raw_client client{node.server->port()};
+  client.send("HEAD /echo HTTP/1.1\r\nHost: x\r\n\r\n");
+  const auto reply = client.read_to_end();
+  CHECK(reply.find("HTTP/1.1 405 Method Not Allowed\r\n") == 0);
+  CHECK(reply.find("Allow: GET, POST") != std::string::npos);
+  CHECK(body_of(reply).empty());
+}
+
+TEST_CASE("what is no HTTP gets status 400") {
+  http_fixture node;
+  for (const auto* text :
+       {"\r\n\r\n\r\n", "hello\r\n\r\n", "GET echo HTTP/1.1\r\n\r\n",
+        "GET /%zz HTTP/1.1\r\n\r\n", "GET /%00 HTTP/1.1\r\n\r\n",
+        "POST /echo HTTP/1.1\r\nContent-Length: -1\r\n\r\n",
+        "GET / HTTP/1.1\r\nTransfer-Encoding: chunked\r\n"
+        "Content-Length: 3\r\n\r\nabc"}) {
+    raw_client client{node.socket_path()};
+    client.send(text);
+    const auto reply = client.read_to_end();
+    INFO(text << " -> " << reply);
+    CHECK(reply.find("HTTP/1.1 400 Bad Request\r\n") == 0);
+    CHECK(code_of(body_of(reply)) == "schema_violation");
+  }
+}
+
+TEST_CASE("a connection carries one request after the other") {
+  http_fixture node;
+  raw_client client{node.server->port()};
+  for (int i = 0; i < 3; ++i) {
+    client.send(get("/echo?n=" + std::to_string(i)));
+    const auto reply = client.read_until("tcp ");
+    CHECK(reply.find("Connection: keep-alive") != std::string::npos);
+    CHECK(body_of(reply) == "GET /echo n=" + std::to_string(i) + " tcp ");
+  }
+}
+
+TEST_CASE("requests sent at once are answered in order") {
+  http_fixture node;
+  raw_client client{node.server->port()};
+  client.send(get("/echo?n=1") + get("/echo?n=2")
+              + get("/echo?n=3", "Connection: close\r\n"));
+  const auto replies = client.read_to_end();
+  const auto first = replies.find("n=1");
+  const auto second = replies.find("n=2");
+  const auto third = replies.find("n=3");
+  CHECK(first < second);
+  CHECK(second < third);
+  CHECK(third != std::string::npos);
+}
+
+TEST_CASE("a body may come in pieces and in chunks") {
+  http_fixture node;
+  raw_client client{node.socket_path()};
+  client.send("POST /echo HTTP/1.1\r\nTransfer-Encoding: chunked\r\n\r\n3\r");
+  client.send("\nabc\r\n4;x=y\r\nde");
+  client.send("fg\r\n0\r\n\r\n");
+  CHECK(body_of(client.read_until("g")) == "POST /echo local abcdefg");
+  client.send("POST /echo HTTP/1.1\r\nContent-Length: 4\r\n\r\n12");
+  client.send("34");
+  CHECK(body_of(client.read_until("34")) == "POST /echo local 1234");
+}
+
+TEST_CASE("a client that waits for 100 Continue gets it") {
+  http_fixture node;
+  raw_client client{node.socket_path()};
+  client.send("POST /echo HTTP/1.1\r\nExpect: 100-continue\r\n"
+              "Content-Length: 2\r\n\r\n");
+  CHECK(client.read_until("\r\n\r\n") == "HTTP/1.1 100 Continue\r\n\r\n");
+  client.send("ok");
+  CHECK(body_of(client.read_until("ok")) == "POST /echo local ok");
+}
+
+TEST_CASE("a request that is dropped or makes its handler throw gets 500") {
+  http_fixture node;
+  std::thread dropper{[&] { node.requests.take(); }};
+  const auto reply = ask(node.local_client(), "/drop");
+  dropper.join();
+  CHECK(reply.status == 500);
+  CHECK(code_of(reply.body) == "internal");
+
+  http_server_options options;
+  options.port = 0;
+  options.token = bearer;
+  options.handler = [](const http_request&, const responder&) {
+    throw std::runtime_error("handler broke");
+  };
+  const auto server = expect(http_server::start(node.io, options));
+  raw_client client{server->port()};
+  client.send(get("/"));
+  CHECK(client.read_until("\"error\"}").find(" 500 ") != std::string::npos);
+  CHECK(node.log.take().find("handler broke") != std::string::npos);
+}
+
+TEST_CASE("the first answer counts") {
+  http_fixture node;
+  bool third_written = true;
+  std::thread answerer{[&] {
+    const auto asked = node.requests.take();
+    asked.answer.reply(201, "text/plain", "first");
+    asked.answer.reply(202, "text/plain", "second");
+    third_written = asked.answer.stream("text/plain")->write("third");
+  }};
+  const auto reply = ask(node.local_client(), "/x");
+  answerer.join();
+  CHECK(reply.status == 201);
+  CHECK(reply.body == "first");
+  CHECK_FALSE(third_written);
+}
+
+TEST_CASE("a client that leaves before its answer does no harm") {
+  http_fixture node;
+  for (int i = 0; i < 10; ++i) {
+    raw_client client{node.server->port()};
+    client.send(get("/slow"));
+    const auto asked = node.requests.take();
+    client.close();
+    settle(node.io);
+    asked.answer.reply(200, "text/plain", std::string(100'000, 'x'));
+  }
+  CHECK(ask(node.tcp_client(), "/echo").status == 200);
+}
+
+TEST_CASE("a client that has closed its sending side still gets its answer") {
+  http_fixture node;
+  raw_client client{node.server->port()};
+  client.send(get("/half"));
+  const auto asked = node.requests.take();
+  ::shutdown(client.fd(), SHUT_WR);
+  asked.answer.reply(200, "text/plain", "late");
+  CHECK(body_of(client.read_to_end()) == "late");
+}
+
+TEST_CASE("a port in use is a conflict, an address of another host is wrong") {
+  http_fixture node;
+  http_server_options options;
+  options.port = node.server->port();
+  const auto why = expect_error(http_server::start(node.io, options));
+  CHECK(why.code == error_code::conflict);
+  CHECK(why.message.find("is in use") != std::string::npos);
+  for (const auto* address : {"192.0.2.1", "localhost", "", "::1"}) {
+    options.address = address;
+    const auto wrong = expect_error(http_server::start(node.io, options));
+    CHECK(wrong.code == error_code::schema_violation);
+  }
+}
+
+TEST_CASE("the Unix socket of a living node is not taken, a dead one's is") {
+  http_fixture node;
+  http_server_options options;
+  options.port = 0;
+  options.socket_path = node.socket_path();
+  const auto why = expect_error(http_server::start(node.io, options));
+  CHECK(why.code == error_code::conflict);
+  CHECK(why.message.find("another node runs here") != std::string::npos);
+  CHECK(ask(node.local_client(), "/echo").status == 200);
+
+  // A copy of the directory entry is what a killed process leaves behind.
+  const auto stale = node.folder.path("stale.sock");
+  ::rename(node.socket_path().c_str(), stale.c_str());
+  inbox<bool> stopped;
+  node.server->stop([&] { stopped.put(true); });
+  stopped.take();
+  options.socket_path = stale;
+  const auto heir = expect(http_server::start(node.io, options));
+  struct stat made {};
+  REQUIRE(::stat(stale.c_str(), &made) == 0);
+  CHECK((made.st_mode & 0777) == 0660);
+}
+
+TEST_CASE("a file that is no socket is left alone") {
+  http_fixture node;
+  http_server_options options;
+  options.port = 0;
+  options.socket_path = node.folder.path("precious");
+  std::ofstream{options.socket_path} << "data";
+  CHECK(expect_error(http_server::start(node.io, options)).code
+        == error_code::conflict);
+  CHECK(std::ifstream{options.socket_path}.good());
+  options.socket_path = node.folder.path(std::string(120, 'x'));
+  CHECK(expect_error(http_server::start(node.io, options)).code
+        == error_code::schema_violation);
+  options.socket_path = node.folder.path("no/such/folder");
+  CHECK(expect_error(http_server::start(node.io, options)).code
+        == error_code::internal);
+}
+
+TEST_CASE("a server that stops finishes what it works on and takes no more") {
+  http_fixture node;
+  raw_client idle{node.server->port()};
+  raw_client busy{node.server->port()};
+  busy.send(get("/work"));
+  const auto asked = node.requests.take();
+  inbox<bool> stopped;
+  node.server->stop([&] { stopped.put(true); });
+  CHECK(::access(node.socket_path().c_str(), F_OK) != 0);
+  CHECK(idle.read_to_end().empty());
+  asked.answer.reply(200, "text/plain", "done");
+  const auto reply = busy.read_to_end();
+  CHECK(body_of(reply) == "done");
+  CHECK(reply.find("Connection: close") != std::string::npos);
+  busy.close();
+  stopped.take();
+  CHECK(expect_error(node.tcp_client().request("GET", "/echo", {}, {})).code
+        == error_code::unreachable);
+  CHECK(expect_error(node.local_client().request("GET", "/echo", {}, {})).code
+        == error_code::unreachable);
+}
+
+TEST_CASE(
+    "a request that does not end does not keep the server from stopping") {
+  http_limits limits;
+  limits.grace = 50ms;
+  http_fixture node{limits};
+  raw_client busy{node.server->port()};
+  busy.send(get("/work"));
+  const auto asked = node.requests.take();
+  inbox<bool> stopped;
+  node.server->stop([&] { stopped.put(true); });
+  stopped.take();
+  CHECK(busy.read_to_end().empty());
+  asked.answer.reply(200, "text/plain", "too late");
+}
+
+TEST_CASE("the end of the io thread ends the server") {
+  http_fixture node;
+  raw_client client{node.server->port()};
+  client.send(get("/work"));
+  const auto asked = node.requests.take();
+  node.io.stop();
+  CHECK(client.read_to_end().empty());
+  asked.answer.reply(200, "text/plain", "too late");
+  node.server->stop([] { FAIL("called after the end"); });
+}
+
+} // namespace roscell::test::wire

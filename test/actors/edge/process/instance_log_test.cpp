@@ -1,0 +1,177 @@
+#include "actors/edge/process/instance_log.hpp"
+
+#include "test/actors/edge/process/supervision_fixture.hpp"
+
+#include <string>
+
+using namespace roscell;
+using namespace roscell::test;
+
+namespace {
+
+std::string lines(int from, int to) {
+  std::string result;
+  for (int i = from; i < to; ++i)
+    result += "line " + std::to_string(i) + "\n";
+  return result;
+}
+
+} // namespace
+
+TEST_CASE("a log is read on from where the last part ended") {
+  own_folder folder;
+  const instance_log log{folder.path()};
+  folder.write("log.0", "one\n");
+  const auto first = log.read_from(0);
+  CHECK(first.text == "one\n");
+  CHECK(first.next_offset == 4);
+  CHECK_FALSE(first.ended);
+  folder.write("log.0", "one\ntwo\n");
+  CHECK(log.read_from(first.next_offset).text == "two\n");
+  const auto none = log.read_from(8);
+  CHECK(none.text.empty());
+  CHECK(none.next_offset == 8);
+}
+
+TEST_CASE("the files of a log are one text") {
+  own_folder folder;
+  folder.write("log.0", "abc");
+  folder.write("log.3", "def");
+  const instance_log log{folder.path()};
+  CHECK(log.read_from(0).text == "abcdef");
+  CHECK(log.read_from(2).text == "cdef");
+  CHECK(log.read_from(3).text == "def");
+  CHECK(log.read_from(4).next_offset == 6);
+}
+
+TEST_CASE("what was dropped is skipped to the oldest that is left") {
+  own_folder folder;
+  folder.write("log.100", "abc");
+  const auto part = instance_log{folder.path()}.read_from(7);
+  CHECK(part.text == "abc");
+  CHECK(part.next_offset == 103);
+}
+
+TEST_CASE("an offset beyond the end is taken back to the end") {
+  own_folder folder;
+  folder.write("log.0", "abc");
+  const auto part = instance_log{folder.path()}.read_from(1'000'000'000'000);
+  CHECK(part.text.empty());
+  CHECK(part.next_offset == 3);
+}
+
+TEST_CASE("parts around a gap are told apart") {
+  own_folder folder;
+  folder.write("log.0", "abc");
+  folder.write("log.10", "def");
+  folder.write("exit", "{}");
+  const instance_log log{folder.path()};
+  const auto before = log.read_from(0);
+  CHECK(before.text == "abc");
+  CHECK_FALSE(before.ended);
+  const auto behind = log.read_from(before.next_offset);
+  CHECK(behind.text == "def");
+  CHECK(behind.next_offset == 13);
+  CHECK(behind.ended);
+}
+
+TEST_CASE("a part is bounded, and reading all parts gives all bytes") {
+  own_folder folder;
+  const auto all = lines(0, 30'000);
+  folder.write("log.0", all.substr(0, 100'000));
+  folder.write("log.100000", all.substr(100'000));
+  folder.write("exit", "{}");
+  const instance_log log{folder.path()};
+  std::string read;
+  for (auto part = log.read_from(0);; part = log.read_from(part.next_offset)) {
+    CHECK(part.text.size() <= size_t{instance_log::max_part_bytes});
+    read += part.text;
+    if (part.ended)
+      break;
+  }
+  CHECK(read == all);
+}
+
+TEST_CASE("the tail has the last lines, whatever the files") {
+  own_folder folder;
+  folder.write("log.0", lines(0, 50));
+  folder.write("log." + std::to_string(lines(0, 50).size()), lines(50, 60));
+  const instance_log log{folder.path()};
+  CHECK(log.read_tail().text == lines(40, 60));
+  CHECK(log.read_tail(1).text == "line 59\n");
+  CHECK(log.read_tail(1000).text == lines(0, 60));
+  CHECK(log.read_tail(1).next_offset
+        == static_cast<int64_t>(lines(0, 60).size()));
+}
+
+TEST_CASE("a last line without newline is a line of the tail") {
+  own_folder folder;
+  folder.write("log.0", "one\ntwo");
+  CHECK(instance_log{folder.path()}.read_tail(1).text == "two");
+}
+
+TEST_CASE("one endless line does not make the tail long") {
+  own_folder folder;
+  folder.write("log.0", std::string(1'000'000, 'x'));
+  const auto part = instance_log{folder.path()}.read_tail(5);
+  CHECK(part.text.size() == size_t{instance_log::max_part_bytes});
+  CHECK(part.next_offset == 1'000'000);
+}
+
+TEST_CASE("a log has ended when the exit is recorded and all is read") {
+  own_folder folder;
+  folder.write("log.0", "abc");
+  const instance_log log{folder.path()};
+  CHECK_FALSE(log.read_from(3).ended);
+  folder.write("exit.tmp", "");
+  CHECK_FALSE(log.read_from(3).ended);
+  folder.write("exit", "{}");
+  CHECK(log.read_from(0).ended);
+  CHECK(log.read_from(3).ended);
+}
+
+TEST_CASE("a program that printed nothing has an empty log that ends") {
+  own_folder folder;
+  const instance_log log{folder.path()};
+  CHECK(log.read_tail().text.empty());
+  folder.write("exit", "{}");
+  CHECK(log.read_tail().ended);
+}
+
+TEST_CASE("a character that is half written waits for its other half") {
+  own_folder folder;
+  folder.write("log.0", "a\xE2\x82");
+  const instance_log log{folder.path()};
+  CHECK(log.read_from(0).text == "a");
+  CHECK(log.read_from(0).next_offset == 1);
+  folder.write("log.0", "a\xE2\x82\xAC");
+  CHECK(log.read_from(1).text == "\xE2\x82\xAC");
+  folder.write("log.0", "a\xE2\x82");
+  folder.write("exit", "{}");
+  CHECK(log.read_from(0).text == "a\xEF\xBF\xBD");
+}
+
+TEST_CASE("binary output becomes valid text") {
+  own_folder folder;
+  folder.write("log.0", std::string{"\x00\xFF\x80z", 4});
+  const auto part = instance_log{folder.path()}.read_from(0);
+  CHECK(part.text == std::string{"\x00\xEF\xBF\xBD\xEF\xBF\xBDz", 8});
+  CHECK(part.next_offset == 4);
+}
+
+TEST_CASE("what is no log file of the shim is not read") {
+  own_folder folder;
+  folder.write("log.x", "no");
+  folder.write("log.-1", "no");
+  folder.write("log.", "no");
+  folder.write("log.99999999999999999999", "no");
+  std::filesystem::create_symlink("/etc/passwd", folder.path() / "log.0");
+  std::filesystem::create_directory(folder.path() / "log.5");
+  CHECK(instance_log{folder.path()}.read_tail().text.empty());
+}
+
+TEST_CASE("the log of no instance does not exist") {
+  const instance_log log{"/no/such/instance"};
+  CHECK_FALSE(log.exists());
+  CHECK(log.read_from(0).text.empty());
+}

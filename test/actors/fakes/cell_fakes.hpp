@@ -1,0 +1,147 @@
+#pragma once
+
+#include "actors/membership/membership.hpp"
+#include "actors/session/member.hpp"
+#include "test/lossy_link.hpp"
+
+#include <caf/actor_cast.hpp>
+
+#include <deque>
+#include <map>
+#include <memory>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+/// A site in miniature: real members and memberships, tiny fakes of all that is
+/// around them, wires that can be made bad, and virtual time.
+namespace roscell::test {
+
+using namespace std::chrono_literals;
+
+/// One row of the fake coordinator's registry.
+struct fake_row {
+  node_identity identity;
+  member_actor member;
+  bool active = false;
+  std::string reason; ///< Why it is not.
+  node_registration registration;
+};
+
+/// The coordination node: what survives a kill of it, and what it was told.
+struct fake_coordinator {
+  cell_coordinator_actor actor; ///< Invalid while it is down.
+  std::string cell = "cell-1";
+  std::string name = "base";
+  int64_t incarnation = 1;
+  std::map<std::string, fake_row> rows; ///< By name.
+  std::vector<member_actor> members;    ///< All that were ever made.
+  std::vector<instance_verdict> verdicts;
+  std::vector<instance_changed> changes;
+  std::vector<member_lost> losses;
+  std::optional<failure> refusal; ///< Of registrations.
+  bool mute = false;              ///< Does not answer registrations.
+  std::vector<caf::response_promise> unanswered;
+};
+
+/// A node: its disk, what runs on it, and what its parts were asked.
+struct fake_node {
+  node_identity identity; ///< As its disk has it.
+  membership_actor membership;
+  caf::actor local; ///< Plays every part that a membership works with.
+  bool searching = false;
+  size_t searches = 0;
+  wire_ptr link;                  ///< The latest.
+  std::optional<failure> refusal; ///< Of sessions.
+  std::optional<failure> deployment_refusal;
+  bool disk_full = false;
+  std::vector<instance_row> instances;
+  std::vector<instance_reservation> reservations;
+  std::vector<instance_deployment> deployments;
+  std::vector<instance_removal> removals;
+  std::chrono::milliseconds deployment_takes{0};
+  std::deque<std::pair<caf::response_promise, instance_row>> deploying;
+  size_t marks = 0;
+};
+
+/// A fact that an actor of the site has told.
+struct told_fact {
+  std::string what;
+  std::string subject;
+  json data;
+};
+
+/// Everything; to be kept at one place, for the actors point to it.
+struct fake_site {
+  virtual_time& time;
+  std::mt19937 random;
+  wire_faults faults;
+  fake_coordinator base;
+  std::vector<std::unique_ptr<fake_node>> nodes;
+  std::vector<told_fact> facts;
+  caf::actor fact_keeper;
+  size_t timers_fired = 0;
+  house context;
+
+  fake_site(virtual_time& clock, uint32_t seed);
+  ~fake_site();
+
+  fake_site(const fake_site&) = delete;
+  fake_site& operator=(const fake_site&) = delete;
+
+  /// Lets time pass exactly, from one timer to the next.
+  void pass(std::chrono::milliseconds span);
+
+  auto now() const {
+    return time.scheduler.clock().now();
+  }
+
+  void start_coordinator();
+  void kill_coordinator();
+
+  fake_node& add_node(const std::string& name, const std::string& uuid);
+  void start(fake_node& x);
+  void kill(fake_node& x);
+  void join(fake_node& x);
+
+  /// Discovery tells all that look for the coordinator.
+  void announce();
+
+  /// As if the coordinator's announcement had changed.
+  void announce_to(fake_node& x);
+
+  membership_state standing(fake_node& x);
+  size_t count(const std::string& fact) const;
+};
+
+/// A site with a coordinator and one node, "arm-1", that is not started.
+struct cell_fixture {
+  virtual_time time;
+  fake_site site{time, 1};
+  fake_node& node;
+
+  cell_fixture() : node(site.add_node("arm-1", "a-1")) {}
+
+  /// Coordinator and node are there, and the node is a member.
+  void form_cell() {
+    site.start_coordinator();
+    site.start(node);
+    site.join(node);
+    site.pass(1s);
+  }
+
+  member_actor member() {
+    return site.base.rows.at(node.identity.name).member;
+  }
+
+  node_state state() {
+    return site.standing(node).state;
+  }
+};
+
+node_resources some_resources(const std::string& node);
+instance_spec some_spec(const std::string& instance, const std::string& task);
+instance_row some_row(const std::string& instance, const std::string& task);
+
+} // namespace roscell::test

@@ -1,0 +1,140 @@
+#pragma once
+
+#include "actors/cell/cell_coordinator.hpp"
+#include "actors/requests/request_router.hpp"
+#include "test/fixture.hpp"
+
+#include <caf/response_promise.hpp>
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+/// A coordination node in miniature: the real router, pipelines, scheduler and
+/// cell coordinator, among fake nodes and a fake disk, on virtual time.
+namespace roscell::test {
+
+using namespace std::chrono_literals;
+
+/// How a fake node answers a deployment.
+enum class temper { happy, broken, slow };
+
+/// A node: what it has, what runs on it, and what was asked of it.
+struct fake_agent {
+  node_identity identity;
+  node_resources has; ///< `used` leaves instances out.
+  temper mood = temper::happy;
+  bool silent = false;        ///< Answers nothing about resources.
+  bool slow_reports = false;  ///< Measures at once, answers when told to.
+  bool slow_removals = false; ///< Removes when told to.
+
+  caf::actor actor;
+  member_actor member; ///< The same actor, as its row has it.
+  cell_coordinator_actor coordinator;
+
+  std::map<std::string, instance_row> running;
+  std::vector<instance_reservation> reservations;
+  bool tells_reserved = false; ///< Its reports count what it has reserved.
+  int reluctance = 0; ///< How many reservations it refuses from now on.
+  std::vector<instance_spec> deployments;
+  std::vector<instance_removal> removals;
+  std::vector<std::string> closed; ///< Reasons of `close_session`.
+  caf::actor deployer;             ///< The pipeline that asked last.
+
+  std::vector<std::pair<caf::response_promise, instance_spec>> starting;
+  std::vector<std::pair<caf::response_promise, resource_report>> reports;
+  std::vector<std::pair<caf::response_promise, instance_removal>> ending;
+  std::vector<caf::response_promise> unanswered;
+  std::vector<std::function<void()>> todo; ///< For the actor itself.
+
+  void bring_up(caf::response_promise promise, const instance_spec& spec);
+  void take_down(caf::response_promise promise, const instance_removal& what);
+
+  /// End what has been kept waiting, once messages are handled: a promise can
+  /// only be kept by its actor.
+  void finish_starting();
+  void fail_starting(const std::string& reason);
+  void finish_reports();
+  void finish_removals();
+};
+
+/// A fact that somebody has told.
+struct cell_fact {
+  std::string what;
+  std::string subject;
+  json data;
+};
+
+using pending_reply =
+    std::shared_ptr<std::optional<caf::expected<request_routed>>>;
+
+/// To be kept at one place: the actors point to it.
+struct paper_cell {
+  virtual_time time;
+  std::map<std::string, json> disk; ///< Records of the table "tasks".
+  bool disk_full = false;
+  bool slow_disk = false; ///< Writes when told to.
+  std::vector<std::pair<caf::response_promise, store_record>> writes;
+  std::vector<cell_fact> facts;
+  std::vector<std::unique_ptr<fake_agent>> agents;
+  caf::actor fact_keeper;
+  caf::actor store;
+  house context;
+  std::shared_ptr<search_guard> searches;
+  scheduler_actor planner;
+  cell_coordinator_actor coordinator;
+  request_router_actor router;
+  fake_agent& base;
+
+  /// `base` is the coordination node; it can run the skill `echo`.
+  explicit paper_cell(const std::vector<task_record>& tasks = {},
+                      const std::vector<instance_row>& on_base = {});
+  ~paper_cell();
+
+  paper_cell(const paper_cell&) = delete;
+  paper_cell& operator=(const paper_cell&) = delete;
+
+  /// A node of 4 cores, 1000 MiB of memory and 1000 MiB of disk.
+  fake_agent& make_agent(const std::string& name);
+
+  /// The same, and it registers.
+  fake_agent& add(const std::string& name);
+  caf::expected<node_registered> enter(fake_agent& x);
+  void lose(fake_agent& x);
+  void depart(fake_agent& x);
+
+  /// What the router replies to a document, at once or later.
+  json request(const json& document);
+  json request_text(const std::string& text);
+  pending_reply post(const json& document);
+
+  void write(const store_record& x);
+  void finish_writes();
+
+  registry_row row(const std::string& node);
+  json tasks();
+  size_t count(const std::string& fact) const;
+
+private:
+  coordinator_setup setup(const std::vector<task_record>& tasks,
+                          const std::vector<instance_row>& on_base);
+};
+
+json reply_of(const pending_reply& x);
+std::string error_of(const json& reply);
+
+installed_skill echo_skill();
+
+/// A step that takes 1 to 4 cores, on any node or on the one named.
+json echo_step(const std::string& id, int cores, const std::string& node = "");
+json echo_task(const std::string& task, const std::vector<json>& steps);
+
+json termination(const std::string& task);
+
+instance_row row_of(const instance_spec& spec, const std::string& node,
+                    instance_state state = instance_state::running);
+
+} // namespace roscell::test

@@ -1,0 +1,115 @@
+#pragma once
+
+#include "actors/instances/skill_catalogue.hpp"
+#include "test/fixture.hpp"
+
+#include <caf/typed_event_based_actor.hpp>
+#include <caf/typed_response_promise.hpp>
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+/// What the actors of supervision talk to, as far as their tests need it.
+namespace roscell::test {
+
+/// A folder that is gone when the test is over.
+class scratch_folder {
+public:
+  scratch_folder();
+  ~scratch_folder();
+  scratch_folder(const scratch_folder&) = delete;
+  scratch_folder& operator=(const scratch_folder&) = delete;
+
+  const std::filesystem::path& path() const {
+    return path_;
+  }
+
+  /// Writes a file, with its folders.
+  std::filesystem::path write(const std::filesystem::path& name,
+                              const std::string& text,
+                              bool executable = false) const;
+
+private:
+  std::filesystem::path path_;
+};
+
+/// The descriptor of a skill with model "plain" and deployment "cpu".
+std::string echo_descriptor();
+
+/// A catalogue with that one skill, and its hash.
+struct echo_catalogue {
+  echo_catalogue();
+
+  scratch_folder folder;
+  shared_skill_catalogue skills;
+  std::string hash;
+};
+
+instance_spec echo_spec(const std::string& hash, const std::string& instance,
+                        const std::string& task = "t");
+
+/// What a fake runtime shall do, and what it was asked.
+struct runtime_script {
+  caf::error prepare_error;
+  caf::error start_error;
+  caf::error stop_error;
+  caf::error remove_error;
+  caf::error adopt_error;
+  bool silent =
+      false; ///< Starts, but does not answer until `answer` is called.
+  bool stops_never = false;
+  container_adopted adoption;
+  int stop_code = 143;
+  std::string log = "first line\nlast line\n";
+
+  std::vector<prepare_image> prepared;
+  std::vector<start_container> started;
+  std::vector<stop_container> stopped;
+  std::vector<remove_container> removed;
+  std::vector<adopt_container> adopted;
+  std::vector<log_query> queries;
+  std::vector<caf::typed_response_promise<container_started>> unanswered;
+  std::function<void()> answer; ///< Makes it give the answers it has held back.
+  caf::actor instance; ///< Who has asked for an image or an adoption last.
+
+  /// Id of the container that the last start has made.
+  std::string container() const {
+    return "c" + std::to_string(started.size());
+  }
+};
+
+runtime_actor fake_runtime(caf::actor_system& system,
+                           std::shared_ptr<runtime_script> script);
+
+/// Records by "table/key"; an empty value is a removal.
+struct store_script {
+  caf::error error;
+  std::vector<store_record> records;
+
+  /// States of an instance in the order they were written; "-" for its removal.
+  std::vector<std::string> states(const std::string& instance) const;
+};
+
+state_store_actor fake_store(caf::actor_system& system,
+                             std::shared_ptr<store_script> script);
+
+/// Keeps what it is told of instances.
+struct told_changes {
+  std::vector<instance_row> rows;
+
+  std::vector<std::string> states() const;
+  const instance_row& last() const {
+    return rows.at(rows.size() - 1);
+  }
+};
+
+/// A supervisor of which only the ears are real.
+container_supervisor_actor fake_supervisor(caf::actor_system& system,
+                                           std::shared_ptr<told_changes> told);
+
+instance_listener_actor fake_listener(caf::actor_system& system,
+                                      std::shared_ptr<told_changes> told);
+
+} // namespace roscell::test

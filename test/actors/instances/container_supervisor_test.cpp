@@ -1,0 +1,446 @@
+#include "actors/instances/container_supervisor.hpp"
+
+#include "messages/failure.hpp"
+#include "test/actors/fakes/supervision_fakes.hpp"
+
+#include <string>
+
+using namespace roscell;
+using namespace roscell::test;
+using namespace std::chrono_literals;
+
+namespace {
+
+using words = std::vector<std::string>;
+
+/// A real supervisor with real skill instances over a fake runtime and store.
+struct bench : virtual_time {
+  bench() {
+    config.context = context;
+    config.node = "n";
+    config.skills = catalogue.skills;
+    config.store = fake_store(system, store);
+    config.make_runtime = [this](container_listener_actor) {
+      runtimes.push_back(fake_runtime(system, runtime));
+      return runtimes.back();
+    };
+    listener = fake_listener(system, told);
+  }
+
+  ~bench() {
+    // First, because it would replace a runtime that has ended.
+    if (supervisor)
+      kill(supervisor);
+    for (const auto& x : runtimes)
+      kill(x);
+    kill(config.store);
+    kill(listener);
+  }
+
+  void start() {
+    supervisor = roscell::spawn(system, context, container_supervisor, config);
+    caf::anon_send(supervisor, listen_to_instances{listener});
+    settle();
+  }
+
+  auto deploy(const std::string& instance, const std::string& task = "t") {
+    auto result = ask<instance_deployed>(
+        supervisor,
+        instance_deployment{echo_spec(catalogue.hash, instance, task)});
+    settle();
+    return result;
+  }
+
+  auto remove(const std::string& task) {
+    auto result = ask<instances_removed>(supervisor, instance_removal{task});
+    settle();
+    return result;
+  }
+
+  void say(const std::string& instance, const std::string& status = {}) {
+    caf::anon_send(supervisor,
+                   instance_notified{instance, true, true, false, status});
+    settle();
+  }
+
+  void exit_of(const std::string& instance, const std::string& container,
+               int code) {
+    caf::anon_send(supervisor, container_exited{instance, container, code});
+    settle();
+  }
+
+  std::vector<instance_row> rows(const instance_query& query = {}) {
+    auto result = ask<instance_description>(supervisor, query);
+    settle();
+    REQUIRE(*result);
+    return **result ? (*result)->value().instances
+                    : std::vector<instance_row>{};
+  }
+
+  instance_row row(const std::string& instance) {
+    const auto found = rows({instance, {}});
+    REQUIRE(found.size() == 1);
+    return found[0];
+  }
+
+  /// Ends the actor of the one live instance, as a defect in it would.
+  void kill_instance_actor() {
+    caf::anon_send_exit(runtime->instance,
+                        caf::exit_reason::unhandled_exception);
+    settle();
+  }
+
+  echo_catalogue catalogue;
+  std::shared_ptr<told_changes> told = std::make_shared<told_changes>();
+  std::shared_ptr<runtime_script> runtime = std::make_shared<runtime_script>();
+  std::shared_ptr<store_script> store = std::make_shared<store_script>();
+  std::vector<runtime_actor> runtimes;
+  container_supervisor_config config;
+  container_supervisor_actor supervisor;
+  instance_listener_actor listener;
+};
+
+/// The error of an answer that must be one.
+template <class T>
+failure refusal(const T& answer) {
+  REQUIRE(*answer);
+  REQUIRE_FALSE(**answer);
+  return to_failure((*answer)->error());
+}
+
+template <class T>
+auto reply(const T& answer) {
+  REQUIRE(*answer);
+  REQUIRE(**answer);
+  return (*answer)->value();
+}
+
+} // namespace
+
+TEST_CASE("a deployment is answered once the instance is ready") {
+  bench b;
+  b.start();
+  const auto answer = b.deploy("i");
+  CHECK_FALSE(*answer);
+  b.say("i");
+  const auto row = reply(answer).instance;
+  CHECK(row.state == instance_state::running);
+  CHECK(row.node == "n");
+  CHECK(row.container == "c1");
+}
+
+TEST_CASE("the same deployment again joins the wait and starts nothing") {
+  bench b;
+  b.start();
+  const auto first = b.deploy("i");
+  const auto second = b.deploy("i");
+  CHECK_FALSE(*second);
+  b.say("i");
+  CHECK(reply(first) == reply(second));
+  CHECK(reply(b.deploy("i")) == reply(first));
+  CHECK(b.runtime->started.size() == 1);
+}
+
+TEST_CASE("an instance id with another spec is a conflict") {
+  bench b;
+  b.start();
+  b.deploy("i");
+  b.say("i");
+  CHECK(refusal(b.deploy("i", "other")).code == error_code::conflict);
+  CHECK(b.row("i").spec.task == "t");
+}
+
+TEST_CASE("what the node cannot run is refused by name") {
+  bench b;
+  b.start();
+  auto spec = echo_spec(b.catalogue.hash, "i");
+  auto expected = error_code::internal;
+  SECTION("a skill") {
+    spec.skill = std::string(64, 'a');
+    expected = error_code::unknown_operation;
+  }
+  SECTION("a model") {
+    spec.model = "fancy";
+    expected = error_code::unknown_model;
+  }
+  SECTION("a deployment") {
+    spec.deployment = "gpu";
+    expected = error_code::unknown_deployment;
+  }
+  SECTION("an id that is no file name") {
+    spec.instance = GENERATE("../i", "", ".", "a/b", "i\n");
+    expected = error_code::schema_violation;
+  }
+  const auto answer =
+      b.ask<instance_deployed>(b.supervisor, instance_deployment{spec});
+  b.settle();
+  CHECK(refusal(answer).code == expected);
+  CHECK(b.rows().empty());
+  CHECK(b.store->records.empty());
+}
+
+TEST_CASE("a failed start is told with node, exit code and last lines") {
+  bench b;
+  b.start();
+  const auto answer = b.deploy("i");
+  b.exit_of("i", "c1", 127);
+  const auto why = refusal(answer);
+  CHECK(why.code == error_code::engine_failed);
+  CHECK(why.message.find("exit code 127") != std::string::npos);
+  const auto details = json::parse(why.details);
+  CHECK(details
+        == json{{"instance", "i"},
+                {"node", "n"},
+                {"exit_code", 127},
+                {"log_tail", "first line\nlast line\n"}});
+}
+
+TEST_CASE("a failed instance is started anew by the same deployment") {
+  bench b;
+  b.start();
+  b.deploy("i");
+  b.exit_of("i", "c1", 1);
+  CHECK(b.row("i").state == instance_state::failed);
+  const auto again = b.deploy("i");
+  b.say("i");
+  CHECK(reply(again).instance.container == "c2");
+  CHECK(b.row("i").log_tail.empty());
+}
+
+TEST_CASE("an instance that has finished is not run twice") {
+  bench b;
+  b.start();
+  b.deploy("i");
+  b.say("i");
+  b.exit_of("i", "c1", 0);
+  CHECK(reply(b.deploy("i")).instance.state == instance_state::stopped);
+  CHECK(b.runtime->started.size() == 1);
+}
+
+TEST_CASE("removing a task leaves nothing of its instances") {
+  bench b;
+  b.start();
+  b.deploy("a", "t");
+  b.deploy("b", "t");
+  b.deploy("c", "u");
+  for (const auto* x : {"a", "b", "c"})
+    b.say(x);
+  CHECK(reply(b.remove("t")).instances == words{"a", "b"});
+  CHECK(b.rows().size() == 1);
+  CHECK(b.runtime->stopped.size() == 2);
+  CHECK(b.runtime->removed.size() == 2);
+  CHECK(b.store->states("a").back() == "-");
+  CHECK(b.row("c").state == instance_state::running);
+}
+
+TEST_CASE("removing one instance leaves the others of its task") {
+  bench b;
+  b.start();
+  b.deploy("a", "t");
+  b.deploy("b", "t");
+  b.say("a");
+  b.say("b");
+  const auto answer =
+      b.ask<instances_removed>(b.supervisor, instance_removal{"t", "a"});
+  b.settle();
+  CHECK(reply(answer).instances == words{"a"});
+  CHECK(b.row("b").state == instance_state::running);
+}
+
+TEST_CASE("removing an unknown task removes nothing and is no error") {
+  bench b;
+  b.start();
+  CHECK(reply(b.remove("nothing")).instances.empty());
+}
+
+TEST_CASE("a removal during the start ends it and refuses the deployment") {
+  bench b;
+  b.start();
+  b.runtime->silent = true;
+  const auto deployment = b.deploy("i");
+  const auto removal = b.remove("t");
+  CHECK(reply(removal).instances == words{"i"});
+  CHECK(refusal(deployment).code == error_code::conflict);
+  CHECK(b.rows().empty());
+}
+
+TEST_CASE("removals of one task join, deployments wait until they are over") {
+  bench b;
+  b.start();
+  b.deploy("i");
+  b.say("i");
+  b.runtime->stops_never = true;
+  const auto first = b.remove("t");
+  const auto second = b.remove("t");
+  CHECK(refusal(b.deploy("i")).code == error_code::conflict);
+  CHECK_FALSE(*first);
+  // The program is given up after its grace and force, then killed.
+  b.advance(20'100ms);
+  CHECK(reply(first).instances == words{"i"});
+  CHECK(reply(second).instances == words{"i"});
+  CHECK(b.runtime->stopped.size() == 1);
+  CHECK(b.runtime->removed.size() == 1);
+}
+
+TEST_CASE("a removal that fails says so and can be repeated") {
+  bench b;
+  b.start();
+  b.deploy("i");
+  b.say("i");
+  b.runtime->remove_error = fail(error_code::engine_failed, "disk broken");
+  CHECK(refusal(b.remove("t")).message == "disk broken");
+  CHECK(b.row("i").state == instance_state::stopped);
+  b.runtime->remove_error = {};
+  CHECK(reply(b.remove("t")).instances == words{"i"});
+}
+
+TEST_CASE("a killed skill instance loses neither container nor answer") {
+  bench b;
+  b.start();
+  const auto answer = b.deploy("i");
+  b.runtime->adoption = {true, "c1", -1};
+  SECTION("while it starts") {
+    b.kill_instance_actor();
+    CHECK(b.runtime->adopted.size() == 1);
+    b.say("i");
+  }
+  SECTION("while it runs") {
+    b.say("i");
+    b.kill_instance_actor();
+    CHECK(b.runtime->adopted.at(0).container == "c1");
+  }
+  CHECK(reply(answer).instance.state == instance_state::running);
+  CHECK(b.runtime->started.size() == 1);
+  CHECK(b.runtime->stopped.empty());
+  b.exit_of("i", "c1", 9);
+  CHECK(b.row("i").state == instance_state::failed);
+}
+
+TEST_CASE("a killed skill instance does not lose a removal either") {
+  bench b;
+  b.start();
+  b.deploy("i");
+  b.say("i");
+  b.runtime->stops_never = true;
+  const auto removal = b.remove("t");
+  b.runtime->stops_never = false;
+  b.runtime->adoption = {true, "c1", -1};
+  b.kill_instance_actor();
+  CHECK(reply(removal).instances == words{"i"});
+}
+
+TEST_CASE("an actor that dies again and again takes its program along") {
+  bench b;
+  b.start();
+  const auto answer = b.deploy("i");
+  b.runtime->adoption = {true, "c1", -1};
+  for (int i = 0; i < 6; ++i)
+    b.kill_instance_actor();
+  CHECK(refusal(answer).code == error_code::engine_failed);
+  CHECK(b.row("i").reason == "its supervision has failed");
+  CHECK(b.runtime->stopped.size() == 1);
+  CHECK(b.told->last().state == instance_state::failed);
+}
+
+TEST_CASE("a runtime that dies is spawned anew and adopts what runs") {
+  bench b;
+  b.start();
+  b.deploy("i");
+  b.say("i");
+  b.runtime->adoption = {true, "c1", -1};
+  caf::anon_send_exit(b.runtimes.at(0), caf::exit_reason::kill);
+  b.settle();
+  CHECK(b.runtimes.size() == 2);
+  CHECK(b.runtime->adopted.size() == 1);
+  CHECK(b.row("i").state == instance_state::running);
+  CHECK(reply(b.remove("t")).instances == words{"i"});
+}
+
+TEST_CASE("instances of an earlier run are adopted at the start") {
+  bench b;
+  instance_row running;
+  running.spec = echo_spec(b.catalogue.hash, "r", "t");
+  running.state = instance_state::running;
+  running.container = "c0";
+  instance_row failed = running;
+  failed.spec.instance = "f";
+  failed.state = instance_state::failed;
+  b.config.restored = {running, failed};
+  b.runtime->adoption = {true, "c0", -1};
+  b.start();
+  CHECK(b.runtime->adopted.size() == 1);
+  CHECK(b.row("r").state == instance_state::running);
+  CHECK(b.row("f").state == instance_state::failed);
+  CHECK(reply(b.remove("t")).instances == words{"f", "r"});
+}
+
+TEST_CASE("the listener hears of each state once") {
+  bench b;
+  b.start();
+  b.deploy("i");
+  b.say("i", "loading");
+  b.say("i", "12 frames/s");
+  CHECK(b.told->states()
+        == words{"pending", "building", "starting", "running"});
+  CHECK(b.row("i").status == "12 frames/s");
+}
+
+TEST_CASE("the log of an instance is the runtime's, of others there is none") {
+  bench b;
+  b.start();
+  b.deploy("i");
+  log_query query;
+  query.instance = "i";
+  const auto known = b.ask<log_excerpt>(b.supervisor, query);
+  query.instance = "../../etc";
+  const auto unknown = b.ask<log_excerpt>(b.supervisor, query);
+  b.settle();
+  CHECK(reply(known).text == "first line\nlast line\n");
+  CHECK(refusal(unknown).code == error_code::unknown_task);
+}
+
+TEST_CASE("queries choose by task and by instance") {
+  bench b;
+  b.start();
+  b.deploy("a", "t");
+  b.deploy("b", "u");
+  CHECK(b.rows().size() == 2);
+  CHECK(b.rows({"", "u"}).at(0).spec.instance == "b");
+  CHECK(b.rows({"", "none"}).empty());
+  const auto unknown =
+      b.ask<instance_description>(b.supervisor, instance_query{"z", ""});
+  b.settle();
+  CHECK(refusal(unknown).code == error_code::unknown_task);
+}
+
+TEST_CASE("live instances are bounded, and so are the rows of ended ones") {
+  bench b;
+  b.start();
+  const auto live = container_supervisor_state::max_instances;
+  const auto ended = container_supervisor_state::max_ended;
+  for (size_t i = 0; i < live; ++i)
+    b.deploy("i" + std::to_string(i));
+  CHECK(refusal(b.deploy("one-more")).code == error_code::conflict);
+  for (size_t i = 0; i < ended + 8; ++i)
+    b.exit_of("i" + std::to_string(i), "c" + std::to_string(i + 1), 1);
+  CHECK(b.rows().size() == live - 8);
+  CHECK(b.runtime->removed.size() == 8);
+}
+
+TEST_CASE("an engine's trouble is told of every live instance, and its end") {
+  bench b;
+  b.start();
+  b.deploy("i");
+  b.say("i");
+  caf::anon_send(b.supervisor, runtime_troubled{"the engine is away"});
+  b.settle();
+  CHECK(b.row("i").trouble == "the engine is away");
+  CHECK(b.row("i").state == instance_state::running);
+  CHECK(b.told->last().trouble == "the engine is away");
+  b.deploy("j");
+  CHECK(b.row("j").trouble == "the engine is away");
+  caf::anon_send(b.supervisor, runtime_troubled{});
+  b.settle();
+  CHECK(b.row("i").trouble.empty());
+  CHECK(b.row("j").trouble.empty());
+}

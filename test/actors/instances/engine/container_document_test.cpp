@@ -1,0 +1,187 @@
+#include "actors/instances/engine/container_document.hpp"
+#include "test/actors/fakes/supervision_fakes.hpp"
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <thread>
+
+using namespace roscell;
+using namespace roscell::test;
+namespace fs = std::filesystem;
+
+namespace {
+
+start_container echo_wish() {
+  start_container wish;
+  wish.instance = "i";
+  wish.image = "roscell/echo:1";
+  wish.command = {"bin/echo"};
+  wish.environment = {{"A", "1"}};
+  wish.labels = {{"task", "t"}, {"instance", "i"}, {"cell", "c"}};
+  return wish;
+}
+
+json document(const start_container& wish, const container_files& files = {}) {
+  return container_document(wish, files, {"uuid", 1024 * 1024}, "/n");
+}
+
+io_endpoint file(const std::string& path) {
+  return {"file", path, "text/plain"};
+}
+
+const container_mount* find(const container_files& files,
+                            const std::string& target) {
+  const auto& xs = files.mounts;
+  const auto i = std::find_if(
+      xs.begin(), xs.end(), [&](const auto& x) { return x.target == target; });
+  return i != xs.end() ? &*i : nullptr;
+}
+
+container_files found_files(const start_container& wish) {
+  auto result = files_of(wish);
+  REQUIRE(std::holds_alternative<container_files>(result));
+  return std::get<container_files>(std::move(result));
+}
+
+} // namespace
+
+TEST_CASE("a container shares network and memory, and is told where to speak") {
+  const auto x = document(echo_wish());
+  CHECK(x["Image"] == "roscell/echo:1");
+  CHECK(x["Env"] == json::array({"A=1", "NOTIFY_SOCKET=/run/roscell/notify"}));
+  CHECK(x["User"]
+        == std::to_string(::geteuid()) + ':' + std::to_string(::getegid()));
+  CHECK(x["Labels"]
+        == json{{"roscell.node", "uuid"},
+                {"roscell.task", "t"},
+                {"roscell.instance", "i"},
+                {"roscell.cell", "c"}});
+  const auto& host = x["HostConfig"];
+  CHECK(host["NetworkMode"] == "host");
+  CHECK(host["IpcMode"] == "host");
+  CHECK(host["Mounts"]
+        == json::array({{{"Type", "bind"},
+                         {"Source", "/n"},
+                         {"Target", "/run/roscell"},
+                         {"ReadOnly", true}}}));
+  CHECK(host["LogConfig"]["Config"]["max-size"] == "524288");
+  CHECK(host["LogConfig"]["Config"]["max-file"] == "2");
+}
+
+TEST_CASE("a container gets no more than it asked for") {
+  auto wish = echo_wish();
+  SECTION("without a request there is no limit") {
+    const auto host = document(wish)["HostConfig"];
+    CHECK(host.count("Memory") == 0);
+    CHECK(host.count("NanoCpus") == 0);
+  }
+  SECTION("memory has no swap beside it, and cores are parts of a core") {
+    wish.limits.memory_mib = 96.5;
+    wish.limits.cpu = 0.5;
+    const auto host = document(wish)["HostConfig"];
+    CHECK(host["Memory"] == 97 * 1024 * 1024);
+    CHECK(host["MemorySwap"] == host["Memory"]);
+    CHECK(host["NanoCpus"] == 500'000'000);
+  }
+  SECTION("what an engine would refuse is rounded to what it takes") {
+    wish.limits.memory_mib = 1;
+    wish.limits.cpu = 1e6;
+    const auto host = document(wish)["HostConfig"];
+    CHECK(host["Memory"] == 6 * 1024 * 1024);
+    CHECK(host["NanoCpus"]
+          == int64_t{std::thread::hardware_concurrency()} * 1'000'000'000);
+  }
+}
+
+TEST_CASE("a container's limits never exceed those of its node") {
+  const auto host = document(echo_wish())["HostConfig"];
+  REQUIRE(host["Ulimits"].size() == 2);
+  rlimit own{};
+  ::getrlimit(RLIMIT_NOFILE, &own);
+  CHECK(host["Ulimits"][0]["Name"] == "nofile");
+  CHECK(host["Ulimits"][0]["Soft"].get<rlim_t>() <= own.rlim_cur);
+  CHECK(host["Ulimits"][0]["Hard"] == host["Ulimits"][0]["Soft"]);
+  CHECK(host["Ulimits"][1]["Name"] == "nproc");
+}
+
+TEST_CASE("an instance with a GPU sees that one only, as its first") {
+  auto wish = echo_wish();
+  wish.environment["CUDA_VISIBLE_DEVICES"] = "3";
+  wish.gpu = 3;
+  const auto x = document(wish);
+  CHECK(x["Env"][1] == "CUDA_VISIBLE_DEVICES=0");
+  const auto request = x["HostConfig"]["DeviceRequests"];
+  REQUIRE(request.size() == 1);
+  CHECK(request[0]["DeviceIDs"] == json::array({"3"}));
+  CHECK(request[0]["Capabilities"] == json::array({json::array({"gpu"})}));
+}
+
+TEST_CASE("a library path of the deployment does not hide the image's") {
+  auto wish = echo_wish();
+  wish.environment["LD_LIBRARY_PATH"] = "/mine";
+  CHECK(document(wish)["Env"][1] == "LD_LIBRARY_PATH=/opt/roscell/lib:/mine");
+}
+
+TEST_CASE("inputs can be read, outputs written") {
+  scratch_folder folder;
+  auto wish = echo_wish();
+  const auto in = folder.write("in", "").string();
+  const auto base = folder.path().string();
+  wish.input = {file(in), file(base + "/not/yet"), {"ros2", "/topic", "t"}};
+  SECTION("what is there is mounted itself") {
+    const auto out = folder.write("out", "x").string();
+    wish.output = {file(out)};
+    const auto files = found_files(wish);
+    REQUIRE(find(files, in) != nullptr);
+    CHECK(find(files, in)->read_only);
+    REQUIRE(find(files, out) != nullptr);
+    CHECK_FALSE(find(files, out)->read_only);
+    CHECK(find(files, "/topic") == nullptr);
+    CHECK(files.mounts.size() == 2);
+  }
+  SECTION("an output that is not there is made, as the skill would") {
+    wish.output = {file(base + "/new/out"), file(base + "/folder/")};
+    const auto files = found_files(wish);
+    CHECK(fs::is_regular_file(base + "/new/out"));
+    CHECK(fs::is_directory(base + "/folder"));
+    CHECK(find(files, base + "/new/out") != nullptr);
+    CHECK(find(files, base + "/folder") != nullptr);
+  }
+  SECTION("an input that is not there yet is seen by its folder") {
+    wish.input = {file(base + "/later")};
+    const auto files = found_files(wish);
+    REQUIRE(find(files, base) != nullptr);
+    CHECK(find(files, base)->read_only);
+  }
+  SECTION("what is both can be written") {
+    wish.output = {file(in)};
+    CHECK_FALSE(find(found_files(wish), in)->read_only);
+  }
+  SECTION("an output that cannot be made is a clear error") {
+    wish.output = {file(in + "/below")};
+    const auto refused = files_of(wish);
+    REQUIRE(std::holds_alternative<edge_error>(refused));
+    CHECK(std::get<edge_error>(refused).message.find(in + "/below")
+          != std::string::npos);
+  }
+}
+
+TEST_CASE("devices and volumes are the deployment's, a camera is a device") {
+  auto wish = echo_wish();
+  wish.devices = {"/dev/gpiochip0"};
+  wish.volumes = {"/models:/opt/models:ro", "/scratch:/tmp/scratch/"};
+  wish.input = {{"video", "/dev/null", "image"}};
+  const auto files = found_files(wish);
+  CHECK(files.devices
+        == std::vector<std::string>{"/dev/null", "/dev/gpiochip0"});
+  REQUIRE(find(files, "/opt/models") != nullptr);
+  CHECK(find(files, "/opt/models")->source == "/models");
+  CHECK(find(files, "/opt/models")->read_only);
+  REQUIRE(find(files, "/tmp/scratch") != nullptr);
+  CHECK_FALSE(find(files, "/tmp/scratch")->read_only);
+  const auto host = document(wish, files)["HostConfig"];
+  CHECK(host["Devices"].size() == 2);
+  CHECK(host["Devices"][0]["PathOnHost"] == "/dev/null");
+}

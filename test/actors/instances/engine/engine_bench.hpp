@@ -1,0 +1,190 @@
+#pragma once
+
+#include "actors/edge/io/io_thread.hpp"
+#include "actors/instances/engine/engine_runtime.hpp"
+#include "test/actors/instances/process/process_bench.hpp"
+#include "test/fake_engine.hpp"
+
+#include <condition_variable>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <utility>
+
+/// The engine runtime and an engine whose answers a test chooses.
+namespace roscell::test {
+
+/// Answers by the beginning of "METHOD /path". A stream of events stays open
+/// until the engine ends.
+class engine_script {
+public:
+  using answer = fake_engine::handler;
+
+  void on(const std::string& call, answer what) {
+    const std::lock_guard guard{mutex_};
+    answers_[call] = std::move(what);
+  }
+
+  void on(const std::string& call, int status, const std::string& body = "{}") {
+    on(call, [=](engine_caller& who, const engine_call_seen&) {
+      who.reply(status, body);
+    });
+  }
+
+  void handle(engine_caller& who, const engine_call_seen& what) {
+    const auto call = what.method + ' ' + what.target;
+    answer chosen;
+    {
+      const std::lock_guard guard{mutex_};
+      calls_.put(call);
+      // The longest that fits.
+      for (const auto& [begin, x] : answers_)
+        if (call.rfind(begin, 0) == 0)
+          chosen = x;
+    }
+    if (chosen)
+      chosen(who, what);
+    else if (call.rfind("GET /events", 0) == 0)
+      open_events(who);
+    else if (call.rfind("GET /containers/json", 0) == 0)
+      who.reply(200, "[]");
+    else
+      who.reply(404, R"({"message":"none"})");
+  }
+
+  /// Sends an event once somebody listens.
+  void tell_end(const std::string& instance, const std::string& id, int code) {
+    const json event{{"Action", "die"},
+                     {"Actor",
+                      {{"ID", id},
+                       {"Attributes",
+                        {{"roscell.instance", instance},
+                         {"exitCode", std::to_string(code)}}}}}};
+    std::unique_lock lock{mutex_};
+    listening_.wait_for(lock, patience, [this] { return events_ != nullptr; });
+    events_->chunk(event.dump() + "\n");
+  }
+
+  /// What was asked, one by one.
+  facts& calls() {
+    return calls_;
+  }
+
+private:
+  void open_events(engine_caller& who) {
+    who.open();
+    const std::lock_guard guard{mutex_};
+    events_ = &who;
+    listening_.notify_all();
+  }
+
+  std::mutex mutex_;
+  std::map<std::string, answer> answers_;
+  std::condition_variable listening_;
+  engine_caller* events_ = nullptr;
+  facts calls_;
+};
+
+struct engine_bench {
+  engine_bench() {
+    config.context = context;
+    config.socket = folder.path() / "engine";
+    config.setting = {"uuid", 1024 * 1024};
+    config.data_dir = folder.path() / "data";
+    config.io = io.core();
+    std::filesystem::create_directories(config.data_dir);
+    using handle = container_listener_actor;
+    listener = system.spawn([this](handle::pointer) -> handle::behavior_type {
+      return {
+          [this](const container_exited& x) {
+            told.put("exit " + x.container + " " + std::to_string(x.exit_code));
+          },
+          [this](const instance_notified& x) { told.put("says " + x.status); },
+          [this](const runtime_troubled& x) {
+            told.put(x.message.empty() ? "no trouble" : "trouble");
+          },
+      };
+    });
+    folder.write("skill/bin/run", "#!/bin/sh\n", true);
+    begin_engine();
+    begin_runtime();
+  }
+
+  ~engine_bench() {
+    end_and_await(self, runtime);
+    end_and_await(self, listener);
+    engine = nullptr;
+  }
+
+  void begin_engine() {
+    engine = std::make_unique<fake_engine>(
+        config.socket,
+        [this](engine_caller& who, const engine_call_seen& what) {
+          script.handle(who, what);
+        });
+  }
+
+  void begin_runtime() {
+    runtime = roscell::spawn<caf::detached>(system, context, engine_runtime,
+                                            config, listener);
+  }
+
+  template <class Reply, class Request>
+  caf::expected<Reply> ask(const Request& request) {
+    caf::expected<Reply> result{caf::sec::none};
+    self->request(runtime, patience, request)
+        .receive([&](Reply& x) { result = std::move(x); },
+                 [&](caf::error& why) { result = std::move(why); });
+    return result;
+  }
+
+  template <class Reply, class Request>
+  Reply get(const Request& request) {
+    auto result = ask<Reply>(request);
+    if (!result)
+      FAIL(to_failure(result.error()).message);
+    return std::move(*result);
+  }
+
+  template <class Reply, class Request>
+  failure refusal(const Request& request) {
+    const auto result = ask<Reply>(request);
+    REQUIRE_FALSE(result);
+    return to_failure(result.error());
+  }
+
+  prepare_image image(const std::string& instance = "i") const {
+    return {instance, "echo",      (folder.path() / "skill").string(),
+            "hash",   {"bin/run"}, "base:1"};
+  }
+
+  start_container container() const {
+    start_container wish;
+    wish.instance = "i";
+    wish.image = "roscell/echo:1";
+    wish.command = {"bin/run"};
+    return wish;
+  }
+
+  /// The script for a container that starts.
+  void will_start() {
+    script.on("POST /containers/create", 201, R"({"Id":"c1"})");
+    script.on("POST /containers/c1/start", 204, "");
+  }
+
+  scratch_folder folder;
+  real_time_config system_config;
+  caf::actor_system system{system_config};
+  caf::scoped_actor self{system};
+  house context{std::make_shared<actor_directory>(), {}};
+  io_thread io;
+  facts told;
+  engine_script script;
+  std::unique_ptr<fake_engine> engine;
+  engine_runtime_config config;
+  container_listener_actor listener;
+  engine_runtime_actor runtime;
+};
+
+} // namespace roscell::test

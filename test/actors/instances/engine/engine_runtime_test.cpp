@@ -1,0 +1,315 @@
+#include "test/actors/instances/engine/engine_bench.hpp"
+
+#include <atomic>
+
+using namespace roscell;
+using namespace roscell::test;
+
+namespace {
+
+constexpr const char* running =
+    R"({"Id":"c1","Created":"2026-11-21T20:54:31Z",)"
+    R"("State":{"Status":"running","Running":true,"ExitCode":0}})";
+constexpr const char* ended =
+    R"({"Id":"c1","Created":"2026-11-21T20:54:31Z",)"
+    R"("State":{"Status":"exited","Running":false,"ExitCode":6}})";
+
+std::string log_line(const std::string& text) {
+  const auto payload = "2026-11-21T20:54:32.000000100Z " + text + "\n";
+  return std::string{1, 0, 0, 0, 0, 0, 0, static_cast<char>(payload.size())}
+         + payload;
+}
+
+} // namespace
+
+TEST_CASE("a started container's exit is told once, with its code") {
+  engine_bench b;
+  b.will_start();
+  CHECK(b.get<container_started>(b.container()).container == "c1");
+  b.script.tell_end("i", "other", 1);
+  b.script.tell_end("i", "c1", 3);
+  CHECK(b.told.take() == "exit c1 3");
+}
+
+TEST_CASE("an end before the engine's answer is told after it") {
+  engine_bench b;
+  b.script.on("POST /containers/create", 201, R"({"Id":"c1"})");
+  b.script.on("POST /containers/c1/start",
+              [&](engine_caller& who, const engine_call_seen&) {
+                b.script.tell_end("i", "c1", 127);
+                who.reply(204, "");
+              });
+  CHECK(b.get<container_started>(b.container()).container == "c1");
+  CHECK(b.told.take() == "exit c1 127");
+}
+
+TEST_CASE("a container that cannot be started is removed, and why is told") {
+  engine_bench b;
+  b.script.on("POST /containers/create", 201, R"({"Id":"c1"})");
+  b.script.on("POST /containers/c1/start", 400,
+              R"({"message":"exec: no such file"})");
+  b.script.on("DELETE /containers/c1", 204, "");
+  const auto why = b.refusal<container_started>(b.container());
+  CHECK(why.code == error_code::engine_failed);
+  CHECK(why.message.find("exec: no such file") != std::string::npos);
+  b.script.calls().await("DELETE /containers/c1?force=true&v=true");
+}
+
+TEST_CASE("an ended container makes room, a running one does not") {
+  engine_bench b;
+  int attempts = 0;
+  b.script.on("POST /containers/create",
+              [&](engine_caller& who, const engine_call_seen&) {
+                if (++attempts == 1)
+                  who.reply(409, R"({"message":"name in use"})");
+                else
+                  who.reply(201, R"({"Id":"c1"})");
+              });
+  b.script.on("POST /containers/c1/start", 204, "");
+  SECTION("ended") {
+    b.script.on("GET /containers/roscell-i/json", 200, ended);
+    b.script.on("DELETE /containers/roscell-i", 204, "");
+    CHECK(b.get<container_started>(b.container()).container == "c1");
+  }
+  SECTION("running") {
+    b.script.on("GET /containers/roscell-i/json", 200, running);
+    CHECK(
+        b.refusal<container_started>(b.container()).message.find("runs already")
+        != std::string::npos);
+  }
+}
+
+TEST_CASE("an image that is there is taken at once") {
+  engine_bench b;
+  b.script.on("GET /images/roscell/echo:", 200);
+  const auto one = b.get<image_prepared>(b.image());
+  CHECK(one.image.rfind("roscell/echo:", 0) == 0);
+  CHECK(b.get<image_prepared>(b.image("j")).image == one.image);
+}
+
+TEST_CASE("two who want the same image share one build") {
+  engine_bench b;
+  std::atomic<int> builds{0};
+  std::atomic<bool> built{false};
+  b.script.on("GET /images/roscell/echo:",
+              [&](engine_caller& who, const engine_call_seen&) {
+                who.reply(built ? 200 : 404, "{}");
+              });
+  facts waiting;
+  b.script.on("POST /build",
+              [&](engine_caller& who, const engine_call_seen& what) {
+                CHECK(what.body.find("FROM base:1") != std::string::npos);
+                ++builds;
+                // The second request is there before the first is done.
+                waiting.take();
+                built = true;
+                who.open();
+                who.chunk("{\"stream\":\"Step 1/5 : FROM base:1\"}\n");
+                who.end();
+              });
+  auto first = b.self->request(b.runtime, patience, b.image("i"));
+  auto second = b.self->request(b.runtime, patience, b.image("j"));
+  // Answered after both requests were taken in.
+  b.ask<actor_state>(state_query{});
+  waiting.put("both are there");
+  std::string images[2];
+  const auto fail_with = [](caf::error& why) { FAIL(to_failure(why).message); };
+  first.receive([&](image_prepared& x) { images[0] = x.image; }, fail_with);
+  second.receive([&](image_prepared& x) { images[1] = x.image; }, fail_with);
+  CHECK(images[0] == images[1]);
+  CHECK(builds == 1);
+  CHECK(b.told.take() == "says Step 1/5 : FROM base:1");
+  CHECK(std::filesystem::is_empty(b.config.data_dir / "build"));
+}
+
+TEST_CASE("a failed build is told in the engine's words, with its log") {
+  engine_bench b;
+  b.script.on("POST /build", [](engine_caller& who, const engine_call_seen&) {
+    who.open();
+    who.chunk("{\"stream\":\"Step 1/5 : FROM base:1\"}\n"
+              "{\"stream\":\"Step 2/5 : COPY opt /opt\"}\n"
+              "no JSON\n[1]\n{\"stream\":7}\n"
+              "{\"error\":\"no space left on device\"}\n");
+    who.end();
+  });
+  const auto why = b.refusal<image_prepared>(b.image());
+  CHECK(why.code == error_code::engine_failed);
+  CHECK(why.message.find("no space left on device") != std::string::npos);
+  CHECK(why.hint.find("free space") != std::string::npos);
+  CHECK(why.details.find("COPY opt /opt") != std::string::npos);
+}
+
+TEST_CASE("an engine that goes away in a build is told, and the image not") {
+  engine_bench b;
+  b.script.on("POST /build", [](engine_caller& who, const engine_call_seen&) {
+    who.open();
+    who.chunk("{\"stream\":\"Step 1/5 : FROM base:1\"}\n");
+    who.hang_up();
+  });
+  CHECK(b.refusal<image_prepared>(b.image()).message.find("went away")
+        != std::string::npos);
+}
+
+TEST_CASE("what makes an image ends with the runtime") {
+  engine_bench b;
+  facts asked;
+  b.script.on("POST /build", [&](engine_caller&, const engine_call_seen&) {
+    asked.put("build"); // Never answered.
+  });
+  caf::anon_send(b.runtime, b.image());
+  asked.take();
+  // The actor system of the bench waits for every actor.
+  b.self->monitor(b.runtime);
+  caf::anon_send_exit(b.runtime, caf::exit_reason::user_shutdown);
+  b.self->receive([](const caf::down_msg&) {});
+}
+
+TEST_CASE("what is adopted is watched, what has ended is told") {
+  engine_bench b;
+  SECTION("it runs") {
+    b.script.on("GET /containers/c1/json", 200, running);
+    CHECK(b.get<container_adopted>(adopt_container{"i", "c1"}).running);
+    CHECK(b.get<container_adopted>(adopt_container{"i", {}}).container == "c1");
+    b.script.tell_end("i", "c1", 9);
+    CHECK(b.told.take() == "exit c1 9");
+  }
+  SECTION("it has ended") {
+    b.script.on("GET /containers/roscell-i/json", 200, ended);
+    const auto x = b.get<container_adopted>(adopt_container{"i", {}});
+    CHECK_FALSE(x.running);
+    CHECK(x.container == "c1");
+    CHECK(x.exit_code == 6);
+  }
+  SECTION("there is none") {
+    const auto x = b.get<container_adopted>(adopt_container{"i", {}});
+    CHECK_FALSE(x.running);
+    CHECK(x.container.empty());
+  }
+}
+
+TEST_CASE("an engine that is lost is told, and what happened meanwhile too") {
+  engine_bench b;
+  b.will_start();
+  b.get<container_started>(b.container());
+  b.engine = nullptr;
+  CHECK(b.told.take() == "trouble");
+  // Nothing is known, so nothing is said to be gone.
+  CHECK_FALSE(b.ask<container_stopped>(stop_container{"i", "c1", 0}));
+  CHECK_FALSE(b.ask<container_removed>(remove_container{"i", "c1"}));
+  CHECK_FALSE(b.ask<image_prepared>(b.image()));
+  b.script.on("GET /containers/c1/json", 200, ended);
+  b.begin_engine();
+  CHECK(b.told.take() == "no trouble");
+  CHECK(b.told.take() == "exit c1 6");
+  // What could not be ended then must not go on now.
+  b.script.calls().await("DELETE /containers/roscell-i?force=true&v=true");
+}
+
+TEST_CASE("an engine that goes away in a start leaves nothing running") {
+  engine_bench b;
+  b.script.on("POST /containers/create", 201, R"({"Id":"c1"})");
+  b.script.on(
+      "POST /containers/c1/start",
+      [](engine_caller& who, const engine_call_seen&) { who.hang_up(); });
+  const auto why = b.refusal<container_started>(b.container());
+  CHECK(why.code == error_code::engine_failed);
+  CHECK(why.message.find("went away") != std::string::npos);
+  b.engine = nullptr;
+  b.told.await("trouble");
+  b.begin_engine();
+  b.script.calls().await("DELETE /containers/roscell-i?force=true&v=true");
+}
+
+TEST_CASE("an adoption waits for an engine that is not there yet") {
+  engine_bench b;
+  b.engine = nullptr;
+  b.told.await("trouble");
+  b.script.on("GET /containers/c1/json", 200, running);
+  auto adoption =
+      b.self->request(b.runtime, patience, adopt_container{"i", "c1"});
+  b.begin_engine();
+  adoption.receive([](container_adopted& x) { CHECK(x.running); },
+                   [](caf::error& why) { FAIL(to_failure(why).message); });
+}
+
+TEST_CASE("stopping gives the grace to the engine and tells the exit code") {
+  engine_bench b;
+  b.will_start();
+  b.get<container_started>(b.container());
+  b.script.on("POST /containers/c1/stop?t=2", 204, "");
+  b.script.on("GET /containers/c1/json", 200, ended);
+  CHECK(b.get<container_stopped>(stop_container{"i", "c1", 1500}).exit_code
+        == 6);
+  b.script.on("DELETE /containers/c1", 204, "");
+  b.get<container_removed>(remove_container{"i", "c1"});
+  CHECK(std::filesystem::is_empty(b.config.data_dir / "notify"));
+  // Neither fails for a container that is gone.
+  b.get<container_stopped>(stop_container{"i", {}, 0});
+  b.get<container_removed>(remove_container{"i", {}});
+}
+
+TEST_CASE("a log is read, and followed until there is more") {
+  engine_bench b;
+  log_query query;
+  query.instance = "i";
+  query.offset = 0;
+  SECTION("of an ended container it ends") {
+    b.script.on("GET /containers/roscell-i/json", 200, ended);
+    b.script.on("GET /containers/c1/logs", 200, log_line("last"));
+    auto x = b.get<log_excerpt>(query);
+    CHECK(x.text == "last\n");
+    CHECK(x.ended);
+    query.offset = x.next_offset;
+    x = b.get<log_excerpt>(query);
+    CHECK(x.text.empty());
+    CHECK(x.ended);
+    CHECK(x.next_offset == query.offset);
+  }
+  SECTION("of a running one it waits") {
+    query.wait_ms = 20'000;
+    b.script.on("GET /containers/roscell-i/json", 200, running);
+    b.script.on("GET /containers/c1/logs",
+                [](engine_caller& who, const engine_call_seen& what) {
+                  CHECK(what.target.find("follow=true") != std::string::npos);
+                  who.open();
+                  who.chunk(log_line("more"));
+                });
+    const auto x = b.get<log_excerpt>(query);
+    CHECK(x.text == "more\n");
+    CHECK_FALSE(x.ended);
+  }
+  SECTION("but not for ever") {
+    query.wait_ms = 50;
+    b.script.on("GET /containers/roscell-i/json", 200, running);
+    b.script.on(
+        "GET /containers/c1/logs",
+        [](engine_caller& who, const engine_call_seen&) { who.open(); });
+    const auto x = b.get<log_excerpt>(query);
+    CHECK(x.text.empty());
+    CHECK_FALSE(x.ended);
+  }
+  SECTION("there is none") {
+    CHECK(b.refusal<log_excerpt>(query).code == error_code::unknown_task);
+  }
+}
+
+TEST_CASE("ids that cannot be names reach no engine") {
+  engine_bench b;
+  for (const auto* id : {"..", "", "../x", "a/b", "a?b"}) {
+    CHECK_FALSE(b.ask<container_adopted>(adopt_container{id, {}}));
+    CHECK_FALSE(b.ask<container_removed>(remove_container{id, {}}));
+    CHECK_FALSE(b.ask<container_stopped>(stop_container{id, {}, 0}));
+  }
+}
+
+TEST_CASE("an engine that talks nonsense does not break the runtime") {
+  engine_bench b;
+  b.script.on("POST /containers/create", 201, "[[]]");
+  CHECK_FALSE(b.ask<container_started>(b.container()));
+  b.script.on("GET /containers/roscell-i/json", 200,
+              R"({"Id":7,"State":{"Running":"yes","ExitCode":"x"}})");
+  CHECK_FALSE(b.get<container_adopted>(adopt_container{"i", {}}).running);
+  b.script.on("GET /images/", 200, "\xff");
+  b.ask<image_prepared>(b.image());
+  CHECK(b.ask<actor_state>(state_query{}));
+}

@@ -1,0 +1,185 @@
+#pragma once
+
+#include "actors/edge/io/io_thread.hpp"
+#include "actors/instances/process/process_runtime.hpp"
+#include "messages/failure.hpp"
+#include "test/actors/fakes/supervision_fakes.hpp"
+
+#include <sys/types.h>
+
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <fstream>
+#include <mutex>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+/// The process runtime with real processes.
+namespace roscell::test {
+
+/// Only a failing test ever waits so long.
+constexpr std::chrono::seconds patience{30};
+
+/// What the runtime tells, for the thread of the test.
+class facts {
+public:
+  void put(std::string fact) {
+    const std::lock_guard guard{mutex_};
+    facts_.push_back(std::move(fact));
+    changed_.notify_all();
+  }
+
+  std::string take() {
+    std::unique_lock lock{mutex_};
+    if (!changed_.wait_for(lock, patience, [this] { return !facts_.empty(); }))
+      throw std::runtime_error{"the test waited in vain"};
+    auto result = std::move(facts_.front());
+    facts_.pop_front();
+    return result;
+  }
+
+  /// Skips everything before `fact`.
+  void await(const std::string& fact) {
+    auto last = take();
+    while (last != fact)
+      last = take();
+  }
+
+private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<std::string> facts_;
+};
+
+/// Ends an actor and waits until it is gone, so that nothing that it points to
+/// is missed.
+template <class Handle>
+void end_and_await(caf::scoped_actor& self, const Handle& whom) {
+  self->monitor(whom);
+  caf::anon_send_exit(whom, caf::exit_reason::kill);
+  self->receive([](const caf::down_msg&) {});
+}
+
+struct real_time_config : caf::actor_system_config {
+  real_time_config() {
+    roscell::add_message_types(*this);
+    set("scheduler.policy", caf::atom("sharing"));
+    set("scheduler.max-threads", size_t{1});
+  }
+};
+
+/// Real processes under a real shim. What is still running at the end is
+/// killed.
+struct process_bench {
+  process_bench() {
+    config.instances_dir = folder.path() / "data" / "instances";
+    config.shim =
+        std::filesystem::path{ROSCELL_BINARY_DIR} / "bin/roscell-instance-shim";
+    config.io = io.core();
+    config.environment = basic_environment();
+    using handle = container_listener_actor;
+    listener = system.spawn([this](handle::pointer) -> handle::behavior_type {
+      return {
+          [this](const container_exited& x) {
+            told.put("exit " + std::to_string(x.exit_code));
+          },
+          [this](const instance_notified& x) {
+            if (x.ready)
+              told.put("ready");
+          },
+          [](const runtime_troubled&) {
+            // Processes have no engine.
+          },
+      };
+    });
+    restart();
+  }
+
+  ~process_bench() {
+    for (const auto& instance : instances)
+      ask<container_removed>(remove_container{instance, {}});
+    end_and_await(self, runtime);
+    end_and_await(self, listener);
+  }
+
+  /// A fresh runtime that knows nothing, as after a restart of the node.
+  void restart() {
+    if (runtime)
+      end_and_await(self, runtime);
+    runtime = roscell::spawn<caf::detached>(system, context, process_runtime,
+                                            config, listener);
+  }
+
+  template <class Reply, class Request>
+  caf::expected<Reply> ask(const Request& request) {
+    caf::expected<Reply> result{caf::sec::none};
+    self->request(runtime, patience, request)
+        .receive([&](Reply& x) { result = std::move(x); },
+                 [&](caf::error& why) { result = std::move(why); });
+    return result;
+  }
+
+  template <class Reply, class Request>
+  Reply get(const Request& request) {
+    auto result = ask<Reply>(request);
+    if (!result)
+      FAIL(to_failure(result.error()).message);
+    return std::move(*result);
+  }
+
+  /// Runs a shell script as the skill's program.
+  std::string start(const std::string& script,
+                    const std::string& instance = "i") {
+    folder.write("skill/bin/run", "#!/bin/sh\n" + script + "\n", true);
+    instances.push_back(instance);
+    start_container wish;
+    wish.instance = instance;
+    wish.image = folder.path() / "skill";
+    wish.command = {"bin/run", "an argument"};
+    wish.environment = {{"GIVEN", "yes"}};
+    return get<container_started>(wish).container;
+  }
+
+  log_excerpt log(int64_t offset, int64_t wait_ms = 0) {
+    log_query query;
+    query.instance = "i";
+    query.offset = offset;
+    query.wait_ms = wait_ms;
+    return get<log_excerpt>(query);
+  }
+
+  scratch_folder folder;
+  real_time_config system_config;
+  caf::actor_system system{system_config};
+  caf::scoped_actor self{system};
+  house context{std::make_shared<actor_directory>(), {}};
+  io_thread io;
+  facts told;
+  process_runtime_config config;
+  container_listener_actor listener;
+  process_runtime_actor runtime;
+  std::vector<std::string> instances;
+};
+
+/// Waits for a signal to end it.
+inline const std::string endless = "while :; do sleep 60 & wait; done";
+
+inline pid_t pid_of(const std::string& container) {
+  return static_cast<pid_t>(std::stol(container));
+}
+
+/// The command's process, as the shim has recorded it.
+inline pid_t child_of(const process_bench& b,
+                      const std::string& instance = "i") {
+  std::ifstream file{b.config.instances_dir / instance / "pid"};
+  pid_t shim = 0;
+  unsigned long long start = 0;
+  pid_t child = 0;
+  file >> shim >> start >> child;
+  return child;
+}
+
+} // namespace roscell::test

@@ -1,0 +1,97 @@
+#include "test/actors/fakes/cell_fakes.hpp"
+
+/// What a node does when it loses its coordinator.
+namespace {
+
+using namespace roscell;
+using namespace roscell::test;
+
+using orphan_test = cell_fixture;
+
+TEST_CASE_METHOD(orphan_test, "a killed coordinator orphans its members at "
+                              "once and gets them back") {
+  form_cell();
+  site.pass(20s);
+  site.kill_coordinator();
+  site.pass(0s);
+  auto standing = site.standing(node);
+  CHECK(standing.state == node_state::orphaned);
+  CHECK(standing.cell == "cell-1");
+  CHECK_FALSE(node.searching);
+  REQUIRE(site.count("coordinator_lost") == 1);
+  site.pass(20s);
+  site.start_coordinator();
+  site.pass(15s);
+  standing = site.standing(node);
+  CHECK(standing.state == node_state::member);
+  CHECK(site.count("cell_joined") == 2);
+  CHECK(site.base.rows.at("arm-1").registration.incarnation == 2);
+}
+
+TEST_CASE_METHOD(orphan_test, "a coordinator that restarts at once has its "
+                              "members back within a second") {
+  form_cell();
+  site.pass(20s);
+  site.kill_coordinator();
+  site.start_coordinator();
+  site.pass(1s);
+  CHECK(state() == node_state::member);
+}
+
+TEST_CASE_METHOD(orphan_test, "a silent coordinator is lost within a "
+                              "lease") {
+  form_cell();
+  site.pass(21s);
+  node.link->silent = true;
+  node.refusal = {error_code::unreachable, "no route to host"};
+  site.pass(lease_span - beat_period - 1s);
+  CHECK(state() == node_state::member);
+  site.pass(beat_period + 1s);
+  CHECK(state() == node_state::orphaned);
+  CHECK(site.facts.back().data["reason"] == "silent for 8 s");
+}
+
+TEST_CASE_METHOD(orphan_test, "an orphan does not join another cell that "
+                              "has taken its server's place") {
+  form_cell();
+  site.kill_coordinator();
+  site.base.cell = "cell-2";
+  site.start_coordinator();
+  site.pass(20s);
+  CHECK(state() == node_state::orphaned);
+  CHECK(site.count("join_refused") == 1);
+  CHECK(site.base.rows.empty());
+}
+
+TEST_CASE_METHOD(orphan_test, "an older incarnation is ignored and a newer "
+                              "one is joined") {
+  site.base.incarnation = 5;
+  form_cell();
+  const auto link = node.link;
+  caf::anon_send(node.membership,
+                 coordinator_found{"cell-1", "base", "10.0.0.1:8420", 4});
+  site.pass(1s);
+  CHECK(node.link == link);
+  CHECK(state() == node_state::member);
+  site.base.incarnation = 6;
+  site.announce_to(node);
+  site.pass(2s);
+  CHECK(node.link != link);
+  CHECK(state() == node_state::member);
+  CHECK(site.base.rows.at("arm-1").registration.incarnation == 6);
+}
+
+TEST_CASE_METHOD(orphan_test, "a coordinator that has lost its records is "
+                              "joined when no newer one is found") {
+  site.base.incarnation = 5;
+  form_cell();
+  site.kill_coordinator();
+  site.base.incarnation = 1;
+  site.start_coordinator();
+  site.pass(4s);
+  CHECK(state() == node_state::orphaned);
+  site.pass(4s);
+  CHECK(state() == node_state::member);
+}
+
+} // namespace

@@ -1,0 +1,153 @@
+#include "actors/placement/skill_resolution.hpp"
+
+#include <catch2/catch.hpp>
+
+namespace roscell::test {
+
+namespace {
+
+skill_row row(const std::string& hash, const std::string& operation,
+              const std::vector<std::string>& models,
+              const std::vector<std::string>& nodes) {
+  skill_row result;
+  result.skill.hash = hash;
+  auto& descriptor = result.skill.descriptor;
+  descriptor.operation = operation;
+  descriptor.input = {{"image/png"}, {"file", "ros2"}};
+  descriptor.output = {{"text/plain"}, {"file"}};
+  for (const auto& name : models) {
+    implementation_model model;
+    model.name = name;
+    for (const auto* option : {"cpu", "gpu"}) {
+      deployment_option deployment;
+      deployment.name = option;
+      model.deployments.push_back(deployment);
+    }
+    descriptor.models.push_back(model);
+  }
+  result.nodes = nodes;
+  return result;
+}
+
+task_step step(const std::string& operation, const std::string& model) {
+  task_step result;
+  result.id = "s";
+  result.operation = operation;
+  result.model = model;
+  return result;
+}
+
+std::vector<skill_row> cell() {
+  return {row("h1", "see", {"tag", "yolo"}, {"a"}),
+          row("h2", "hear", {"wave"}, {"a", "b"})};
+}
+
+failure refusal(const std::vector<task_step>& steps,
+                const std::vector<skill_row>& skills = cell()) {
+  const auto result = resolve_steps(steps, skills);
+  REQUIRE(std::holds_alternative<failure>(result));
+  return std::get<failure>(result);
+}
+
+std::vector<resolved_step>
+resolved(const std::vector<task_step>& steps,
+         const std::vector<skill_row>& skills = cell()) {
+  const auto result = resolve_steps(steps, skills);
+  REQUIRE(std::holds_alternative<std::vector<resolved_step>>(result));
+  return std::get<std::vector<resolved_step>>(result);
+}
+
+} // namespace
+
+TEST_CASE("A step is resolved to its skill, model and all its deployments",
+          "[skill_resolution]") {
+  const auto steps = resolved({step("see", "yolo"), step("hear", "wave")});
+  REQUIRE(steps.size() == 2);
+  CHECK(steps[0].skill.hash == "h1");
+  CHECK(steps[0].model.name == "yolo");
+  CHECK(steps[0].model.deployments.size() == 2);
+  CHECK(steps[1].nodes == std::vector<std::string>{"a", "b"});
+}
+
+TEST_CASE("A named deployment is the only one left", "[skill_resolution]") {
+  auto wish = step("see", "tag");
+  wish.deployment = "gpu";
+  const auto steps = resolved({wish});
+  REQUIRE(steps[0].model.deployments.size() == 1);
+  CHECK(steps[0].model.deployments[0].name == "gpu");
+}
+
+TEST_CASE("An unknown operation is refused with those there are",
+          "[skill_resolution]") {
+  const auto why = refusal({step("see", "tag"), step("smell", "nose")});
+  CHECK(why.code == error_code::unknown_operation);
+  CHECK(why.where == "/pipeline/1/operation");
+  CHECK(why.hint == "the operations are: see, hear");
+  CHECK(refusal({step("see", "tag")}, {}).hint == "the operations are: none");
+}
+
+TEST_CASE("An operation in two versions is named once in a hint",
+          "[skill_resolution]") {
+  const auto why =
+      refusal({step("smell", "nose")}, {row("h1", "see", {"tag"}, {"a"}),
+                                        row("h2", "see", {"tag"}, {"b"})});
+  CHECK(why.hint == "the operations are: see");
+}
+
+TEST_CASE("An unknown model is refused with those there are",
+          "[skill_resolution]") {
+  const auto why = refusal({step("see", "eye")});
+  CHECK(why.code == error_code::unknown_model);
+  CHECK(why.where == "/pipeline/0/model");
+  CHECK(why.hint == "its models are: tag, yolo");
+}
+
+TEST_CASE("An unknown deployment is refused with those there are",
+          "[skill_resolution]") {
+  auto wish = step("see", "tag");
+  wish.deployment = "tpu";
+  const auto why = refusal({wish});
+  CHECK(why.code == error_code::unknown_deployment);
+  CHECK(why.where == "/pipeline/0/deployment");
+  CHECK(why.hint == "its deployment options are: cpu, gpu");
+}
+
+TEST_CASE("A protocol or data type that a skill does not take is refused",
+          "[skill_resolution]") {
+  auto wish = step("see", "tag");
+  wish.input = {{"video", "/dev/video0", "image/png"}};
+  auto why = refusal({wish});
+  CHECK(why.code == error_code::schema_violation);
+  CHECK(why.where == "/pipeline/0/input/protocol");
+  CHECK(why.hint == "it takes: file, ros2");
+
+  wish.input = {{"file", "/a", "image/png"}, {"ros2", "/b", "image/jpeg"}};
+  why = refusal({wish});
+  CHECK(why.where == "/pipeline/0/input/1/data_type");
+  CHECK(why.hint == "it takes: image/png");
+
+  // An output has words of its own.
+  wish.input.clear();
+  wish.output = {{"ros2", "/t", "text/plain"}};
+  CHECK(refusal({wish}).where == "/pipeline/0/output/protocol");
+}
+
+TEST_CASE("Of two versions of a skill the one that most nodes have is taken",
+          "[skill_resolution]") {
+  const auto few = row("h1", "see", {"tag"}, {"a"});
+  const auto many = row("h2", "see", {"tag"}, {"b", "c"});
+  CHECK(resolved({step("see", "tag")}, {few, many})[0].skill.hash == "h2");
+  CHECK(resolved({step("see", "tag")}, {many, few})[0].skill.hash == "h2");
+}
+
+TEST_CASE("A version without the model does not count", "[skill_resolution]") {
+  const auto right = row("h1", "see", {"yolo"}, {"a"});
+  const auto other = row("h2", "see", {"tag"}, {"b", "c"});
+  const auto steps = resolved({step("see", "yolo")}, {other, right});
+  CHECK(steps[0].skill.hash == "h1");
+  // A hint then names the models of all of them.
+  CHECK(refusal({step("see", "eye")}, {other, right}).hint
+        == "its models are: tag, yolo");
+}
+
+} // namespace roscell::test

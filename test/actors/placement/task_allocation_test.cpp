@@ -1,0 +1,321 @@
+#include "actors/placement/task_allocation.hpp"
+#include "schemas/decode.hpp"
+#include "schemas/message_catalogue.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <limits>
+
+namespace roscell::test {
+
+namespace {
+
+/// Two nodes, one of them with a GPU, and a step for each.
+json two_nodes() {
+  return json::parse(R"({
+    "nodes": [
+      {"name": "a", "architecture": "amd64", "unified_memory": false,
+       "cpu": {"capacity": 4, "used": 0},
+       "memory_mib": {"capacity": 1000, "used": 0},
+       "disk_mib": {"capacity": 100, "used": 0},
+       "gpus": [], "labels": {"room": "hall"}, "devices": []},
+      {"name": "g", "architecture": "amd64", "unified_memory": false,
+       "cpu": {"capacity": 4, "used": 2},
+       "memory_mib": {"capacity": 2000, "used": 1000},
+       "disk_mib": {"capacity": 100, "used": 0},
+       "gpus": [{"index": 1, "memory_mib": {"capacity": 1000, "used": 500}}],
+       "labels": {}, "devices": []}],
+    "skills": [
+      {"operation": "echo", "engine": "primitive", "entry_point": ["bin/echo"],
+       "input": {"data_types": ["text/plain"], "protocols": ["file"]},
+       "output": {"data_types": ["text/plain"], "protocols": ["file"]},
+       "models": [{"name": "plain", "deployments": [
+         {"name": "cpu", "base_image": "debian", "architectures": ["amd64"],
+          "resources": {"cpu": 1, "memory_mib": 100, "disk_mib": 10}}]}]},
+      {"operation": "see", "engine": "primitive", "entry_point": ["bin/see"],
+       "input": {"data_types": ["image/png"], "protocols": ["file"]},
+       "output": {"data_types": ["text/plain"], "protocols": ["file"]},
+       "models": [{"name": "yolo", "deployments": [
+         {"name": "gpu", "base_image": "debian", "architectures": ["amd64"],
+          "resources": {"cpu": 1, "memory_mib": 500, "disk_mib": 50,
+                        "gpu_memory_mib": 250}}]}]}],
+    "request": {"type": "task_request", "task": "t", "pipeline": [
+      {"id": "s0", "operation": "echo", "model": "plain",
+       "labels": {"room": "hall"}},
+      {"id": "s1", "operation": "see", "model": "yolo"}]}})");
+}
+
+std::variant<task_plan, failure> plan(const json& document) {
+  REQUIRE_FALSE(validate_document("plan_document", document));
+  return allocate_offline(
+      std::get<plan_document>(decode<plan_document>(document)));
+}
+
+failure refusal(const json& document) {
+  const auto result = plan(document);
+  REQUIRE(std::holds_alternative<failure>(result));
+  return std::get<failure>(result);
+}
+
+} // namespace
+
+TEST_CASE("A plan on paper has the numbers of the paper's equations",
+          "[task_allocation]") {
+  const auto result = plan(two_nodes());
+  REQUIRE(std::holds_alternative<task_plan>(result));
+  const auto reply = message_json(std::get<task_plan>(result));
+  CHECK_FALSE(validate_message(reply));
+  CHECK(reply.at("type") == "task_plan");
+  CHECK(reply.at("task") == "t");
+  CHECK(reply.at("optimal") == true);
+
+  const auto& first = reply.at("allocations").at(0);
+  CHECK(first.at("step") == "s0");
+  CHECK(first.at("node") == "a");
+  CHECK(first.at("deployment") == "cpu");
+  CHECK(first.at("gpu").is_null());
+  CHECK(first.at("fractions").at("cpu") == Approx(1.0 / 4));
+  CHECK(first.at("fractions").at("memory") == Approx(1.0 / 10));
+  CHECK(first.at("fractions").at("disk") == Approx(1.0 / 10));
+  CHECK(first.at("fractions").count("gpu_memory") == 0);
+  // ((1/10)^2 + 2 (1/20)^2) / 3
+  CHECK(first.at("variance") == Approx(0.005));
+  CHECK(first.at("bonus") == 0);
+
+  const auto& second = reply.at("allocations").at(1);
+  CHECK(second.at("node") == "g");
+  CHECK(second.at("gpu") == 1);
+  for (const auto* resource : {"cpu", "memory", "disk", "gpu_memory"})
+    CHECK(second.at("fractions").at(resource) == Approx(1.0 / 2));
+  CHECK(second.at("variance") == Approx(0).margin(1e-15));
+  CHECK(second.at("bonus") == Approx(-0.01));
+
+  const auto& score = reply.at("score");
+  CHECK(score.at("balance") == Approx((0.005 - 0.01) / 2));
+  // Loads 0.175 and 0.75 are 0.2875 from their mean.
+  CHECK(score.at("load") == Approx(0.2875 * 0.2875));
+  CHECK(score.at("total") == Approx(-0.0025 + 0.1 * 0.08265625));
+
+  const auto& rejected = reply.at("rejected");
+  REQUIRE(rejected.size() == 2);
+  CHECK(rejected[0].at("step") == "s0");
+  CHECK(rejected[0].at("node") == "g");
+  CHECK(rejected[0].at("deployment") == "cpu");
+  CHECK(rejected[0].at("reasons").size() == 1);
+  CHECK(rejected[1].at("step") == "s1");
+  CHECK(rejected[1].at("node") == "a");
+}
+
+TEST_CASE("What does not fit is refused with every candidate explained",
+          "[task_allocation]") {
+  auto document = two_nodes();
+  document["nodes"][1]["gpus"][0]["memory_mib"]["used"] = 900;
+  document["nodes"][1]["cpu"]["used"] = 3.5;
+  const auto why = refusal(document);
+  CHECK(why.code == error_code::no_feasible_allocation);
+  CHECK(why.where == "/pipeline");
+  const auto reply = error_reply(why);
+  CHECK_FALSE(validate_message(reply));
+  const auto& rejected = reply.at("error").at("rejected");
+  json of_gpu;
+  for (const auto& x : rejected)
+    if (x.at("step") == "s1" && x.at("node") == "g")
+      of_gpu = x;
+  REQUIRE(of_gpu.is_object());
+  const auto reasons = of_gpu.at("reasons").dump();
+  CHECK(of_gpu.at("reasons").size() == 2);
+  // 250 MiB wanted, 100 free; 1 core wanted, 0.5 free.
+  CHECK(reasons.find("GPU 1: ") != std::string::npos);
+  CHECK(reasons.find("150") != std::string::npos);
+  CHECK(reasons.find("0.5") != std::string::npos);
+}
+
+TEST_CASE("On paper as in a cell an unknown operation has a pointer and a hint",
+          "[task_allocation]") {
+  auto document = two_nodes();
+  document["request"]["pipeline"][1]["operation"] = "hear";
+  const auto why = refusal(document);
+  CHECK(why.code == error_code::unknown_operation);
+  CHECK(why.where == "/request/pipeline/1/operation");
+  CHECK(why.hint.find("echo, see") != std::string::npos);
+}
+
+TEST_CASE("A named deployment option is the only candidate",
+          "[task_allocation]") {
+  auto document = two_nodes();
+  auto& options = document["skills"][0]["models"][0]["deployments"];
+  options.push_back(options[0]);
+  options[1]["name"] = "big";
+  options[1]["resources"]["cpu"] = 3;
+  document["request"]["pipeline"][0]["deployment"] = "big";
+  const auto result = plan(document);
+  REQUIRE(std::holds_alternative<task_plan>(result));
+  CHECK(std::get<task_plan>(result).allocations[0].deployment == "big");
+}
+
+TEST_CASE("A node without the skill is rejected for that",
+          "[task_allocation]") {
+  const auto document =
+      std::get<plan_document>(decode<plan_document>(two_nodes()));
+  resolved_step step;
+  step.step = document.request.pipeline[0];
+  step.step.labels.clear();
+  step.model = document.skills[0].models[0];
+  step.nodes = {"g"};
+  const auto result = allocate({"t", {step}, document.nodes});
+  REQUIRE(std::holds_alternative<task_plan>(result));
+  const auto& found = std::get<task_plan>(result);
+  CHECK(found.allocations[0].node == "g");
+  REQUIRE(found.rejected.size() == 1);
+  CHECK(found.rejected[0].node == "a");
+}
+
+TEST_CASE("Without any node nothing can be placed", "[task_allocation]") {
+  auto document = two_nodes();
+  document["nodes"] = json::array();
+  const auto parsed = std::get<plan_document>(decode<plan_document>(document));
+  const auto result = allocate_offline(parsed);
+  REQUIRE(std::holds_alternative<failure>(result));
+  CHECK(std::get<failure>(result).code == error_code::no_feasible_allocation);
+}
+
+TEST_CASE("A rejected candidate has its causes for programs",
+          "[task_allocation]") {
+  auto document = two_nodes();
+  document["nodes"][1]["gpus"][0]["memory_mib"]["used"] = 900;
+  const auto reply = error_reply(refusal(document));
+  for (const auto& x : reply.at("error").at("rejected")) {
+    REQUIRE(x.at("causes").size() == x.at("reasons").size());
+    if (x.at("step") != "s1" || x.at("node") != "g")
+      continue;
+    CHECK(x.at("gpu") == 1);
+    CHECK(x.at("causes")[0].at("kind") == "gpu_memory");
+    CHECK(x.at("causes")[0].at("needed") == 250);
+    CHECK(x.at("causes")[0].at("free") == 100);
+    CHECK(x.at("causes")[0].at("short_by") == 150);
+  }
+}
+
+TEST_CASE("A plan tells the use of its nodes, and its bound",
+          "[task_allocation]") {
+  const auto result = plan(two_nodes());
+  const auto& found = std::get<task_plan>(result);
+  CHECK(found.score.lower_bound == found.score.total);
+  CHECK(found.score.gap == 0);
+  CHECK(found.score.alpha == 0.1);
+  REQUIRE(found.use.size() == 3 + 4);
+  CHECK(found.use[0] == resource_use{"a", "cpu", 4, 0, 1});
+  CHECK(found.use[6] == resource_use{"g", "gpu_1", 1000, 500, 750});
+  CHECK_FALSE(validate_message(message_json(found)));
+}
+
+TEST_CASE("The alternative of a step that can be nowhere else is an obstacle",
+          "[task_allocation]") {
+  const auto document =
+      std::get<plan_document>(decode<plan_document>(two_nodes()));
+  const auto result = allocate_offline(document, "s1");
+  REQUIRE(std::holds_alternative<task_plan>(result));
+  const auto& found = std::get<task_plan>(result);
+  REQUIRE(found.alternatives.size() == 1);
+  CHECK(found.alternatives[0].step == "s1");
+  CHECK(found.alternatives[0].allocations.empty());
+  CHECK(found.alternatives[0].obstacle == "step 's1' fits on no node");
+  CHECK_FALSE(validate_message(message_json(found)));
+  const auto unknown = allocate_offline(document, "s9");
+  CHECK(std::get<failure>(unknown).where == "/why");
+}
+
+namespace {
+
+/// Where the schema finds fault, and what it says.
+failure schema_refusal(const json& document) {
+  const auto why = validate_document("plan_document", document);
+  REQUIRE(why);
+  return *why;
+}
+
+} // namespace
+
+TEST_CASE("Bad resources and names on paper are refused by their place",
+          "[task_allocation]") {
+  auto document = two_nodes();
+  SECTION("negative") {
+    document["nodes"][0]["cpu"]["used"] = -1;
+    CHECK(schema_refusal(document).where == "/nodes/0/cpu/used");
+  }
+  SECTION("absurdly large") {
+    document["nodes"][1]["memory_mib"]["capacity"] = 1e15;
+    CHECK(schema_refusal(document).where == "/nodes/1/memory_mib/capacity");
+  }
+  SECTION("not a number") {
+    // JSON has neither NaN nor infinity; a library writes null for them.
+    document["nodes"][0]["cpu"]["capacity"] = nullptr;
+    CHECK(schema_refusal(document).where == "/nodes/0/cpu/capacity");
+  }
+  SECTION("a node twice") {
+    document["nodes"][1]["name"] = "a";
+    CHECK(schema_refusal(document).where == "/nodes/1/name");
+  }
+  SECTION("a step twice") {
+    document["request"]["pipeline"][1]["id"] = "s0";
+    CHECK(schema_refusal(document).where == "/request/pipeline/1/id");
+  }
+  SECTION("no step") {
+    document["request"]["pipeline"] = json::array();
+    CHECK(schema_refusal(document).where == "/request/pipeline");
+  }
+  SECTION("a GPU twice") {
+    auto& gpus = document["nodes"][1]["gpus"];
+    gpus.push_back(gpus[0]);
+    CHECK(schema_refusal(document).where == "/nodes/1/gpus/1/index");
+  }
+}
+
+TEST_CASE("10,000 steps are refused with the limit", "[task_allocation]") {
+  auto document = two_nodes();
+  auto& steps = document["request"]["pipeline"];
+  for (int i = 2; i < 10'000; ++i) {
+    steps.push_back(steps[0]);
+    steps.back()["id"] = "s" + std::to_string(i);
+  }
+  const auto why = schema_refusal(document);
+  CHECK(why.where == "/request/pipeline");
+  CHECK(why.message.find("128") != std::string::npos);
+}
+
+TEST_CASE("Numbers that no schema has seen are refused by the search",
+          "[task_allocation]") {
+  auto document = std::get<plan_document>(decode<plan_document>(two_nodes()));
+  const auto bad = GENERATE(-1.0, std::numeric_limits<double>::quiet_NaN(),
+                            std::numeric_limits<double>::infinity(), 1e300);
+  document.nodes[0].disk_mib.capacity = bad;
+  const auto result = allocate_offline(document);
+  REQUIRE(std::holds_alternative<failure>(result));
+  const auto& why = std::get<failure>(result);
+  CHECK(why.code == error_code::schema_violation);
+  CHECK(why.message.find("nodes[0].disk_mib.capacity") != std::string::npos);
+}
+
+TEST_CASE("A node that uses more than it has is full, with a warning; one "
+          "without capacity hosts nothing",
+          "[task_allocation]") {
+  auto document = two_nodes();
+  document["request"]["pipeline"].erase(1);
+  document["nodes"][0]["cpu"] = {{"capacity", 4}, {"used", 5}};
+  auto why = refusal(document);
+  CHECK(why.details.find("needs 1.0 cores, 0.0 free: short by 1.0")
+        != std::string::npos);
+  document["nodes"][0]["cpu"] = {{"capacity", 0}, {"used", 0}};
+  why = refusal(document);
+  CHECK(why.details.find("the node offers no CPU") != std::string::npos);
+
+  document["nodes"][0]["cpu"] = {{"capacity", 4}, {"used", 0}};
+  document["nodes"][0]["disk_mib"] = {{"capacity", 4}, {"used", 5}};
+  document["skills"][0]["models"][0]["deployments"][0]["resources"]
+          ["disk_mib"] = 0;
+  const auto found = plan(document);
+  REQUIRE(std::holds_alternative<task_plan>(found));
+  CHECK(std::get<task_plan>(found).warnings.size() == 1);
+}
+
+} // namespace roscell::test

@@ -1,0 +1,208 @@
+#include "actors/session/lease.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <map>
+#include <random>
+#include <stdexcept>
+#include <vector>
+
+namespace {
+
+using namespace roscell;
+using namespace std::chrono_literals;
+
+using time_point = lease::time_point;
+
+const time_point start{};
+
+/// Two leases and what flies between them, on virtual time.
+struct pair_of_leases {
+  struct packet {
+    bool to_member;
+    beat_kind kind;
+  };
+
+  lease member{lease_side::member, start};
+  lease coordinator{lease_side::coordinator, start};
+  time_point now = start;
+  std::multimap<time_point, packet> flying;
+  std::mt19937 random;
+  double loss = 0;
+  bool member_dead = false;
+  bool coordinator_dead = false;
+  size_t member_ticks = 0;
+  size_t coordinator_ticks = 0;
+  size_t packets = 0;
+  bool member_lost = false;      ///< The coordinator thinks so.
+  bool coordinator_lost = false; ///< The member thinks so.
+
+  explicit pair_of_leases(unsigned seed) : random(seed) {}
+
+  void send(bool to_member, beat_kind kind) {
+    ++packets;
+    if (std::uniform_real_distribution<double>{}(random) < loss)
+      return;
+    const auto delay = std::chrono::milliseconds{1 + random() % 40};
+    flying.emplace(now + delay, packet{to_member, kind});
+  }
+
+  void deliver(const packet& x) {
+    if (x.to_member ? member_dead : coordinator_dead)
+      return;
+    auto& receiver = x.to_member ? member : coordinator;
+    if (auto answer = receiver.heard_beat(x.kind, now))
+      send(!x.to_member, *answer);
+  }
+
+  void tick(lease& side, size_t& ticks, bool& lost, bool to_member) {
+    ++ticks;
+    const auto todo = side.due(now);
+    lost = todo.over;
+    if (todo.send)
+      send(to_member, *todo.send);
+    // Counted, for an assertion is dear where there are millions.
+    if (!lost && side.next() <= now)
+      throw std::logic_error{"the lease wants to be asked again at once"};
+  }
+
+  /// Handles the next thing; false when it is not before `end`.
+  bool step(time_point end) {
+    auto when = end;
+    if (!member_dead)
+      when = std::min(when, member.next());
+    if (!coordinator_dead)
+      when = std::min(when, coordinator.next());
+    if (!flying.empty())
+      when = std::min(when, flying.begin()->first);
+    if (when >= end)
+      return false;
+    now = when;
+    if (!flying.empty() && flying.begin()->first == now) {
+      const auto x = flying.begin()->second;
+      flying.erase(flying.begin());
+      deliver(x);
+    } else if (!member_dead && member.next() == now) {
+      tick(member, member_ticks, coordinator_lost, false);
+    } else {
+      tick(coordinator, coordinator_ticks, member_lost, true);
+    }
+    return true;
+  }
+
+  /// Lets time pass until then, or until one side loses the other.
+  void run(time_point end) {
+    while (!member_lost && !coordinator_lost && step(end)) {
+    }
+    if (!member_lost && !coordinator_lost)
+      now = end;
+  }
+};
+
+TEST_CASE("an idle pair wakes for its beat only") {
+  pair_of_leases x{1};
+  x.run(start + 400s);
+  CHECK_FALSE(x.member_lost);
+  CHECK_FALSE(x.coordinator_lost);
+  // One beat and one ack each 4 s.
+  CHECK(x.packets <= 200);
+  CHECK(x.packets >= 196);
+  // The member sends a beat and looks once whether it was answered.
+  CHECK(x.member_ticks <= 2 * 100);
+  CHECK(x.coordinator_ticks <= 100);
+}
+
+TEST_CASE("a silent member is lost one lease after it was last heard") {
+  for (unsigned seed = 1; seed <= 200; ++seed) {
+    CAPTURE(seed);
+    pair_of_leases x{seed};
+    x.run(start + std::chrono::milliseconds{x.random() % 30'000});
+    x.member_dead = true;
+    const auto died = x.now;
+    x.run(start + 100s);
+    CHECK(x.member_lost);
+    // What flew when it died still counts.
+    CHECK(x.now - died <= lease_span + 40ms);
+    CHECK(x.now - died >= lease_span - beat_period - 40ms);
+  }
+}
+
+TEST_CASE("a silent coordinator is lost one lease after it was last heard") {
+  for (unsigned seed = 1; seed <= 200; ++seed) {
+    CAPTURE(seed);
+    pair_of_leases x{seed};
+    x.run(start + std::chrono::milliseconds{x.random() % 30'000});
+    x.coordinator_dead = true;
+    const auto died = x.now;
+    x.run(start + 100s);
+    CHECK(x.coordinator_lost);
+    CHECK(x.now - died <= lease_span + 40ms);
+    CHECK(x.now - died >= lease_span - beat_period - 90ms);
+  }
+}
+
+TEST_CASE("an outage of less than the lease without a beat is not noticed") {
+  for (unsigned seed = 1; seed <= 200; ++seed) {
+    CAPTURE(seed);
+    pair_of_leases x{seed};
+    x.run(start + std::chrono::milliseconds{x.random() % 30'000});
+    x.loss = 1;
+    x.run(x.now + lease_span - beat_period - 2 * urgent_probe_interval);
+    x.loss = 0;
+    x.run(x.now + 60s);
+    CHECK_FALSE(x.member_lost);
+    CHECK_FALSE(x.coordinator_lost);
+  }
+}
+
+TEST_CASE("a loss of 20 % in each direction never costs a member") {
+  const auto seed = std::random_device{}();
+  CAPTURE(seed);
+  pair_of_leases x{seed};
+  x.loss = 0.2;
+  constexpr auto simulated = 3000h;
+  x.run(start + simulated);
+  INFO("after " << std::chrono::duration<double>(x.now - start).count()
+                << " s");
+  CHECK_FALSE(x.member_lost);
+  CHECK_FALSE(x.coordinator_lost);
+}
+
+TEST_CASE("a probe is answered with a beat and a beat with an ack") {
+  lease x{lease_side::coordinator, start};
+  CHECK(x.heard_beat(beat_kind::beat, start) == beat_kind::ack);
+  CHECK(x.heard_beat(beat_kind::probe, start) == beat_kind::beat);
+  CHECK(x.heard_beat(beat_kind::ack, start) == std::nullopt);
+}
+
+TEST_CASE("after a miss the peer is asked until the lease is over") {
+  lease x{lease_side::coordinator, start};
+  std::vector<std::chrono::milliseconds> asked;
+  lease::step todo;
+  auto now = start;
+  while (!todo.over) {
+    now = x.next();
+    todo = x.due(now);
+    if (todo.send == beat_kind::probe)
+      asked.push_back(
+          std::chrono::duration_cast<std::chrono::milliseconds>(now - start));
+  }
+  REQUIRE(asked.size() > 2);
+  CHECK(asked[0] == beat_period + probe_interval);
+  CHECK(asked[1] == asked[0] + probe_interval);
+  CHECK(asked.back() == lease_span - urgent_probe_interval);
+  CHECK(now - start == lease_span);
+}
+
+TEST_CASE("any frame counts as a sign of life") {
+  lease member{lease_side::member, start};
+  lease coordinator{lease_side::coordinator, start};
+  for (auto now = start; now < start + 60s; now += 3s) {
+    member.heard(now);
+    coordinator.heard(now);
+    CHECK_FALSE(member.due(now).over);
+    CHECK_FALSE(coordinator.due(now).send);
+  }
+}
+
+} // namespace

@@ -1,0 +1,66 @@
+#include "cell_fixture.hpp"
+
+#include "actors/edge/dds/discovery_client.hpp"
+
+#include "skills/ros2/messages/cdr.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace roscell;
+using namespace roscell::test;
+
+namespace {
+
+constexpr const char* text = ros2::string::type_name;
+
+/// A node that registers with the discovery server, as a member of the cell.
+class member {
+public:
+  member(const cell& home, logbook& log) {
+    cell_client_options options;
+    options.server_address = "127.0.0.1";
+    options.server_port = home.port();
+    options.announcement = "member";
+    cell_client_events events;
+    events.on_server = [say = log.say()](const server_sighting& seen) {
+      say("server says " + seen.announcement);
+    };
+    events.on_server_lost = [say = log.say()] { say("server lost"); };
+    auto opened = cell_client::open(options, std::move(events));
+    if (auto* error = std::get_if<edge_error>(&opened))
+      FAIL(error->message);
+    client_ = std::get<0>(std::move(opened));
+  }
+
+private:
+  std::unique_ptr<cell_client> client_;
+};
+
+/// A message goes from one new skill to another.
+void check_message(const cell& home) {
+  skill reading{home.environment("reader")};
+  skill writing{home.environment("writer")};
+  running_input input{reading.input("/chatter", text)};
+  auto output = writing.output("/chatter", text);
+  output->write(frame_of(text, ros2::serialize(ros2::string{"early"})));
+  REQUIRE(writing.log.wait_for("has come; now 1"));
+  output->write(frame_of(text, ros2::serialize(ros2::string{"hello"})));
+  auto got = input.sink().wait_for(0);
+  REQUIRE(got);
+  CHECK(ros2::deserialize<ros2::string>(got->payload).data == "hello");
+}
+
+} // namespace
+
+TEST_CASE("skills and nodes are clients of one discovery server") {
+  cell home{0};
+  logbook before;
+  logbook after;
+  member first{home, before};
+  REQUIRE(before.wait_for("server says test"));
+  check_message(home);
+  member second{home, after};
+  CHECK(after.wait_for("server says test"));
+  check_message(home);
+  CHECK(before.lines() == std::vector<std::string>{"server says test"});
+}

@@ -1,0 +1,81 @@
+#include "skills/engine/life/heartbeat.hpp"
+
+#include "skills/engine/errors.hpp"
+
+#include "test/skills/support.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cerrno>
+#include <unistd.h>
+
+using namespace roscell::engine;
+using namespace roscell::test;
+using namespace std::chrono_literals;
+using Catch::Matchers::Contains;
+
+TEST_CASE("states reach a socket of either kind of name") {
+  temp_folder folder;
+  auto abstract = "@roscell-test-" + std::to_string(::getpid());
+  for (const auto& name : {folder / "notify", abstract}) {
+    notify_receiver node{name};
+    notify_socket skill{name};
+    CHECK(skill.enabled());
+    CHECK(skill.send("READY=1") == 0);
+    CHECK(node.receive() == "READY=1");
+  }
+}
+
+TEST_CASE("a skill without a node, or whose node restarts, carries on") {
+  CHECK(notify_socket{""}.send("READY=1") == 0);
+  CHECK_FALSE(notify_socket{""}.enabled());
+  temp_folder folder;
+  auto name = folder / "notify";
+  notify_socket skill{name};
+  CHECK(skill.send("READY=1") == ENOENT);
+  {
+    notify_receiver node{name};
+    CHECK(skill.send("1") == 0);
+  }
+  CHECK(skill.send("2") == ECONNREFUSED);
+  ::unlink(name.c_str());
+  notify_receiver restarted{name};
+  CHECK(skill.send("3") == 0);
+  CHECK(restarted.receive() == "3");
+}
+
+TEST_CASE("a notify socket needs a usable name") {
+  CHECK_THROWS_WITH(notify_socket{"relative"}, Contains("NOTIFY_SOCKET"));
+  CHECK_THROWS_WITH(notify_socket{"/" + std::string(107, 'x')},
+                    Contains("NOTIFY_SOCKET"));
+  CHECK_THROWS_WITH(notify_socket{"@"}, Contains("NOTIFY_SOCKET"));
+}
+
+TEST_CASE("the heart beats with READY, WATCHDOG and now and then a status") {
+  temp_folder folder;
+  notify_receiver node{folder / "notify"};
+  notify_socket skill{folder / "notify"};
+  liveness alive{20ms};
+  heartbeat beat{skill, alive, [] { return "frames=1"; }};
+  CHECK(node.receive() == "READY=1\nWATCHDOG=1");
+  CHECK(node.receive() == "READY=1\nWATCHDOG=1");
+  CHECK(node.wait_for("STATUS") == "READY=1\nWATCHDOG=1\nSTATUS=frames=1");
+}
+
+TEST_CASE("the heart stands still while work hangs, and makes up for it") {
+  temp_folder folder;
+  notify_receiver node{folder / "notify"};
+  notify_socket skill{folder / "notify"};
+  liveness alive{20ms};
+  // Work that began an hour ago hangs, whatever the machine's speed.
+  alive.work_begins(liveness::clock::now() - 1h);
+  CHECK_FALSE(alive.allows_beat(liveness::clock::now()));
+  heartbeat beat{skill, alive, [] { return ""; }};
+  // Ten periods of the timer that would have sent a beat.
+  stop_event never;
+  CHECK_FALSE(never.wait_until(liveness::clock::now() + 100ms));
+  CHECK_FALSE(node.receive_now());
+  CHECK(alive.work_ends());
+  beat.beat_now();
+  CHECK(node.receive() == "READY=1\nWATCHDOG=1");
+}

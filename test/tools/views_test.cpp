@@ -1,0 +1,231 @@
+#include "tools/roscell/view/views.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace roscell;
+using namespace roscell::cli;
+
+namespace {
+
+view_style at(int64_t now_unix_ms) {
+  return {{}, now_unix_ms};
+}
+
+instance_row sample_instance() {
+  instance_row row;
+  row.spec.instance = "t-poses-1a2b3c4d";
+  row.spec.task = "t";
+  row.spec.step = "poses";
+  row.spec.model = "apriltag3";
+  row.spec.deployment = "cpu";
+  row.node = "arm-1";
+  row.state = instance_state::running;
+  row.since_unix_ms = 1000;
+  return row;
+}
+
+node_resources sample_resources() {
+  node_resources r;
+  r.name = "arm-1";
+  r.architecture = "arm64";
+  r.cpu = {4, 0.5};
+  r.memory_mib = {3911, 812.4};
+  r.disk_mib = {20000, 5000};
+  return r;
+}
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != text.npos;
+}
+
+} // namespace
+
+TEST_CASE("an empty list says so in words", "[tools]") {
+  CHECK(cells_view({}, at(0)) == "no cells\n");
+  CHECK(members_view({}, at(0)) == "no nodes\n");
+  CHECK(tasks_view({}, at(0)) == "no tasks\n");
+  CHECK(instances_view({}, at(0)) == "no instances\n");
+  CHECK(skills_view({}, at(0)) == "no skills\n");
+}
+
+TEST_CASE("a cell's row shows its size and where to join it", "[tools]") {
+  const cell_list cells{
+      {{"lab", "arm-1", "10.0.0.1:8420", "10.0.0.1:11811", 3}}};
+  CHECK(cells_view(cells, at(0))
+        == "CELL  COORDINATOR  NODES  ADDRESS        DISCOVERY SERVER\n"
+           "lab   arm-1            3  10.0.0.1:8420  10.0.0.1:11811\n");
+}
+
+TEST_CASE("trouble has a column only if a cell has some", "[tools]") {
+  const cell_list cells{
+      {{"lab", "arm-1", "10.0.0.1:8420", "10.0.0.1:11811", 3, ""},
+       {"hall", "arm-2", "10.0.0.2:8420", "10.0.0.2:11811", 0, "no route"}}};
+  CHECK(cells_view(cells, at(0))
+        == "CELL  COORDINATOR  NODES  ADDRESS        DISCOVERY SERVER  "
+           "TROUBLE\n"
+           "lab   arm-1            3  10.0.0.1:8420  10.0.0.1:11811    -\n"
+           "hall  arm-2            -  10.0.0.2:8420  10.0.0.2:11811    "
+           "no route\n");
+}
+
+TEST_CASE("both claims of a cell's name are shown as trouble", "[tools]") {
+  const cell_list cells{{{"lab", "arm-1", "10.0.0.1:8420", "", 3, ""},
+                         {"hall", "arm-3", "10.0.0.3:8420", "", 1, ""},
+                         {"lab", "arm-2", "10.0.0.2:8420", "", 1, "told"}}};
+  const auto text = cells_view(cells, at(0));
+  CHECK(has(text, "2 coordinators claim this name\n"));
+  CHECK(has(text, "told\n"));
+  CHECK(has(text, "10.0.0.3:8420  -                 -\n"));
+}
+
+TEST_CASE("nodes in no cell are listed below the members", "[tools]") {
+  cell_description cell;
+  cell.nodes.resize(1);
+  cell.nodes[0].identity.name = "head";
+  cell.free = {{"arm-1", "u", "10.0.0.2:8420", node_state::independent, ""},
+               {"arm-2", "v", "10.0.0.3:8420", node_state::orphaned, "hall"}};
+  const auto text = members_view(cell, at(0));
+  CHECK(text.find("\nhead ") < text.find("\narm-1 "));
+  CHECK(has(text, "\narm-1  primary  independent      -  10.0.0.2:8420"));
+  CHECK(has(text, "\narm-2  primary  orphaned         -  10.0.0.3:8420"));
+  CHECK(has(text, "  it was in cell 'hall'\n"));
+}
+
+TEST_CASE("a node's row shows use and capacity with units", "[tools]") {
+  registry_row row;
+  row.identity = {"arm-1", "u", 1, "10.0.0.1:8420"};
+  row.state = row_state::lost;
+  row.since_unix_ms = 1000;
+  row.reason = "silent for 8 s";
+  row.resources = sample_resources();
+  cell_description cell;
+  cell.nodes = {row};
+  const auto text = members_view(cell, at(61000));
+  CHECK(has(text, "CPU (cores)"));
+  CHECK(has(text, "MEMORY (MiB)"));
+  CHECK(has(text, " 0.5/4 "));
+  CHECK(has(text, " 812/3911 "));
+  CHECK(has(text, "lost   1m00s"));
+  CHECK(has(text, "silent for 8 s"));
+}
+
+TEST_CASE("what a node has not measured yet is not shown as zero", "[tools]") {
+  cell_description cell;
+  cell.nodes.resize(1);
+  CHECK_FALSE(has(members_view(cell, at(0)), "0/0"));
+}
+
+TEST_CASE("a task's row counts the steps that run", "[tools]") {
+  auto failed = sample_instance();
+  failed.state = instance_state::failed;
+  failed.node = "arm-2";
+  const task_description tasks{
+      {{"t", task_state::degraded, 1000, {sample_instance(), failed}}}};
+  CHECK(tasks_view(tasks, at(6000))
+        == "TASK  STATE     AGE  RUNNING  NODES\n"
+           "t     degraded   5s      1/2  arm-1,arm-2\n");
+}
+
+TEST_CASE("an instance's id is the first column", "[tools]") {
+  // The bash completion takes it from there.
+  const auto text = instances_view({{sample_instance()}}, at(2000));
+  CHECK(has(text, "\nt-poses-1a2b3c4d  t     poses  arm-1  running"));
+  CHECK(has(text, "apriltag3/cpu"));
+}
+
+TEST_CASE("a failed instance shows its exit code and why", "[tools]") {
+  auto row = sample_instance();
+  row.state = instance_state::failed;
+  row.exit_code = 3;
+  row.reason = "no such file";
+  row.status = "reading";
+  const auto text = instances_view({{row}}, at(2000));
+  CHECK(has(text, "     3  no such file\n"));
+}
+
+TEST_CASE("an instance whose engine is away shows that", "[tools]") {
+  auto row = sample_instance();
+  row.status = "frames=12";
+  row.trouble = "the engine is away";
+  CHECK(has(instances_view({{row}}, at(2000)), "  the engine is away\n"));
+}
+
+TEST_CASE("a skill has a row for each deployment option", "[tools]") {
+  deployment_option cpu;
+  cpu.name = "cpu";
+  cpu.resources = {1, 96, 150, -1};
+  auto gpu = cpu;
+  gpu.name = "gpu";
+  gpu.resources.gpu_memory_mib = 512;
+  skill_row row;
+  row.skill.hash = "0123456789abcdef";
+  row.skill.descriptor.operation = "pose_estimation";
+  row.skill.descriptor.models = {{"apriltag3", "", {cpu, gpu}}};
+  row.nodes = {"b", "a"};
+  const auto text = skills_view({{row}}, at(0));
+  CHECK(has(text, "0123456789ab  a,b\n"));
+  CHECK(has(text, "cpu                   1            96         150"
+                  "                 -"));
+  CHECK(has(text, "512  0123456789ab"));
+}
+
+TEST_CASE("a status shows the node, its resources and instances", "[tools]") {
+  node_description node;
+  node.identity = {"arm-1", "u", 1, "10.0.0.1:8420"};
+  node.state = node_state::member;
+  node.cell = "lab";
+  node.started_unix_ms = 1000;
+  node.resources = sample_resources();
+  node.instances = {sample_instance()};
+  const auto text = node_view(node, at(91000));
+  CHECK(has(text, "name          arm-1\n"));
+  CHECK(has(text, "state         member\n"));
+  CHECK(has(text, "cell          lab\n"));
+  CHECK(has(text, "up for        1m30s\n"));
+  CHECK(has(text, "instances     1 running\n"));
+  CHECK(has(text, "cpu (cores)    0.5         4    3.5\n"));
+  CHECK(has(text, "t-poses-1a2b3c4d"));
+  CHECK_FALSE(has(text, "coordinator"));
+}
+
+TEST_CASE("a status tells of a day's writes only after an hour", "[tools]") {
+  constexpr int64_t hour_ms = 3'600'000;
+  node_description node;
+  node.started_unix_ms = 1000;
+  CHECK_FALSE(has(node_view(node, at(hour_ms)), "disk written"));
+  node.stored_bytes = 12 * 1024;
+  CHECK(has(node_view(node, at(hour_ms)),
+            "disk written  12 KiB since the start\n"));
+  CHECK(has(node_view(node, at(1000 + hour_ms)),
+            "disk written  12 KiB (288 KiB a day)\n"));
+  CHECK(has(node_view(node, at(1000 + 48 * hour_ms)),
+            "disk written  12 KiB (6 KiB a day)\n"));
+  // A clock that was set back, and one that was never set.
+  CHECK(has(node_view(node, at(0)), "12 KiB since the start\n"));
+  node.started_unix_ms = 0;
+  CHECK(has(node_view(node, at(hour_ms)), "12 KiB since the start\n"));
+}
+
+TEST_CASE("a status leaves unified GPU memory to the node", "[tools]") {
+  node_description node;
+  node.resources = sample_resources();
+  node.resources.unified_memory = true;
+  node.resources.gpus = {{0, "", {}}};
+  CHECK(has(node_view(node, at(0)), "gpu 0 (shares memory)"));
+}
+
+TEST_CASE("a status counts the actors on request", "[tools]") {
+  node_description node;
+  node.actors = {{"node", 3, 10, 0, 1500, 750}};
+  CHECK(has(node_view(node, at(0)),
+            "node    3        10        0        1.5          0.75\n"));
+}
+
+TEST_CASE("a coordinator's status counts its cell", "[tools]") {
+  cell_description cell;
+  cell.nodes.resize(3);
+  cell.nodes[0].state = row_state::active;
+  cell.nodes[1].state = row_state::active;
+  cell.nodes[2].state = row_state::lost;
+  CHECK(has(cell_summary(cell, at(0)), "nodes         2 of 3 active\n"));
+}

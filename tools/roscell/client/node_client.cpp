@@ -1,0 +1,156 @@
+#include "tools/roscell/client/node_client.hpp"
+
+#include "tools/roscell/client/event_stream.hpp"
+#include "tools/roscell/exit_code.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <variant>
+
+namespace roscell::cli {
+
+namespace {
+
+/// A node that lives answers a question about itself far sooner.
+constexpr std::chrono::seconds answer_limit{10};
+
+std::string check_target(const std::string& text) {
+  try {
+    parse_target(text);
+    return {};
+  } catch (const std::invalid_argument& e) {
+    return e.what();
+  }
+}
+
+target target_of(const connection_options& options) {
+  return options.to.empty() ? default_target() : parse_target(options.to);
+}
+
+http_endpoint endpoint_of(const target& to, const connection_options& options) {
+  if (to.is_local())
+    return {to.socket.string(), "", 0, ""};
+  return {"", to.host, to.port, find_token(options.token_file, to)};
+}
+
+[[noreturn]] void give_up(const edge_error& why) {
+  auto hint = why.hint;
+  if (why.code == error_code::timeout)
+    hint = "the node may still be working on it; `roscell status` shows";
+  else if (hint.empty())
+    hint = "is `roscell node` running there? --to or ROSCELL_TO names another";
+  throw command_error{exit_unreachable, why.message, hint};
+}
+
+/// The JSON document in a reply; anything else comes from no node.
+json document_of(const target& to, const http_reply& reply) {
+  auto document = json::parse(reply.body, nullptr, false);
+  if (!document.is_object())
+    throw command_error{exit_unreachable,
+                        to.text() + " is no node: it answered with status "
+                            + std::to_string(reply.status) + " and no JSON"};
+  return document;
+}
+
+const http_reply& checked(const edge_result<http_reply>& result) {
+  if (const auto* why = std::get_if<edge_error>(&result))
+    give_up(*why);
+  return std::get<http_reply>(result);
+}
+
+constexpr int status_ok = 200;
+
+} // namespace
+
+void add_connection_options(CLI::App& command, connection_options& options) {
+  command
+      .add_option("--to", options.to,
+                  "Node to talk to: unix:/path, /path, or host[:port]. "
+                  "Default: $ROSCELL_TO, else this machine's node")
+      ->check(CLI::Validator{check_target, "TARGET"})
+      ->option_text("WHERE");
+  command
+      .add_option("--token-file", options.token_file,
+                  "Bearer token for TCP. Default: $ROSCELL_TOKEN, else, for "
+                  "an address of this machine, its node's token")
+      ->option_text("FILE");
+}
+
+node_client::node_client(const connection_options& options)
+    : to_{target_of(options)}, http_{endpoint_of(to_, options)} {}
+
+json node_client::get(const std::string& path) const {
+  http_client::options how;
+  how.timeout = answer_limit;
+  const auto result = http_.request("GET", path, "", how);
+  const auto& reply = checked(result);
+  auto document = document_of(to_, reply);
+  if (reply.status != status_ok)
+    throw refused(std::move(document));
+  return document;
+}
+
+json node_client::post(const std::string& path, const std::string& body,
+                       std::chrono::milliseconds limit) const {
+  http_client::options how;
+  how.timeout = limit;
+  const auto result = http_.request("POST", path, body, how);
+  return document_of(to_, checked(result));
+}
+
+json node_client::ask(const json& request,
+                      std::chrono::milliseconds limit) const {
+  auto reply = post("/v1/requests", request.dump(), limit);
+  if (reply.value("type", "") == "error")
+    throw refused(std::move(reply));
+  return reply;
+}
+
+void node_client::follow(const std::string& path, const line_handler& on_line,
+                         const http_cancel* cancel) const {
+  http_client::options how;
+  how.timeout = answer_limit;
+  how.cancel = cancel;
+  const auto result = http_.follow(path, on_line, how);
+  const auto* why = std::get_if<edge_error>(&result);
+  if (why != nullptr && cancel != nullptr && why->code == error_code::conflict)
+    return;
+  const auto& reply = checked(result);
+  if (reply.status != status_ok)
+    throw refused(document_of(to_, reply));
+}
+
+void follow_events(const node_client& node, uint64_t since,
+                   const event_handler& on_event, const http_cancel* cancel) {
+  event_stream events;
+  node.follow(
+      "/v1/events?since=" + std::to_string(since),
+      [&](std::string_view line) {
+        const auto complete = events.add_line(line);
+        return !complete || on_event(*complete);
+      },
+      cancel);
+}
+
+std::string url_encoded(std::string_view text) {
+  constexpr std::string_view digits = "0123456789ABCDEF";
+  constexpr std::string_view plain = "-._~";
+  std::string result;
+  for (const auto c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool letter = (byte >= '0' && byte <= '9')
+                        || (byte >= 'A' && byte <= 'Z')
+                        || (byte >= 'a' && byte <= 'z');
+    if (letter || plain.find(c) != plain.npos) {
+      result += c;
+    } else {
+      result += '%';
+      result += digits[byte >> 4];
+      result += digits[byte & 0xf];
+    }
+  }
+  return result;
+}
+
+} // namespace roscell::cli

@@ -1,0 +1,90 @@
+#pragma once
+
+#include "actors/edge/http/http_client.hpp"
+#include "messages/event.hpp"
+#include "messages/json_codec.hpp"
+#include "tools/roscell/client/target.hpp"
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace CLI {
+class App;
+} // namespace CLI
+
+namespace roscell::cli {
+
+/// A node has answered with an error.
+class refused : public std::runtime_error {
+public:
+  // Parentheses: braces would make an array of it.
+  explicit refused(json reply)
+      : std::runtime_error{"refused"}, reply(std::move(reply)) {}
+
+  json reply;           ///< {"type":"error","error":{...}}
+  bool as_json = false; ///< Print it on standard output.
+};
+
+/// How the node to talk to was named on the command line.
+struct connection_options {
+  std::string to;
+  std::filesystem::path token_file;
+};
+
+/// Adds --to and --token-file.
+void add_connection_options(CLI::App& command, connection_options& options);
+
+/// Sequence number after which nothing is kept: gives the events from now on.
+inline constexpr uint64_t from_now_on = 9007199254740991;
+
+/// One node, asked over HTTP. Every function throws `refused` for an error
+/// reply and command_error if the node cannot be reached. Safe to be shared
+/// by threads.
+class node_client {
+public:
+  explicit node_client(const connection_options& options);
+
+  /// The JSON document at `path`.
+  json get(const std::string& path) const;
+
+  /// The reply to a request, waited for `limit`. An error reply is returned
+  /// like any other.
+  json post(const std::string& path, const std::string& body,
+            std::chrono::milliseconds limit) const;
+
+  /// The reply to a request of the vocabulary, waited for `limit`; an error
+  /// reply is thrown.
+  json ask(const json& request, std::chrono::milliseconds limit) const;
+
+  using line_handler = std::function<bool(std::string_view line)>;
+
+  /// Gives the lines of a reply that may never end to `on_line`, until that
+  /// returns false, the reply ends, or `cancel` is used from another thread.
+  void follow(const std::string& path, const line_handler& on_line,
+              const http_cancel* cancel = nullptr) const;
+
+  const target& where() const {
+    return to_;
+  }
+
+private:
+  target to_;
+  http_client http_;
+};
+
+using event_handler = std::function<bool(const event& e)>;
+
+/// The same for the node's events after number `since`.
+void follow_events(const node_client& node, uint64_t since,
+                   const event_handler& on_event,
+                   const http_cancel* cancel = nullptr);
+
+/// `text` as one segment of a URL's path, or one value of its query.
+std::string url_encoded(std::string_view text);
+
+} // namespace roscell::cli

@@ -1,0 +1,173 @@
+#include "tools/roscell/client/target.hpp"
+
+#include "tools/roscell/exit_code.hpp"
+
+#include <netdb.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <charconv>
+#include <cstdlib>
+#include <fstream>
+#include <optional>
+#include <stdexcept>
+
+namespace roscell::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+const fs::path system_data_dir = "/var/lib/roscell";
+
+/// Value of an environment variable; empty if it is not set.
+std::string environment(const char* name) {
+  const auto* value = std::getenv(name);
+  return value == nullptr ? "" : value;
+}
+
+uint16_t parse_port(std::string_view text) {
+  uint16_t port = 0;
+  const auto* end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, port);
+  if (error != std::errc{} || rest != end || port == 0)
+    throw std::invalid_argument{"not a port number: '" + std::string{text}
+                                + "'"};
+  return port;
+}
+
+target parse_tcp(std::string_view text) {
+  target result;
+  std::string_view rest;
+  if (text.front() == '[') {
+    const auto end = text.find(']');
+    if (end == text.npos)
+      throw std::invalid_argument{"']' is missing"};
+    result.host = text.substr(1, end - 1);
+    rest = text.substr(end + 1);
+    if (!rest.empty() && rest.front() != ':')
+      throw std::invalid_argument{"a ':' must follow the ']'"};
+  } else {
+    const auto colon = text.find(':');
+    result.host = text.substr(0, colon);
+    if (colon != text.npos)
+      rest = text.substr(colon);
+  }
+  if (result.host.empty())
+    throw std::invalid_argument{"the host is missing"};
+  if (!rest.empty())
+    result.port = parse_port(rest.substr(1));
+  return result;
+}
+
+/// First line of a file that may hold no more than a token.
+std::optional<std::string> read_token(const fs::path& file) {
+  std::ifstream in{file};
+  if (!in)
+    return std::nullopt;
+  std::string text(4097, '\0');
+  in.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<size_t>(in.gcount()));
+  const auto end = text.find_last_not_of(" \t\r\n");
+  text.resize(end == text.npos ? 0 : end + 1);
+  return text;
+}
+
+/// True if a socket can be bound to `host`, an address in numbers.
+bool is_this_machine(const std::string& host) {
+  addrinfo hints{};
+  hints.ai_flags = AI_NUMERICHOST;
+  hints.ai_socktype = SOCK_DGRAM;
+  addrinfo* found = nullptr;
+  const auto* name = host == "localhost" ? "127.0.0.1" : host.c_str();
+  if (getaddrinfo(name, nullptr, &hints, &found) != 0)
+    return false;
+  const int fd = socket(found->ai_family, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  const bool bound =
+      fd >= 0 && bind(fd, found->ai_addr, found->ai_addrlen) == 0;
+  if (fd >= 0)
+    close(fd);
+  freeaddrinfo(found);
+  return bound;
+}
+
+std::string checked(std::string token, const std::string& source) {
+  const bool bad =
+      token.size() > 4096
+      || token.find_first_not_of("0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                 "abcdefghijklmnopqrstuvwxyz-._~+/=")
+             != token.npos;
+  if (bad)
+    throw command_error{exit_usage, source + " holds no bearer token"};
+  return token;
+}
+
+} // namespace
+
+std::string target::text() const {
+  if (is_local())
+    return "unix:" + socket.string();
+  const bool v6 = host.find(':') != host.npos;
+  return (v6 ? "[" + host + "]" : host) + ":" + std::to_string(port);
+}
+
+target parse_target(std::string_view text) {
+  constexpr std::string_view scheme = "unix:";
+  if (text.substr(0, scheme.size()) == scheme)
+    text.remove_prefix(scheme.size());
+  else if (!text.empty() && text.front() != '/')
+    return parse_tcp(text);
+  if (text.empty() || text.front() != '/')
+    throw std::invalid_argument{"a socket is named by its absolute path"};
+  target result;
+  result.socket = text;
+  return result;
+}
+
+fs::path default_data_dir() {
+  if (geteuid() == 0)
+    return system_data_dir;
+  if (auto state = environment("XDG_STATE_HOME"); !state.empty())
+    return fs::path{state} / "roscell";
+  if (auto home = environment("HOME"); !home.empty())
+    return fs::path{home} / ".local/state/roscell";
+  return system_data_dir;
+}
+
+target default_target() {
+  if (auto to = environment("ROSCELL_TO"); !to.empty()) {
+    try {
+      return parse_target(to);
+    } catch (const std::invalid_argument& e) {
+      throw command_error{exit_usage, "ROSCELL_TO: " + std::string{e.what()}};
+    }
+  }
+  target result;
+  result.socket = default_data_dir() / "node.sock";
+  const auto shared = system_data_dir / "node.sock";
+  std::error_code ignored;
+  if (!fs::exists(result.socket, ignored) && fs::exists(shared, ignored))
+    result.socket = shared;
+  return result;
+}
+
+std::string find_token(const fs::path& file, const target& to) {
+  if (!file.empty()) {
+    auto token = read_token(file);
+    if (!token || token->empty())
+      throw command_error{exit_usage,
+                          "cannot read a token from " + file.string()};
+    return checked(*token, file.string());
+  }
+  if (auto token = environment("ROSCELL_TOKEN"); !token.empty())
+    return checked(token, "ROSCELL_TOKEN");
+  // Another machine has no use for our token and must not learn it.
+  if (!is_this_machine(to.host))
+    return {};
+  for (const auto& dir : {default_data_dir(), system_data_dir})
+    if (auto token = read_token(dir / "token"); token && !token->empty())
+      return checked(*token, (dir / "token").string());
+  return {};
+}
+
+} // namespace roscell::cli

@@ -1,0 +1,173 @@
+#include "tools/roscell/commands.hpp"
+#include "tools/roscell/daemon/node_options.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <memory>
+
+namespace roscell::cli {
+
+namespace {
+
+constexpr auto footer =
+    R"(Ctrl-C or SIGTERM leaves the cell in order; a second one ends at once.
+Running instances go on, and the node takes them over when it is started again.
+
+Examples:
+  roscell node --coordinator --interface eth0 --site-token /etc/roscell/site.token
+  roscell node --interface eth0 --join 192.168.1.10 \
+      --site-token /etc/roscell/site.token --label room=lab
+  roscell node --coordinator --interface lo --data-dir /tmp/n1 --runtime process)";
+
+void add_identity(CLI::App& command, node_options& options) {
+  auto& config = options.config;
+  command.add_option("--name", config.name, "Unique name of this node")
+      ->option_text("NAME [node-MAC]");
+  command.add_flag("--coordinator", config.coordinator,
+                   "Also manage a cell, as its coordination node");
+  command.add_option("--cell", config.cell, "Name of the coordinator's cell")
+      ->option_text("NAME [the node's name]");
+  command
+      .add_option("--label", options.labels,
+                  "A label that steps may ask for; can be repeated")
+      ->option_text("KEY=VALUE")
+      ->allow_extra_args(false);
+}
+
+void add_network(CLI::App& command, node_options& options) {
+  auto& config = options.config;
+  command
+      .add_option("--interface", options.interface,
+                  "Network interface or local IPv4 address to use; a terminal "
+                  "is asked if it is left out")
+      ->option_text("IF|ADDR");
+  command
+      .add_option("--join", config.join,
+                  "Discovery server of the cell to join (port 11811); without "
+                  "it the node asks the coordinators that it sees for a place")
+      ->option_text("ADDR[:PORT]");
+  command.add_flag("--wait", config.wait,
+                   "Ask for no place: wait until a coordinator chooses the "
+                   "node");
+  command
+      .add_option("--peer", config.peers,
+                  "Another node of the site, where multicast does not reach "
+                  "it; can be repeated")
+      ->option_text("ADDR[:PORT]")
+      ->allow_extra_args(false);
+  command
+      .add_option("--public-domain", config.public_domain_id,
+                  "DDS domain in which the nodes of the site see each other, "
+                  "0 to 232")
+      ->check(CLI::Range(0, 232))
+      ->option_text("ID [99]");
+  command.add_flag_callback(
+      "--no-rebalance", [&config] { config.rebalance = false; },
+      "Keep this cell out when cells are evened out");
+  command.add_flag("--force", config.force,
+                   "Take the cell's name although another coordinator has it");
+  command
+      .add_option("--port", config.http_port,
+                  "HTTP and sessions (TCP), beats (UDP); 0: any free one")
+      ->option_text("PORT [8420]");
+  command
+      .add_option("--discovery-port", config.discovery_port,
+                  "UDP port of the discovery server; 0: any free one")
+      ->option_text("PORT [11811]");
+  command
+      .add_option("--server-id", config.server_id,
+                  "Id of the discovery server, 0 to 255")
+      ->option_text("ID [lowest free]");
+  command
+      .add_option("--domain-id", config.ros_domain_id,
+                  "ROS domain of the cell's skills, 0 to 232")
+      ->check(CLI::Range(0, 232))
+      ->option_text("ID [0]");
+  command
+      .add_option(
+          "--site-token", config.site_token_file,
+          "Secret that the nodes of a site share; without it only nodes "
+          "of this machine can be members")
+      ->option_text("FILE");
+}
+
+std::string names_a_runtime(const std::string& text) {
+  const auto colon = text.find(':');
+  const auto name = text.substr(0, colon);
+  const bool is_engine = name == "docker" || name == "podman";
+  if (colon == std::string::npos)
+    return is_engine || name == "auto" || name == "process"
+               ? ""
+               : "not auto, process, docker or podman";
+  return is_engine && text.compare(colon, 2, ":/") == 0
+             ? ""
+             : "not docker:/PATH or podman:/PATH";
+}
+
+void add_resources(CLI::App& command, node_options& options) {
+  auto& config = options.config;
+  command.add_option("--runtime", config.runtime, "What runs skill instances")
+      ->check(names_a_runtime)
+      ->option_text("auto|process|docker[:SOCKET]|podman[:SOCKET] [auto]");
+  command
+      .add_option("--skills", options.skill_dirs,
+                  "Directory of skill folders, besides DATA_DIR/skills; can be "
+                  "repeated")
+      ->option_text("DIR")
+      ->allow_extra_args(false);
+  command
+      .add_option("--capacity", config.capacity,
+                  "Offer no more than this: cores, MiB, MiB")
+      ->option_text("cpu=N,memory_mib=N,disk_mib=N [all]");
+  command
+      .add_option("--device", config.devices,
+                  "Offer this device as well; can be repeated")
+      ->option_text("PATH")
+      ->allow_extra_args(false);
+}
+
+void add_files(CLI::App& command, node_options& options) {
+  auto& config = options.config;
+  command
+      .add_option("--data-dir", config.data_dir,
+                  "Where the node keeps its identity, token, state and logs")
+      ->option_text("DIR [/var/lib/roscell for root, "
+                    "else ~/.local/state/roscell]");
+  command
+      .add_option("--socket", config.socket, "Unix socket for local requests")
+      ->option_text("PATH [DATA_DIR/node.sock]");
+  command
+      .add_option("--log-bytes", options.log_bytes,
+                  "Bound of the log that is kept of one instance")
+      ->option_text("BYTES [1MiB]");
+  command
+      .add_option("--log-level", options.log_level,
+                  "What the node itself tells on standard error")
+      ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}))
+      ->option_text("trace|debug|info|warn|error|off [info]");
+  command
+      .add_option(
+          "--ready-fd", options.ready_fd,
+          "Write a line to this file descriptor once the node is ready; "
+          "$NOTIFY_SOCKET of systemd is told as well")
+      ->check(CLI::Range(0, 1 << 20))
+      ->option_text("NUMBER");
+}
+
+} // namespace
+
+void add_node_command(CLI::App& app, action& chosen) {
+  auto options = std::make_shared<node_options>();
+  auto* command = app.add_subcommand(
+      "node", "Run a node on this machine, until Ctrl-C or SIGTERM.");
+  command->footer(footer);
+  add_identity(*command, *options);
+  add_network(*command, *options);
+  add_resources(*command, *options);
+  add_files(*command, *options);
+  command->callback([&chosen, options] {
+    chosen = [options] { return run_node(*options); };
+  });
+}
+
+} // namespace roscell::cli

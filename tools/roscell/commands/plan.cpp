@@ -1,0 +1,223 @@
+#include "actors/placement/task_allocation.hpp"
+#include "schemas/decode.hpp"
+#include "schemas/document.hpp"
+#include "schemas/message_catalogue.hpp"
+#include "tools/roscell/client/node_client.hpp"
+#include "tools/roscell/client/read_file.hpp"
+#include "tools/roscell/commands.hpp"
+#include "tools/roscell/common_options.hpp"
+#include "tools/roscell/exit_code.hpp"
+#include "tools/roscell/view/plan_view.hpp"
+#include "tools/roscell/view/terminal.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <variant>
+
+namespace roscell::cli {
+
+namespace {
+
+/// A plan is the operator's own file, so it may be larger than what a node
+/// takes from a stranger: thousands of nodes.
+constexpr document_limits plan_limits{64UL * 1024 * 1024, 64, 4'000'000, 256};
+
+/// Reading resources may take some seconds, and there are two searches.
+constexpr std::chrono::seconds plan_timeout{60};
+
+struct plan_options {
+  std::string file;
+  std::string output = "table";
+  std::string why;
+  std::vector<std::string> without;
+  std::vector<std::string> with; ///< Files.
+  connection_options connection;
+};
+
+using plan_result = std::variant<task_plan, failure>;
+using document_result = std::variant<json, failure>;
+
+document_result document_of(const std::string& text) {
+  return parse_document(text, plan_limits);
+}
+
+/// The nodes of the files; each holds one node or a list of them.
+document_result nodes_in(const std::vector<std::string>& files) {
+  auto nodes = json::array();
+  for (const auto& file : files) {
+    auto parsed = document_of(read_file(file));
+    if (auto* why = std::get_if<failure>(&parsed)) {
+      why->message = file + ": " + why->message;
+      return std::move(*why);
+    }
+    auto& document = std::get<json>(parsed);
+    if (document.is_array())
+      nodes.insert(nodes.end(), document.begin(), document.end());
+    else
+      nodes.push_back(std::move(document));
+  }
+  return nodes;
+}
+
+/// Takes nodes away from a document and adds others. What is wrong with those
+/// is for the schema to say.
+std::optional<failure> think_otherwise(const plan_options& options,
+                                       json& document) {
+  auto with = nodes_in(options.with);
+  if (auto* why = std::get_if<failure>(&with))
+    return std::move(*why);
+  auto nodes = document.find("nodes");
+  if (nodes == document.end() || !nodes->is_array())
+    return std::nullopt;
+  for (const auto& name : options.without) {
+    auto named = [&](const json& x) {
+      return x.is_object() && x.value("name", json{}) == name;
+    };
+    auto found = std::find_if(nodes->begin(), nodes->end(), named);
+    if (found == nodes->end())
+      return failure{error_code::unknown_node,
+                     "the file has no node '" + name + "'", "/nodes",
+                     "--without takes the name of one of its nodes"};
+    nodes->erase(found);
+  }
+  for (auto& node : std::get<json>(with))
+    nodes->push_back(std::move(node));
+  return std::nullopt;
+}
+
+plan_result plan_on_paper(const plan_options& options, json document) {
+  if (document.is_object())
+    if (auto why = think_otherwise(options, document))
+      return std::move(*why);
+  if (auto why = validate_document("plan_document", document))
+    return std::move(*why);
+  auto decoded = decode<plan_document>(document);
+  if (auto* why = std::get_if<failure>(&decoded))
+    return *why;
+  return allocate_offline(std::get<plan_document>(decoded), options.why);
+}
+
+/// The query for a file that is a task request, or a plan document with one.
+document_result query_of(const plan_options& options, const json& document) {
+  auto query = document;
+  if (document.is_object() && document.contains("request"))
+    query = document["request"];
+  if (!query.is_object())
+    return query;
+  query["type"] = "task_plan_query";
+  query.erase("request_id");
+  if (!options.why.empty())
+    query["why"] = options.why;
+  if (!options.without.empty())
+    query["without"] = options.without;
+  auto with = nodes_in(options.with);
+  if (auto* why = std::get_if<failure>(&with))
+    return std::move(*why);
+  if (!std::get<json>(with).empty())
+    query["with"] = std::move(std::get<json>(with));
+  return query;
+}
+
+plan_result plan_of_cell(const plan_options& options, const json& document) {
+  auto query = query_of(options, document);
+  if (auto* why = std::get_if<failure>(&query))
+    return std::move(*why);
+  const auto& body = std::get<json>(query);
+  if (auto why = validate_message(body))
+    return std::move(*why);
+  const auto reply = node_client{options.connection}.post(
+      "/v1/requests", body.dump(), plan_timeout);
+  if (reply.value("type", "") == "error")
+    return failure_from(reply);
+  auto decoded = decode<task_plan>(reply);
+  if (auto* why = std::get_if<failure>(&decoded))
+    return std::move(*why);
+  return std::get<task_plan>(std::move(decoded));
+}
+
+plan_result plan_of(const plan_options& options) {
+  auto document = document_of(read_file(options.file));
+  if (auto* why = std::get_if<failure>(&document))
+    return std::move(*why);
+  auto& content = std::get<json>(document);
+  return options.connection.to.empty()
+             ? plan_on_paper(options, std::move(content))
+             : plan_of_cell(options, content);
+}
+
+/// Who was rejected, as the details of a failure tell.
+std::vector<rejected_candidate> rejected_of(const failure& why) {
+  const auto details = json::parse(why.details, nullptr, false);
+  if (!details.is_object() || !details.contains("rejected"))
+    return {};
+  return details["rejected"].get<std::vector<rejected_candidate>>();
+}
+
+int show_refusal(const failure& why, bool as_json) {
+  const auto reply = error_reply(why);
+  if (as_json) {
+    print(pretty(reply));
+    return exit_refused;
+  }
+  if (const auto rejected = rejected_of(why); !rejected.empty())
+    print(rejected_view(rejected, stdout_style()));
+  print_refusal(reply);
+  return exit_refused;
+}
+
+int show_plan(const plan_options& options) {
+  const bool as_json = options.output == "json";
+  const auto result = plan_of(options);
+  if (const auto* why = std::get_if<failure>(&result))
+    return show_refusal(*why, as_json);
+  const auto& plan = std::get<task_plan>(result);
+  print(as_json ? pretty(message_json(plan)) : plan_view(plan, stdout_style()));
+  return exit_done;
+}
+
+} // namespace
+
+void add_plan_command(CLI::App& app, action& chosen) {
+  auto options = std::make_shared<plan_options>();
+  auto* command = app.add_subcommand(
+      "plan", "Show where a task would be placed and why; nothing is started.");
+  command->footer(
+      "With --to, FILE is a task request, and the cell is asked as it is now. "
+      "Else it is\na cell on paper, {\"nodes\":[...],\"skills\":[...],"
+      "\"request\":{...}}, and nobody is asked;\ndocs/operations.md shows one. "
+      "Exit code 1: there is no allocation, and every\ncandidate is "
+      "explained.\n\n"
+      "Examples:\n  roscell plan cell.json\n"
+      "  roscell plan --to 192.168.1.10 --token-file token task.json\n"
+      "  roscell plan --to /run/roscell/api.sock --without arm-1 --why poses "
+      "task.json\n"
+      "  roscell plan cell.json -o json | jq .score.total");
+  command
+      ->add_option("FILE", options->file,
+                   "The task request or plan document; - for standard input")
+      ->required()
+      ->option_text(" ");
+  command
+      ->add_option("--without", options->without,
+                   "Plan as if this node were not there; may be repeated")
+      ->option_text("NODE");
+  command
+      ->add_option("--with", options->with,
+                   "Plan as if the nodes of this file were there, with every "
+                   "skill; may be repeated")
+      ->option_text("NODE.json");
+  command
+      ->add_option("--why", options->why,
+                   "Show the best alternative for this step and its cost")
+      ->option_text("STEP");
+  add_connection_options(*command, options->connection);
+  add_output_option(*command, options->output);
+  command->callback([&chosen, options] {
+    chosen = [options] { return show_plan(*options); };
+  });
+}
+
+} // namespace roscell::cli

@@ -1,0 +1,75 @@
+#include "tools/roscell/client/event_stream.hpp"
+#include "tools/roscell/client/node_client.hpp"
+#include "tools/roscell/client/read_file.hpp"
+#include "tools/roscell/commands.hpp"
+#include "tools/roscell/common_options.hpp"
+#include "tools/roscell/exit_code.hpp"
+#include "tools/roscell/view/format.hpp"
+#include "tools/roscell/view/progress.hpp"
+#include "tools/roscell/view/terminal.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <memory>
+
+namespace roscell::cli {
+
+namespace {
+
+struct request_options {
+  connection_options connection;
+  std::string file = "-";
+  std::string timeout = "120";
+  bool progress = false;
+};
+
+/// The task that a request is about; empty if it names none. What is wrong
+/// with the request is for the node to say.
+std::string task_of(const std::string& body) {
+  const auto document = json::parse(body, nullptr, false);
+  if (!document.is_object() || !document.contains("task"))
+    return {};
+  const auto& task = document["task"];
+  return task.is_string() ? task.get<std::string>() : "";
+}
+
+int send_request(const request_options& options) {
+  const auto limit = parse_duration(options.timeout);
+  const node_client node{options.connection};
+  const auto body = read_file(options.file);
+  const bool talkative = options.progress || stderr_is_terminal();
+  const auto words = [task = task_of(body)](const event& e) {
+    return progress_lines(e, task);
+  };
+  const auto reply = talkative ? post_with_progress(node, body, limit, words)
+                               : node.post("/v1/requests", body, limit);
+  print(pretty(reply));
+  return reply.value("type", "") == "error" ? exit_refused : exit_done;
+}
+
+} // namespace
+
+void add_request_command(CLI::App& app, action& chosen) {
+  auto options = std::make_shared<request_options>();
+  auto* command = app.add_subcommand(
+      "request", "Send a JSON request to a node and print its JSON reply.");
+  command->footer(
+      "Exit code 1 means that the node refused; its error is the reply.\n\n"
+      "Examples:\n  roscell request task.json\n"
+      "  echo '{\"type\":\"cell_query\"}' | roscell request\n"
+      "  roscell request --to 192.168.1.10 --token-file token task.json");
+  command
+      ->add_option("FILE", options->file,
+                   "The request; - or nothing: standard input")
+      ->option_text("[-]");
+  add_connection_options(*command, options->connection);
+  add_timeout_option(*command, options->timeout);
+  command->add_flag("--progress", options->progress,
+                    "Tell on standard error what goes on if it takes more "
+                    "than a second, even if that is no terminal");
+  command->callback([&chosen, options] {
+    chosen = [options] { return send_request(*options); };
+  });
+}
+
+} // namespace roscell::cli

@@ -1,0 +1,181 @@
+#include "tools/roscell/client/node_client.hpp"
+#include "tools/roscell/commands.hpp"
+#include "tools/roscell/commands/watch.hpp"
+#include "tools/roscell/common_options.hpp"
+#include "tools/roscell/exit_code.hpp"
+#include "tools/roscell/view/formation_view.hpp"
+#include "tools/roscell/view/terminal.hpp"
+#include "tools/roscell/view/views.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <memory>
+
+namespace roscell::cli {
+
+namespace {
+
+/// A coordinator answers at once.
+constexpr std::chrono::seconds answer_limit{10};
+
+/// What one of these commands asks and how it shows the answer.
+struct subject {
+  const char* name;
+  const char* description;
+  const char* footer;
+  const char* argument; ///< Name of an optional argument; nullptr: none.
+  const char* path;     ///< Where the answer is; the argument is appended.
+  std::string (*view)(const json& reply, const view_style& style);
+};
+
+template <class Message, std::string (*View)(const Message&, const view_style&)>
+std::string view_of(const json& reply, const view_style& style) {
+  return View(reply.get<Message>(), style);
+}
+
+const subject subjects[] = {
+    {"cells", "List the cells that the node knows of.",
+     "Examples:\n  roscell cells\n  roscell cells --watch", nullptr,
+     "/v1/cells", view_of<cell_list, cells_view>},
+    {"nodes",
+     "List the nodes of the cell with their resources (used/capacity), then "
+     "those that are in no cell.",
+     "Only a coordinator can answer.\n\nExamples:\n  roscell nodes\n"
+     "  roscell nodes --watch --to 192.168.1.10",
+     nullptr, "/v1/cell", view_of<cell_description, members_view>},
+    {"tasks", "List the tasks of the cell.",
+     "Only a coordinator can answer.\n\nExamples:\n  roscell tasks --watch\n"
+     "  roscell tasks fleet-poses -o json",
+     "TASK", "/v1/tasks", view_of<task_description, tasks_view>},
+    {"instances", "List the skill instances of the cell, or of a lone node.",
+     "Examples:\n  roscell instances\n"
+     "  roscell instances fleet-poses-camera-1a2b3c4d -o json",
+     "INSTANCE", "/v1/instances",
+     view_of<instance_description, instances_view>},
+    {"skills", "List the skills that the cell, or a lone node, can run.",
+     "Examples:\n  roscell skills\n  roscell skills -o json", nullptr,
+     "/v1/skills", view_of<skill_list, skills_view>},
+};
+
+struct show_options {
+  connection_options connection;
+  std::string output = "table";
+  std::string argument;
+  bool watch = false;
+  bool actors = false;
+
+  bool as_json() const {
+    return output == "json";
+  }
+};
+
+using options_ptr = std::shared_ptr<show_options>;
+
+/// Shows what `fetch` gets, once or at every change.
+int show(const show_options& options, const node_client& node,
+         const std::function<json()>& fetch,
+         const std::function<std::string(const json&)>& view) {
+  try {
+    if (options.watch)
+      return watch(node, options.as_json(), fetch, view);
+    const auto reply = fetch();
+    print(options.as_json() ? pretty(reply) : view(reply));
+    return exit_done;
+  } catch (refused& e) {
+    e.as_json = options.as_json();
+    throw;
+  }
+}
+
+int show_subject(const subject& what, const show_options& options) {
+  const node_client node{options.connection};
+  auto path = std::string{what.path};
+  if (!options.argument.empty())
+    path += "/" + url_encoded(options.argument);
+  return show(
+      options, node, [&] { return node.get(path); },
+      [&](const json& reply) { return what.view(reply, view_style_now()); });
+}
+
+int show_status(const show_options& options) {
+  const node_client node{options.connection};
+  const auto view = [&](const json& reply) {
+    const auto style = view_style_now();
+    const auto description = reply.get<node_description>();
+    auto text = node_view(description, style);
+    if (description.role == node_role::coordinator)
+      text += cell_summary(node.get("/v1/cell").get<cell_description>(), style);
+    return text;
+  };
+  const auto* path = options.actors ? "/v1/node?actors=1" : "/v1/node";
+  return show(
+      options, node, [&] { return node.get(path); }, view);
+}
+
+int show_transfers(const show_options& options) {
+  const node_client node{options.connection};
+  const auto query = message_json(transfer_query{options.argument});
+  return show(
+      options, node, [&] { return node.ask(query, answer_limit); },
+      [](const json& reply) {
+        return transfers_view(reply.get<transfer_description>(),
+                              view_style_now());
+      });
+}
+
+CLI::App* add_show_command(CLI::App& app, const char* name,
+                           const char* description, const char* footer,
+                           const options_ptr& options) {
+  auto* command = app.add_subcommand(name, description);
+  command->footer(footer);
+  add_connection_options(*command, options->connection);
+  add_output_option(*command, options->output);
+  command->add_flag("-w,--watch", options->watch,
+                    "Show it again whenever something happens; with -o json "
+                    "one document per change and line. Ctrl-C ends");
+  return command;
+}
+
+void add_transfers_command(CLI::App& app, action& chosen) {
+  auto options = std::make_shared<show_options>();
+  auto* command = add_show_command(
+      app, "transfers", "List the transfers and releases of the cell's nodes.",
+      "Only a coordinator can answer. Those that have ended are forgotten "
+      "after 100 others,\nand when the coordinator is started again.\n\n"
+      "Examples:\n  roscell transfers --watch\n"
+      "  roscell transfers lab-3-1 -o json",
+      options);
+  command->add_option("TRANSFER", options->argument, "Only this one");
+  command->callback([&chosen, options] {
+    chosen = [options] { return show_transfers(*options); };
+  });
+}
+
+} // namespace
+
+void add_show_commands(CLI::App& app, action& chosen) {
+  auto status_options = std::make_shared<show_options>();
+  auto* status = add_show_command(
+      app, "status", "Show one node: its cell, resources and instances.",
+      "Examples:\n  roscell status\n  roscell status --watch\n"
+      "  roscell status --actors --to 192.168.1.10",
+      status_options);
+  status->add_flag("--actors", status_options->actors,
+                   "Also list the node's actors with their counters");
+  status->callback([&chosen, status_options] {
+    chosen = [status_options] { return show_status(*status_options); };
+  });
+  for (const auto& what : subjects) {
+    auto options = std::make_shared<show_options>();
+    auto* command = add_show_command(app, what.name, what.description,
+                                     what.footer, options);
+    if (what.argument != nullptr)
+      command->add_option(what.argument, options->argument, "Only this one");
+    command->callback([&chosen, &what, options] {
+      chosen = [&what, options] { return show_subject(what, *options); };
+    });
+  }
+  add_transfers_command(app, chosen);
+}
+
+} // namespace roscell::cli

@@ -1,0 +1,78 @@
+#include "tools/roscell/daemon/journal.hpp"
+
+#include "messages/type_ids.hpp"
+#include "tools/roscell/client/event_stream.hpp"
+#include "tools/roscell/view/format.hpp"
+
+#include <caf/send.hpp>
+#include <caf/typed_event_based_actor.hpp>
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <string_view>
+
+namespace roscell::cli {
+
+namespace {
+
+bool ends_with(std::string_view text, std::string_view end) {
+  return text.size() >= end.size()
+         && text.substr(text.size() - end.size()) == end;
+}
+
+std::string quoted(const std::string& name) {
+  return "'" + name + "'";
+}
+
+void write(const event& e) {
+  static constexpr spdlog::level::level_enum levels[] = {
+      spdlog::level::debug, spdlog::level::info, spdlog::level::warn};
+  spdlog::log(levels[static_cast<size_t>(loudness_of(e))], "{}",
+              journal_line(e));
+}
+
+event_listener_actor::behavior_type journal(event_listener_actor::pointer self,
+                                            const event_log_actor& events) {
+  self->monitor(events);
+  self->set_down_handler([self](const caf::down_msg&) { self->quit(); });
+  return {[](const event& e) { write(e); }};
+}
+
+} // namespace
+
+void start_journal(caf::actor_system& system, const event_log_actor& events) {
+  const auto listener = system.spawn(journal, events);
+  caf::anon_send(events, subscribe_events{listener, 0});
+}
+
+loudness loudness_of(const event& e) {
+  for (const auto* end : {"_lost", "_failed", "_refused", "_ignored"})
+    if (ends_with(e.what, end))
+      return loudness::warning;
+  if (e.what != "instance_changed")
+    return loudness::info;
+  return event_text(e, "state") == "failed" ? loudness::warning
+                                            : loudness::debug;
+}
+
+std::string journal_line(const event& e) {
+  const auto text = [&](const char* key) { return event_text(e, key); };
+  std::string line;
+  if (e.what == "cell_joined")
+    line = "joined cell " + quoted(text("cell")) + " of "
+           + quoted(text("coordinator"));
+  else if (e.what == "cell_left")
+    line = "left cell " + quoted(text("cell"));
+  else if (e.what == "coordinator_lost")
+    line = "lost cell " + quoted(text("cell")) + ": " + text("reason");
+  else if (e.what == "join_refused")
+    line = "cannot join at " + text("discovery_server") + ": " + text("reason");
+  else
+    line = e.what + " " + quoted(e.subject) + " " + event_particulars(e);
+  line = printable(line);
+  line.erase(line.find_last_not_of(' ') + 1);
+  return line;
+}
+
+} // namespace roscell::cli

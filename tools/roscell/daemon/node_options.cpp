@@ -1,0 +1,103 @@
+#include "tools/roscell/daemon/node_options.hpp"
+
+#include "actors/edge/io/socket_address.hpp"
+#include "tools/roscell/client/target.hpp"
+#include "tools/roscell/exit_code.hpp"
+#include "tools/roscell/view/format.hpp"
+
+#include <stdexcept>
+
+namespace roscell::cli {
+
+namespace {
+
+constexpr uint64_t smallest_log = 4 * 1024;
+constexpr uint64_t largest_log = 1024UL * 1024 * 1024;
+
+uint64_t log_bound(const std::string& text) {
+  uint64_t bytes = 0;
+  try {
+    bytes = parse_bytes(text);
+  } catch (const std::invalid_argument& e) {
+    throw command_error{exit_usage, "--log-bytes: " + std::string{e.what()}};
+  }
+  if (bytes < smallest_log || bytes > largest_log)
+    throw command_error{exit_usage, "--log-bytes: not between 4KiB and 1GiB"};
+  return bytes;
+}
+
+void add_label(std::map<std::string, std::string>& labels,
+               const std::string& text) {
+  const auto equals = text.find('=');
+  if (equals == text.npos || equals == 0)
+    throw command_error{exit_usage, "--label: '" + text + "' is not KEY=VALUE"};
+  const auto key = text.substr(0, equals);
+  if (!labels.emplace(key, text.substr(equals + 1)).second)
+    throw command_error{exit_usage, "--label: '" + key + "' is given twice"};
+}
+
+/// What only a coordinator can be asked for.
+void check_cell_options(const node_config& config) {
+  if (config.coordinator)
+    return;
+  if (!config.cell.empty())
+    throw command_error{exit_usage, "--cell names the cell of a coordinator",
+                        "add --coordinator, or --join the cell"};
+  if (config.force)
+    throw command_error{exit_usage, "--force takes a coordinator's cell name",
+                        "add --coordinator, or leave out --force"};
+  if (!config.rebalance)
+    throw command_error{exit_usage,
+                        "--no-rebalance is for a coordinator's cell",
+                        "add --coordinator, or leave out --no-rebalance"};
+}
+
+/// The ways to come into a cell exclude each other.
+void check_ways_to_join(const node_config& config) {
+  if (!config.join.empty() && config.coordinator)
+    throw command_error{exit_usage,
+                        "a coordinator has its own cell and joins none",
+                        "leave out --join or --coordinator"};
+  if (config.wait && config.coordinator)
+    throw command_error{exit_usage,
+                        "a coordinator has its own cell and waits for none",
+                        "leave out --wait or --coordinator"};
+  if (config.wait && !config.join.empty())
+    throw command_error{exit_usage,
+                        "--join goes to a cell, --wait waits to be chosen",
+                        "leave out one of them"};
+}
+
+void check_addresses(const node_config& config) {
+  for (const auto& peer : config.peers)
+    if (!parse_socket_address(peer, 1))
+      throw command_error{exit_usage,
+                          "--peer: '" + peer
+                              + "' is not ADDR[:PORT] with an IPv4 "
+                                "address",
+                          "such as 192.168.1.10"};
+}
+
+} // namespace
+
+node_config to_config(const node_options& options) {
+  auto config = options.config;
+  check_cell_options(config);
+  check_ways_to_join(config);
+  check_addresses(config);
+  if (config.data_dir.empty())
+    config.data_dir = default_data_dir();
+  // Children run elsewhere, so nothing may depend on where we were started.
+  config.data_dir = std::filesystem::absolute(config.data_dir);
+  for (const auto& dir : options.skill_dirs)
+    config.skill_dirs.push_back(std::filesystem::absolute(dir));
+  if (config.socket.empty())
+    config.socket = config.data_dir / "node.sock";
+  config.socket = std::filesystem::absolute(config.socket);
+  for (const auto& label : options.labels)
+    add_label(config.labels, label);
+  config.log_bytes = log_bound(options.log_bytes);
+  return config;
+}
+
+} // namespace roscell::cli

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "actors/node/node_config.hpp"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace roscell::cli {
+
+/// The command line of `roscell node`.
+struct node_options {
+  node_config config;    ///< What needs no further thought.
+  std::string interface; ///< Name or address; empty: to be asked.
+  std::string log_bytes = "1MiB";
+  std::vector<std::string> labels; ///< "key=value"
+  std::vector<std::filesystem::path> skill_dirs;
+  std::string log_level = "info";
+  int ready_fd = -1; ///< Told when the node is ready; negative: none.
+};
+
+/// The configuration that the options mean, with absolute paths and without
+/// the address. Throws command_error for a value that cannot be meant.
+node_config to_config(const node_options& options);
+
+/// Runs a node until SIGINT or SIGTERM. Returns the exit code.
+int run_node(const node_options& options);
+
+} // namespace roscell::cli

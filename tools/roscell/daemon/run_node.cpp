@@ -1,0 +1,131 @@
+#include "actors/edge/dds/discovery_setup.hpp"
+#include "actors/node/node_builder.hpp"
+#include "tools/roscell/daemon/interface_choice.hpp"
+#include "tools/roscell/daemon/journal.hpp"
+#include "tools/roscell/daemon/node_options.hpp"
+#include "tools/roscell/daemon/readiness.hpp"
+#include "tools/roscell/daemon/stop_signals.hpp"
+#include "tools/roscell/exit_code.hpp"
+#include "tools/roscell/view/terminal.hpp"
+
+#include <caf/actor_system.hpp>
+#include <caf/actor_system_config.hpp>
+#include <caf/send.hpp>
+
+#include <malloc.h>
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+#include <csignal>
+
+namespace roscell::cli {
+
+namespace {
+
+/// Longest wait for a node to stop in order: leaving the cell takes a round
+/// trip, and systemd would wait 90 s before it uses force.
+constexpr std::chrono::seconds stop_patience{5};
+
+class node_system_config : public caf::actor_system_config {
+public:
+  node_system_config() {
+    roscell::add_message_types(*this);
+    // The default policy polls; this one sleeps until there is work.
+    set("scheduler.policy", caf::atom("sharing"));
+    set("scheduler.max-threads", size_t{2});
+    set("logger.verbosity", caf::atom("quiet"));
+  }
+};
+
+/// Small memory counts more than fast allocation on a robot: threads share
+/// one arena, and freed memory goes back to the system early.
+void save_memory() {
+  mallopt(M_ARENA_MAX, 1);
+  mallopt(M_TRIM_THRESHOLD, 64 * 1024);
+  mallopt(M_MMAP_THRESHOLD, 64 * 1024);
+}
+
+void set_up_log(const node_options& options) {
+  auto log = spdlog::stderr_logger_mt("roscell");
+  log->set_pattern("%Y-%m-%d %H:%M:%S.%e %l %v");
+  log->set_level(spdlog::level::from_str(options.log_level));
+  log->flush_on(spdlog::level::trace);
+  spdlog::set_default_logger(log);
+}
+
+/// What the failure of a start means to whoever called us.
+exit_code exit_code_of(error_code code) {
+  return code == error_code::schema_violation ? exit_usage
+         : code == error_code::unreachable    ? exit_unreachable
+                                              : exit_refused;
+}
+
+running_node start(caf::actor_system& system, const node_config& config) {
+  auto node = spawn_node(system, config);
+  if (node)
+    return std::move(*node);
+  const auto why = to_failure(node.error());
+  throw command_error{exit_code_of(why.code), why.message, why.hint};
+}
+
+void introduce(const running_node& node, const node_config& config) {
+  spdlog::info("node '{}' listens on {} and {}", node.name, node.http_address,
+               node.socket);
+  if (config.coordinator)
+    spdlog::info("cell '{}' has its discovery server on {}",
+                 config.cell.empty() ? node.name : config.cell,
+                 node.discovery_server);
+  spdlog::info("instances are run by '{}': {}", node.runtime,
+               node.runtime_reason);
+  spdlog::info("data directory {}, bearer token {}", config.data_dir.string(),
+               node.token_file);
+  if (config.site_token_file.empty())
+    spdlog::info("no site token: only nodes of this machine can be members");
+}
+
+/// Waits until the node has stopped, but not for long, and not at all after
+/// another signal.
+void stop(const running_node& node, stop_signals& signals) {
+  spdlog::info("node '{}' stops", node.name);
+  caf::anon_send(node.actor, stop_node{});
+  const auto seen = signals.wait_for(stop_patience);
+  signals.release();
+  if (seen == stop_signals::cause::ended)
+    return;
+  spdlog::warn("node '{}' is ended before it has stopped in order", node.name);
+  // Threads that hang must not keep the process.
+  _exit(exit_done);
+}
+
+} // namespace
+
+int run_node(const node_options& options) {
+  prepare_dds_environment();
+  save_memory();
+  std::signal(SIGPIPE, SIG_IGN);
+  readiness starter{options.ready_fd};
+  auto config = to_config(options);
+  config.address = choose_interface(options.interface).address;
+  // Threads inherit what is blocked here, so it comes before all of them.
+  stop_signals signals;
+  set_up_log(options);
+  node_system_config system_config;
+  caf::actor_system system{system_config};
+  const auto node = start(system, config);
+  node.actor->attach_functor([&signals] { signals.end(); });
+  introduce(node, config);
+  start_journal(system, node.events);
+  // The start needed memory that running does not.
+  malloc_trim(0);
+  starter.ready();
+  if (signals.wait() == stop_signals::cause::ended) {
+    spdlog::error("node '{}' has failed", node.name);
+    return exit_refused;
+  }
+  starter.stopping();
+  stop(node, signals);
+  return exit_done;
+}
+
+} // namespace roscell::cli

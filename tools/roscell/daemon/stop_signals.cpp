@@ -1,0 +1,69 @@
+#include "tools/roscell/daemon/stop_signals.hpp"
+
+#include "tools/roscell/exit_code.hpp"
+
+#include <poll.h>
+#include <sys/eventfd.h>
+#include <sys/signalfd.h>
+#include <unistd.h>
+
+#include <array>
+#include <csignal>
+
+namespace roscell::cli {
+
+namespace {
+
+sigset_t taken_signals() {
+  sigset_t result;
+  sigemptyset(&result);
+  sigaddset(&result, SIGINT);
+  sigaddset(&result, SIGTERM);
+  return result;
+}
+
+} // namespace
+
+stop_signals::stop_signals() {
+  const auto wanted = taken_signals();
+  pthread_sigmask(SIG_BLOCK, &wanted, nullptr);
+  signal_fd_ = signalfd(-1, &wanted, SFD_CLOEXEC);
+  event_fd_ = eventfd(0, EFD_CLOEXEC);
+  if (signal_fd_ < 0 || event_fd_ < 0)
+    throw command_error{exit_refused, "too many open files"};
+}
+
+stop_signals::~stop_signals() {
+  close(signal_fd_);
+  close(event_fd_);
+}
+
+stop_signals::cause stop_signals::wait() {
+  return poll_once(-1);
+}
+
+stop_signals::cause stop_signals::wait_for(std::chrono::milliseconds limit) {
+  return poll_once(static_cast<int>(limit.count()));
+}
+
+void stop_signals::release() {
+  const auto taken = taken_signals();
+  pthread_sigmask(SIG_UNBLOCK, &taken, nullptr);
+}
+
+void stop_signals::end() {
+  eventfd_write(event_fd_, 1);
+}
+
+stop_signals::cause stop_signals::poll_once(int timeout_ms) {
+  std::array<pollfd, 2> fds{{{event_fd_, POLLIN, 0}, {signal_fd_, POLLIN, 0}}};
+  if (poll(fds.data(), fds.size(), timeout_ms) <= 0)
+    return cause::timeout;
+  if (fds[0].revents != 0)
+    return cause::ended;
+  signalfd_siginfo taken{};
+  const auto n = read(signal_fd_, &taken, sizeof taken);
+  return n > 0 ? cause::signal : cause::timeout;
+}
+
+} // namespace roscell::cli

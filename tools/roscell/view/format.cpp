@@ -1,0 +1,231 @@
+#include "tools/roscell/view/format.hpp"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <stdexcept>
+
+namespace roscell::cli {
+
+std::string format_number(double value, int decimals) {
+  if (!std::isfinite(value))
+    return "-";
+  std::array<char, 352> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), "%.*f", decimals, value);
+  std::string text = buffer.data();
+  if (text.find('.') != std::string::npos) {
+    text.erase(text.find_last_not_of('0') + 1);
+    if (text.back() == '.')
+      text.pop_back();
+  }
+  return text == "-0" ? "0" : text;
+}
+
+std::string format_significant(double value, int digits) {
+  if (!std::isfinite(value))
+    return "-";
+  std::array<char, 64> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), "%.*g", digits, value);
+  return buffer.data();
+}
+
+std::string format_mib(double mib) {
+  return format_number(mib, std::abs(mib) < 10 ? 1 : 0);
+}
+
+std::string format_bytes(double bytes) {
+  constexpr std::array units{"B", "KiB", "MiB", "GiB", "TiB"};
+  constexpr double next_unit = 1024;
+  size_t unit = 0;
+  while (bytes >= next_unit && unit + 1 < units.size()) {
+    bytes /= next_unit;
+    ++unit;
+  }
+  return format_mib(bytes) + " " + units[unit];
+}
+
+std::string format_age(std::chrono::milliseconds age) {
+  const auto seconds = std::max<int64_t>(0, age.count() / 1000);
+  std::array<char, 48> buffer{};
+  auto put = [&](int64_t large, const char* unit, int64_t small,
+                 const char* small_unit) {
+    std::snprintf(buffer.data(), buffer.size(), "%lld%s%02lld%s",
+                  static_cast<long long>(large), unit,
+                  static_cast<long long>(small), small_unit);
+    return std::string{buffer.data()};
+  };
+  if (seconds < 60)
+    return std::to_string(seconds) + "s";
+  if (seconds < 3600)
+    return put(seconds / 60, "m", seconds % 60, "s");
+  if (seconds < 86400)
+    return put(seconds / 3600, "h", seconds / 60 % 60, "m");
+  return put(seconds / 86400, "d", seconds / 3600 % 24, "h");
+}
+
+std::string format_since(int64_t since_unix_ms, int64_t now_unix_ms) {
+  if (since_unix_ms <= 0)
+    return "-";
+  // Compared first: the difference of any two numbers might overflow.
+  if (since_unix_ms > now_unix_ms)
+    return "0s";
+  return format_age(std::chrono::milliseconds{now_unix_ms - since_unix_ms});
+}
+
+std::string format_time(int64_t unix_ms) {
+  auto seconds = static_cast<std::time_t>(unix_ms / 1000);
+  auto millis = static_cast<int>(unix_ms % 1000);
+  if (millis < 0) {
+    millis += 1000;
+    --seconds;
+  }
+  std::tm parts{};
+  if (localtime_r(&seconds, &parts) == nullptr)
+    return "-";
+  std::array<char, 64> buffer{};
+  auto n = std::strftime(buffer.data(), buffer.size(), "%F %T", &parts);
+  std::snprintf(buffer.data() + n, buffer.size() - n, ".%03d", millis);
+  return buffer.data();
+}
+
+namespace {
+
+/// Length in bytes of the UTF-8 character that `text` starts with; 0 if there
+/// is none, or one that a terminal must not get.
+size_t printable_length(std::string_view text) {
+  const auto byte = [&](size_t i) {
+    return static_cast<unsigned char>(text[i]);
+  };
+  const auto first = byte(0);
+  if (first < 0x80)
+    return first >= 0x20 && first != 0x7f ? 1 : 0;
+  const size_t n = first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2;
+  if (first < 0xc2 || first > 0xf4 || text.size() < n)
+    return 0;
+  uint32_t point = first & (0xffU >> (n + 1));
+  for (size_t i = 1; i < n; ++i) {
+    if ((byte(i) & 0xc0) != 0x80)
+      return 0;
+    point = point << 6 | (byte(i) & 0x3fU);
+  }
+  constexpr std::array<uint32_t, 5> smallest{0, 0, 0x80, 0x800, 0x10000};
+  // C1 controls steer terminals as well; bidi overrides reorder the line.
+  const bool bad = point < smallest[n] || point < 0xa0 || point > 0x10ffff
+                   || (point >= 0xd800 && point < 0xe000)
+                   || (point >= 0x2028 && point <= 0x202e)
+                   || (point >= 0x2066 && point <= 0x2069);
+  return bad ? 0 : n;
+}
+
+} // namespace
+
+std::string printable(std::string_view text) {
+  std::string result;
+  result.reserve(text.size());
+  while (!text.empty()) {
+    const auto n = printable_length(text);
+    if (n == 0)
+      result += '?';
+    else
+      result += text.substr(0, n);
+    text.remove_prefix(n == 0 ? 1 : n);
+  }
+  return result;
+}
+
+std::string joined(const std::vector<std::string>& words,
+                   std::string_view between) {
+  std::string result;
+  for (const auto& word : words) {
+    if (!result.empty())
+      result += between;
+    result += word;
+  }
+  return result;
+}
+
+size_t display_width(std::string_view text) {
+  size_t width = 0;
+  for (const auto c : text)
+    width += (static_cast<unsigned char>(c) & 0xc0) != 0x80;
+  return width;
+}
+
+std::string shortened(std::string_view text, size_t width) {
+  if (display_width(text) <= width)
+    return std::string{text};
+  if (width == 0)
+    return {};
+  size_t end = 0;
+  for (size_t columns = 0; end < text.size(); ++end) {
+    const bool starts = (static_cast<unsigned char>(text[end]) & 0xc0) != 0x80;
+    if (starts && ++columns == width)
+      break;
+  }
+  return std::string{text.substr(0, end)} + "…";
+}
+
+namespace {
+
+/// Splits "2.5ms" into 2.5 and "ms".
+std::pair<double, std::string_view> split_unit(std::string_view text) {
+  const auto end = text.find_first_not_of("0123456789.");
+  const auto digits = text.substr(0, end);
+  double value = 0;
+  auto [rest, error] =
+      std::from_chars(digits.data(), digits.data() + digits.size(), value,
+                      std::chars_format::fixed);
+  if (error != std::errc{} || rest != digits.data() + digits.size())
+    throw std::invalid_argument{"not a number: '" + std::string{text} + "'"};
+  return {value, end == text.npos ? std::string_view{} : text.substr(end)};
+}
+
+struct unit {
+  std::string_view name;
+  double factor;
+};
+
+template <size_t N>
+double factor_of(std::string_view name, const std::array<unit, N>& units) {
+  std::string known;
+  for (const auto& u : units) {
+    if (u.name == name)
+      return u.factor;
+    if (!u.name.empty())
+      known += (known.empty() ? "" : ", ") + std::string{u.name};
+  }
+  throw std::invalid_argument{"unknown unit '" + std::string{name}
+                              + "', known are " + known};
+}
+
+} // namespace
+
+uint64_t parse_bytes(std::string_view text) {
+  static constexpr std::array<unit, 5> units{{{"", 1},
+                                              {"B", 1},
+                                              {"KiB", 1024},
+                                              {"MiB", 1048576},
+                                              {"GiB", 1073741824}}};
+  const auto [value, name] = split_unit(text);
+  const auto bytes = value * factor_of(name, units);
+  // From 2^53 on a double skips whole numbers.
+  if (bytes != std::floor(bytes) || bytes > 9007199254740992.0)
+    throw std::invalid_argument{"not a whole number of bytes: '"
+                                + std::string{text} + "'"};
+  return static_cast<uint64_t>(bytes);
+}
+
+std::chrono::milliseconds parse_duration(std::string_view text) {
+  static constexpr std::array<unit, 5> units{
+      {{"", 1000}, {"ms", 1}, {"s", 1000}, {"m", 60'000}, {"h", 3'600'000}}};
+  const auto [value, name] = split_unit(text);
+  const auto millis = value * factor_of(name, units);
+  if (millis < 1 || millis > 86'400'000)
+    throw std::invalid_argument{"not between 1 ms and 24 h: '"
+                                + std::string{text} + "'"};
+  return std::chrono::milliseconds{std::llround(millis)};
+}
+
+} // namespace roscell::cli

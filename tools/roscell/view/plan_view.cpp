@@ -1,0 +1,157 @@
+#include "tools/roscell/view/plan_view.hpp"
+
+#include "tools/roscell/view/format.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace roscell::cli {
+
+namespace {
+
+std::string fraction(double value) {
+  return value < 0 ? "" : format_significant(value, 4);
+}
+
+std::string score(double value) {
+  return format_significant(value, 6);
+}
+
+std::string steps_view(const std::vector<step_allocation>& allocations,
+                       const text_style& style) {
+  table t{{{"STEP"},
+           {"NODE"},
+           {"DEPLOYMENT"},
+           {"GPU", align::right},
+           {"CPU", align::right},
+           {"MEMORY", align::right},
+           {"DISK", align::right},
+           {"GPU MEMORY", align::right},
+           {"VARIANCE", align::right},
+           {"BONUS", align::right}},
+          {}};
+  for (const auto& a : allocations)
+    t.rows.push_back(
+        {a.step, a.node, a.deployment, a.gpu < 0 ? "" : std::to_string(a.gpu),
+         fraction(a.fractions.cpu), fraction(a.fractions.memory),
+         fraction(a.fractions.disk), fraction(a.fractions.gpu_memory),
+         score(a.variance), score(a.bonus)});
+  return t.render(style);
+}
+
+std::string score_view(const allocation_score& of) {
+  return score(of.total) + " = balance " + score(of.balance) + " + "
+         + score(of.alpha) + " * load " + score(of.load);
+}
+
+std::string verdict_view(const task_plan& plan) {
+  if (plan.optimal)
+    return "optimal";
+  return "best found, not proven optimal: no total is below "
+         + score(plan.score.lower_bound) + ", a gap of "
+         + score(plan.score.gap);
+}
+
+/// Columns of a bar.
+constexpr int bar_width = 20;
+
+size_t cells_of(double amount, double capacity) {
+  if (capacity <= 0 || amount <= 0)
+    return 0;
+  return static_cast<size_t>(
+      std::lround(std::min(1.0, amount / capacity) * bar_width));
+}
+
+/// What is used already as '#', what the steps add as '+'.
+std::string bar(const resource_use& of) {
+  const auto before = cells_of(of.before, of.capacity);
+  const auto after = std::max(before, cells_of(of.after, of.capacity));
+  return "[" + std::string(before, '#') + std::string(after - before, '+')
+         + std::string(bar_width - after, '.') + "]";
+}
+
+std::string percent(double amount, double capacity) {
+  return capacity > 0 ? format_number(100 * amount / capacity, 0) + "%" : "";
+}
+
+std::string amount_of(double value, const std::string& resource) {
+  return resource == "cpu" ? format_number(value) : format_mib(value);
+}
+
+std::string use_view(const std::vector<resource_use>& use,
+                     const text_style& style) {
+  table t{{{"NODE"},
+           {"RESOURCE"},
+           {"USE"},
+           {"BEFORE", align::right},
+           {"AFTER", align::right},
+           {"OF", align::right},
+           {"BEFORE", align::right},
+           {"AFTER", align::right}},
+          {}};
+  for (const auto& x : use)
+    t.rows.push_back(
+        {x.node, x.resource, bar(x), amount_of(x.before, x.resource),
+         amount_of(x.after, x.resource), amount_of(x.capacity, x.resource),
+         percent(x.before, x.capacity), percent(x.after, x.capacity)});
+  return t.render(style);
+}
+
+/// The placements of an alternative that differ from those of the plan.
+std::vector<step_allocation> moved(const task_plan& plan,
+                                   const step_alternative& other) {
+  std::vector<step_allocation> result;
+  for (size_t i = 0; i < other.allocations.size(); ++i) {
+    const auto& x = other.allocations[i];
+    const auto& y = plan.allocations[i];
+    if (x.node != y.node || x.deployment != y.deployment || x.gpu != y.gpu)
+      result.push_back(x);
+  }
+  return result;
+}
+
+std::string alternative_view(const task_plan& plan,
+                             const step_alternative& other,
+                             const text_style& style) {
+  const auto step = "step '" + printable(other.step) + "'";
+  if (!other.obstacle.empty())
+    return "why: " + step + " can be nowhere else: " + printable(other.obstacle)
+           + "\n";
+  return "why: the best alternative for " + step + " costs "
+         + score(other.extra) + " more" + (other.optimal ? "" : " at most")
+         + ": " + score_view(other.score) + "\n\n"
+         + steps_view(moved(plan, other), style);
+}
+
+} // namespace
+
+std::string rejected_view(const std::vector<rejected_candidate>& rejected,
+                          const text_style& style) {
+  if (rejected.empty())
+    return "no rejected candidates\n";
+  table t{{{"STEP"}, {"NODE"}, {"DEPLOYMENT"}, {"REJECTED BECAUSE"}}, {}};
+  for (const auto& r : rejected) {
+    std::string reasons;
+    for (const auto& reason : r.reasons)
+      reasons += (reasons.empty() ? "" : "; ") + reason;
+    t.rows.push_back({r.step, r.node, r.deployment, reasons});
+  }
+  return t.render(style);
+}
+
+std::string plan_view(const task_plan& plan, const text_style& style) {
+  auto text = "task " + printable(plan.task) + ", " + verdict_view(plan)
+              + "\n\n" + steps_view(plan.allocations, style);
+  text += "\nscore " + score_view(plan.score) + "\n";
+  text += "columns CPU to GPU MEMORY: fraction of what was free\n";
+  for (const auto& warning : plan.warnings)
+    text += "warning: " + printable(warning) + "\n";
+  if (!plan.use.empty())
+    text +=
+        "\n" + use_view(plan.use, style) + "USE: # before, + with this task\n";
+  for (const auto& other : plan.alternatives)
+    text += "\n" + alternative_view(plan, other, style);
+  return text + "\n" + rejected_view(plan.rejected, style);
+}
+
+} // namespace roscell::cli

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "messages/allocation_report.hpp"
+#include "tools/roscell/view/table.hpp"
+
+#include <string>
+
+namespace roscell::cli {
+
+/// An allocation for people: a row per step, the score with its terms, a bar
+/// for each resource before and after, the alternative if one was asked for,
+/// and who was rejected.
+std::string plan_view(const task_plan& plan, const text_style& style);
+
+/// Who was rejected for which step and why; "no rejected candidates" if empty.
+std::string rejected_view(const std::vector<rejected_candidate>& rejected,
+                          const text_style& style);
+
+} // namespace roscell::cli

@@ -1,0 +1,68 @@
+#include "tools/roscell/view/progress.hpp"
+
+#include "tools/roscell/view/terminal.hpp"
+
+#include <future>
+#include <utility>
+
+namespace roscell::cli {
+
+namespace {
+
+/// What takes longer than this is told about.
+constexpr std::chrono::seconds patience{1};
+
+} // namespace
+
+progress::progress(const node_client& node, event_words words)
+    : words_{std::move(words)}, reader_{[this, &node] { read(node); }} {}
+
+progress::~progress() {
+  cancel_.cancel();
+  reader_.join();
+}
+
+void progress::begin() {
+  const std::lock_guard guard{mutex_};
+  begun_ = true;
+  for (const auto& line : held_)
+    print_note(line);
+  held_.clear();
+}
+
+void progress::read(const node_client& node) {
+  const auto tell_of = [this](const event& e) {
+    for (const auto& line : words_(e))
+      tell(line);
+    return true;
+  };
+  try {
+    follow_events(node, from_now_on, tell_of, &cancel_);
+  } catch (const std::runtime_error&) {
+    // The request itself meets the same trouble and tells of it.
+    return;
+  }
+}
+
+void progress::tell(const std::string& line) {
+  const std::lock_guard guard{mutex_};
+  if (begun_)
+    print_note(line);
+  else
+    held_.push_back(line);
+}
+
+json post_with_progress(const node_client& node, const std::string& body,
+                        std::chrono::milliseconds limit, event_words words) {
+  progress teller{node, std::move(words)};
+  auto reply = std::async(std::launch::async, [&] {
+    return node.post("/v1/requests", body, limit);
+  });
+  if (reply.wait_for(patience) == std::future_status::timeout) {
+    print_note("waiting for " + node.where().text() + " ...");
+    teller.begin();
+  }
+  return reply.get();
+}
+
+} // namespace roscell::cli

@@ -1,0 +1,154 @@
+#include "tools/roscell/view/format.hpp"
+#include "tools/roscell/view/views.hpp"
+
+#include <algorithm>
+#include <map>
+
+namespace roscell::cli {
+
+namespace {
+
+/// "name  value" lines, the values in one column.
+class fact_list {
+public:
+  explicit fact_list(const view_style& style) : style_{style} {}
+
+  void add(const std::string& name, const std::string& value) {
+    if (value.empty())
+      return;
+    const std::string gap(name.size() < 14 ? 14 - name.size() : 1, ' ');
+    auto shown = printable(value);
+    const auto colour = style_.text.colour ? state_colour(shown) : "";
+    if (style_.text.width > 14)
+      shown = shortened(shown, style_.text.width - 14);
+    text_ +=
+        name + gap + colour + shown + (colour.empty() ? "" : "\x1b[0m") + "\n";
+  }
+
+  std::string text() const {
+    return text_;
+  }
+
+private:
+  const view_style& style_;
+  std::string text_;
+};
+
+using number_format = std::string (*)(double);
+
+std::string number(double value) {
+  return format_number(value);
+}
+
+std::vector<std::string> resource_line(const std::string& name, const amount& a,
+                                       number_format put) {
+  return {name, put(a.used), put(a.capacity),
+          put(std::max(0.0, a.capacity - a.used))};
+}
+
+std::string resources_view(const node_resources& r, const view_style& style) {
+  table t{{{"RESOURCE"},
+           {"USED", align::right},
+           {"CAPACITY", align::right},
+           {"FREE", align::right}},
+          {}};
+  t.rows.push_back(resource_line("cpu (cores)", r.cpu, number));
+  t.rows.push_back(resource_line("memory (MiB)", r.memory_mib, format_mib));
+  t.rows.push_back(resource_line("disk (MiB)", r.disk_mib, format_mib));
+  for (const auto& gpu : r.gpus) {
+    auto name = "gpu " + std::to_string(gpu.index);
+    if (r.unified_memory)
+      t.rows.push_back({name + " (shares memory)"});
+    else
+      t.rows.push_back(
+          resource_line(name + " memory (MiB)", gpu.memory_mib, format_mib));
+  }
+  return t.render(style.text);
+}
+
+/// "3 running, 1 failed"
+std::string counted(const std::vector<instance_row>& instances) {
+  std::map<instance_state, size_t> counts;
+  for (const auto& row : instances)
+    ++counts[row.state];
+  std::string result;
+  for (const auto& [state, count] : counts)
+    result += (result.empty() ? "" : ", ") + std::to_string(count) + " "
+              + to_string(state);
+  return result.empty() ? "none" : result;
+}
+
+/// What the node has written to its database, and how much that is a day if it
+/// has run for long enough to tell.
+std::string disk_writes(const node_description& node, int64_t now_unix_ms) {
+  constexpr double hour_ms = 3'600'000;
+  if (node.stored_bytes <= 0)
+    return {};
+  const auto bytes = static_cast<double>(node.stored_bytes);
+  const auto age_ms = static_cast<double>(now_unix_ms)
+                      - static_cast<double>(node.started_unix_ms);
+  if (node.started_unix_ms <= 0 || age_ms < hour_ms)
+    return format_bytes(bytes) + " since the start";
+  return format_bytes(bytes) + " ("
+         + format_bytes(bytes * 24 * hour_ms / age_ms) + " a day)";
+}
+
+std::string actors_view(const std::vector<actor_row>& actors,
+                        const view_style& style) {
+  table t{{{"ACTOR"},
+           {"ID", align::right},
+           {"MESSAGES", align::right},
+           {"WAITING", align::right},
+           {"BUSY (ms)", align::right},
+           {"LONGEST (ms)", align::right}},
+          {}};
+  for (const auto& a : actors)
+    t.rows.push_back({a.name, std::to_string(a.id), std::to_string(a.messages),
+                      std::to_string(a.mailbox),
+                      format_number(static_cast<double>(a.busy_us) / 1000),
+                      format_number(static_cast<double>(a.longest_us) / 1000)});
+  return t.render(style.text);
+}
+
+} // namespace
+
+std::string node_view(const node_description& node, const view_style& style) {
+  fact_list facts{style};
+  facts.add("name", node.identity.name);
+  facts.add("role", to_string(node.role));
+  facts.add("state", to_string(node.state));
+  facts.add("cell", node.cell);
+  facts.add("coordinator", node.coordinator);
+  facts.add("address", node.identity.address);
+  facts.add("architecture", node.resources.architecture);
+  facts.add("runtime", node.runtime);
+  facts.add("version", node.version);
+  facts.add("up for", format_since(node.started_unix_ms, style.now_unix_ms));
+  facts.add("disk written", disk_writes(node, style.now_unix_ms));
+  facts.add("skills", std::to_string(node.skills.size()));
+  facts.add("instances", counted(node.instances));
+  auto text = facts.text() + "\n" + resources_view(node.resources, style);
+  if (!node.instances.empty())
+    text += "\n" + instances_view({node.instances}, style);
+  if (!node.actors.empty())
+    text += "\n" + actors_view(node.actors, style);
+  return text;
+}
+
+std::string cell_summary(const cell_description& cell,
+                         const view_style& style) {
+  const auto active = std::count_if(
+      cell.nodes.begin(), cell.nodes.end(),
+      [](const registry_row& row) { return row.state == row_state::active; });
+  fact_list facts{style};
+  facts.add("nodes", std::to_string(active) + " of "
+                         + std::to_string(cell.nodes.size()) + " active");
+  facts.add("tasks", std::to_string(cell.tasks.size()));
+  facts.add("discovery", cell.discovery_server);
+  auto text = "\n" + facts.text();
+  if (!cell.tasks.empty())
+    text += "\n" + tasks_view({cell.tasks}, style);
+  return text;
+}
+
+} // namespace roscell::cli

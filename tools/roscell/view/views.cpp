@@ -1,0 +1,200 @@
+#include "tools/roscell/view/views.hpp"
+
+#include "tools/roscell/view/format.hpp"
+
+#include <algorithm>
+#include <set>
+
+namespace roscell::cli {
+
+namespace {
+
+/// Digits of a content hash that tell skills apart.
+constexpr size_t short_hash = 12;
+
+/// Nothing is shown of what has not been measured yet.
+std::string cores(const amount& a) {
+  if (a.capacity == 0)
+    return "";
+  return format_number(a.used) + "/" + format_number(a.capacity);
+}
+
+std::string mib(const amount& a) {
+  if (a.capacity == 0)
+    return "";
+  return format_mib(a.used) + "/" + format_mib(a.capacity);
+}
+
+/// Each name once, in order.
+std::string listed(const std::set<std::string>& names) {
+  return joined({names.begin(), names.end()});
+}
+
+std::string or_nothing(const table& t, const char* what,
+                       const view_style& style) {
+  return t.rows.empty() ? std::string{"no "} + what + "\n"
+                        : t.render(style.text);
+}
+
+/// What stands behind an instance's state: why it ended, why that is not known
+/// at present, or what it says.
+std::string remark(const instance_row& row) {
+  if (!row.reason.empty())
+    return row.reason;
+  return row.trouble.empty() ? row.status : row.trouble;
+}
+
+std::string exit_text(int code) {
+  return code < 0 ? "" : std::to_string(code);
+}
+
+/// What is wrong with a cell, as its coordinator or the others tell.
+std::string trouble_of(const cell_row& row, const cell_list& cells) {
+  const auto claims = std::count_if(
+      cells.cells.begin(), cells.cells.end(),
+      [&](const cell_row& other) { return other.cell == row.cell; });
+  if (!row.trouble.empty() || claims < 2)
+    return row.trouble;
+  return std::to_string(claims) + " coordinators claim this name";
+}
+
+/// A node that is in no cell has no row, so little is known of it.
+std::vector<std::string> free_row(const free_node& node) {
+  return {node.name,
+          to_string(node_role::primary),
+          to_string(node.state),
+          "",
+          node.address,
+          "",
+          "",
+          "",
+          "",
+          "",
+          "",
+          node.cell.empty() ? "" : "it was in cell '" + node.cell + "'"};
+}
+
+} // namespace
+
+std::string cells_view(const cell_list& cells, const view_style& style) {
+  table t{{{"CELL"},
+           {"COORDINATOR"},
+           {"NODES", align::right},
+           {"ADDRESS"},
+           {"DISCOVERY SERVER"}},
+          {}};
+  bool troubled = false;
+  for (const auto& row : cells.cells) {
+    const auto trouble = trouble_of(row, cells);
+    troubled = troubled || !trouble.empty();
+    // A coordinator counts itself, so nobody has told a size of 0.
+    t.rows.push_back({row.cell, row.coordinator,
+                      row.size == 0 ? "" : std::to_string(row.size),
+                      row.address, row.discovery_server, trouble});
+  }
+  // The cells of a row are cut to the number of columns.
+  if (troubled)
+    t.columns.push_back({"TROUBLE"});
+  return or_nothing(t, "cells", style);
+}
+
+std::string members_view(const cell_description& cell,
+                         const view_style& style) {
+  table t{{{"NODE"},
+           {"ROLE"},
+           {"STATE"},
+           {"SINCE", align::right},
+           {"ADDRESS"},
+           {"ARCH"},
+           {"CPU (cores)", align::right},
+           {"MEMORY (MiB)", align::right},
+           {"DISK (MiB)", align::right},
+           {"GPUS", align::right},
+           {"INSTANCES", align::right},
+           {"REASON"}},
+          {}};
+  for (const auto& row : cell.nodes) {
+    const auto& r = row.resources;
+    t.rows.push_back(
+        {row.identity.name, to_string(row.role), to_string(row.state),
+         format_since(row.since_unix_ms, style.now_unix_ms),
+         row.identity.address, r.architecture, cores(r.cpu), mib(r.memory_mib),
+         mib(r.disk_mib), std::to_string(r.gpus.size()),
+         std::to_string(row.instances.size()), row.reason});
+  }
+  for (const auto& node : cell.free)
+    t.rows.push_back(free_row(node));
+  return or_nothing(t, "nodes", style);
+}
+
+std::string tasks_view(const task_description& tasks, const view_style& style) {
+  table t{{{"TASK"},
+           {"STATE"},
+           {"AGE", align::right},
+           {"RUNNING", align::right},
+           {"NODES"}},
+          {}};
+  for (const auto& row : tasks.tasks) {
+    std::set<std::string> nodes;
+    for (const auto& i : row.instances)
+      nodes.insert(i.node);
+    const auto running = std::count_if(
+        row.instances.begin(), row.instances.end(), [](const instance_row& i) {
+          return i.state == instance_state::running;
+        });
+    t.rows.push_back(
+        {row.task, to_string(row.state),
+         format_since(row.submitted_unix_ms, style.now_unix_ms),
+         std::to_string(running) + "/" + std::to_string(row.instances.size()),
+         listed(nodes)});
+  }
+  return or_nothing(t, "tasks", style);
+}
+
+std::string instances_view(const instance_description& instances,
+                           const view_style& style) {
+  table t{{{"INSTANCE"},
+           {"TASK"},
+           {"STEP"},
+           {"NODE"},
+           {"STATE"},
+           {"SINCE", align::right},
+           {"DEPLOYMENT"},
+           {"EXIT", align::right},
+           {"REMARK"}},
+          {}};
+  for (const auto& row : instances.instances)
+    t.rows.push_back({row.spec.instance, row.spec.task, row.spec.step, row.node,
+                      to_string(row.state),
+                      format_since(row.since_unix_ms, style.now_unix_ms),
+                      row.spec.model + "/" + row.spec.deployment,
+                      exit_text(row.exit_code), remark(row)});
+  return or_nothing(t, "instances", style);
+}
+
+std::string skills_view(const skill_list& skills, const view_style& style) {
+  table t{{{"OPERATION"},
+           {"MODEL"},
+           {"DEPLOYMENT"},
+           {"CPU (cores)", align::right},
+           {"MEMORY (MiB)", align::right},
+           {"DISK (MiB)", align::right},
+           {"GPU MEMORY (MiB)", align::right},
+           {"SKILL"},
+           {"NODES"}},
+          {}};
+  for (const auto& row : skills.skills)
+    for (const auto& model : row.skill.descriptor.models)
+      for (const auto& option : model.deployments) {
+        const auto& r = option.resources;
+        t.rows.push_back({row.skill.descriptor.operation, model.name,
+                          option.name, format_number(r.cpu),
+                          format_mib(r.memory_mib), format_mib(r.disk_mib),
+                          r.needs_gpu() ? format_mib(r.gpu_memory_mib) : "",
+                          row.skill.hash.substr(0, short_hash),
+                          listed({row.nodes.begin(), row.nodes.end()})});
+      }
+  return or_nothing(t, "skills", style);
+}
+
+} // namespace roscell::cli

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "messages/cell.hpp"
+#include "messages/node.hpp"
+#include "messages/skill.hpp"
+#include "messages/task.hpp"
+#include "tools/roscell/view/table.hpp"
+
+#include <cstdint>
+#include <string>
+
+/// The replies of a node as text for people. `now_unix_ms` is the time that
+/// ages are counted to.
+namespace roscell::cli {
+
+/// What a view needs to know besides the reply.
+struct view_style {
+  text_style text;
+  int64_t now_unix_ms = 0;
+};
+
+std::string node_view(const node_description& node, const view_style& style);
+
+/// The part of a status that only a coordinator can tell.
+std::string cell_summary(const cell_description& cell, const view_style& style);
+
+std::string cells_view(const cell_list& cells, const view_style& style);
+
+/// The rows of the registry, and below them the nodes that are in no cell.
+std::string members_view(const cell_description& cell, const view_style& style);
+std::string tasks_view(const task_description& tasks, const view_style& style);
+std::string instances_view(const instance_description& instances,
+                           const view_style& style);
+std::string skills_view(const skill_list& skills, const view_style& style);
+
+} // namespace roscell::cli
