@@ -56,6 +56,12 @@ struct waiting_claim {
   caf::typed_response_promise<task_claimed> promise;
 };
 
+/// Somebody waits until nothing is being deployed to a node. Called once.
+struct awaited_deployments {
+  std::string node;
+  std::function<void()> done;
+};
+
 /// Another coordinator, as far as it is known.
 struct peer_entry {
   peer_actor actor;  ///< Invalid while there is no session.
@@ -123,6 +129,7 @@ struct cell_coordinator_state {
   /// The task whose turn it is: between its claim and its intent.
   std::string turn;
   std::deque<waiting_claim> waiting;
+  std::vector<awaited_deployments> deployments_awaited;
 
   /// By UUID: all coordinators and nodes in no cell that are visible.
   std::map<std::string, node_presence> presences;

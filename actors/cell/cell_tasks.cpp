@@ -146,6 +146,18 @@ void remove_everywhere(
   finish_one();
 }
 
+/// Tells those who wait for the end of deployments. To be called when a task is
+/// no longer being deployed.
+void settle_awaited_deployments(self_pointer self) {
+  auto& st = self->state;
+  auto waiting = std::exchange(st.deployments_awaited, {});
+  for (auto& x : waiting)
+    if (st.tasks.is_deploying_on(x.node))
+      st.deployments_awaited.push_back(std::move(x));
+    else
+      x.done();
+}
+
 /// Forgets a task whose instances have been removed.
 task_entry take(self_pointer self, const std::string& task) {
   auto& st = self->state;
@@ -154,6 +166,7 @@ task_entry take(self_pointer self, const std::string& task) {
   unstore(self, task);
   for (const auto& spec : entry.record.specs)
     st.registry.erase_instance(spec.instance);
+  settle_awaited_deployments(self);
   return entry;
 }
 
@@ -303,6 +316,7 @@ caf::result<outcome_recorded> settle_task(self_pointer self,
       promise.deliver(task_claimed{entry->record.accepted});
     st.context.tell("task_accepted", outcome.task,
                     {{"instances", entry->record.specs.size()}});
+    settle_awaited_deployments(self);
     return outcome_recorded{};
   }
   auto promise = self->make_response_promise<outcome_recorded>();
@@ -352,6 +366,12 @@ void on_pipeline_down(self_pointer self, const caf::actor_addr& gone) {
   else
     roll_back(self, entry->record.task,
               "the request that deployed it has ended", [] {});
+}
+
+void after_deployments_on(self_pointer self, const std::string& node,
+                          std::function<void()> done) {
+  self->state.deployments_awaited.push_back({node, std::move(done)});
+  settle_awaited_deployments(self);
 }
 
 task_row describe_task(self_pointer self, const task_record& record) {

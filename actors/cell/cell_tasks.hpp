@@ -2,6 +2,9 @@
 
 #include "actors/cell/cell_coordinator.hpp"
 
+#include <functional>
+#include <string>
+
 /// What the CELL COORDINATOR does about tasks.
 namespace roscell {
 
@@ -21,6 +24,11 @@ caf::result<task_terminated> terminate(coordinator_pointer self,
 
 /// A pipeline has ended: what it was deploying is rolled back.
 void on_pipeline_down(coordinator_pointer self, const caf::actor_addr& gone);
+
+/// Calls `done` once no task is being deployed to the node: at once if none is.
+/// Each deployment ends, at the latest with its time limit.
+void after_deployments_on(coordinator_pointer self, const std::string& node,
+                          std::function<void()> done);
 
 /// Adds to a spec what the cell adds to every instance.
 void complete_spec(const cell_coordinator_state& st, instance_spec& spec);

@@ -76,4 +76,30 @@ task_table::wanted_on(const std::string& node) const {
   return result;
 }
 
+std::vector<instance_spec> task_table::bound_to(const std::string& node) const {
+  std::vector<instance_spec> result;
+  for (const auto& [task, entry] : entries_)
+    for (size_t i = 0; i < entry.record.specs.size(); ++i)
+      if (entry.record.nodes[i] == node)
+        result.push_back(entry.record.specs[i]);
+  return result;
+}
+
+std::vector<std::string>
+task_table::tasks_bound_to(const std::string& node) const {
+  std::vector<std::string> result;
+  for (const auto& spec : bound_to(node))
+    if (result.empty() || result.back() != spec.task)
+      result.push_back(spec.task);
+  return result;
+}
+
+bool task_table::is_deploying_on(const std::string& node) const {
+  return std::any_of(entries_.begin(), entries_.end(), [&](const auto& x) {
+    const auto& record = x.second.record;
+    return record.state == task_state::deploying
+           && std::count(record.nodes.begin(), record.nodes.end(), node) > 0;
+  });
+}
+
 } // namespace roscell

@@ -68,6 +68,15 @@ public:
   /// Specs of the running tasks that belong on a node.
   std::vector<instance_spec> wanted_on(const std::string& node) const;
 
+  /// Specs of all that is or will be on a node, of deploying tasks too.
+  std::vector<instance_spec> bound_to(const std::string& node) const;
+
+  /// Ids of the tasks that have some of these, each once.
+  std::vector<std::string> tasks_bound_to(const std::string& node) const;
+
+  /// Whether a task is being deployed to the node.
+  bool is_deploying_on(const std::string& node) const;
+
   const std::map<std::string, task_entry>& entries() const {
     return entries_;
   }

@@ -62,6 +62,20 @@ TEST_CASE("What running tasks want on a node is all of theirs there",
   CHECK(tasks.wanted_on("c").empty());
 }
 
+TEST_CASE("What a deploying or ending task has on a node is bound to it",
+          "[task_table]") {
+  task_table tasks;
+  tasks.add(record("t", task_state::deploying, {"a", "b", "a"}));
+  tasks.add(record("u", task_state::running, {"a"}));
+  tasks.add(record("v", task_state::terminating, {"b"}));
+  CHECK(tasks.bound_to("a").size() == 3);
+  CHECK(tasks.tasks_bound_to("a") == std::vector<std::string>{"t", "u"});
+  CHECK(tasks.tasks_bound_to("b") == std::vector<std::string>{"t", "v"});
+  CHECK(tasks.is_deploying_on("b"));
+  tasks.find("t")->record.state = task_state::running;
+  CHECK_FALSE(tasks.is_deploying_on("b"));
+}
+
 TEST_CASE("A task without an owner is nobody's", "[task_table]") {
   task_table tasks;
   tasks.add(record("t", task_state::running, {}));
