@@ -3,6 +3,7 @@
 #include "messages/introspection.hpp"
 
 #include <string>
+#include <vector>
 
 namespace roscell {
 
@@ -19,6 +20,16 @@ struct store_record {
   }
 };
 
+/// Writes several records in one transaction: all of them or none. The last
+/// one of a key counts.
+struct store_records {
+  std::vector<store_record> records;
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("records", &store_records::records));
+  }
+};
+
 struct record_stored {
   static constexpr auto fields() {
     return std::make_tuple();
@@ -27,7 +38,10 @@ struct record_stored {
 
 /// The STATE STORE: the only actor that writes the node's database.
 using state_store_actor = introspected_actor::extend<
-    // Replies once the record is on disk. Errors: internal (disk full, ...).
-    caf::replies_to<store_record>::with<record_stored>>;
+    // Replies once the record is on disk. Errors: internal (disk full, ...);
+    // the disk then holds what it held before.
+    caf::replies_to<store_record>::with<record_stored>,
+    // The same for several at once.
+    caf::replies_to<store_records>::with<record_stored>>;
 
 } // namespace roscell

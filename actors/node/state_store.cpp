@@ -5,6 +5,7 @@
 #include <caf/result.hpp>
 
 #include <utility>
+#include <vector>
 
 namespace roscell {
 
@@ -12,12 +13,20 @@ namespace {
 
 using self_pointer = state_store_actor::stateful_pointer<state_store_state>;
 
-caf::result<record_stored> store(self_pointer self, const store_record& x) {
+sqlite_store::change change_of(const store_record& x) {
+  if (x.value.empty())
+    return {x.table, x.key, std::nullopt};
+  return {x.table, x.key, x.value};
+}
+
+caf::result<record_stored> store(self_pointer self,
+                                 const std::vector<store_record>& records) {
+  std::vector<sqlite_store::change> changes;
+  for (const auto& x : records)
+    changes.push_back(change_of(x));
   auto& st = self->state;
-  const auto error = x.value.empty()
-                         ? st.database->remove(x.table, x.key)
-                         : st.database->put(x.table, x.key, x.value);
-  ++(error ? st.refused : st.written);
+  const auto error = st.database->write(changes);
+  (error ? st.refused : st.written) += records.size();
   if (error)
     return fail(error->code, error->message, {}, error->hint);
   return record_stored{};
@@ -33,7 +42,8 @@ state_store(self_pointer self, std::shared_ptr<sqlite_store> database) {
         return state_of({{"written", self->state.written},
                          {"refused", self->state.refused}});
       },
-      [self](const store_record& x) { return store(self, x); },
+      [self](const store_record& x) { return store(self, {x}); },
+      [self](const store_records& x) { return store(self, x.records); },
   };
 }
 

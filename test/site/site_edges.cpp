@@ -155,16 +155,21 @@ caf::result<switch_accepted> switch_over(caf::event_based_actor* self,
 
 // -- the disk ----------------------------------------------------------------
 
-caf::result<record_stored> write(caf::event_based_actor* self, site* place,
-                                 site_party* me, const store_record& x) {
-  const auto fate = place->decide("write", me->index, me->index);
-  if (me->disk_full || fate == frame_fate::lost)
-    return fail(error_code::internal, "the disk is full");
+void write_record(site_party* me, const store_record& x) {
   auto& table = me->disk[x.table];
   if (x.value.empty())
     table.erase(x.key);
   else
     table[x.key] = x.value;
+}
+
+caf::result<record_stored> write(caf::event_based_actor* self, site* place,
+                                 site_party* me, const store_records& x) {
+  const auto fate = place->decide("write", me->index, me->index);
+  if (me->disk_full || fate == frame_fate::lost)
+    return fail(error_code::internal, "the disk is full");
+  for (const auto& record : x.records)
+    write_record(me, record);
   if (fate != frame_fate::late)
     return record_stored{};
   auto promise = self->make_response_promise<record_stored>();
@@ -199,7 +204,8 @@ caf::behavior site_edge(caf::event_based_actor* self, site* place,
       [=](const forget_coordinator&) { me->looking_for.clear(); },
       [=](const open_session& x) { return open(self, place, me, x); },
       [=](const switch_node& x) { return switch_over(self, place, me, x); },
-      [=](const store_record& x) { return write(self, place, me, x); },
+      [=](const store_record& x) { return write(self, place, me, {{x}}); },
+      [=](const store_records& x) { return write(self, place, me, x); },
       [=](caf::tick_atom, uint64_t number) { place->run_work(number); },
       [=](const resource_query&) { return measure(*me); },
       [=](const instance_query&) { return instance_description{}; },

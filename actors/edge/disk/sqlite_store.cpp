@@ -6,6 +6,7 @@
 #include <sqlite3.h>
 #include <sys/stat.h>
 
+#include <cerrno>
 #include <cstring>
 
 namespace roscell {
@@ -72,6 +73,12 @@ edge_error meaning(int code, const std::string& file) {
   default:
     return {error_code::internal, "'" + file + "' cannot be used", {}};
   }
+}
+
+/// SQLite takes only a full device for a lack of room; a quota and a limit of
+/// the process are some too.
+bool is_lack_of_room(int number) {
+  return number == EDQUOT || number == EFBIG || number == ENOSPC;
 }
 
 /// SQLite would let everybody read a file that it makes. Where this fails,
@@ -170,20 +177,38 @@ sqlite_store::load(const std::string& table) {
   return result;
 }
 
-std::optional<edge_error> sqlite_store::put(const std::string& table,
-                                            const std::string& key,
-                                            const std::string& value) {
-  auto error =
-      run("INSERT OR REPLACE INTO records VALUES(?,?,?)", {table, key, value});
+std::optional<edge_error>
+sqlite_store::write(const std::vector<change>& changes) {
+  if (changes.empty())
+    return std::nullopt;
+  auto error = run("BEGIN IMMEDIATE", {});
+  for (auto i = changes.begin(); !error && i != changes.end(); ++i)
+    error = apply(*i);
+  if (!error)
+    error = run("COMMIT", {});
+  // After some errors SQLite has rolled back by itself.
+  if (error && sqlite3_get_autocommit(db_.get()) == 0)
+    run("ROLLBACK", {});
   count_written();
   return error;
 }
 
+std::optional<edge_error> sqlite_store::put(const std::string& table,
+                                            const std::string& key,
+                                            const std::string& value) {
+  return write({{table, key, value}});
+}
+
 std::optional<edge_error> sqlite_store::remove(const std::string& table,
                                                const std::string& key) {
-  auto error = run("DELETE FROM records WHERE tbl=? AND key=?", {table, key});
-  count_written();
-  return error;
+  return write({{table, key, std::nullopt}});
+}
+
+std::optional<edge_error> sqlite_store::apply(const change& x) {
+  if (x.value)
+    return run("INSERT OR REPLACE INTO records VALUES(?,?,?)",
+               {x.table, x.key, *x.value});
+  return run("DELETE FROM records WHERE tbl=? AND key=?", {x.table, x.key});
 }
 
 void sqlite_store::count_written() {
@@ -202,10 +227,12 @@ void sqlite_store::count_written() {
 edge_error sqlite_store::explain() const {
   if (!db_)
     return meaning(SQLITE_NOMEM, file_.string());
-  const int code = sqlite3_errcode(db_.get());
-  auto result = meaning(code & 0xff, file_.string());
+  const int number = sqlite3_system_errno(db_.get());
+  const int code =
+      is_lack_of_room(number) ? SQLITE_FULL : sqlite3_errcode(db_.get()) & 0xff;
+  auto result = meaning(code, file_.string());
   result.message += std::string{" ("} + sqlite3_errmsg(db_.get());
-  if (const int number = sqlite3_system_errno(db_.get()); number != 0)
+  if (number != 0)
     result.message += std::string{", "} + std::strerror(number);
   result.message += ')';
   return result;

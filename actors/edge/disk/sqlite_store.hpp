@@ -21,6 +21,13 @@ class sqlite_store {
 public:
   using record = std::pair<std::string, std::string>; ///< Key and value.
 
+  /// A record to be written, in place of an older one; no value removes it.
+  struct change {
+    std::string table;
+    std::string key;
+    std::optional<std::string> value;
+  };
+
   /// Opens or makes the file and checks it.
   /// Errors: conflict (another program holds it), internal (damaged, made by a
   /// newer version, no permission, disk full).
@@ -29,7 +36,11 @@ public:
   /// All records of a table, by key.
   edge_result<std::vector<record>> load(const std::string& table);
 
-  /// Writes a record, in place of an older one. Returns what went wrong.
+  /// Writes all of `changes`, in their order, or none of them. Returns what
+  /// went wrong.
+  std::optional<edge_error> write(const std::vector<change>& changes);
+
+  /// Writes one record, in place of an older one.
   std::optional<edge_error> put(const std::string& table,
                                 const std::string& key,
                                 const std::string& value);
@@ -55,6 +66,7 @@ private:
   std::optional<edge_error> run(const char* sql,
                                 const std::vector<std::string>& values,
                                 std::vector<record>* rows = nullptr);
+  std::optional<edge_error> apply(const change& x);
   edge_error explain() const;
   void count_written();
 

@@ -96,11 +96,12 @@ caf::result<session_opened> connect(fake_site* site, fake_node* node,
                         base.incarnation};
 }
 
-caf::result<record_stored> store(fake_node* node, const store_record& x) {
+caf::result<record_stored> store(fake_node* node, const store_records& xs) {
   if (node->disk_full)
     return fail(error_code::internal, "the disk is full");
-  if (x.key == "node")
-    node->identity = json::parse(x.value).get<node_identity>();
+  for (const auto& x : xs.records)
+    if (x.key == "node")
+      node->identity = json::parse(x.value).get<node_identity>();
   return record_stored{};
 }
 
@@ -147,7 +148,8 @@ caf::behavior local_parts(caf::event_based_actor* self, fake_site* site,
         // The same.
       },
       [=](const open_session& x) { return connect(site, node, x); },
-      [=](const store_record& x) { return store(node, x); },
+      [=](const store_record& x) { return store(node, {{x}}); },
+      [=](const store_records& x) { return store(node, x); },
       [=](const resource_query&) {
         return resource_report{some_resources("what-it-likes")};
       },

@@ -94,25 +94,34 @@ caf::behavior agent(caf::event_based_actor* self, fake_agent* x) {
   };
 }
 
+void write_all(paper_cell* cell, caf::response_promise promise,
+               const store_records& x) {
+  for (const auto& record : x.records)
+    cell->write(record);
+  promise.deliver(record_stored{});
+}
+
+void store_in(paper_cell* cell, caf::response_promise promise,
+              const store_records& x) {
+  if (cell->disk_full)
+    promise.deliver(fail(error_code::internal, "the disk is full"));
+  else if (cell->slow_disk)
+    cell->writes.emplace_back(promise, x);
+  else
+    write_all(cell, promise, x);
+}
+
 caf::behavior disk_of(caf::event_based_actor* self, paper_cell* cell) {
   return {
       [=](const store_record& x) {
-        auto promise = self->make_response_promise();
-        if (cell->disk_full)
-          return promise.deliver(
-              fail(error_code::internal, "the disk is full"));
-        if (cell->slow_disk) {
-          cell->writes.emplace_back(promise, x);
-          return;
-        }
-        cell->write(x);
-        promise.deliver(record_stored{});
+        store_in(cell, self->make_response_promise(), {{x}});
+      },
+      [=](const store_records& x) {
+        store_in(cell, self->make_response_promise(), x);
       },
       [=](caf::tick_atom) {
-        for (auto& [promise, x] : std::exchange(cell->writes, {})) {
-          cell->write(x);
-          promise.deliver(record_stored{});
-        }
+        for (auto& [promise, x] : std::exchange(cell->writes, {}))
+          write_all(cell, promise, x);
       },
   };
 }

@@ -77,7 +77,7 @@ struct paper_cell {
   std::map<std::string, json> disk; ///< Records of the table "tasks".
   bool disk_full = false;
   bool slow_disk = false; ///< Writes when told to.
-  std::vector<std::pair<caf::response_promise, store_record>> writes;
+  std::vector<std::pair<caf::response_promise, store_records>> writes;
   std::vector<cell_fact> facts;
   std::vector<std::unique_ptr<fake_agent>> agents;
   caf::actor fact_keeper;

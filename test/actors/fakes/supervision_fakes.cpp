@@ -174,6 +174,11 @@ state_store_actor fake_store(caf::actor_system& system,
               script->records.push_back(x);
               return either(script->error, record_stored{});
             },
+            [=](const store_records& x) {
+              script->records.insert(script->records.end(), x.records.begin(),
+                                     x.records.end());
+              return either(script->error, record_stored{});
+            },
         };
       });
 }

@@ -4,9 +4,11 @@
 
 #include <sched.h>
 #include <sys/mount.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <string>
 #include <thread>
 
@@ -16,6 +18,28 @@ using namespace roscell::test;
 namespace {
 
 using records = std::vector<sqlite_store::record>;
+
+/// Bounds the files that this process may write, like a disk that is full.
+class small_files {
+public:
+  explicit small_files(rlim_t bytes) {
+    ::getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit bound{bytes, before_.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &bound);
+  }
+
+  ~small_files() {
+    ::setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+
+  small_files(const small_files&) = delete;
+  small_files& operator=(const small_files&) = delete;
+
+private:
+  rlimit before_{};
+  void (*handler_)(int) = std::signal(SIGXFSZ, SIG_IGN);
+};
 
 records load(sqlite_store& store, const std::string& table) {
   return value_of(store.load(table));
@@ -46,6 +70,35 @@ TEST_CASE("a removed record is gone, and removing none is no error") {
   CHECK_FALSE(store.remove("t", "k"));
   CHECK_FALSE(store.remove("t", "k"));
   CHECK(load(store, "t").empty());
+}
+
+TEST_CASE("several records are written in their order") {
+  own_folder folder;
+  auto store = value_of(sqlite_store::open(folder.path() / "state.db"));
+  CHECK_FALSE(store.write({{"t", "a", "1"}, {"t", "b", "2"}}));
+  CHECK_FALSE(
+      store.write({{"t", "a", std::nullopt}, {"t", "b", "3"}, {"u", "c", ""}}));
+  CHECK(load(store, "t") == records{{"b", "3"}});
+  CHECK(load(store, "u") == records{{"c", ""}});
+  CHECK_FALSE(store.write({}));
+}
+
+TEST_CASE("several records are written all or none") {
+  own_folder folder;
+  auto store = value_of(sqlite_store::open(folder.path() / "state.db"));
+  CHECK_FALSE(store.put("t", "old", "1"));
+  std::vector<sqlite_store::change> changes{{"t", "old", std::nullopt}};
+  for (int i = 0; i < 100; ++i)
+    changes.push_back({"t", std::to_string(i), std::string(1000, 'v')});
+  {
+    const small_files limit{48 * 1024};
+    const auto why = store.write(changes);
+    REQUIRE(why);
+    CHECK(why->message.find("no room is left") != std::string::npos);
+    CHECK(load(store, "t") == records{{"old", "1"}});
+  }
+  CHECK_FALSE(store.put("t", "new", "2"));
+  CHECK(load(store, "t") == records{{"new", "2"}, {"old", "1"}});
 }
 
 TEST_CASE("keys and values are data and never SQL") {
