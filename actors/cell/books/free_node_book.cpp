@@ -1,0 +1,94 @@
+#include "actors/cell/books/free_node_book.hpp"
+
+#include <algorithm>
+
+namespace roscell {
+
+free_node_book::sighting free_node_book::see(const node_presence& who,
+                                             time_point now) {
+  const auto i = by_uuid_.find(who.uuid);
+  if (i == by_uuid_.end()) {
+    if (by_uuid_.size() >= max_nodes)
+      return sighting::ignored;
+    by_uuid_.emplace(who.uuid, who);
+    return sighting::appeared;
+  }
+  if (i->second == who)
+    return sighting::repeated;
+  i->second = who;
+  calls_.hurry(who.uuid, now);
+  return sighting::changed;
+}
+
+bool free_node_book::vanish(const node_presence& who) {
+  const auto i = by_uuid_.find(who.uuid);
+  if (i == by_uuid_.end() || i->second.epoch != who.epoch
+      || i->second.role != who.role)
+    return false;
+  forget(who.uuid);
+  return true;
+}
+
+void free_node_book::forget(const std::string& uuid) {
+  by_uuid_.erase(uuid);
+  calls_.forget(uuid);
+}
+
+void free_node_book::registered(const node_identity& who) {
+  const auto* known = find(who.uuid);
+  if (known && known->epoch < who.epoch)
+    forget(who.uuid);
+}
+
+const node_presence* free_node_book::find(const std::string& uuid) const {
+  const auto i = by_uuid_.find(uuid);
+  return i == by_uuid_.end() ? nullptr : &i->second;
+}
+
+const node_presence* free_node_book::find_name(const std::string& name) const {
+  const node_presence* result = nullptr;
+  for (const auto& [uuid, who] : by_uuid_)
+    if (who.name == name && (!result || who.epoch >= result->epoch))
+      result = &who;
+  return result;
+}
+
+std::vector<free_node> free_node_book::rows() const {
+  std::vector<free_node> result;
+  for (const auto& [uuid, who] : by_uuid_)
+    result.push_back({who.name, who.uuid, who.address,
+                      who.role == "orphaned" ? node_state::orphaned
+                                             : node_state::independent,
+                      who.cell});
+  return result;
+}
+
+std::vector<node_presence>
+free_node_book::begin_questions(const doubt& is_wanted, time_point now) {
+  std::vector<node_presence> result;
+  for (const auto& [uuid, who] : by_uuid_)
+    if (is_wanted(who) && calls_.begin(uuid, now))
+      result.push_back(who);
+  return result;
+}
+
+void free_node_book::question_failed(const std::string& uuid,
+                                     const std::string& reason,
+                                     time_point now) {
+  calls_.fail(uuid, reason, now);
+}
+
+bool free_node_book::question_answered(const std::string& uuid) {
+  return calls_.succeed(uuid);
+}
+
+free_node_book::time_point
+free_node_book::next_question(const doubt& is_wanted) const {
+  auto result = time_point::max();
+  for (const auto& [uuid, who] : by_uuid_)
+    if (is_wanted(who))
+      result = std::min(result, calls_.next(uuid));
+  return result;
+}
+
+} // namespace roscell

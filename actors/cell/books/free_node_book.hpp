@@ -1,0 +1,76 @@
+#pragma once
+
+#include "actors/cell/books/stranger_calls.hpp"
+#include "messages/cell.hpp"
+#include "messages/link.hpp"
+
+#include <chrono>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace roscell {
+
+/// The nodes in no cell that announce themselves. What they announce is a hint:
+/// where a row of the registry hangs on it, they are asked to prove it first.
+/// Pure: it asks nobody, and is told the time.
+class free_node_book {
+public:
+  using time_point = std::chrono::steady_clock::time_point;
+  using doubt = std::function<bool(const node_presence&)>;
+
+  /// So many are remembered; more are taken note of once there is room.
+  static constexpr size_t max_nodes = 1024;
+
+  /// So many are being asked at a time.
+  static constexpr size_t max_questions = 2;
+
+  enum class sighting { appeared, changed, repeated, ignored };
+
+  sighting see(const node_presence& who, time_point now);
+
+  /// It announces itself no more. False if that was not known, or if a later
+  /// life of it is known.
+  bool vanish(const node_presence& who);
+
+  /// Nobody answers at its address.
+  void forget(const std::string& uuid);
+
+  /// It has registered: what it had announced before that is out of date.
+  void registered(const node_identity& who);
+
+  /// Null if it has announced nothing.
+  const node_presence* find(const std::string& uuid) const;
+
+  /// Of several that claim the name the one with the highest epoch.
+  const node_presence* find_name(const std::string& name) const;
+
+  std::vector<free_node> rows() const;
+
+  size_t size() const {
+    return by_uuid_.size();
+  }
+
+  // -- proofs -----------------------------------------------------------------
+
+  /// Takes those that are to be asked for a proof now; each has to end in one
+  /// of the next two. `is_wanted` says on whose word something hangs.
+  std::vector<node_presence> begin_questions(const doubt& is_wanted,
+                                             time_point now);
+
+  void question_failed(const std::string& uuid, const std::string& reason,
+                       time_point now);
+
+  /// False if nobody wants to know any more.
+  bool question_answered(const std::string& uuid);
+
+  /// When `begin_questions` has something next.
+  time_point next_question(const doubt& is_wanted) const;
+
+private:
+  std::map<std::string, node_presence> by_uuid_;
+  stranger_calls calls_{max_questions};
+};
+
+} // namespace roscell

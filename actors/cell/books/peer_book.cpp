@@ -1,0 +1,275 @@
+#include "actors/cell/books/peer_book.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace roscell {
+
+// -- one session --------------------------------------------------------------
+
+int64_t peer_entry::size() const {
+  auto result = standing.size;
+  for (auto i = promised.begin(); i != promised.end();
+       i = promised.upper_bound(*i))
+    result += members.count(*i) == 0 ? 1 : 0;
+  return result;
+}
+
+void peer_entry::forget_promise(const std::string& node) {
+  if (const auto i = promised.find(node); i != promised.end())
+    promised.erase(i);
+}
+
+// -- what is announced --------------------------------------------------------
+
+peer_book::peer_book(std::string self) : self_(std::move(self)) {
+  // nop
+}
+
+size_t peer_book::strangers() const {
+  return static_cast<size_t>(
+      std::count_if(by_uuid_.begin(), by_uuid_.end(),
+                    [](const auto& x) { return !x.second.proved; }));
+}
+
+/// Who has failed most often makes room. Nobody does who has not been tried.
+bool peer_book::make_room() {
+  if (strangers() < max_strangers)
+    return true;
+  auto worst = by_uuid_.end();
+  for (auto i = by_uuid_.begin(); i != by_uuid_.end(); ++i)
+    if (!i->second.proved && calls_.failures(i->first) > 0
+        && (worst == by_uuid_.end()
+            || calls_.failures(i->first) > calls_.failures(worst->first)))
+      worst = i;
+  if (worst == by_uuid_.end())
+    return false;
+  calls_.forget(worst->first);
+  by_uuid_.erase(worst);
+  return true;
+}
+
+peer_book::sighting peer_book::see(const node_presence& who, time_point now) {
+  if (who.uuid == self_)
+    return sighting::ignored;
+  auto i = by_uuid_.find(who.uuid);
+  if (i == by_uuid_.end()) {
+    if (!make_room())
+      return sighting::ignored;
+    i = by_uuid_.emplace(who.uuid, known{}).first;
+  }
+  auto& x = i->second;
+  if (x.announced == who)
+    return sighting::repeated;
+  const bool appeared = !x.announced;
+  x.announced = who;
+  // It has just shown that it lives.
+  calls_.hurry(who.uuid, now);
+  return appeared ? sighting::appeared : sighting::changed;
+}
+
+void peer_book::drop_if_gone(const std::string& uuid) {
+  const auto i = by_uuid_.find(uuid);
+  if (i == by_uuid_.end() || i->second.announced || i->second.session.actor)
+    return;
+  calls_.forget(uuid);
+  by_uuid_.erase(i);
+}
+
+bool peer_book::vanish(const node_presence& who) {
+  const auto i = by_uuid_.find(who.uuid);
+  if (i == by_uuid_.end() || !i->second.announced
+      || i->second.announced->incarnation != who.incarnation)
+    return false;
+  i->second.announced.reset();
+  drop_if_gone(who.uuid);
+  return true;
+}
+
+bool peer_book::is_announced(const std::string& node_name) const {
+  return std::any_of(by_uuid_.begin(), by_uuid_.end(), [&](const auto& x) {
+    return x.second.announced && x.second.announced->name == node_name;
+  });
+}
+
+// -- sessions that are to be opened -------------------------------------------
+
+/// Of two coordinators the one with the higher UUID opens the session.
+bool peer_book::opens_here(const std::string& uuid) const {
+  return uuid < self_;
+}
+
+bool peer_book::is_wanted(const std::string& uuid, const known& x) const {
+  return x.announced && !x.session.actor && opens_here(uuid);
+}
+
+std::vector<node_presence> peer_book::begin_due(time_point now) {
+  std::vector<const std::pair<const std::string, known>*> wanted;
+  for (const auto& x : by_uuid_)
+    if (is_wanted(x.first, x.second))
+      wanted.push_back(&x);
+  // Those that have proved themselves, then those that were tried least.
+  std::stable_sort(
+      wanted.begin(), wanted.end(), [&](const auto* x, const auto* y) {
+        if (x->second.proved != y->second.proved)
+          return x->second.proved;
+        return calls_.failures(x->first) < calls_.failures(y->first);
+      });
+  std::vector<node_presence> result;
+  for (const auto* x : wanted)
+    if (calls_.begin(x->first, now))
+      result.push_back(*x->second.announced);
+  return result;
+}
+
+std::optional<std::string> peer_book::attempt_failed(const std::string& uuid,
+                                                     const std::string& reason,
+                                                     time_point now) {
+  const bool news = calls_.fail(uuid, reason, now);
+  const auto i = by_uuid_.find(uuid);
+  if (!news || i == by_uuid_.end() || !i->second.announced)
+    return std::nullopt;
+  return i->second.announced->cell;
+}
+
+bool peer_book::attempt_succeeded(const std::string& uuid) {
+  return calls_.succeed(uuid) && by_uuid_.count(uuid) > 0;
+}
+
+peer_book::time_point peer_book::next_due() const {
+  auto result = time_point::max();
+  for (const auto& [uuid, x] : by_uuid_)
+    if (is_wanted(uuid, x))
+      result = std::min(result, calls_.next(uuid));
+  return result;
+}
+
+// -- sessions that are there --------------------------------------------------
+
+peer_actor peer_book::open(const std::string& uuid, const peer_actor& peer) {
+  auto& x = by_uuid_[uuid];
+  x.proved = true;
+  auto former = std::exchange(x.session, {}).actor;
+  x.session.actor = peer;
+  return former == peer ? peer_actor{} : former;
+}
+
+std::optional<peer_entry> peer_book::close(const std::string& uuid,
+                                           const peer_actor& peer,
+                                           const std::string& reason,
+                                           time_point now) {
+  const auto i = by_uuid_.find(uuid);
+  if (i == by_uuid_.end() || i->second.session.actor != peer)
+    return std::nullopt;
+  auto result = std::exchange(i->second.session, {});
+  calls_.fail(uuid, reason, now);
+  drop_if_gone(uuid);
+  return result;
+}
+
+peer_entry* peer_book::find_actor(const peer_actor& peer) {
+  for (auto& [uuid, x] : by_uuid_)
+    if (x.session.actor && x.session.actor == peer)
+      return &x.session;
+  return nullptr;
+}
+
+peer_entry* peer_book::tell(const peer_actor& peer,
+                            const cell_standing& standing) {
+  auto* entry = find_actor(peer);
+  if (!entry)
+    return nullptr;
+  entry->told = true;
+  entry->standing = standing;
+  entry->members.clear();
+  for (const auto& claim : standing.members)
+    entry->members[claim.uuid] = claim;
+  calls_.forget(standing.uuid);
+  return entry;
+}
+
+peer_entry* peer_book::tell(const peer_actor& peer,
+                            const cell_changed& change) {
+  auto* entry = find_actor(peer);
+  if (!entry || !entry->told)
+    return nullptr;
+  entry->standing.size = change.size;
+  for (const auto& uuid : change.gone)
+    entry->members.erase(uuid);
+  for (const auto& claim : change.changed)
+    entry->members[claim.uuid] = claim;
+  return entry;
+}
+
+const peer_entry* peer_book::find(const std::string& uuid) const {
+  const auto i = by_uuid_.find(uuid);
+  return i != by_uuid_.end() && i->second.session.actor ? &i->second.session
+                                                        : nullptr;
+}
+
+peer_entry* peer_book::find(const std::string& uuid) {
+  return const_cast<peer_entry*>(std::as_const(*this).find(uuid));
+}
+
+void peer_book::for_each_session(
+    const std::function<void(const std::string&, const peer_entry&)>& visit)
+    const {
+  for (const auto& [uuid, x] : by_uuid_)
+    if (x.session.actor)
+      visit(uuid, x.session);
+}
+
+const peer_entry* peer_book::find_cell(const std::string& cell) const {
+  const peer_entry* result = nullptr;
+  for_each_session([&](const std::string&, const peer_entry& x) {
+    if (!result && x.told && x.standing.place.cell == cell)
+      result = &x;
+  });
+  return result;
+}
+
+const peer_entry* peer_book::find_holder(const std::string& node) const {
+  const peer_entry* result = nullptr;
+  int64_t epoch = -1;
+  for_each_session([&](const std::string&, const peer_entry& x) {
+    for (const auto& [member, claim] : x.members) {
+      if (claim.name != node || claim.epoch <= epoch)
+        continue;
+      result = &x;
+      epoch = claim.epoch;
+    }
+  });
+  return result;
+}
+
+std::vector<cell_row> peer_book::rows(const cell_row& own) const {
+  std::vector<cell_row> result;
+  for (const auto& [uuid, x] : by_uuid_) {
+    cell_row row;
+    if (x.session.told) {
+      const auto& place = x.session.standing.place;
+      row = {place.cell,
+             place.coordinator,
+             place.address,
+             place.discovery_server,
+             x.session.standing.size,
+             ""};
+    } else if (x.announced) {
+      row = {x.announced->cell,
+             x.announced->name,
+             x.announced->address,
+             x.announced->discovery_server,
+             0,
+             calls_.trouble(uuid)};
+    } else {
+      continue;
+    }
+    if (row.cell == own.cell)
+      row.trouble =
+          "it claims the same name as the cell of '" + own.coordinator + "'";
+    result.push_back(std::move(row));
+  }
+  return result;
+}
+
+} // namespace roscell

@@ -1,0 +1,137 @@
+#pragma once
+
+#include "actors/cell/books/stranger_calls.hpp"
+#include "messages/coordination.hpp"
+
+#include <chrono>
+#include <functional>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace roscell {
+
+/// Another coordinator, as far as its session has told.
+struct peer_entry {
+  peer_actor actor;  ///< Invalid while there is no session.
+  bool told = false; ///< Its standing has come.
+  cell_standing standing;
+  std::map<std::string, member_claim> members; ///< By UUID.
+  /// UUIDs of nodes that it is being asked to keep a place for.
+  std::multiset<std::string> promised;
+
+  /// What counts when a place is given out. A promise whose place has been told
+  /// already counts once.
+  int64_t size() const;
+
+  void forget_promise(const std::string& node);
+};
+
+/// The other coordinators: what is announced of them, which is a hint, and what
+/// those have said that proved themselves by a session. Pure: it opens nothing
+/// and is told the time.
+class peer_book {
+public:
+  using time_point = std::chrono::steady_clock::time_point;
+
+  /// So many that have proved nothing are remembered.
+  static constexpr size_t max_strangers = 256;
+
+  /// So many sessions are being opened at a time.
+  static constexpr size_t max_attempts = 6;
+
+  /// What an announcement was worth.
+  enum class sighting {
+    appeared, ///< Nobody had announced this coordinator.
+    changed,
+    repeated,
+    ignored, ///< It is our own, or there are too many strangers.
+  };
+
+  /// @param self UUID of the own coordinator.
+  explicit peer_book(std::string self = {});
+
+  // -- what is announced ------------------------------------------------------
+
+  sighting see(const node_presence& who, time_point now);
+
+  /// It announces itself no more. False if that was not known, or if a later
+  /// life of it is known.
+  bool vanish(const node_presence& who);
+
+  bool is_announced(const std::string& node_name) const;
+
+  // -- sessions that are to be opened -----------------------------------------
+
+  /// Takes those whose turn it is; each has to end in one of the next two.
+  std::vector<node_presence> begin_due(time_point now);
+
+  /// The cell of the coordinator if this is the first failure for that reason.
+  std::optional<std::string> attempt_failed(const std::string& uuid,
+                                            const std::string& reason,
+                                            time_point now);
+
+  /// False if nobody wants that session any more.
+  bool attempt_succeeded(const std::string& uuid);
+
+  /// When `begin_due` has something next; max() if nothing is known.
+  time_point next_due() const;
+
+  // -- sessions that are there ------------------------------------------------
+
+  /// A newer session replaces the former one, whose actor is given back.
+  peer_actor open(const std::string& uuid, const peer_actor& peer);
+
+  /// What was known, if that was its present session.
+  std::optional<peer_entry> close(const std::string& uuid,
+                                  const peer_actor& peer,
+                                  const std::string& reason, time_point now);
+
+  /// Null if that is no present session.
+  peer_entry* tell(const peer_actor& peer, const cell_standing& standing);
+
+  /// The same. What has changed is entered if the standing has come before.
+  peer_entry* tell(const peer_actor& peer, const cell_changed& change);
+
+  /// Null unless it has a session.
+  peer_entry* find(const std::string& uuid);
+  const peer_entry* find(const std::string& uuid) const;
+
+  /// The one of that cell; null unless it has told its standing.
+  const peer_entry* find_cell(const std::string& cell) const;
+
+  /// The one that has the newest row for the node; null if none has.
+  const peer_entry* find_holder(const std::string& node) const;
+
+  /// The lowest UUID first.
+  void for_each_session(
+      const std::function<void(const std::string&, const peer_entry&)>& visit)
+      const;
+
+  /// A row for each coordinator that is known, without the own one.
+  /// @param own the row of the own cell, whose name another may claim too.
+  std::vector<cell_row> rows(const cell_row& own) const;
+
+  size_t strangers() const;
+
+private:
+  struct known {
+    std::optional<node_presence> announced;
+    bool proved = false; ///< It has had a session.
+    peer_entry session;
+  };
+
+  bool opens_here(const std::string& uuid) const;
+  bool is_wanted(const std::string& uuid, const known& x) const;
+  bool make_room();
+  void drop_if_gone(const std::string& uuid);
+  peer_entry* find_actor(const peer_actor& peer);
+
+  std::string self_;
+  std::map<std::string, known> by_uuid_;
+  stranger_calls calls_{max_attempts};
+};
+
+} // namespace roscell

@@ -1,0 +1,144 @@
+#include "actors/cell/books/free_node_book.hpp"
+
+#include <catch2/catch.hpp>
+
+namespace roscell::test {
+
+namespace {
+
+using namespace std::chrono_literals;
+using sighting = free_node_book::sighting;
+
+const free_node_book::time_point start{100h};
+
+node_presence node(const std::string& name, const std::string& uuid,
+                   int64_t epoch = 1, const std::string& role = "independent") {
+  node_presence result;
+  result.role = role;
+  result.name = name;
+  result.uuid = uuid;
+  result.epoch = epoch;
+  result.address = "10.0.0.7:8420";
+  return result;
+}
+
+bool always(const node_presence&) {
+  return true;
+}
+
+} // namespace
+
+TEST_CASE("A free node is told as it announced itself last",
+          "[free_node_book]") {
+  free_node_book book;
+  CHECK(book.see(node("arm", "u1"), start) == sighting::appeared);
+  CHECK(book.see(node("arm", "u1"), start) == sighting::repeated);
+  CHECK(book.see(node("arm", "u1", 2, "orphaned"), start) == sighting::changed);
+  const auto rows = book.rows();
+  REQUIRE(rows.size() == 1);
+  CHECK(rows[0].name == "arm");
+  CHECK(rows[0].state == node_state::orphaned);
+}
+
+TEST_CASE("A farewell of an earlier life drops nobody", "[free_node_book]") {
+  free_node_book book;
+  book.see(node("arm", "u1", 2), start);
+  CHECK_FALSE(book.vanish(node("arm", "u1", 1)));
+  CHECK_FALSE(book.vanish(node("arm", "u1", 2, "orphaned")));
+  CHECK_FALSE(book.vanish(node("leg", "u2", 2)));
+  CHECK(book.find("u1"));
+  CHECK(book.vanish(node("arm", "u1", 2)));
+  CHECK_FALSE(book.find("u1"));
+}
+
+TEST_CASE("Looking for a node that announced nothing makes none",
+          "[free_node_book]") {
+  free_node_book book;
+  CHECK_FALSE(book.find("u1"));
+  book.forget("u1");
+  book.question_failed("u1", "silent", start);
+  book.registered({"arm", "u1", 1, ""});
+  CHECK(book.rows().empty());
+}
+
+TEST_CASE("Of two nodes with one name the newer epoch counts",
+          "[free_node_book]") {
+  free_node_book book;
+  book.see(node("arm", "u1", 5), start);
+  book.see(node("arm", "u2", 3), start);
+  REQUIRE(book.find_name("arm"));
+  CHECK(book.find_name("arm")->uuid == "u1");
+  CHECK_FALSE(book.find_name("leg"));
+}
+
+TEST_CASE("A registration ends what was announced before it",
+          "[free_node_book]") {
+  free_node_book book;
+  book.see(node("arm", "u1", 5), start);
+  book.registered({"arm", "u1", 5, ""});
+  CHECK(book.find("u1"));
+  book.registered({"arm", "u1", 6, ""});
+  CHECK_FALSE(book.find("u1"));
+}
+
+TEST_CASE("Strangers fill no more than a bound", "[free_node_book]") {
+  free_node_book book;
+  for (size_t i = 0; i < free_node_book::max_nodes; ++i)
+    book.see(node("n", "u" + std::to_string(i)), start);
+  CHECK(book.see(node("late", "late"), start) == sighting::ignored);
+  CHECK(book.size() == free_node_book::max_nodes);
+  CHECK(book.see(node("n", "u5", 2), start) == sighting::changed);
+  book.vanish(node("n", "u5", 2));
+  CHECK(book.see(node("late", "late"), start) == sighting::appeared);
+}
+
+TEST_CASE("A node is asked for a proof only where something hangs on its word",
+          "[free_node_book]") {
+  free_node_book book;
+  book.see(node("arm", "u1"), start);
+  book.see(node("leg", "u2"), start);
+  const auto only_leg = [](const node_presence& x) { return x.name == "leg"; };
+  CHECK(book.next_question(only_leg) <= start);
+  const auto asked = book.begin_questions(only_leg, start);
+  REQUIRE(asked.size() == 1);
+  CHECK(asked[0].uuid == "u2");
+  CHECK(book.begin_questions(only_leg, start).empty());
+  CHECK(book.question_answered("u2"));
+}
+
+TEST_CASE("A node that gives no proof is asked ever more seldom",
+          "[free_node_book]") {
+  free_node_book book;
+  book.see(node("arm", "u1"), start);
+  auto now = start;
+  for (int i = 0; i < 10; ++i) {
+    REQUIRE(book.begin_questions(always, now).size() == 1);
+    book.question_failed("u1", "no proof", now);
+    now = book.next_question(always);
+  }
+  CHECK(now - start > 60s);
+  CHECK(book.begin_questions(always, now - 1ms).empty());
+  // Something new is worth a question.
+  book.see(node("arm", "u1", 2), now - 1ms);
+  CHECK(book.begin_questions(always, now - 1ms).size() == 1);
+}
+
+TEST_CASE("The answer of a node that has gone meanwhile counts for nothing",
+          "[free_node_book]") {
+  free_node_book book;
+  book.see(node("arm", "u1"), start);
+  REQUIRE(book.begin_questions(always, start).size() == 1);
+  book.vanish(node("arm", "u1"));
+  CHECK_FALSE(book.question_answered("u1"));
+}
+
+TEST_CASE("Few nodes are asked at a time", "[free_node_book]") {
+  free_node_book book;
+  for (int i = 0; i < 10; ++i)
+    book.see(node("n", "u" + std::to_string(i)), start);
+  CHECK(book.begin_questions(always, start).size()
+        == free_node_book::max_questions);
+  CHECK(book.begin_questions(always, start).empty());
+}
+
+} // namespace roscell::test

@@ -1,0 +1,255 @@
+#include "actors/cell/books/peer_book.hpp"
+
+#include <caf/actor_cast.hpp>
+#include <caf/actor_system.hpp>
+#include <caf/actor_system_config.hpp>
+#include <caf/event_based_actor.hpp>
+#include <caf/scoped_actor.hpp>
+
+#include <catch2/catch.hpp>
+
+namespace roscell::test {
+
+namespace {
+
+using namespace std::chrono_literals;
+using sighting = peer_book::sighting;
+
+const peer_book::time_point start{100h};
+
+/// Stands for sessions, which are only compared here.
+struct peer_handles {
+  caf::actor_system_config config;
+  caf::actor_system system{config};
+  caf::scoped_actor one{system};
+  caf::scoped_actor two{system};
+  peer_actor first =
+      caf::actor_cast<peer_actor>(caf::actor_cast<caf::actor>(one));
+  peer_actor second =
+      caf::actor_cast<peer_actor>(caf::actor_cast<caf::actor>(two));
+};
+
+node_presence coordinator(const std::string& uuid,
+                          const std::string& cell = "lab",
+                          int64_t incarnation = 1) {
+  node_presence result;
+  result.role = "coordinator";
+  result.name = "base-of-" + uuid;
+  result.uuid = uuid;
+  result.cell = cell;
+  result.incarnation = incarnation;
+  result.address = "10.0.0.2:8420";
+  result.discovery_server = "10.0.0.2:11811";
+  return result;
+}
+
+cell_standing standing(const std::string& uuid, const std::string& cell,
+                       int64_t size) {
+  cell_standing result;
+  result.uuid = uuid;
+  result.place = {cell, "base-of-" + uuid, "10.0.0.3:8420", "10.0.0.3:11811"};
+  result.size = size;
+  return result;
+}
+
+} // namespace
+
+TEST_CASE("Of two coordinators the one with the higher UUID opens the session",
+          "[peer_book]") {
+  peer_book book{"m"};
+  CHECK(book.see(coordinator("a"), start) == sighting::appeared);
+  CHECK(book.see(coordinator("z"), start) == sighting::appeared);
+  CHECK(book.see(coordinator("m"), start) == sighting::ignored);
+  const auto due = book.begin_due(start);
+  REQUIRE(due.size() == 1);
+  CHECK(due[0].uuid == "a");
+  CHECK(book.begin_due(start).empty());
+}
+
+TEST_CASE("Strangers get few connections at a time", "[peer_book]") {
+  peer_book book{"m"};
+  for (int i = 0; i < 50; ++i)
+    book.see(coordinator("a" + std::to_string(i)), start);
+  const auto due = book.begin_due(start);
+  CHECK(due.size() == peer_book::max_attempts);
+  CHECK(book.begin_due(start + 1h).empty());
+  for (const auto& x : due)
+    book.attempt_failed(x.uuid, "refused", start);
+  CHECK(book.begin_due(start + 999ms).empty());
+  CHECK(book.next_due() == start + 1s);
+  // Those that have not been tried come first.
+  for (const auto& x : book.begin_due(start + 1s))
+    CHECK(std::none_of(due.begin(), due.end(),
+                       [&](const auto& y) { return x.uuid == y.uuid; }));
+}
+
+TEST_CASE("A stranger under ever new UUIDs fills and costs no more",
+          "[peer_book]") {
+  peer_book book{"m"};
+  size_t attempts = 0;
+  auto now = start;
+  for (int i = 0; i < 10'000; ++i) {
+    const auto who = coordinator("a" + std::to_string(i));
+    book.see(who, now);
+    for (const auto& x : book.begin_due(now)) {
+      ++attempts;
+      book.attempt_failed(x.uuid, "refused", now);
+    }
+    book.vanish(who);
+    now += 1ms;
+  }
+  CHECK(book.strangers() == 0);
+  CHECK(attempts <= peer_book::max_attempts * 10);
+}
+
+TEST_CASE("Who fails makes room for newcomers, who has not been tried does not",
+          "[peer_book]") {
+  peer_book book{"m"};
+  for (size_t i = 0; i < peer_book::max_strangers; ++i)
+    book.see(coordinator("a" + std::to_string(i)), start);
+  CHECK(book.see(coordinator("b"), start) == sighting::ignored);
+  const auto due = book.begin_due(start);
+  book.attempt_failed(due[0].uuid, "refused", start);
+  CHECK(book.see(coordinator("b"), start) == sighting::appeared);
+  CHECK(book.see(coordinator("c"), start) == sighting::ignored);
+  CHECK(book.strangers() == peer_book::max_strangers);
+  CHECK(book.see(coordinator(due[0].uuid), start) == sighting::ignored);
+}
+
+TEST_CASE("Strangers displace nobody who has proved himself", "[peer_book]") {
+  peer_handles handles;
+  peer_book book{"m"};
+  book.see(coordinator("a"), start);
+  REQUIRE(book.begin_due(start).size() == 1);
+  CHECK(book.attempt_succeeded("a"));
+  book.open("a", handles.first);
+  book.close("a", handles.first, "cut off", start);
+  for (size_t i = 0; i < 2 * peer_book::max_strangers; ++i)
+    book.see(coordinator("0" + std::to_string(i)), start);
+  const auto due = book.begin_due(start + 1s);
+  REQUIRE_FALSE(due.empty());
+  CHECK(due[0].uuid == "a");
+}
+
+TEST_CASE("The first failure for a reason is told", "[peer_book]") {
+  peer_book book{"m"};
+  book.see(coordinator("a", "yard"), start);
+  auto now = start;
+  const auto fail = [&](const std::string& reason) {
+    now = std::max(now, book.next_due());
+    REQUIRE(book.begin_due(now).size() == 1);
+    return book.attempt_failed("a", reason, now);
+  };
+  CHECK(fail("refused") == "yard");
+  CHECK_FALSE(fail("refused"));
+  CHECK(fail("no answer") == "yard");
+  const auto rows = book.rows({"lab", "base", "", "", 1, ""});
+  REQUIRE(rows.size() == 1);
+  CHECK(rows[0].trouble == "no answer");
+}
+
+TEST_CASE("A failure of one who announces himself no more makes no presence",
+          "[peer_book]") {
+  peer_book book{"m"};
+  book.see(coordinator("a"), start);
+  REQUIRE(book.begin_due(start).size() == 1);
+  CHECK(book.vanish(coordinator("a")));
+  CHECK_FALSE(book.attempt_failed("a", "refused", start));
+  CHECK(book.rows({}).empty());
+  CHECK_FALSE(book.attempt_succeeded("a"));
+}
+
+TEST_CASE("A session is tried again at once when the coordinator starts anew",
+          "[peer_book]") {
+  peer_book book{"m"};
+  book.see(coordinator("a"), start);
+  auto now = start;
+  for (int i = 0; i < 10; ++i) {
+    REQUIRE(book.begin_due(now).size() == 1);
+    book.attempt_failed("a", "refused", now);
+    now = book.next_due();
+  }
+  CHECK(book.see(coordinator("a"), now - 1s) == sighting::repeated);
+  CHECK(book.begin_due(now - 1s).empty());
+  CHECK(book.see(coordinator("a", "lab", 2), now - 1s) == sighting::changed);
+  CHECK(book.begin_due(now - 1s).size() == 1);
+}
+
+TEST_CASE("A newer session replaces the former one", "[peer_book]") {
+  peer_handles handles;
+  peer_book book{"m"};
+  CHECK_FALSE(book.open("a", handles.first));
+  CHECK(book.tell(handles.first, standing("a", "yard", 3)));
+  CHECK(book.open("a", handles.second) == handles.first);
+  CHECK_FALSE(book.find_cell("yard"));
+  CHECK_FALSE(book.tell(handles.first, standing("a", "yard", 3)));
+  CHECK_FALSE(book.close("a", handles.first, "closed", start));
+  CHECK(book.find("a"));
+  CHECK(book.close("a", handles.second, "closed", start));
+  CHECK_FALSE(book.find("a"));
+}
+
+TEST_CASE("What a session has told counts more than what is announced",
+          "[peer_book]") {
+  peer_handles handles;
+  peer_book book{"m"};
+  book.see(coordinator("a", "yard"), start);
+  book.open("a", handles.first);
+  book.tell(handles.first, standing("a", "yard", 3));
+  // A stranger claims to be that coordinator, and then says farewell.
+  auto lie = coordinator("a", "trap");
+  lie.address = "10.6.6.6:666";
+  book.see(lie, start);
+  auto rows = book.rows({"lab", "base", "", "", 1, ""});
+  REQUIRE(rows.size() == 1);
+  CHECK(rows[0].cell == "yard");
+  CHECK(rows[0].address == "10.0.0.3:8420");
+  CHECK(rows[0].size == 3);
+  book.vanish(lie);
+  CHECK(book.find_cell("yard"));
+  CHECK(book.rows({}).size() == 1);
+  CHECK(book.begin_due(start + 1h).empty());
+}
+
+TEST_CASE("The newest claim tells who has a node", "[peer_book]") {
+  peer_handles handles;
+  peer_book book{"m"};
+  book.open("a", handles.first);
+  book.open("b", handles.second);
+  auto one = standing("a", "yard", 1);
+  one.members = {{"arm", "u1", 4, true}};
+  auto two = standing("b", "hall", 1);
+  two.members = {{"arm", "u1", 5, true}};
+  book.tell(handles.first, one);
+  book.tell(handles.second, two);
+  REQUIRE(book.find_holder("arm"));
+  CHECK(book.find_holder("arm")->standing.place.cell == "hall");
+  cell_changed gone;
+  gone.gone = {"u1"};
+  book.tell(handles.second, gone);
+  REQUIRE(book.find_holder("arm"));
+  CHECK(book.find_holder("arm")->standing.place.cell == "yard");
+}
+
+TEST_CASE("A promise counts once, also when its place has been told",
+          "[peer_book]") {
+  peer_entry x;
+  x.standing.size = 2;
+  x.promised = {"u1", "u1", "u2"};
+  CHECK(x.size() == 4);
+  x.members["u1"] = {"arm", "u1", 1, false};
+  CHECK(x.size() == 3);
+  x.forget_promise("u2");
+  x.forget_promise("u2");
+  CHECK(x.size() == 2);
+}
+
+TEST_CASE("Two cells of one name are shown with that trouble", "[peer_book]") {
+  peer_book book{"m"};
+  book.see(coordinator("a", "lab"), start);
+  const auto rows = book.rows({"lab", "base", "", "", 1, ""});
+  REQUIRE(rows.size() == 1);
+  CHECK(rows[0].trouble == "it claims the same name as the cell of 'base'");
+}
+
+} // namespace roscell::test

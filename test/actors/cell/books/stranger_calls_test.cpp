@@ -1,0 +1,93 @@
+#include "actors/cell/books/stranger_calls.hpp"
+
+#include <catch2/catch.hpp>
+
+namespace roscell::test {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+const stranger_calls::time_point start{100h};
+
+} // namespace
+
+TEST_CASE("No more strangers are called at a time than there are slots",
+          "[stranger_calls]") {
+  stranger_calls calls{2};
+  CHECK(calls.begin("a", start));
+  CHECK_FALSE(calls.begin("a", start));
+  CHECK(calls.begin("b", start));
+  CHECK_FALSE(calls.begin("c", start));
+  CHECK(calls.next("c") == stranger_calls::time_point::max());
+  CHECK(calls.succeed("a"));
+  CHECK(calls.next("c") <= start);
+  CHECK(calls.begin("c", start));
+  CHECK(calls.running() == 2);
+}
+
+TEST_CASE("A failed call keeps its slot for a second", "[stranger_calls]") {
+  stranger_calls calls{1};
+  REQUIRE(calls.begin("a", start));
+  calls.fail("a", "refused", start);
+  CHECK_FALSE(calls.begin("b", start + 999ms));
+  CHECK(calls.next("b") == start + 1s);
+  CHECK(calls.begin("b", start + 1s));
+}
+
+TEST_CASE("Whoever does not answer is called ever more seldom",
+          "[stranger_calls]") {
+  stranger_calls calls{8};
+  auto now = start;
+  auto last = 0ms;
+  for (unsigned i = 0; i < 12; ++i) {
+    REQUIRE(calls.begin("a", now));
+    CHECK(calls.fail("a", "refused", now) == (i == 0));
+    CHECK(calls.failures("a") == i + 1);
+    const auto pause = std::chrono::duration_cast<std::chrono::milliseconds>(
+        calls.next("a") - now);
+    CHECK(pause <= backoff::longest);
+    CHECK_FALSE(calls.begin("a", calls.next("a") - 1ms));
+    last = pause;
+    now = calls.next("a");
+  }
+  CHECK(last >= backoff::longest / 2);
+  CHECK(calls.trouble("a") == "refused");
+  REQUIRE(calls.begin("a", now));
+  CHECK(calls.succeed("a"));
+  CHECK(calls.failures("a") == 0);
+}
+
+TEST_CASE("News of a stranger end its pause", "[stranger_calls]") {
+  stranger_calls calls{8};
+  REQUIRE(calls.begin("a", start));
+  calls.fail("a", "refused", start);
+  calls.hurry("a", start);
+  CHECK(calls.begin("a", start));
+  CHECK(calls.failures("a") == 1);
+}
+
+TEST_CASE("Of a stranger that was forgotten nothing is kept",
+          "[stranger_calls]") {
+  stranger_calls calls{1};
+  REQUIRE(calls.begin("a", start));
+  calls.forget("a");
+  // The connection is still being opened.
+  CHECK_FALSE(calls.begin("b", start));
+  CHECK_FALSE(calls.fail("a", "refused", start));
+  CHECK(calls.failures("a") == 0);
+  CHECK(calls.begin("b", start + 1s));
+  calls.forget("b");
+  CHECK_FALSE(calls.succeed("b"));
+}
+
+TEST_CASE("Who is announced again while it is called is wanted again",
+          "[stranger_calls]") {
+  stranger_calls calls{1};
+  REQUIRE(calls.begin("a", start));
+  calls.forget("a");
+  calls.hurry("a", start);
+  CHECK(calls.succeed("a"));
+}
+
+} // namespace roscell::test
