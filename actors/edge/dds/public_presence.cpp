@@ -3,10 +3,9 @@
 #include "actors/edge/dds/discovery_address.hpp"
 #include "actors/edge/dds/discovery_participant.hpp"
 #include "actors/edge/dds/herald.hpp"
+#include "actors/edge/dds/presence_table.hpp"
 
-#include <algorithm>
 #include <charconv>
-#include <map>
 #include <random>
 #include <utility>
 
@@ -170,41 +169,33 @@ public:
   }
 
 private:
+  using clock = std::chrono::steady_clock;
+
   /// Runs on Fast DDS's threads, one call at a time.
   void on_sighting(const sighting& seen) {
     if (seen.what == sighting::kind::left || seen.what == sighting::kind::lost)
-      forget(seen.prefix);
+      for (const auto& x : known_.forget(seen.prefix, clock::now()))
+        tell(x);
     else if (auto said = decode(seen.announcement))
       remember(seen.prefix, *said);
   }
 
   void remember(const guid_prefix& who, const announcement& said) {
-    auto [entry, added] = known_.try_emplace(who, said);
-    if (added)
+    const auto outcome = known_.remember(who, said, clock::now());
+    if (outcome.newcomer)
       herald_.ask();
-    else if (entry->second == said)
-      return;
-    entry->second = said;
-    if (events_.on_seen)
-      events_.on_seen(said);
+    for (const auto& x : outcome.changes)
+      tell(x);
   }
 
-  void forget(const guid_prefix& who) {
-    const auto entry = known_.extract(who);
-    if (!entry || !events_.on_gone)
-      return;
-    // What was killed and has started again is there, though its former
-    // presence ends only now.
-    const auto& said = entry.mapped();
-    const bool lives_on =
-        std::any_of(known_.begin(), known_.end(),
-                    [&](const auto& x) { return x.second.uuid == said.uuid; });
-    if (!lives_on)
-      events_.on_gone(said);
+  void tell(const presence_table::change& x) {
+    const auto& event = x.gone ? events_.on_gone : events_.on_seen;
+    if (event)
+      event(x.said);
   }
 
   presence_events events_;
-  std::map<guid_prefix, announcement> known_; // Touched in sightings only.
+  presence_table known_; // Touched in sightings only.
   std::uint16_t port_ = 0;
   herald herald_;
   std::unique_ptr<rtps_participant> participant_;

@@ -28,11 +28,13 @@ struct presence_options {
 /// Called on a thread of Fast DDS, one at a time for one presence. They must
 /// not call the presence.
 struct presence_events {
-  /// Somebody appeared, or announces something else. Never the own one.
+  /// Somebody appeared, or announces something else. Never the own one. What
+  /// is repeated is told again now and then, as whoever listens may have had no
+  /// room for it.
   std::function<void(const announcement&)> on_seen;
-  /// Somebody left or was silent for its lease; with what it said last. Not
-  /// called for the former presence of one that was killed and has started
-  /// again, told by its UUID.
+  /// Somebody left, was silent for its lease, or announces another node now;
+  /// with what it said last. Not called for the former presence of one that was
+  /// killed and has started again, told by its UUID.
   std::function<void(const announcement&)> on_gone;
 };
 

@@ -131,6 +131,20 @@ TEST_CASE("a presence tells each change once, and its last word when it goes",
   CHECK(seen.entries().size() == 4);
 }
 
+TEST_CASE("a participant that announces another node ends the former one",
+          "[presence]") {
+  diary seen;
+  auto watcher = must_open(at_home(saying("coordinator", "watcher")),
+                           writing_presence_to(seen));
+  auto turncoat = must_open(at_home(saying("coordinator", "one")));
+  REQUIRE(seen.wait_for("+coordinator one 0"));
+  CHECK_FALSE(turncoat->update(encode(saying("coordinator", "two"))));
+  REQUIRE(seen.wait_for("+coordinator two 0"));
+  CHECK(seen.wait_for("-coordinator one 0"));
+  CHECK_FALSE(turncoat->update(encode(saying("independent", "two"))));
+  CHECK(seen.wait_for("-coordinator two 0"));
+}
+
 TEST_CASE("participants that announce nothing of ours are not seen",
           "[presence]") {
   diary seen;
