@@ -104,6 +104,10 @@ caf::result<caf::ok_atom> find(self_pointer self,
            self->current_sender())](const server_sighting& sighting) {
         on_server(context, listener, sighting);
       };
+  events.on_trouble = [context = st.context,
+                       node = st.config.node](const std::string& reason) {
+    context.tell("edge_trouble", node, {{"message", reason}});
+  };
   auto opened = cell_client::open(options, std::move(events));
   if (auto* why = std::get_if<edge_error>(&opened))
     return to_caf(*why);

@@ -80,6 +80,23 @@ sockaddr_in udp_socket::local() const {
   return result;
 }
 
+edge_result<std::uint16_t> free_port(const std::string& address,
+                                     std::uint16_t first, unsigned places) {
+  for (unsigned place = 0; place < places; ++place) {
+    const auto port = static_cast<std::uint16_t>(first + 2 * place);
+    const auto bound = udp_socket::bind(address, port);
+    const auto* error = std::get_if<edge_error>(&bound);
+    if (error == nullptr)
+      return port;
+    if (error->code != error_code::conflict)
+      return *error;
+  }
+  const auto bound = udp_socket::bind(address, 0);
+  if (const auto* error = std::get_if<edge_error>(&bound))
+    return *error;
+  return ntohs(std::get<udp_socket>(bound).local().sin_port);
+}
+
 std::optional<sockaddr_in> to_socket_address(const std::string& address,
                                              std::uint16_t port) {
   sockaddr_in result{};

@@ -38,6 +38,13 @@ private:
   int fd_ = -1;
 };
 
+/// The first of `places` ports from `first` on, two apart as RTPS has them,
+/// that is free, else any port. Fast DDS by itself looks at a hundred places
+/// and gives up: no more processes than that could share an address. Whoever
+/// takes the port before the caller does makes Fast DDS try those that follow.
+edge_result<std::uint16_t> free_port(const std::string& address,
+                                     std::uint16_t first, unsigned places);
+
 /// The socket address of dotted `address`, none if it is no IPv4 address of
 /// one host.
 std::optional<sockaddr_in> to_socket_address(const std::string& address,

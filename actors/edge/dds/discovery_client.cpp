@@ -1,6 +1,7 @@
 #include "actors/edge/dds/discovery_client.hpp"
 
 #include "actors/edge/dds/announcement.hpp"
+#include "actors/edge/dds/discovery_address.hpp"
 #include "actors/edge/dds/discovery_participant.hpp"
 #include "actors/edge/dds/discovery_seeker.hpp"
 #include "actors/edge/host/interfaces.hpp"
@@ -23,8 +24,10 @@ constexpr std::int32_t repeat_period_ns = 100'000'000;
 
 /// Where our participants start to look for a free port, counted as ROS 2
 /// counts them on one host: ROS 2 nodes that know each other by address alone
-/// try the first few places only, so we leave those to them.
+/// try the first few places only, so we leave those to them. Nobody looks for a
+/// CLIENT at a well-known port, so many nodes on one host take any.
 constexpr std::uint32_t first_participant_place = 60;
+constexpr unsigned participant_places = 4;
 
 /// RTPS 2.3, 9.6.1.1: PB + DG * domain + d1 + PG * participant.
 std::uint16_t client_port(std::uint32_t domain_id) {
@@ -64,10 +67,9 @@ edge_result<std::string> local_address(const cell_client_options& options) {
   return std::get<interface_address>(found).address;
 }
 
-auto client_attributes(const cell_client_options& options,
+auto client_attributes(const cell_client_options& options, std::uint16_t port,
                        const guid_prefix& server) {
-  auto result =
-      make_attributes(to_settings(options), client_port(options.domain_id));
+  auto result = make_attributes(to_settings(options), port);
   auto& discovery = result.builtin.discovery_config;
   discovery.discoveryProtocol = rtps::DiscoveryProtocol_t::CLIENT;
   discovery.discoveryServer_client_syncperiod = {0, repeat_period_ns};
@@ -118,19 +120,36 @@ private:
   void stay_registered(const guid_prefix& server) {
     again_ = false;
     known_.reset();
-    auto participant = rtps_participant::create(
-        options_.domain_id, client_attributes(options_, server),
-        [this, server](const sighting& seen) {
-          if (seen.prefix == server)
-            on_server(seen);
-        });
+    const auto participant = make_participant(server);
     if (participant == nullptr) {
-      report("Fast DDS does not create a participant on " + options_.address);
       wake_.wait(max_probe_interval);
       return;
     }
     while (!closing_ && !again_)
       wake_.wait(-1ms);
+  }
+
+  /// Null, with the reason reported, when there is none to be had.
+  std::unique_ptr<rtps_participant>
+  make_participant(const guid_prefix& server) {
+    const auto port = free_port(
+        options_.address, client_port(options_.domain_id), participant_places);
+    if (const auto* why = std::get_if<edge_error>(&port)) {
+      tell_trouble(why->message);
+      return nullptr;
+    }
+    auto result = rtps_participant::create(
+        options_.domain_id,
+        client_attributes(options_, std::get<std::uint16_t>(port), server),
+        [this, server](const sighting& seen) {
+          if (seen.prefix == server)
+            on_server(seen);
+        });
+    if (result == nullptr)
+      tell_trouble("Fast DDS does not create a participant on "
+                   + options_.address + ", UDP port "
+                   + std::to_string(std::get<std::uint16_t>(port)));
+    return result;
   }
 
   /// Runs on Fast DDS's threads, one call at a time.
@@ -148,6 +167,12 @@ private:
         events_.on_server({server_id_of(seen.prefix).value_or(0), seen.prefix,
                            seen.announcement});
     }
+  }
+
+  void tell_trouble(const std::string& reason) {
+    report(reason);
+    if (events_.on_trouble)
+      events_.on_trouble(reason);
   }
 
   void report(const std::string& reason) {

@@ -39,6 +39,8 @@ struct cell_client_events {
   std::function<void()> on_server_lost;
   /// The server is not found yet, and why. Called when the reason changes.
   std::function<void(const std::string&)> on_waiting;
+  /// The server is there, and this host has no participant to spare for it.
+  std::function<void(const std::string&)> on_trouble;
 };
 
 /// Keeps this process registered with the discovery server at one address.

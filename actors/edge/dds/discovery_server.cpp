@@ -37,8 +37,8 @@ participant_settings to_settings(const cell_server_options& options) {
   return result;
 }
 
-/// The port that is free now, or why there is none.
-edge_result<std::uint16_t> free_port(const cell_server_options& options) {
+/// The port that was chosen, or any, if it is free now.
+edge_result<std::uint16_t> chosen_port(const cell_server_options& options) {
   auto bound = udp_socket::bind(options.address, options.port);
   if (auto* error = std::get_if<edge_error>(&bound))
     return *error;
@@ -128,7 +128,7 @@ cell_server::open(const cell_server_options& options, on_sighting on_client) {
   // Somebody else can take the port that was free a moment ago.
   constexpr int attempts = 3;
   for (int i = 0; i < attempts; ++i) {
-    auto port = free_port(options);
+    auto port = chosen_port(options);
     if (auto* error = std::get_if<edge_error>(&port))
       return *error;
     auto x = std::make_unique<impl>(on_client);

@@ -79,24 +79,6 @@ edge_result<rtps::LocatorList_t> all_peers(const presence_options& options) {
   return result;
 }
 
-/// The first of the well-known places that is free, else any port. Whoever
-/// takes it before us makes Fast DDS try the ports that follow.
-edge_result<std::uint16_t> free_port(const presence_options& options) {
-  for (unsigned place = 0; place < presence_places; ++place) {
-    auto port = unicast_port(options.domain_id, place);
-    auto bound = udp_socket::bind(options.address, port);
-    auto* error = std::get_if<edge_error>(&bound);
-    if (error == nullptr)
-      return port;
-    if (error->code != error_code::conflict)
-      return *error;
-  }
-  auto bound = udp_socket::bind(options.address, 0);
-  if (auto* error = std::get_if<edge_error>(&bound))
-    return *error;
-  return ntohs(std::get<udp_socket>(bound).local().sin_port);
-}
-
 auto presence_attributes(const presence_options& options, std::uint16_t port,
                          const rtps::LocatorList_t& peers) {
   auto result = make_attributes(to_settings(options), port);
@@ -211,7 +193,8 @@ public_presence::open(const presence_options& options, presence_events events) {
   auto peers = all_peers(options);
   if (auto* error = std::get_if<edge_error>(&peers))
     return *error;
-  auto port = free_port(options);
+  auto port = free_port(options.address, unicast_port(options.domain_id, 0),
+                        presence_places);
   if (auto* error = std::get_if<edge_error>(&port))
     return *error;
   auto x = std::make_unique<impl>(std::move(events));

@@ -1,4 +1,5 @@
 #include "actors/edge/dds/announcement.hpp"
+#include "actors/edge/dds/discovery_address.hpp"
 #include "discovery_fixture.hpp"
 
 #include <atomic>
@@ -85,6 +86,21 @@ TEST_CASE("a client notices that its server ends and finds the next one",
   options.announcement = "second";
   server = must_open(options);
   CHECK(seen.wait_for("6 second"));
+}
+
+TEST_CASE("a client needs no well-known port", "[discovery]") {
+  // As many nodes on this address as Fast DDS would look for places.
+  std::vector<udp_socket> crowd;
+  for (unsigned place = 60; place < 170; ++place) {
+    auto bound = udp_socket::bind("127.0.0.1",
+                                  static_cast<std::uint16_t>(7410 + 2 * place));
+    if (auto* taken = std::get_if<udp_socket>(&bound))
+      crowd.push_back(std::move(*taken));
+  }
+  auto server = must_open(local_server(9, "hello"));
+  diary seen;
+  auto client = must_open(client_of(server->port()), writing_to(seen));
+  CHECK(seen.wait_for("9 hello"));
 }
 
 TEST_CASE("a client that renews hears of its server again", "[discovery]") {
