@@ -46,11 +46,9 @@ struct mark_sample {
   }
 };
 
-/// The RESOURCE PROBE: answers when asked; it never polls.
+/// The RESOURCE PROBE: answers when asked, at once; it never polls.
 using resource_probe_actor = introspected_actor::extend<
     caf::replies_to<measure_host>::with<host_measured>,
-    caf::reacts_to<mark_sample>,
-    // INTERNAL: alarm number N is due.
-    caf::reacts_to<caf::tick_atom, uint64_t>>;
+    caf::reacts_to<mark_sample>>;
 
 } // namespace roscell

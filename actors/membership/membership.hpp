@@ -28,7 +28,6 @@ struct membership_parts {
   node_agent_actor agent; ///< Does what the coordinator asks for.
   container_supervisor_actor supervisor;
   state_store_actor store;
-  resource_probe_actor probe; ///< Gets a mark with every beat; may be invalid.
 };
 
 /// What a membership is told at its start.

@@ -83,14 +83,6 @@ void on_request(self_pointer self, const session_inquiry& x) {
                             "a coordinator may not ask for this", "/type"}));
 }
 
-/// Says that the node lives, which is a good moment to look at its CPU too.
-void send_beat_now(self_pointer self, beat_kind kind) {
-  auto& st = self->state;
-  self->send(st.session, send_beat{kind});
-  if (st.parts.probe && kind == beat_kind::beat)
-    self->send(st.parts.probe, mark_sample{});
-}
-
 } // namespace
 
 void take_session(self_pointer self, const session_actor& session) {
@@ -137,7 +129,7 @@ void on_frame(self_pointer self, const frame_received& frame) {
 
 void on_beat(self_pointer self, const beat_received& beat) {
   if (auto answer = self->state.life.heard_beat(beat.kind, self->clock().now()))
-    send_beat_now(self, *answer);
+    self->send(self->state.session, send_beat{*answer});
 }
 
 void on_session_lost(self_pointer self, const std::string& reason) {
@@ -172,7 +164,7 @@ void keep_lease(self_pointer self) {
   if (next.over)
     on_session_lost(self, "silent for 8 s");
   else if (next.send)
-    send_beat_now(self, *next.send);
+    self->send(self->state.session, send_beat{*next.send});
 }
 
 void notify(self_pointer self, const instance_changed& fact) {

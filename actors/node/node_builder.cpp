@@ -170,11 +170,12 @@ private:
     resource_probe_config probing;
     probing.host.data_dir = config.data_dir.string();
     probing.bound = bound_;
-    probe_ = start<caf::detached>(resource_probe, probing);
+    const auto probe = start<caf::detached>(resource_probe, probing);
+    mark_samples_at_beats(*parts_.edges, probe);
     parts_.agent =
         start(node_agent,
               node_agent_config{config.name, config.labels, config.devices,
-                                parts_.services->supervisor, probe_});
+                                parts_.services->supervisor, probe});
   }
 
   void start_coordination() {
@@ -250,7 +251,6 @@ private:
     with.agent = parts_.agent;
     with.supervisor = parts_.services->supervisor;
     with.store = store_;
-    with.probe = probe_;
     const auto how = membership_setup();
     auto member = start(membership, parts_.context, with, how);
     parts_.services->membership = member;
@@ -280,7 +280,6 @@ private:
   node_parts parts_;
   shared_skill_catalogue catalogue_;
   state_store_actor store_;
-  resource_probe_actor probe_;
 };
 
 } // namespace

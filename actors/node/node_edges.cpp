@@ -6,6 +6,7 @@
 #include "actors/session/wire_session.hpp"
 #include "messages/failure.hpp"
 
+#include <chrono>
 #include <set>
 #include <utility>
 
@@ -46,6 +47,10 @@ caf::error open_http(const node_config& config, const node_data& data,
 /// A coordinator that is there answers within some milliseconds; one that does
 /// not in this time is told of when it is seen.
 constexpr std::chrono::milliseconds survey_span{60};
+
+/// A coordinator hears the beats of many members; one sample serves for all. A
+/// little shorter than the pause between the beats of one session.
+constexpr std::chrono::milliseconds mark_distance{3500};
 
 caf::error name_in_use(const announcement& other) {
   return fail(error_code::conflict,
@@ -169,6 +174,18 @@ void admit_sessions(caf::actor_system& system, const house& context,
                  {{"code", why.code}, {"message", why.message}});
   };
   edges.sockets.http->accept_sessions(std::move(acceptor));
+}
+
+void mark_samples_at_beats(node_edges& edges,
+                           const resource_probe_actor& probe) {
+  using clock = std::chrono::steady_clock;
+  edges.sockets.beat->watch([probe, last = clock::time_point{}]() mutable {
+    const auto now = clock::now();
+    if (now - last < mark_distance)
+      return;
+    last = now;
+    caf::anon_send(probe, mark_sample{});
+  });
 }
 
 } // namespace roscell

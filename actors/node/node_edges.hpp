@@ -62,4 +62,9 @@ void admit_sessions(caf::actor_system& system, const house& context,
                     const std::string& site_token,
                     const cell_coordinator_actor& coordinator);
 
+/// Lets the beats of all sessions keep a CPU sample fresh: the node is awake
+/// for them anyway.
+void mark_samples_at_beats(node_edges& edges,
+                           const resource_probe_actor& probe);
+
 } // namespace roscell

@@ -23,7 +23,8 @@ process_usage instance_usage(self_pointer self) {
 
 void mark(self_pointer self, clock::time_point now) {
   auto& st = self->state;
-  st.probe->sample(now);
+  if (!st.probe->sample(now))
+    return;
   st.samples.push_back({now, instance_usage(self).cpu_seconds});
   while (st.samples.size() > 1
          && now - st.samples[1].at >= host_probe::max_sample_age)
@@ -60,37 +61,20 @@ host_measured measure(self_pointer self, clock::time_point now) {
   ++st.measurements;
   const auto ours = instance_usage(self);
   auto host = st.probe->read(now, ours.pids);
+  if (host.cpu_estimated)
+    ++st.estimates;
   host.cpu.used =
       std::max(0.0, host.cpu.used - instance_cpu(st, now, ours.cpu_seconds));
   host.memory_mib.used = std::max(0.0, host.memory_mib.used - ours.rss_mib);
   return {convert(apply_bound(std::move(host), st.config.bound))};
 }
 
-caf::result<host_measured> answer(self_pointer self, const measure_host& wish) {
-  auto& st = self->state;
+host_measured answer(self_pointer self, const measure_host& wish) {
   const auto now = self->clock().now();
-  st.sessions = {wish.sessions.begin(), wish.sessions.end()};
-  if (st.probe->cpu_used(now)) {
-    auto result = measure(self, now);
-    mark(self, now);
-    return result;
-  }
-  if (st.waiting.empty())
-    mark(self, now);
-  auto promise = self->make_response_promise<host_measured>();
-  st.waiting.push_back({st.sessions, promise});
-  st.timer.set(self, now + host_probe::min_sample_age);
-  return promise;
-}
-
-void on_tick(self_pointer self, uint64_t number) {
-  auto& st = self->state;
-  if (!st.timer.rings(number))
-    return;
-  for (auto& x : std::exchange(st.waiting, {})) {
-    st.sessions = x.sessions;
-    x.promise.deliver(measure(self, self->clock().now()));
-  }
+  self->state.sessions = {wish.sessions.begin(), wish.sessions.end()};
+  auto result = measure(self, now);
+  mark(self, now);
+  return result;
 }
 
 } // namespace
@@ -103,11 +87,10 @@ resource_probe(self_pointer self, const resource_probe_config& config) {
   return {
       [self](const state_query&) {
         return state_of({{"measurements", self->state.measurements},
-                         {"waiting", self->state.waiting.size()}});
+                         {"estimates", self->state.estimates}});
       },
       [self](const measure_host& wish) { return answer(self, wish); },
       [self](const mark_sample&) { mark(self, self->clock().now()); },
-      [self](caf::tick_atom, uint64_t number) { on_tick(self, number); },
   };
 }
 

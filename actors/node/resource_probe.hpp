@@ -2,20 +2,14 @@
 
 #include "actors/edge/host/host_probe.hpp"
 #include "actors/edge/host/host_probe_capacity.hpp"
-#include "actors/house/alarm.hpp"
 #include "actors/house/house.hpp"
 #include "messages/type_ids.hpp"
-
-#include <caf/typed_response_promise.hpp>
 
 #include <chrono>
 #include <deque>
 #include <memory>
-#include <optional>
 #include <set>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include <sys/types.h>
 
@@ -32,12 +26,6 @@ struct instance_sample {
   double cpu_seconds = 0;
 };
 
-/// A measurement that waits until a CPU sample is old enough.
-struct waiting_measurement {
-  std::set<pid_t> sessions;
-  caf::typed_response_promise<host_measured> promise;
-};
-
 /// Reads the host when asked. A read of /proc and the first one of NVML can
 /// take long, so this actor is spawned detached.
 struct resource_probe_state {
@@ -47,13 +35,12 @@ struct resource_probe_state {
   std::unique_ptr<host_probe> probe;
   std::set<pid_t> sessions; ///< Of our instances, as last heard.
   std::deque<instance_sample> samples;
-  std::vector<waiting_measurement> waiting;
-  alarm timer;
   uint64_t measurements = 0;
+  uint64_t estimates = 0; ///< Of these, without a CPU sample in time.
 };
 
-/// The RESOURCE PROBE. Messages: messages/agent.hpp. It answers at once where a
-/// sample of the last seconds is there, else after one second.
+/// The RESOURCE PROBE. Messages: messages/agent.hpp. It always answers at once;
+/// beats and earlier measurements leave the CPU samples that it needs.
 resource_probe_actor::behavior_type resource_probe(
     resource_probe_actor::stateful_pointer<resource_probe_state> self,
     const resource_probe_config& config);

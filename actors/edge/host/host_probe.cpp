@@ -120,15 +120,16 @@ std::string architecture_of(std::string_view machine) {
 host_probe::host_probe(host_probe_options options)
     : options_(std::move(options)), gpu_probe_(options_.nvml_library) {}
 
-void host_probe::sample(clock::time_point now) {
+bool host_probe::sample(clock::time_point now) {
   if (!samples_.empty() && now - samples_.back().at < min_sample_distance)
-    return;
+    return false;
   auto busy = busy_seconds();
   if (!busy)
-    return;
+    return false;
   samples_.push_back({now, *busy});
   if (samples_.size() > max_samples)
     samples_.pop_front();
+  return true;
 }
 
 std::optional<double> host_probe::cpu_used(clock::time_point now) {
@@ -152,7 +153,9 @@ host_resources host_probe::read(clock::time_point now,
     result.architecture = architecture_of(system.machine);
   result.unified_memory = is_jetson();
   result.cpu.capacity = online_cores(options_.root);
-  result.cpu.used = cpu_used(now).value_or(0);
+  const auto rate = cpu_used(now);
+  result.cpu_estimated = !rate;
+  result.cpu.used = rate ? *rate : load_average();
   result.memory_mib = memory();
   result.disk_mib = disk();
   result.gpus = gpus(result.unified_memory, own);
@@ -164,6 +167,16 @@ host_resources host_probe::read(clock::time_point now,
     affinity.cpu = cores;
   return apply_bound(apply_bound(std::move(result), affinity),
                      cgroup_bound(options_.root));
+}
+
+/// proc(5), /proc/loadavg: "1.50 0.90 0.40 2/345 6789".
+double host_probe::load_average() const {
+  const auto text = read_file(options_.root + "/proc/loadavg", 256);
+  if (!text)
+    return 0;
+  std::string_view rest{*text};
+  const double cores = online_cores(options_.root);
+  return std::min(to_fraction(take_word(rest)).value_or(0), cores);
 }
 
 /// proc(5), /proc/stat: user nice system idle iowait irq softirq steal, in

@@ -17,6 +17,8 @@ struct host_resources {
   std::string architecture;    ///< As container images name it: amd64, arm64.
   bool unified_memory = false; ///< CPU and GPU share one memory (Jetson).
   amount cpu;                  ///< In cores.
+  /// `cpu.used` is the load average of the last minute, for want of a sample.
+  bool cpu_estimated = false;
   amount memory_mib;
   amount disk_mib; ///< Of the file system that holds the data directory.
   std::vector<gpu_resources> gpus;  ///< On unified memory with the index only.
@@ -36,7 +38,9 @@ struct host_probe_options {
 /// like one that the operator sets (`apply_bound`, host_probe_capacity.hpp).
 ///
 /// CPU use is a rate between two samples. Nothing runs in between: the owner
-/// marks samples. Not thread-safe.
+/// marks samples. Where it has marked none in time, the load average that the
+/// kernel keeps takes the rate's place, so that nobody waits for a second
+/// sample. Not thread-safe.
 class host_probe {
 public:
   using clock = std::chrono::steady_clock;
@@ -50,16 +54,20 @@ public:
   explicit host_probe(host_probe_options options);
 
   /// Remembers the CPU counters as of `now`. Samples that follow each other
-  /// within 100 ms count as one.
-  void sample(clock::time_point now);
+  /// within 100 ms count as one; false where this one was not taken.
+  bool sample(clock::time_point now);
 
   /// The cores in use since the newest sample that is at least
   /// `min_sample_age` old. None when there is no such sample, or only one
-  /// older than `max_sample_age`: call `sample`, and again after
-  /// `min_sample_age`.
+  /// older than `max_sample_age`.
   std::optional<double> cpu_used(clock::time_point now);
 
-  /// Everything; `cpu.used` as by `cpu_used`, 0 when that gives none. GPU
+  /// The cores that programs have wanted over the last minute, not more than
+  /// there are; 0 where the kernel does not tell. Programs that wait for a disk
+  /// count too.
+  double load_average() const;
+
+  /// Everything; `cpu.used` as by `cpu_used`, or else by `load_average`. GPU
   /// memory leaves out the processes of `own`.
   host_resources read(clock::time_point now, const std::set<pid_t>& own = {});
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -46,6 +47,16 @@ std::optional<long long> to_number(std::string_view word) {
   auto* last = word.data() + word.size();
   auto [ptr, ec] = std::from_chars(word.data(), last, result);
   if (ec != std::errc{} || ptr != last)
+    return std::nullopt;
+  return result;
+}
+
+std::optional<double> to_fraction(std::string_view word) {
+  double result = 0;
+  auto* last = word.data() + word.size();
+  auto [ptr, ec] =
+      std::from_chars(word.data(), last, result, std::chars_format::fixed);
+  if (ec != std::errc{} || ptr != last || !std::isfinite(result) || result < 0)
     return std::nullopt;
   return result;
 }

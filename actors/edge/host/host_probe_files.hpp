@@ -22,4 +22,7 @@ std::string_view take_line(std::string_view& text);
 /// A whole number that is all of `word`, none otherwise.
 std::optional<long long> to_number(std::string_view word);
 
+/// A decimal fraction of at least 0 that is all of `word`, none otherwise.
+std::optional<double> to_fraction(std::string_view word);
+
 } // namespace roscell

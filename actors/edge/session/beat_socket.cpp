@@ -129,6 +129,10 @@ public:
     });
   }
 
+  void watch(std::function<void()> on_beat) {
+    on_any_beat_ = std::move(on_beat);
+  }
+
   beat_counters counters() const {
     return {accepted_, malformed_, unknown_, forged_, replayed_};
   }
@@ -194,6 +198,8 @@ private:
                }
                ++accepted_;
                session->remember(packet, from);
+               if (on_any_beat_)
+                 core_->guarded([this] { on_any_beat_(); });
                if (session->registration.on_beat)
                  core_->guarded([&] {
                    session->registration.on_beat(packet.kind, packet.sequence);
@@ -230,6 +236,7 @@ private:
   std::shared_ptr<io_core> core_;
   boost::asio::posix::stream_descriptor socket_;
   beat_filter filter_;
+  std::function<void()> on_any_beat_;
   std::unordered_multimap<uint32_t, std::shared_ptr<beat_session>> sessions_;
   std::atomic<uint64_t> accepted_{0};
   std::atomic<uint64_t> malformed_{0};
@@ -290,6 +297,13 @@ public:
 
   beat_counters counters() const override {
     return socket_->counters();
+  }
+
+  void watch(std::function<void()> on_beat) override {
+    socket_->core()->post(
+        [socket = socket_, on_beat = std::move(on_beat)]() mutable {
+          socket->watch(std::move(on_beat));
+        });
   }
 
 private:

@@ -73,6 +73,10 @@ public:
   virtual std::unique_ptr<beat_link>
   register_session(beat_registration registration) = 0;
   virtual beat_counters counters() const = 0;
+
+  /// From now on `on_beat` is called on the io thread for each packet that a
+  /// session of this socket takes.
+  virtual void watch(std::function<void()> on_beat) = 0;
 };
 
 } // namespace roscell

@@ -173,7 +173,6 @@ caf::behavior local_parts(caf::event_based_actor* self, fake_site* site,
                       "/instance");
         return log_excerpt{x.instance, "a line\n", 7, true};
       },
-      [=](const mark_sample&) { ++node->marks; },
   };
 }
 
@@ -247,7 +246,6 @@ void fake_site::start(fake_node& x) {
   parts.agent = caf::actor_cast<node_agent_actor>(x.local);
   parts.supervisor = caf::actor_cast<container_supervisor_actor>(x.local);
   parts.store = caf::actor_cast<state_store_actor>(x.local);
-  parts.probe = caf::actor_cast<resource_probe_actor>(x.local);
   x.membership = roscell::spawn(time.system, context, membership, context,
                                 parts, membership_config{x.identity, {}});
 }

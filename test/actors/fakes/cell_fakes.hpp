@@ -62,7 +62,6 @@ struct fake_node {
   std::vector<instance_removal> removals;
   std::chrono::milliseconds deployment_takes{0};
   std::deque<std::pair<caf::response_promise, instance_row>> deploying;
-  size_t marks = 0;
 };
 
 /// A fact that an actor of the site has told.

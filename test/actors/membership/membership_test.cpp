@@ -304,12 +304,6 @@ TEST_CASE_METHOD(membership_test, "a session that dies without a word is "
   CHECK(state() == node_state::member);
 }
 
-TEST_CASE_METHOD(membership_test, "every beat marks a CPU sample") {
-  form_cell();
-  site.pass(40s);
-  CHECK(node.marks == 10);
-}
-
 TEST_CASE_METHOD(membership_test, "an idle member and its coordinator wake for "
                                   "the beat only") {
   form_cell();

@@ -106,6 +106,35 @@ TEST_CASE("a sample of long ago is no base for a rate", "[host_probe]") {
   CHECK_FALSE(probe.cpu_used(start + host_probe::max_sample_age + 1ms));
 }
 
+TEST_CASE("without a sample in time the load average tells the CPU's use",
+          "[host_probe]") {
+  fixture_root root;
+  make_host(root);
+  root.write("/proc/loadavg", "1.50 0.90 0.40 2/345 6789\n");
+  host_probe probe{options_for(root)};
+  CHECK(probe.read(start).cpu.used == Approx(1.5));
+  CHECK(probe.read(start).cpu_estimated);
+  probe.sample(start);
+  CHECK(probe.read(start + 2s).cpu.used == Approx(0.0));
+  CHECK_FALSE(probe.read(start + 2s).cpu_estimated);
+  CHECK(probe.read(start + 40s).cpu.used == Approx(1.5));
+}
+
+TEST_CASE("a load average says at most that all cores are in use",
+          "[host_probe]") {
+  fixture_root root;
+  make_host(root);
+  host_probe probe{options_for(root)};
+  root.write("/proc/loadavg", "17.03 9.01 4.00 2/345 6789\n");
+  CHECK(probe.load_average() == 4);
+  for (const char* text :
+       {"", "x", "nan 1 1", "inf 1 1", "-1 1 1", "1e3 1 1"}) {
+    CAPTURE(text);
+    root.write("/proc/loadavg", text);
+    CHECK(probe.load_average() == 0);
+  }
+}
+
 TEST_CASE("damaged files of /proc give no numbers and no crash",
           "[host_probe]") {
   for (const char* text :
@@ -114,6 +143,7 @@ TEST_CASE("damaged files of /proc give no numbers and no crash",
     CAPTURE(text);
     fixture_root root;
     root.write("/proc/stat", text);
+    root.write("/proc/loadavg", text);
     root.write("/proc/meminfo", text);
     root.write("/proc/self/cgroup", text);
     root.write("/sys/devices/system/cpu/online", text);

@@ -222,6 +222,20 @@ TEST_CASE("a session that was let go of is unknown") {
   CHECK(pair.coordinator.socket->counters().unknown == 1);
 }
 
+TEST_CASE("whoever watches a socket is told of each packet that is taken") {
+  beat_pair pair;
+  inbox<int> seen;
+  pair.coordinator.socket->watch([&] { seen.put(1); });
+  pair.member.link->send(beat_kind::beat, 0);
+  CHECK(seen.take() == 1);
+  CHECK(pair.coordinator.beats.take() == heard{beat_kind::beat, 0});
+  pair.member.link->send(beat_kind::beat, 0); // Not newer.
+  pair.member.link->send(beat_kind::beat, 1);
+  CHECK(seen.take() == 1);
+  CHECK(pair.coordinator.beats.take() == heard{beat_kind::beat, 1});
+  CHECK(seen.size() == 0);
+}
+
 TEST_CASE("a filter can lose, repeat and delay packets") {
   using action = traffic_verdict::action;
   beat_pair pair{[](traffic_direction direction, const beat_packet& packet) {
