@@ -1,9 +1,8 @@
 #include "actors/cell/cell_balance.hpp"
 
-#include "actors/cell/cell_members.hpp"
-#include "actors/cell/cell_peers.hpp"
 #include "actors/cell/cell_places.hpp"
 #include "actors/cell/cell_transfers.hpp"
+#include "actors/cell/state/coordinator_timer.hpp"
 #include "actors/house/session_timeouts.hpp"
 #include "messages/failure.hpp"
 
@@ -17,9 +16,6 @@ namespace {
 
 using self_pointer = coordinator_pointer;
 using time_point = std::chrono::steady_clock::time_point;
-
-/// Nodes that are joining, and coordinators that are appearing, get this long.
-constexpr std::chrono::seconds settling_span{2};
 
 std::vector<cell_size> sizes_of(const cell_coordinator_state& st) {
   std::vector<cell_size> result;
@@ -110,13 +106,6 @@ std::vector<cell_move> plan_moves(std::vector<cell_size> cells) {
     }
   }
   return result;
-}
-
-void arm_balance(self_pointer self) {
-  if (!self->state.setup.rebalance)
-    return;
-  self->state.balance_due = self->clock().now() + settling_span;
-  set_timer(self);
 }
 
 void balance_if_due(self_pointer self) {

@@ -28,9 +28,6 @@ struct cell_move {
 /// keep the remainder, so nobody moves without need.
 std::vector<cell_move> plan_moves(std::vector<cell_size> cells);
 
-/// Looks at the sizes a little later, when things have come to rest.
-void arm_balance(coordinator_pointer self);
-
 /// Evens out if it is time and this coordinator's part.
 void balance_if_due(coordinator_pointer self);
 

@@ -7,6 +7,8 @@
 #include "actors/cell/cell_places.hpp"
 #include "actors/cell/cell_tasks.hpp"
 #include "actors/cell/cell_transfers.hpp"
+#include "actors/cell/state/arrivals.hpp"
+#include "actors/cell/state/coordinator_timer.hpp"
 #include "messages/failure.hpp"
 
 #include <utility>
@@ -102,6 +104,24 @@ json summary(self_pointer self) {
           {"places", st.places.size()},
           {"transfers", st.transfers.size()},
           {"balancing", st.balancing}};
+}
+
+void on_session_admitted(self_pointer self, const session_admitted& fact) {
+  if (fact.role == node_role::coordinator)
+    on_peer_admitted(self, fact);
+  else
+    on_member_admitted(self, fact);
+}
+
+void on_tick(self_pointer self, uint64_t number) {
+  if (!self->state.timer.rings(number))
+    return;
+  drop_overdue_places(self);
+  settle_overdue_transfers(self);
+  settle_overdue_arrivals(self);
+  open_due_peers(self);
+  balance_if_due(self);
+  set_timer(self);
 }
 
 } // namespace

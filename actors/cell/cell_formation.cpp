@@ -1,8 +1,9 @@
 #include "actors/cell/cell_formation.hpp"
 
-#include "actors/cell/cell_members.hpp"
 #include "actors/cell/cell_peers.hpp"
 #include "actors/cell/cell_places.hpp"
+#include "actors/cell/state/arrivals.hpp"
+#include "actors/cell/state/coordinator_publish.hpp"
 #include "actors/house/session_timeouts.hpp"
 #include "messages/failure.hpp"
 
@@ -20,9 +21,6 @@ using outcome_done = std::function<void(formation_outcome)>;
 
 /// A nonce is fetched, then the switch is written down.
 constexpr std::chrono::seconds call_timeout{12};
-
-/// From the node's word that it comes to its registration.
-constexpr std::chrono::seconds arrival_span{25};
 
 constexpr std::chrono::seconds place_span{40};
 
@@ -44,14 +42,12 @@ formation_outcome joined(const std::string& node, const std::string& from) {
 }
 
 /// Answers when the node has a row that is active, or when it took too long.
-void await_arrival(self_pointer self, const std::string& uuid,
-                   const formation_outcome& success, const outcome_done& done) {
-  auto answer = [success, done](const failure* why) {
+void answer_on_arrival(self_pointer self, const std::string& uuid,
+                       const formation_outcome& success,
+                       const outcome_done& done) {
+  await_arrival(self, uuid, [success, done](const failure* why) {
     done(why ? failed(success.node, *why) : success);
-  };
-  self->state.arrivals.emplace(
-      uuid, awaited_arrival{self->clock().now() + arrival_span, answer});
-  set_timer(self);
+  });
 }
 
 node_presence find_presence(const cell_coordinator_state& st,
@@ -87,7 +83,7 @@ void bring_in_free(self_pointer self, const node_presence& who,
   order.uuid = who.uuid;
   order.epoch = who.epoch;
   order.target = {own_address(st.setup)};
-  await_arrival(self, who.uuid, joined(who.name, ""), done);
+  answer_on_arrival(self, who.uuid, joined(who.name, ""), done);
   self->request(st.setup.registration, call_timeout,
                 switch_node{who.address, order})
       .then([](const switch_accepted&) {},
@@ -133,7 +129,7 @@ bool settle_known(self_pointer self, const std::string& node,
     done(result);
     return true;
   case row_state::reserved:
-    await_arrival(self, row.identity.uuid, joined(node, ""), done);
+    answer_on_arrival(self, row.identity.uuid, joined(node, ""), done);
     return true;
   case row_state::departing:
     done(failed(node, {error_code::conflict, "node '" + node + "' is departing",
@@ -204,43 +200,6 @@ caf::result<cell_formed> form_cell(self_pointer self,
   }
   finish_one();
   return promise;
-}
-
-void settle_arrivals(self_pointer self, const std::string& uuid,
-                     const failure* why) {
-  auto& all = self->state.arrivals;
-  const auto [begin, end] = all.equal_range(uuid);
-  std::vector<awaited_arrival> waiting;
-  for (auto i = begin; i != end; ++i)
-    waiting.push_back(i->second);
-  all.erase(begin, end);
-  for (const auto& x : waiting)
-    x.done(why);
-}
-
-void settle_overdue_arrivals(self_pointer self) {
-  auto& all = self->state.arrivals;
-  std::vector<awaited_arrival> overdue;
-  for (auto i = all.begin(); i != all.end();) {
-    if (i->second.deadline > self->clock().now()) {
-      ++i;
-      continue;
-    }
-    overdue.push_back(i->second);
-    i = all.erase(i);
-  }
-  const failure why{error_code::unresolved,
-                    "the node was told to join and has not done so in time", "",
-                    "send the request again; see the events of the node"};
-  for (const auto& x : overdue)
-    x.done(&why);
-}
-
-std::chrono::steady_clock::time_point next_arrival_deadline(self_pointer self) {
-  auto result = std::chrono::steady_clock::time_point::max();
-  for (const auto& [uuid, x] : self->state.arrivals)
-    result = std::min(result, x.deadline);
-  return result;
 }
 
 } // namespace roscell

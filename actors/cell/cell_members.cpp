@@ -1,11 +1,10 @@
 #include "actors/cell/cell_members.hpp"
 
-#include "actors/cell/cell_balance.hpp"
-#include "actors/cell/cell_formation.hpp"
 #include "actors/cell/cell_peers.hpp"
-#include "actors/cell/cell_places.hpp"
-#include "actors/cell/cell_transfers.hpp"
-#include "actors/house/wall_clock.hpp"
+#include "actors/cell/state/arrivals.hpp"
+#include "actors/cell/state/coordinator_publish.hpp"
+#include "actors/cell/state/coordinator_store.hpp"
+#include "actors/cell/state/node_whereabouts.hpp"
 #include "actors/placement/reservation.hpp"
 #include "actors/session/member.hpp"
 #include "messages/failure.hpp"
@@ -23,8 +22,6 @@ using self_pointer = coordinator_pointer;
 
 /// A node that does not say in this time what it has is not counted on.
 constexpr std::chrono::seconds resource_timeout{3};
-
-constexpr std::chrono::seconds store_timeout{5};
 
 /// How often a node is asked in one collection, at most.
 constexpr int resource_rounds = 3;
@@ -173,7 +170,8 @@ void ask_for_resources(self_pointer self, const std::string& uuid,
 
 /// Nobody is asked twice whether the same row has changed on disk.
 void store_member(self_pointer self, const registry_entry& entry) {
-  store(self, {"members", entry.row.identity.uuid,
+  record_fact(self,
+              {"members", entry.row.identity.uuid,
                json(member_record{entry.row.identity, entry.origin}).dump()});
 }
 
@@ -188,60 +186,11 @@ void forget_earlier_presence(self_pointer self, const node_identity& who) {
 
 } // namespace
 
-registry_time now_of(self_pointer self) {
-  return {self->clock().now(), unix_now_ms()};
-}
-
-void set_timer(self_pointer self) {
-  auto& st = self->state;
-  const auto when =
-      std::min({st.registry.next_overdue(), next_transfer_deadline(self),
-                next_arrival_deadline(self), next_peer_attempt(self),
-                st.balancing > 0 ? std::chrono::steady_clock::time_point::max()
-                                 : st.balance_due});
-  if (when != std::chrono::steady_clock::time_point::max())
-    st.timer.set(self, when);
-}
-
-void on_tick(self_pointer self, uint64_t number) {
-  if (!self->state.timer.rings(number))
-    return;
-  drop_overdue_places(self);
-  settle_overdue_transfers(self);
-  settle_overdue_arrivals(self);
-  open_due_peers(self);
-  balance_if_due(self);
-  set_timer(self);
-}
-
-void store(self_pointer self, const store_record& record) {
-  const auto& st = self->state;
-  if (!st.setup.store)
-    return;
-  self->request(st.setup.store, store_timeout, record)
-      .then([](const record_stored&) {},
-            [self, key = record.key](const caf::error& why) {
-              self->state.context.tell("store_failed", key,
-                                       {{"reason", to_failure(why).message}});
-            });
-}
-
 void restore_members(self_pointer self) {
   auto& st = self->state;
   for (const auto& known : st.setup.members)
     if (known.identity.uuid != st.setup.self.uuid)
       st.registry.expect(known, now_of(self));
-}
-
-void drop_row(self_pointer self, const std::string& uuid) {
-  auto& st = self->state;
-  const auto* entry = st.registry.find_uuid(uuid);
-  if (!entry)
-    return;
-  if (entry->row.state != row_state::reserved)
-    store(self, {"members", uuid, ""});
-  st.registry.erase(uuid);
-  publish(self, {}, {uuid});
 }
 
 void add_own_row(self_pointer self) {
@@ -296,9 +245,7 @@ void measure_own_node(self_pointer self) {
           });
 }
 
-void on_session_admitted(self_pointer self, const session_admitted& fact) {
-  if (fact.role == node_role::coordinator)
-    return on_peer_admitted(self, fact);
+void on_member_admitted(self_pointer self, const session_admitted& fact) {
   spawn(self->system(), self->state.context, member, fact,
         cell_coordinator_actor{self});
 }

@@ -15,30 +15,16 @@ void reconcile_own_node(coordinator_pointer self);
 /// Asks what this node offers, so that the registry shows it from the start.
 void measure_own_node(coordinator_pointer self);
 
-void on_session_admitted(coordinator_pointer self,
-                         const session_admitted& fact);
+/// A node has opened a session and may register over it.
+void on_member_admitted(coordinator_pointer self, const session_admitted& fact);
 caf::result<node_registered> register_member(coordinator_pointer self,
                                              const register_node& request);
 caf::result<node_departed> depart_member(coordinator_pointer self,
                                          const depart_node& request);
 void on_member_lost(coordinator_pointer self, const member_lost& fact);
 
-/// The present moment, as the registry wants it.
-registry_time now_of(coordinator_pointer self);
-
-/// Sets the timer to whatever is due first; it rings in `on_tick`.
-void set_timer(coordinator_pointer self);
-void on_tick(coordinator_pointer self, uint64_t number);
-
-/// Writes a record, or removes it if its value is empty. A store that fails is
-/// told of, and does not stop the work.
-void store(coordinator_pointer self, const store_record& record);
-
 /// Rows that an earlier run of the coordinator had, as `expected`.
 void restore_members(coordinator_pointer self);
-
-/// Forgets a node.
-void drop_row(coordinator_pointer self, const std::string& uuid);
 
 /// A member has ended. One that could not say so is lost.
 void on_member_down(coordinator_pointer self, const caf::actor_addr& gone);

@@ -1,8 +1,9 @@
 #include "actors/cell/cell_peers.hpp"
 
-#include "actors/cell/cell_balance.hpp"
-#include "actors/cell/cell_members.hpp"
-#include "actors/cell/cell_transfers.hpp"
+#include "actors/cell/state/coordinator_publish.hpp"
+#include "actors/cell/state/coordinator_timer.hpp"
+#include "actors/cell/state/node_whereabouts.hpp"
+#include "actors/cell/state/peer_attempts.hpp"
 #include "actors/session/peer.hpp"
 #include "messages/failure.hpp"
 
@@ -20,10 +21,6 @@ using time_point = std::chrono::steady_clock::time_point;
 /// Longer than the handshake's own limit.
 constexpr std::chrono::seconds open_timeout{10};
 
-bool is_coordinator(const node_presence& who) {
-  return who.role == "coordinator";
-}
-
 cell_standing standing_of(const cell_coordinator_state& st) {
   cell_standing result;
   result.place = own_address(st.setup);
@@ -33,11 +30,6 @@ cell_standing standing_of(const cell_coordinator_state& st) {
   result.rebalance = st.setup.rebalance;
   result.members = st.registry.claims();
   return result;
-}
-
-/// Of two coordinators the one with the higher UUID opens the session.
-bool opens_here(const cell_coordinator_state& st, const std::string& uuid) {
-  return uuid < st.setup.self.uuid;
 }
 
 void try_later(self_pointer self, const std::string& uuid,
@@ -74,20 +66,6 @@ void open_peer(self_pointer self, const node_presence& who) {
           [self, uuid = who.uuid](const caf::error& why) {
             try_later(self, uuid, to_failure(why).message);
           });
-}
-
-/// A coordinator is due when it is visible, has no session, and opening it is
-/// our part.
-bool is_due(const cell_coordinator_state& st, const node_presence& who,
-            time_point now) {
-  if (!is_coordinator(who) || !opens_here(st, who.uuid))
-    return false;
-  const auto peer = st.peers.find(who.uuid);
-  if (peer != st.peers.end() && peer->second.actor)
-    return false;
-  const auto i = st.attempts.find(who.uuid);
-  return i == st.attempts.end()
-         || (!i->second.running && i->second.next <= now);
 }
 
 void tell_name_conflict(self_pointer self, const node_presence& who) {
@@ -145,11 +123,6 @@ peer_entry* find_actor(self_pointer self, const peer_actor& actor) {
 }
 
 } // namespace
-
-cell_address own_address(const coordinator_setup& setup) {
-  return {setup.cell, setup.self.name, setup.self.address,
-          setup.discovery_server};
-}
 
 void appear(self_pointer self) {
   const auto& setup = self->state.setup;
@@ -215,17 +188,6 @@ void open_due_peers(self_pointer self) {
       due.push_back(who);
   for (const auto& who : due)
     open_peer(self, who);
-}
-
-time_point next_peer_attempt(self_pointer self) {
-  const auto& st = self->state;
-  auto result = time_point::max();
-  for (const auto& [uuid, attempt] : st.attempts) {
-    const auto who = st.presences.find(uuid);
-    if (who != st.presences.end() && is_due(st, who->second, time_point::max()))
-      result = std::min(result, attempt.next);
-  }
-  return result;
 }
 
 void on_peer_admitted(self_pointer self, const session_admitted& fact) {
@@ -295,20 +257,6 @@ void on_peer_changed(self_pointer self, const peer_changed& fact) {
     entry->members[claim.uuid] = claim;
     weigh(self, *entry, claim);
   }
-}
-
-void publish(self_pointer self, const std::vector<std::string>& changed_uuids,
-             const std::vector<std::string>& gone_uuids) {
-  auto& st = self->state;
-  cell_changed change;
-  change.size = static_cast<int64_t>(st.registry.size());
-  change.gone = gone_uuids;
-  for (const auto& uuid : changed_uuids)
-    if (const auto* entry = st.registry.find_uuid(uuid))
-      change.changed.push_back(claim_of(entry->row));
-  for (const auto& [uuid, peer] : st.peers)
-    if (peer.actor)
-      self->send(peer.actor, change);
 }
 
 peer_entry* find_peer(self_pointer self, const std::string& cell) {

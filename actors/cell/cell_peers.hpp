@@ -2,7 +2,6 @@
 
 #include "actors/cell/cell_coordinator.hpp"
 
-#include <chrono>
 #include <string>
 #include <vector>
 
@@ -30,12 +29,6 @@ void on_peer_changed(coordinator_pointer self, const peer_changed& fact);
 
 /// Tries the sessions that are due.
 void open_due_peers(coordinator_pointer self);
-std::chrono::steady_clock::time_point next_peer_attempt(coordinator_pointer);
-
-/// Tells all other coordinators that rows have changed or are gone.
-void publish(coordinator_pointer self,
-             const std::vector<std::string>& changed_uuids,
-             const std::vector<std::string>& gone_uuids = {});
 
 /// Another coordinator of that cell with a session; null if there is none.
 peer_entry* find_peer(coordinator_pointer self, const std::string& cell);
@@ -48,8 +41,5 @@ std::vector<cell_row> list_cells(coordinator_pointer self);
 
 /// The visible nodes that are in no cell.
 std::vector<free_node> list_free_nodes(coordinator_pointer self);
-
-/// Where this cell is to be found.
-cell_address own_address(const coordinator_setup& setup);
 
 } // namespace roscell

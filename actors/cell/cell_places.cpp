@@ -1,8 +1,7 @@
 #include "actors/cell/cell_places.hpp"
 
-#include "actors/cell/cell_balance.hpp"
-#include "actors/cell/cell_members.hpp"
-#include "actors/cell/cell_peers.hpp"
+#include "actors/cell/state/coordinator_publish.hpp"
+#include "actors/cell/state/coordinator_timer.hpp"
 #include "actors/house/session_timeouts.hpp"
 #include "messages/failure.hpp"
 

@@ -1,7 +1,10 @@
 #include "actors/cell/cell_transfers.hpp"
 
-#include "actors/cell/cell_members.hpp"
 #include "actors/cell/cell_peers.hpp"
+#include "actors/cell/state/coordinator_publish.hpp"
+#include "actors/cell/state/coordinator_timer.hpp"
+#include "actors/cell/state/node_whereabouts.hpp"
+#include "actors/cell/state/transfer_end.hpp"
 #include "actors/cell/task_move.hpp"
 #include "actors/house/session_timeouts.hpp"
 #include "actors/house/wall_clock.hpp"
@@ -29,66 +32,6 @@ constexpr std::chrono::minutes place_span{2};
 
 constexpr std::chrono::seconds termination_timeout{60};
 
-/// So many ended transfers are remembered.
-constexpr size_t ended_limit = 100;
-
-bool is_open(transfer_state x) {
-  return x == transfer_state::preparing || x == transfer_state::switching
-         || x == transfer_state::unresolved;
-}
-
-void enter(cell_transfer& x, transfer_state state, std::string reason) {
-  x.row.state = state;
-  x.row.reason = std::move(reason);
-  x.row.since_unix_ms = unix_now_ms();
-}
-
-void store_transfer(self_pointer self, const transfer_row& row) {
-  if (is_open(row.state))
-    store(self, {"transfers", row.transfer, json(row).dump()});
-  else
-    store(self, {"transfers", row.transfer, ""});
-}
-
-/// Tells all who wait.
-void answer(cell_transfer& x, const failure* why) {
-  for (const auto& done : std::exchange(x.waiting, {}))
-    done(x, why);
-}
-
-void forget_oldest(cell_coordinator_state& st) {
-  while (st.transfers.size() > ended_limit) {
-    auto oldest = st.transfers.end();
-    for (auto i = st.transfers.begin(); i != st.transfers.end(); ++i)
-      if (!is_open(i->second.row.state)
-          && (oldest == st.transfers.end()
-              || i->second.row.since_unix_ms
-                     < oldest->second.row.since_unix_ms))
-        oldest = i;
-    if (oldest == st.transfers.end())
-      return;
-    st.transfers.erase(oldest);
-  }
-}
-
-/// The transfer has come to its end, one way or the other.
-void finish(self_pointer self, cell_transfer& x, transfer_state state,
-            const std::string& reason, const failure* why) {
-  auto& st = self->state;
-  enter(x, state, reason);
-  x.deadline = time_point::max();
-  store_transfer(self, x.row);
-  json data{{"transfer", x.row.transfer},
-            {"from", x.row.from},
-            {"to", x.row.to},
-            {"state", x.row.state}};
-  if (!reason.empty())
-    data["reason"] = reason;
-  st.context.tell("transfer_ended", x.row.node, data);
-  answer(x, why);
-  forget_oldest(st);
-}
-
 /// The node stays a member, and nothing has changed.
 void call_off(self_pointer self, const std::string& id, const failure& why) {
   auto& st = self->state;
@@ -103,7 +46,7 @@ void call_off(self_pointer self, const std::string& id, const failure& why) {
                              now_of(self));
     publish(self, {x.row.uuid});
   }
-  finish(self, x, transfer_state::returned, why.message, &why);
+  end_transfer(self, x, transfer_state::returned, why.message, &why);
 }
 
 std::function<void(const caf::error&)> calling_off(self_pointer self,
@@ -165,7 +108,7 @@ void order_switch(self_pointer self, const std::string& id,
                     {error_code::unreachable,
                      "the coordinator of cell '" + x.row.to + "' fell silent",
                      "/target"});
-  enter(x, transfer_state::switching, "");
+  enter_state(x, transfer_state::switching, "");
   x.deadline = self->clock().now() + arrival_span;
   store_transfer(self, x.row);
   set_timer(self);
@@ -314,8 +257,8 @@ void release_absent(self_pointer self, const transfer_wish& wish,
   clear_instances(self, id, wish.instances, [self, id, uuid] {
     on_node_elsewhere(self, uuid, INT64_MAX, "");
     auto& entry = self->state.transfers.at(id);
-    finish(self, entry, transfer_state::done,
-           "the node was away and could not be told", nullptr);
+    end_transfer(self, entry, transfer_state::done,
+                 "the node was away and could not be told", nullptr);
   });
 }
 
@@ -434,46 +377,6 @@ describe_transfers(self_pointer self, const transfer_query& query) {
   return result;
 }
 
-void on_node_elsewhere(self_pointer self, const std::string& uuid,
-                       int64_t epoch, const std::string& cell) {
-  auto& st = self->state;
-  auto* entry = st.registry.find_uuid(uuid);
-  if (!entry || entry->row.identity.epoch > epoch)
-    return;
-  const auto name = entry->row.identity.name;
-  const auto transfer = entry->transfer;
-  const auto member = entry->member;
-  drop_row(self, uuid);
-  if (member)
-    self->send(member, close_session{"the node is elsewhere"});
-  st.context.tell("node_left", name,
-                  {{"reason", cell.empty() ? "it is independent"
-                                           : "it is in cell '" + cell + "'"},
-                   {"size", st.registry.active_count()}});
-  const auto i = st.transfers.find(transfer);
-  if (i == st.transfers.end() || !is_open(i->second.row.state))
-    return;
-  auto& x = i->second;
-  if (x.row.to == cell)
-    return finish(self, x, transfer_state::done, "", nullptr);
-  const failure why{error_code::conflict,
-                    "node '" + name + "' went elsewhere meanwhile", "/node"};
-  finish(self, x, transfer_state::returned, why.message, &why);
-}
-
-void on_node_returned(self_pointer self, const std::string& transfer) {
-  auto& st = self->state;
-  const auto i = st.transfers.find(transfer);
-  if (i == st.transfers.end() || !is_open(i->second.row.state))
-    return;
-  auto& x = i->second;
-  const failure why{error_code::unreachable,
-                    "node '" + x.row.node + "' could not register with cell '"
-                        + x.row.to + "' and has come back",
-                    "/target", "see the events of the node"};
-  finish(self, x, transfer_state::returned, why.message, &why);
-}
-
 void restore_transfers(self_pointer self) {
   auto& st = self->state;
   for (const auto& row : st.setup.transfers) {
@@ -483,11 +386,12 @@ void restore_transfers(self_pointer self) {
     auto* entry = st.registry.find_uuid(row.uuid);
     if (!entry) {
       // The row is dropped first, when it is known that the node has gone.
-      finish(self, x, transfer_state::done, "", nullptr);
+      end_transfer(self, x, transfer_state::done, "", nullptr);
       continue;
     }
     entry->transfer = row.transfer;
-    enter(x, transfer_state::unresolved, "the coordinator was started again");
+    enter_state(x, transfer_state::unresolved,
+                "the coordinator was started again");
   }
 }
 
@@ -497,8 +401,8 @@ void settle_overdue_transfers(self_pointer self) {
     if (x.deadline > self->clock().now())
       continue;
     x.deadline = time_point::max();
-    enter(x, transfer_state::unresolved,
-          "neither the node nor the other cell has said how it ended");
+    enter_state(x, transfer_state::unresolved,
+                "neither the node nor the other cell has said how it ended");
     store_transfer(self, x.row);
     auto* entry = st.registry.find_uuid(x.row.uuid);
     if (entry && entry->transfer == id && !entry->member)
@@ -512,15 +416,8 @@ void settle_overdue_transfers(self_pointer self) {
                       "/node",
                       "`roscell transfers` shows how it stands; it resolves "
                       "itself when the parties meet again"};
-    answer(x, &why);
+    tell_waiting(x, &why);
   }
-}
-
-time_point next_transfer_deadline(self_pointer self) {
-  auto result = time_point::max();
-  for (const auto& [id, x] : self->state.transfers)
-    result = std::min(result, x.deadline);
-  return result;
 }
 
 } // namespace roscell

@@ -35,17 +35,7 @@ describe_transfers(coordinator_pointer self, const transfer_query& query);
 /// of such a node is told by where it turns up.
 void restore_transfers(coordinator_pointer self);
 
-/// A fact: the node has this epoch in another cell, or in none if `cell` is
-/// empty. Its row here is out of date.
-void on_node_elsewhere(coordinator_pointer self, const std::string& uuid,
-                       int64_t epoch, const std::string& cell);
-
-/// A fact: a node with a departing row has registered here again.
-void on_node_returned(coordinator_pointer self, const std::string& transfer);
-
 /// Gives up waiting for what is overdue.
 void settle_overdue_transfers(coordinator_pointer self);
-std::chrono::steady_clock::time_point
-next_transfer_deadline(coordinator_pointer self);
 
 } // namespace roscell

@@ -1,7 +1,7 @@
 #include "actors/cell/task_move.hpp"
 
-#include "actors/cell/cell_members.hpp"
 #include "actors/cell/cell_tasks.hpp"
+#include "actors/cell/state/coordinator_store.hpp"
 #include "actors/house/session_timeouts.hpp"
 #include "actors/placement/instance_specs.hpp"
 #include "actors/placement/skill_resolution.hpp"
@@ -134,7 +134,7 @@ void complete(self_pointer self, const move_ptr& move) {
     if (auto* entry = st.tasks.find(x.task)) {
       replace_in_reply(entry->record, x);
       erase_spec(entry->record, x.old_instance);
-      store(self, {"tasks", x.task, json(entry->record).dump()});
+      record_fact(self, {"tasks", x.task, json(entry->record).dump()});
     }
     st.context.tell("instance_moved", x.spec.instance,
                     {{"task", x.task},
@@ -152,7 +152,7 @@ void undo(self_pointer self, const move_ptr& move) {
   for (const auto& x : move->steps) {
     if (auto* entry = self->state.tasks.find(x.task)) {
       erase_spec(entry->record, x.spec.instance);
-      store(self, {"tasks", x.task, json(entry->record).dump()});
+      record_fact(self, {"tasks", x.task, json(entry->record).dump()});
     }
     remove(self, x.place.node, x.task, x.spec.instance);
   }
@@ -200,7 +200,7 @@ void deploy(self_pointer self, const move_ptr& move, const task_plan& plan) {
                         "task '" + x.task + "' was terminated meanwhile"});
     entry->record.specs.push_back(x.spec);
     entry->record.nodes.push_back(x.place.node);
-    store(self, {"tasks", x.task, json(entry->record).dump()});
+    record_fact(self, {"tasks", x.task, json(entry->record).dump()});
   }
   move->open = move->steps.size();
   for (const auto& x : move->steps)

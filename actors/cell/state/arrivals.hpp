@@ -1,0 +1,26 @@
+#pragma once
+
+#include "actors/cell/state/coordinator_state.hpp"
+
+#include <chrono>
+#include <functional>
+#include <string>
+
+/// Those who wait for a node to register with this cell.
+namespace roscell {
+
+/// `done` is called once: when the node has registered, or with why it will
+/// not, or when it took too long.
+void await_arrival(coordinator_pointer self, const std::string& uuid,
+                   std::function<void(const failure*)> done);
+
+/// Tells those who wait for that node that it has joined, or why it will not.
+void settle_arrivals(coordinator_pointer self, const std::string& uuid,
+                     const failure* why);
+
+/// Gives up waiting for nodes that are overdue.
+void settle_overdue_arrivals(coordinator_pointer self);
+std::chrono::steady_clock::time_point
+next_arrival_deadline(const cell_coordinator_state& st);
+
+} // namespace roscell

@@ -1,0 +1,33 @@
+#include "actors/cell/state/coordinator_publish.hpp"
+
+#include "actors/cell/state/coordinator_store.hpp"
+
+namespace roscell {
+
+void publish(coordinator_pointer self,
+             const std::vector<std::string>& changed_uuids,
+             const std::vector<std::string>& gone_uuids) {
+  auto& st = self->state;
+  cell_changed change;
+  change.size = static_cast<int64_t>(st.registry.size());
+  change.gone = gone_uuids;
+  for (const auto& uuid : changed_uuids)
+    if (const auto* entry = st.registry.find_uuid(uuid))
+      change.changed.push_back(claim_of(entry->row));
+  for (const auto& [uuid, peer] : st.peers)
+    if (peer.actor)
+      self->send(peer.actor, change);
+}
+
+void drop_row(coordinator_pointer self, const std::string& uuid) {
+  auto& st = self->state;
+  const auto* entry = st.registry.find_uuid(uuid);
+  if (!entry)
+    return;
+  if (entry->row.state != row_state::reserved)
+    record_fact(self, {"members", uuid, ""});
+  st.registry.erase(uuid);
+  publish(self, {}, {uuid});
+}
+
+} // namespace roscell

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "actors/cell/state/coordinator_state.hpp"
+
+namespace roscell {
+
+/// Sets the CELL COORDINATOR's timer to whatever is due first.
+void set_timer(coordinator_pointer self);
+
+/// Has the sizes of the cells looked at a little later, when things have come
+/// to rest.
+void arm_balance(coordinator_pointer self);
+
+} // namespace roscell

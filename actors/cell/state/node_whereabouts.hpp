@@ -1,0 +1,20 @@
+#pragma once
+
+#include "actors/cell/state/coordinator_state.hpp"
+
+#include <cstdint>
+#include <string>
+
+/// What the CELL COORDINATOR does when it learns where a node is that it has,
+/// or had, a row for.
+namespace roscell {
+
+/// A fact: the node has this epoch in another cell, or in none if `cell` is
+/// empty. Its row here is out of date.
+void on_node_elsewhere(coordinator_pointer self, const std::string& uuid,
+                       int64_t epoch, const std::string& cell);
+
+/// A fact: a node with a departing row has registered here again.
+void on_node_returned(coordinator_pointer self, const std::string& transfer);
+
+} // namespace roscell
