@@ -12,26 +12,28 @@ constexpr std::chrono::seconds store_timeout{5};
 
 } // namespace
 
-void keep_record(coordinator_pointer self, const store_record& record,
-                 std::function<void()> kept,
-                 std::function<void(const failure&)> not_kept) {
+void keep_records(coordinator_pointer self, std::vector<store_record> records,
+                  std::function<void()> kept,
+                  std::function<void(const failure&)> not_kept) {
   const auto& st = self->state;
-  if (!st.setup.store)
+  if (!st.setup.store || records.empty())
     return kept();
-  self->request(st.setup.store, store_timeout, record)
+  const auto subject = records.front().key;
+  self->request(st.setup.store, store_timeout,
+                store_records{std::move(records)})
       .then([kept = std::move(kept)](const record_stored&) { kept(); },
-            [self, key = record.key,
+            [self, subject,
              not_kept = std::move(not_kept)](const caf::error& err) {
               const auto why = to_failure(err);
-              self->state.context.tell("store_failed", key,
+              self->state.context.tell("store_failed", subject,
                                        {{"reason", why.message}});
               not_kept(why);
             });
 }
 
-void record_fact(coordinator_pointer self, const store_record& record) {
-  keep_record(
-      self, record, [] {}, [](const failure&) {});
+void record_fact(coordinator_pointer self, store_record record) {
+  keep_records(
+      self, {std::move(record)}, [] {}, [](const failure&) {});
 }
 
 } // namespace roscell
