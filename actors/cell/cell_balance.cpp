@@ -3,7 +3,7 @@
 #include "actors/cell/cell_places.hpp"
 #include "actors/cell/cell_transfers.hpp"
 #include "actors/cell/state/coordinator_timer.hpp"
-#include "actors/house/session_timeouts.hpp"
+#include "actors/house/limits.hpp"
 #include "messages/failure.hpp"
 
 #include <algorithm>
@@ -55,10 +55,12 @@ void order_move(self_pointer self, const cell_move& move,
   };
   auto failed = [self](const caf::error&) { on_surrendered(self, false); };
   if (move.from == st.setup.self.uuid)
-    self->request(cell_coordinator_actor{self}, transfer_timeout, request)
+    self->request(cell_coordinator_actor{self}, limits::transfer::forwarded,
+                  request)
         .then(done, failed);
   else
-    self->request(st.peers[move.from].actor, transfer_timeout, request)
+    self->request(st.peers[move.from].actor, limits::transfer::forwarded,
+                  request)
         .then(done, failed);
 }
 

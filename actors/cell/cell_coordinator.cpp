@@ -9,6 +9,7 @@
 #include "actors/cell/cell_transfers.hpp"
 #include "actors/cell/state/arrivals.hpp"
 #include "actors/cell/state/coordinator_timer.hpp"
+#include "actors/house/limits.hpp"
 #include "messages/failure.hpp"
 
 #include <utility>
@@ -18,9 +19,6 @@ namespace roscell {
 namespace {
 
 using self_pointer = coordinator_pointer;
-
-/// Added to what the node itself may wait for a log.
-constexpr std::chrono::seconds log_margin{8};
 
 caf::error unknown(const std::string& what, const std::string& id) {
   return fail(error_code::unknown_task, "no " + what + " '" + id + "' is known",
@@ -82,7 +80,9 @@ caf::result<log_excerpt> answer(self_pointer self, const log_query& query) {
                 "/instance", "try again when `roscell nodes` shows it active");
   auto promise = self->make_response_promise<log_excerpt>();
   self->request(entry->agent,
-                log_margin + std::chrono::milliseconds{query.wait_ms}, query)
+                limits::log::coordinator
+                    + std::chrono::milliseconds{query.wait_ms},
+                query)
       .then(
           [promise](log_excerpt& x) mutable { promise.deliver(std::move(x)); },
           [promise](caf::error& why) mutable {

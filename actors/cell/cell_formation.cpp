@@ -4,7 +4,7 @@
 #include "actors/cell/cell_places.hpp"
 #include "actors/cell/state/arrivals.hpp"
 #include "actors/cell/state/coordinator_publish.hpp"
-#include "actors/house/session_timeouts.hpp"
+#include "actors/house/limits.hpp"
 #include "messages/failure.hpp"
 
 #include <algorithm>
@@ -18,11 +18,6 @@ namespace {
 
 using self_pointer = coordinator_pointer;
 using outcome_done = std::function<void(formation_outcome)>;
-
-/// A nonce is fetched, then the switch is written down.
-constexpr std::chrono::seconds call_timeout{12};
-
-constexpr std::chrono::seconds place_span{40};
 
 formation_outcome failed(const std::string& node, const failure& why) {
   formation_outcome result;
@@ -71,9 +66,9 @@ bool is_coordinator(const cell_coordinator_state& st, const std::string& node) {
 void bring_in_free(self_pointer self, const node_presence& who,
                    const outcome_done& done) {
   auto& st = self->state;
-  auto kept =
-      reserve_here(self, {who.name, who.uuid, who.epoch,
-                          std::chrono::milliseconds{place_span}.count()});
+  auto kept = reserve_here(
+      self, {who.name, who.uuid, who.epoch,
+             std::chrono::milliseconds{limits::cell::invited_place}.count()});
   if (!kept)
     return done(failed(who.name, to_failure(kept.error())));
   registration_switch order;
@@ -84,7 +79,7 @@ void bring_in_free(self_pointer self, const node_presence& who,
   order.epoch = who.epoch;
   order.target = {own_address(st.setup)};
   answer_on_arrival(self, who.uuid, joined(who.name, ""), done);
-  self->request(st.setup.registration, call_timeout,
+  self->request(st.setup.registration, limits::cell::invitation,
                 switch_node{who.address, order})
       .then([](const switch_accepted&) {},
             [self, who](const caf::error& err) {
@@ -105,7 +100,7 @@ void bring_over(self_pointer self, const peer_entry& peer,
                 const std::string& node, instance_policy policy,
                 const outcome_done& done) {
   node_transfer order{node, self->state.setup.cell, policy, true};
-  self->request(peer.actor, transfer_timeout, order)
+  self->request(peer.actor, limits::transfer::forwarded, order)
       .then([done](const node_transferred& x) { done(joined(x.node, x.from)); },
             [node, done](const caf::error& why) {
               done(failed(node, to_failure(why)));

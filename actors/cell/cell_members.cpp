@@ -5,6 +5,7 @@
 #include "actors/cell/state/coordinator_publish.hpp"
 #include "actors/cell/state/coordinator_store.hpp"
 #include "actors/cell/state/node_whereabouts.hpp"
+#include "actors/house/limits.hpp"
 #include "actors/placement/reservation.hpp"
 #include "actors/session/member.hpp"
 #include "messages/failure.hpp"
@@ -19,16 +20,6 @@ namespace roscell {
 namespace {
 
 using self_pointer = coordinator_pointer;
-
-/// A node that does not say in this time what it has is not counted on.
-constexpr std::chrono::seconds resource_timeout{3};
-
-/// How often a node is asked in one collection, at most.
-constexpr int resource_rounds = 3;
-
-/// For what a restarted coordination node starts and stops on itself.
-constexpr std::chrono::minutes start_timeout{15};
-constexpr std::chrono::seconds stop_timeout{40};
 
 /// Keep, stop or start: what shall become of the instances of a node that
 /// registers, given what it runs and what the tasks want of it.
@@ -70,13 +61,14 @@ void apply_here(self_pointer self, const node_registration& own,
   const auto ignore = [](const caf::error&) {};
   const auto& agent = self->state.setup.agent;
   if (x.what == verdict::start)
-    self->request(agent, start_timeout, instance_deployment{x.spec.front()})
+    self->request(agent, limits::task::deployment_answer,
+                  instance_deployment{x.spec.front()})
         .then([](const instance_deployed&) {}, ignore);
   if (x.what != verdict::stop)
     return;
   for (const auto& known : own.instances)
     if (known.spec.instance == x.instance)
-      self->request(agent, stop_timeout,
+      self->request(agent, limits::task::removal_answer,
                     instance_removal{known.spec.task, x.instance})
           .then([](const instances_removed&) {}, ignore);
 }
@@ -153,7 +145,7 @@ void ask_for_resources(self_pointer self, const std::string& uuid,
     return tally->finish_one();
   const auto name = entry->row.identity.name;
   const auto before = untold_on(self->state, name);
-  self->request(entry->agent, resource_timeout, resource_query{})
+  self->request(entry->agent, limits::resource::collection, resource_query{})
       .then(
           [=](resource_report& x) {
             // Nobody knows whether the report counts an instance that came up
@@ -208,7 +200,8 @@ void reconcile_own_node(self_pointer self) {
   const auto& st = self->state;
   if (!st.setup.supervisor)
     return;
-  self->request(st.setup.supervisor, resource_timeout, instance_query{})
+  self->request(st.setup.supervisor, limits::resource::collection,
+                instance_query{})
       .then(
           [self](instance_description& known) {
             node_registration own;
@@ -230,7 +223,7 @@ void measure_own_node(self_pointer self) {
   const auto& setup = self->state.setup;
   if (!setup.agent)
     return;
-  self->request(setup.agent, resource_timeout, resource_query{})
+  self->request(setup.agent, limits::resource::collection, resource_query{})
       .then(
           [self](resource_report& x) {
             auto* own =
@@ -374,7 +367,8 @@ caf::result<cell_resources> collect_cell_resources(self_pointer self) {
   tally->promise = promise;
   tally->open = self->state.registry.active_count();
   self->state.registry.for_each_active([&](registry_entry& entry) {
-    ask_for_resources(self, entry.row.identity.uuid, tally, resource_rounds);
+    ask_for_resources(self, entry.row.identity.uuid, tally,
+                      limits::resource::rounds);
   });
   return promise;
 }

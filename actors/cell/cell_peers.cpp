@@ -4,6 +4,7 @@
 #include "actors/cell/state/coordinator_timer.hpp"
 #include "actors/cell/state/node_whereabouts.hpp"
 #include "actors/cell/state/peer_attempts.hpp"
+#include "actors/house/limits.hpp"
 #include "actors/session/peer.hpp"
 #include "messages/failure.hpp"
 
@@ -17,9 +18,6 @@ namespace {
 
 using self_pointer = coordinator_pointer;
 using time_point = std::chrono::steady_clock::time_point;
-
-/// Longer than the handshake's own limit.
-constexpr std::chrono::seconds open_timeout{10};
 
 cell_standing standing_of(const cell_coordinator_state& st) {
   cell_standing result;
@@ -56,7 +54,7 @@ void open_peer(self_pointer self, const node_presence& who) {
   st.attempts[who.uuid].running = true;
   auto me = st.setup.self;
   me.epoch = st.setup.incarnation;
-  self->request(st.setup.connector, open_timeout,
+  self->request(st.setup.connector, limits::session::open,
                 open_session{who.address, me, node_role::coordinator})
       .then(
           [self, uuid = who.uuid](const session_opened& opened) {

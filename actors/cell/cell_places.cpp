@@ -2,7 +2,7 @@
 
 #include "actors/cell/state/coordinator_publish.hpp"
 #include "actors/cell/state/coordinator_timer.hpp"
-#include "actors/house/session_timeouts.hpp"
+#include "actors/house/limits.hpp"
 #include "messages/failure.hpp"
 
 #include <set>
@@ -14,10 +14,6 @@ namespace {
 
 using self_pointer = coordinator_pointer;
 using promise_type = caf::typed_response_promise<place_granted>;
-
-/// From the grant to the registration: a search for the discovery server and a
-/// handshake, each with its own limit, fit in.
-constexpr std::chrono::seconds place_span{30};
 
 /// The UUID of the cell with the fewest nodes that is not `full`; empty if none
 /// is left.
@@ -40,8 +36,8 @@ std::string smallest(const cell_coordinator_state& st,
 
 void remember(self_pointer self, const place_request& request,
               const std::string& coordinator) {
-  self->state.places[request.uuid] = {coordinator,
-                                      self->clock().now() + place_span};
+  self->state.places[request.uuid] = {coordinator, self->clock().now()
+                                                       + limits::cell::place};
   set_timer(self);
 }
 
@@ -51,8 +47,9 @@ void find_place(self_pointer self, const place_request& request,
 void place_here(self_pointer self, const place_request& request,
                 std::set<std::string> full, promise_type promise) {
   auto& st = self->state;
-  place_reservation wish{request.name, request.uuid, request.epoch,
-                         std::chrono::milliseconds{place_span}.count()};
+  place_reservation wish{
+      request.name, request.uuid, request.epoch,
+      std::chrono::milliseconds{limits::cell::place}.count()};
   auto kept = reserve_here(self, wish);
   if (!kept) {
     full.insert(st.setup.self.uuid);
@@ -67,9 +64,10 @@ void place_at(self_pointer self, const std::string& uuid,
               promise_type promise) {
   auto& peer = self->state.peers[uuid];
   peer.promised.insert(request.uuid);
-  place_reservation wish{request.name, request.uuid, request.epoch,
-                         std::chrono::milliseconds{place_span}.count()};
-  self->request(peer.actor, peer_timeout, wish)
+  place_reservation wish{
+      request.name, request.uuid, request.epoch,
+      std::chrono::milliseconds{limits::cell::place}.count()};
+  self->request(peer.actor, limits::session::peer_answer, wish)
       .then(
           [self, uuid, request, promise](const place_reserved&) mutable {
             auto& st = self->state;
@@ -140,7 +138,7 @@ caf::result<place_granted> grant_place(self_pointer self,
                                        const place_request& request) {
   auto promise = self->make_response_promise<place_granted>();
   if (const auto* giver = place_giver(self->state)) {
-    self->request(giver->actor, place_timeout, request)
+    self->request(giver->actor, limits::membership::place, request)
         .then([promise](place_granted& x) mutable { promise.deliver(x); },
               [promise](caf::error& why) mutable {
                 promise.deliver(std::move(why));

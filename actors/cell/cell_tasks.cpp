@@ -1,5 +1,6 @@
 #include "actors/cell/cell_tasks.hpp"
 
+#include "actors/house/limits.hpp"
 #include "actors/house/wall_clock.hpp"
 #include "messages/failure.hpp"
 
@@ -15,11 +16,6 @@ namespace {
 
 using self_pointer = coordinator_pointer;
 
-constexpr std::chrono::seconds store_timeout{5};
-
-/// Longer than the grace time that an instance has to end by itself.
-constexpr std::chrono::seconds removal_timeout{40};
-
 void tell_store_failed(self_pointer self, const std::string& task,
                        const caf::error& why) {
   self->state.context.tell("store_failed", task,
@@ -34,7 +30,7 @@ void store(
   const auto& st = self->state;
   if (!st.setup.store)
     return done();
-  self->request(st.setup.store, store_timeout,
+  self->request(st.setup.store, limits::store::write,
                 store_record{"tasks", record.task, json(record).dump()})
       .then([done](const record_stored&) { done(); },
             [self, done, task = record.task](const caf::error& why) {
@@ -45,7 +41,7 @@ void store(
 
 void unstore(self_pointer self, const std::string& task) {
   if (self->state.setup.store)
-    self->request(self->state.setup.store, store_timeout,
+    self->request(self->state.setup.store, limits::store::write,
                   store_record{"tasks", task, ""})
         .then([](const record_stored&) {},
               [self, task](const caf::error& why) {
@@ -135,7 +131,7 @@ void remove_everywhere(
       continue;
     }
     ++state->open;
-    self->request(entry->agent, removal_timeout,
+    self->request(entry->agent, limits::task::removal_answer,
                   instance_removal{record.task, ""})
         .then([finish_one](const instances_removed&) { finish_one(); },
               [state, node, finish_one](const caf::error&) {

@@ -6,7 +6,7 @@
 #include "actors/cell/state/node_whereabouts.hpp"
 #include "actors/cell/state/transfer_end.hpp"
 #include "actors/cell/task_move.hpp"
-#include "actors/house/session_timeouts.hpp"
+#include "actors/house/limits.hpp"
 #include "actors/house/wall_clock.hpp"
 #include "messages/failure.hpp"
 
@@ -20,17 +20,6 @@ namespace {
 
 using self_pointer = coordinator_pointer;
 using time_point = std::chrono::steady_clock::time_point;
-
-/// From the node's word that it goes to the news that it has arrived: a search
-/// for the discovery server, a handshake and a registration, and the way back
-/// if one of them fails.
-constexpr std::chrono::seconds arrival_span{25};
-
-/// How long the other coordinator keeps the place: that, and the time that
-/// instances need to end.
-constexpr std::chrono::minutes place_span{2};
-
-constexpr std::chrono::seconds termination_timeout{60};
 
 /// The node stays a member, and nothing has changed.
 void call_off(self_pointer self, const std::string& id, const failure& why) {
@@ -109,10 +98,10 @@ void order_switch(self_pointer self, const std::string& id,
                      "the coordinator of cell '" + x.row.to + "' fell silent",
                      "/target"});
   enter_state(x, transfer_state::switching, "");
-  x.deadline = self->clock().now() + arrival_span;
+  x.deadline = self->clock().now() + limits::transfer::arrival;
   store_transfer(self, x.row);
   set_timer(self);
-  self->request(entry->member, switch_timeout, order)
+  self->request(entry->member, limits::membership::switching, order)
       .then(
           [self, id](const switch_accepted&) { on_switch_accepted(self, id); },
           [self, id](const caf::error& err) {
@@ -137,10 +126,10 @@ void reserve_target(self_pointer self, const std::string& id,
                     {error_code::unreachable,
                      "node or target cell have just gone", "/target"});
   const auto& who = entry->row.identity;
-  self->request(
-          peer->actor, peer_timeout,
-          place_reservation{who.name, who.uuid, who.epoch,
-                            std::chrono::milliseconds{place_span}.count()})
+  self->request(peer->actor, limits::session::peer_answer,
+                place_reservation{
+                    who.name, who.uuid, who.epoch,
+                    std::chrono::milliseconds{limits::transfer::place}.count()})
       .then([next](const place_reserved&) { next(); }, calling_off(self, id));
 }
 
@@ -161,7 +150,7 @@ void terminate_tasks(self_pointer self, const std::string& id,
     return next();
   const auto task = tasks.back();
   tasks.pop_back();
-  self->request(cell_coordinator_actor{self}, termination_timeout,
+  self->request(cell_coordinator_actor{self}, limits::transfer::termination,
                 task_termination{task})
       .then(
           [self, id, tasks, task, next](const task_terminated&) {
@@ -312,7 +301,7 @@ caf::result<node_transferred> transfer_node(self_pointer self,
   if (!st.registry.find_name(request.node) && peer && !request.forwarded) {
     auto forwarded = request;
     forwarded.forwarded = true;
-    self->request(peer->actor, transfer_timeout, forwarded)
+    self->request(peer->actor, limits::transfer::forwarded, forwarded)
         .then([promise](node_transferred& x) mutable { promise.deliver(x); },
               [promise](caf::error& why) mutable {
                 promise.deliver(std::move(why));
@@ -340,7 +329,7 @@ caf::result<node_released> release_node(self_pointer self,
   if (!st.registry.find_name(request.node) && peer && !request.forwarded) {
     auto forwarded = request;
     forwarded.forwarded = true;
-    self->request(peer->actor, transfer_timeout, forwarded)
+    self->request(peer->actor, limits::transfer::forwarded, forwarded)
         .then([promise](node_released& x) mutable { promise.deliver(x); },
               [promise](caf::error& why) mutable {
                 promise.deliver(std::move(why));

@@ -2,7 +2,7 @@
 
 #include "actors/cell/cell_tasks.hpp"
 #include "actors/cell/state/coordinator_store.hpp"
-#include "actors/house/session_timeouts.hpp"
+#include "actors/house/limits.hpp"
 #include "actors/placement/instance_specs.hpp"
 #include "actors/placement/skill_resolution.hpp"
 #include "messages/failure.hpp"
@@ -19,8 +19,6 @@ namespace roscell {
 namespace {
 
 using self_pointer = coordinator_pointer;
-
-constexpr std::chrono::seconds question_timeout{10};
 
 /// One instance that moves.
 struct moved_step {
@@ -121,7 +119,8 @@ void remove(
   const auto* entry = self->state.registry.find_name(node);
   if (!entry || !entry->agent)
     return done();
-  self->request(entry->agent, removal_timeout, instance_removal{task, instance})
+  self->request(entry->agent, limits::task::removal,
+                instance_removal{task, instance})
       .then([done](const instances_removed&) { done(); },
             [done](const caf::error&) { done(); });
 }
@@ -180,7 +179,8 @@ void deploy_one(self_pointer self, const move_ptr& move, const moved_step& x) {
   };
   if (!entry || !entry->agent)
     return failed({error_code::conflict, "the node left meanwhile"});
-  self->request(entry->agent, deployment_timeout, instance_deployment{x.spec})
+  self->request(entry->agent, limits::task::deployment,
+                instance_deployment{x.spec})
       .then([self, move](const instance_deployed&) { finish_one(self, move); },
             [failed](const caf::error& why) { failed(to_failure(why)); });
 }
@@ -214,7 +214,7 @@ void place(self_pointer self, const move_ptr& move,
     question.steps.push_back(move->steps[i].step);
     question.steps.back().step.id += "." + std::to_string(i);
   }
-  self->request(self->state.setup.scheduler, question_timeout, question)
+  self->request(self->state.setup.scheduler, limits::local::answer, question)
       .then([self, move](const task_plan& plan) { deploy(self, move, plan); },
             [move](const caf::error& err) {
               auto why = to_failure(err);
@@ -239,7 +239,7 @@ void move_tasks(self_pointer self, const std::string& node,
         return fail_with(move, *why);
   if (move->steps.empty())
     return done(nullptr);
-  self->request(cell_coordinator_actor{self}, question_timeout,
+  self->request(cell_coordinator_actor{self}, limits::local::answer,
                 collect_resources{})
       .then(
           [self, move](cell_resources& x) {

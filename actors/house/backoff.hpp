@@ -1,5 +1,7 @@
 #pragma once
 
+#include "actors/house/limits.hpp"
+
 #include <algorithm>
 #include <chrono>
 #include <random>
@@ -12,25 +14,22 @@ class backoff {
 public:
   using duration = std::chrono::milliseconds;
 
-  static constexpr duration first{250};
-  static constexpr duration longest{30'000};
-
   explicit backoff(uint32_t seed = 1) : random_(seed) {}
 
   /// The pause before the next attempt: half to all of the present step.
   duration next() {
     const auto step = step_;
-    step_ = std::min(2 * step, longest);
+    step_ = std::min(2 * step, limits::retry::longest);
     std::uniform_real_distribution<double> part{0.5, 1.0};
     return std::chrono::duration_cast<duration>(part(random_) * step);
   }
 
   void reset() {
-    step_ = first;
+    step_ = limits::retry::first;
   }
 
 private:
-  duration step_ = first;
+  duration step_ = limits::retry::first;
   std::minstd_rand random_;
 };
 

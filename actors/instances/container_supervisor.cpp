@@ -1,5 +1,6 @@
 #include "actors/instances/container_supervisor.hpp"
 
+#include "actors/house/limits.hpp"
 #include "actors/house/wall_clock.hpp"
 #include "actors/instances/instance_id.hpp"
 #include "actors/instances/instance_removal.hpp"
@@ -19,13 +20,6 @@ namespace {
 
 using self_pointer =
     container_supervisor_actor::stateful_pointer<container_supervisor_state>;
-
-using limits = container_supervisor_state;
-
-/// Beyond what a log query itself wants to wait.
-constexpr std::chrono::seconds log_limit{5};
-
-constexpr int64_t max_log_wait_ms = 20'000;
 
 void on_ended(self_pointer self, const std::string& instance,
               supervised_instance& x) {
@@ -87,10 +81,10 @@ caf::error check(self_pointer self, const instance_spec& spec) {
   const auto live =
       std::count_if(st.instances.begin(), st.instances.end(),
                     [](const auto& x) { return is_live(x.second.row.state); });
-  if (static_cast<size_t>(live) >= limits::max_instances)
+  if (static_cast<size_t>(live) >= limits::instance::most)
     return fail(error_code::conflict,
                 "node '" + st.config.node + "' runs "
-                    + std::to_string(limits::max_instances)
+                    + std::to_string(limits::instance::most)
                     + " instances already");
   return {};
 }
@@ -156,9 +150,9 @@ caf::result<log_excerpt> read_log(self_pointer self, const log_query& query) {
                 "there is no instance '" + query.instance + "'", "/instance",
                 "`roscell instances` lists them");
   const std::chrono::milliseconds wait{
-      std::clamp<int64_t>(query.wait_ms, 0, max_log_wait_ms)};
+      std::clamp<int64_t>(query.wait_ms, 0, limits::log::wait.count())};
   auto promise = self->make_response_promise<log_excerpt>();
-  self->request(self->state.runtime, wait + log_limit, query)
+  self->request(self->state.runtime, wait + limits::log::runtime, query)
       .then([promise](const log_excerpt& x) mutable { promise.deliver(x); },
             [promise](const caf::error& x) mutable { promise.deliver(x); });
   return promise;
@@ -235,7 +229,7 @@ void on_instance_died(self_pointer self, const std::string& instance,
   auto& st = self->state;
   st.config.context.tell("skill_instance_died", instance,
                          {{"deaths", x.deaths + 1}});
-  if (++x.deaths <= limits::max_deaths)
+  if (++x.deaths <= limits::instance::most_deaths)
     return spawn_actor(self, x, true);
   x.row.state = instance_state::failed;
   x.row.since_unix_ms = unix_now_ms();
@@ -256,7 +250,7 @@ void start_runtime(self_pointer self) {
 
 void on_runtime_died(self_pointer self, const caf::error& reason) {
   auto& st = self->state;
-  if (++st.runtime_deaths > limits::max_deaths)
+  if (++st.runtime_deaths > limits::instance::most_deaths)
     return self->quit(reason);
   st.config.context.tell("runtime_died", st.config.node,
                          {{"deaths", st.runtime_deaths}});

@@ -48,15 +48,6 @@ struct pending_removal {
 struct container_supervisor_state {
   static constexpr const char* name = "container-supervisor";
 
-  /// Live instances at a time. Each costs a shim and three descriptors.
-  static constexpr size_t max_instances = 256;
-
-  /// Ended instances whose rows and logs stay until their task is removed.
-  static constexpr size_t max_ended = 32;
-
-  /// An actor that dies more often than this will not do better next time.
-  static constexpr int max_deaths = 5;
-
   container_supervisor_config config;
   runtime_actor runtime;
   int runtime_deaths = 0;

@@ -1,5 +1,6 @@
 #include "actors/instances/instance_environment.hpp"
 
+#include "actors/house/limits.hpp"
 #include "messages/json_codec.hpp"
 
 namespace roscell {
@@ -31,7 +32,7 @@ instance_environment(const instance_spec& spec,
       {"ROSCELL_OUTPUTS", text_of(spec.output)},
       {"ROSCELL_PARAMETERS", spec.parameters.empty() ? "{}" : spec.parameters},
       {"WATCHDOG_USEC",
-       std::to_string(microseconds{watchdog_interval}.count())},
+       std::to_string(microseconds{limits::instance::watchdog}.count())},
   };
   for (const auto& [name, value] : contract)
     result[name] = value;

@@ -9,10 +9,6 @@
 
 namespace roscell {
 
-/// Silence after which a running skill is taken for hung. Skills say that they
-/// are alive twice in this time, so one lost word does no harm.
-constexpr std::chrono::seconds watchdog_interval{10};
-
 /// What an instance is told by its environment: the contract of
 /// skills/engine/environment.hpp, without NOTIFY_SOCKET, which is the
 /// runtime's. The deployment option's own variables come first and the spec's

@@ -1,5 +1,7 @@
 #include "actors/instances/instance_removal.hpp"
 
+#include "actors/house/limits.hpp"
+
 #include <caf/result.hpp>
 #include <caf/send.hpp>
 
@@ -12,14 +14,6 @@ namespace roscell {
 namespace {
 
 using self_pointer = container_supervisor_pointer;
-
-using limits = container_supervisor_state;
-
-/// Must exceed the runtime's stages of force.
-constexpr std::chrono::seconds removal_limit{15};
-
-/// For one record on a slow disk.
-constexpr std::chrono::seconds disk_limit{10};
 
 void settle_removals(self_pointer self) {
   auto& xs = self->state.removals;
@@ -74,11 +68,11 @@ void clean_instance(self_pointer self, const std::string& instance) {
     on_removal_failed(self, instance, error);
   };
   const auto drop_record = [=](const container_removed&) {
-    self->request(self->state.config.store, disk_limit,
+    self->request(self->state.config.store, limits::instance::disk,
                   store_record{"instances", instance, {}})
         .then([=](const record_stored&) { on_gone(self, instance); }, on_error);
   };
-  self->request(self->state.runtime, removal_limit,
+  self->request(self->state.runtime, limits::instance::cleaning,
                 remove_container{instance, x->row.container})
       .then(drop_record, on_error);
 }
@@ -88,10 +82,10 @@ void trim_ended(self_pointer self) {
   for (const auto& [instance, x] : self->state.instances)
     if (!is_live(x.row.state) && !x.removing)
       ended.emplace_back(x.row.since_unix_ms, instance);
-  if (ended.size() <= limits::max_ended)
+  if (ended.size() <= limits::instance::most_ended)
     return;
   std::sort(ended.begin(), ended.end());
-  ended.resize(ended.size() - limits::max_ended);
+  ended.resize(ended.size() - limits::instance::most_ended);
   for (const auto& x : ended)
     clean_instance(self, x.second);
 }

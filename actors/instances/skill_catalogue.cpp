@@ -3,6 +3,7 @@
 #include "actors/edge/disk/folder_hash.hpp"
 #include "actors/edge/disk/small_file.hpp"
 #include "actors/edge/io/utf8.hpp"
+#include "actors/house/limits.hpp"
 #include "schemas/document.hpp"
 #include "schemas/message_catalogue.hpp"
 
@@ -20,13 +21,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* descriptor_name = "skill.json";
-
-/// The path becomes the image of an instance's row
-/// (schemas/common.schema.json).
-constexpr size_t max_path_bytes = 512;
-
-/// Errors of one descriptor that are told.
-constexpr size_t max_errors = 20;
 
 /// The descriptor, or what is wrong with it.
 std::variant<skill_descriptor, std::vector<schema_error>>
@@ -62,8 +56,8 @@ void skill_catalogue::scan_directory(const fs::path& directory) {
     std::error_code ignored;
     if (!fs::exists(i->path() / descriptor_name, ignored))
       continue;
-    if (folders.size() == max_skills) {
-      blame(directory, "holds more than " + std::to_string(max_skills)
+    if (folders.size() == limits::skill::most) {
+      blame(directory, "holds more than " + std::to_string(limits::skill::most)
                            + " skills; the others are left out");
       break;
     }
@@ -81,16 +75,16 @@ void skill_catalogue::add_folder(const fs::path& folder) {
   std::error_code error;
   const auto path = fs::canonical(folder, error);
   const auto file = path / descriptor_name;
-  const auto text = read_small_file(file, max_descriptor_bytes);
+  const auto text = read_small_file(file, limits::skill::descriptor_bytes);
   if (error || !text)
     return blame(folder / descriptor_name,
                  "cannot be read, or is longer than 1 MiB");
-  if (path.native().size() > max_path_bytes)
+  if (path.native().size() > limits::skill::path_bytes)
     return blame(path, "has too long a path");
   auto descriptor = read_descriptor(*text);
   if (const auto* errors =
           std::get_if<std::vector<schema_error>>(&descriptor)) {
-    for (size_t i = 0; i < std::min(errors->size(), max_errors); ++i)
+    for (size_t i = 0; i < std::min(errors->size(), limits::skill::errors); ++i)
       blame(file, (*errors)[i].expected, (*errors)[i].pointer);
     return;
   }

@@ -28,12 +28,6 @@ struct skill_problem {
 /// that actors can share it.
 class skill_catalogue {
 public:
-  /// Skills that one directory may hold.
-  static constexpr size_t max_skills = 1024;
-
-  /// Longest descriptor that is read, in bytes.
-  static constexpr size_t max_descriptor_bytes = 1024 * 1024;
-
   /// Reads every sub-folder with a `skill.json`. A bad one is left out, and
   /// the others stay. Blocks on the disk: not for a scheduled actor.
   static skill_catalogue scan(const std::vector<std::filesystem::path>& dirs);

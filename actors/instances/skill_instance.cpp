@@ -1,5 +1,6 @@
 #include "actors/instances/skill_instance.hpp"
 
+#include "actors/house/limits.hpp"
 #include "actors/instances/instance_environment.hpp"
 #include "actors/instances/instance_words.hpp"
 #include "actors/instances/skill_instance_steps.hpp"
@@ -11,8 +12,6 @@ namespace roscell {
 namespace {
 
 using self_pointer = skill_instance_pointer;
-
-using limits = skill_instance_state;
 
 void on_start(self_pointer self) {
   auto& st = self->state;
@@ -45,7 +44,7 @@ void on_notified(self_pointer self, const instance_notified& x) {
       return on_running(self);
   }
   if (x.alive && st.row.state == instance_state::running)
-    limit(self, watchdog_interval);
+    limit(self, limits::instance::watchdog);
 }
 
 void on_exited(self_pointer self, const container_exited& x) {
@@ -73,13 +72,13 @@ void on_alarm(self_pointer self) {
   if (st.row.state == instance_state::running)
     // What hangs does not listen, so force comes at once.
     take_down(self, instance_state::failed,
-              "no sign of life for " + to_string(watchdog_interval.count())
-                  + " s",
+              "no sign of life for "
+                  + to_string(limits::instance::watchdog.count()) + " s",
               std::chrono::milliseconds{0});
   else
     take_down(self, instance_state::failed,
               "it was not ready within "
-                  + to_string(limits::ready_limit.count()) + " s");
+                  + to_string(limits::instance::ready.count()) + " s");
 }
 
 json describe(const skill_instance_state& st) {

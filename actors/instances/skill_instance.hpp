@@ -25,30 +25,6 @@ struct skill_instance_config {
 struct skill_instance_state {
   static constexpr const char* name = "skill-instance";
 
-  /// A container engine may have to fetch a base image of some GiB.
-  static constexpr std::chrono::minutes build_limit{10};
-
-  /// From the runtime's "start" to its answer.
-  static constexpr std::chrono::seconds start_limit{30};
-
-  /// From the start of the program to READY=1; loading a model takes a while.
-  static constexpr std::chrono::seconds ready_limit{30};
-
-  /// From the polite request to end to force.
-  static constexpr std::chrono::seconds stop_grace{5};
-
-  /// Beyond the grace; must exceed the runtime's stages of force.
-  static constexpr std::chrono::seconds stop_limit{15};
-
-  /// For one record on a slow disk, and for reading the end of a log.
-  static constexpr std::chrono::seconds disk_limit{10};
-
-  /// Most of the log's end that goes along with a failure, in bytes.
-  static constexpr size_t log_tail_bytes = 8 * 1024;
-
-  /// Most of what is said of why it ended, in bytes.
-  static constexpr size_t reason_bytes = 2048;
-
   skill_instance_config config;
   instance_row row;
   bool begun = false;

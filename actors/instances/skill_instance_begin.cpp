@@ -1,3 +1,4 @@
+#include "actors/house/limits.hpp"
 #include "actors/instances/instance_environment.hpp"
 #include "actors/instances/instance_words.hpp"
 #include "actors/instances/skill_instance_steps.hpp"
@@ -7,8 +8,6 @@
 namespace roscell {
 
 using self_pointer = skill_instance_pointer;
-
-using limits = skill_instance_state;
 
 namespace {
 
@@ -43,7 +42,7 @@ void on_built(self_pointer self, const std::string& image,
   wish.devices = option.devices;
   wish.volumes = option.volumes;
   ask<container_started>(
-      self, st.config.runtime, limits::start_limit, wish,
+      self, st.config.runtime, limits::instance::start, wish,
       [=](const container_started& x) { on_started(self, x.container); },
       [=](const caf::error& error) {
         take_down(self, instance_state::failed, sentence(error));
@@ -61,7 +60,7 @@ void build(self_pointer self) {
   enter(self, instance_state::building);
   const auto command = folder->skill.descriptor.entry_point;
   ask<image_prepared>(
-      self, st.config.runtime, limits::build_limit,
+      self, st.config.runtime, limits::instance::build,
       prepare_image{st.row.spec.instance, st.row.spec.operation,
                     folder->path.string(), folder->skill.hash, command,
                     option->base_image},
@@ -70,7 +69,7 @@ void build(self_pointer self) {
       },
       [=](const caf::error& error) {
         self->state.row.log_tail =
-            last_bytes(log_tail_of(error), limits::log_tail_bytes);
+            last_bytes(log_tail_of(error), limits::instance::log_tail_bytes);
         conclude(self, instance_state::failed, sentence(error));
       });
 }
@@ -82,7 +81,7 @@ void build(self_pointer self) {
 void begin_anew(self_pointer self) {
   enter(self, instance_state::pending);
   ask<record_stored>(
-      self, self->state.config.store, limits::disk_limit,
+      self, self->state.config.store, limits::instance::disk,
       record_of(self->state.row), [=](const record_stored&) { build(self); },
       [=](const caf::error& error) {
         conclude(self, instance_state::failed,
@@ -100,7 +99,7 @@ void resume(self_pointer self, const std::string& container) {
   case instance_state::running:
     record_event(self, "instance_adopted");
     report(self);
-    return limit(self, watchdog_interval);
+    return limit(self, limits::instance::watchdog);
   case instance_state::stopping:
     return take_down(self, instance_state::stopped, st.row.reason);
   default:
@@ -108,7 +107,7 @@ void resume(self_pointer self, const std::string& container) {
     st.row.state = instance_state::starting;
     record_event(self, "instance_adopted");
     report(self);
-    return limit(self, limits::ready_limit);
+    return limit(self, limits::instance::ready);
   }
 }
 
@@ -142,7 +141,7 @@ void on_adopted(self_pointer self, const container_adopted& x) {
 void adopt(self_pointer self) {
   auto& st = self->state;
   ask<container_adopted>(
-      self, st.config.runtime, limits::start_limit,
+      self, st.config.runtime, limits::instance::start,
       adopt_container{st.row.spec.instance, st.row.container},
       [=](const container_adopted& x) { on_adopted(self, x); },
       [=](const caf::error& error) {

@@ -1,6 +1,7 @@
 #include "actors/instances/skill_instance_steps.hpp"
 
 #include "actors/edge/io/utf8.hpp"
+#include "actors/house/limits.hpp"
 #include "actors/house/wall_clock.hpp"
 #include "actors/instances/instance_environment.hpp"
 #include "actors/instances/instance_words.hpp"
@@ -11,8 +12,6 @@
 namespace roscell {
 
 using self_pointer = skill_instance_pointer;
-
-using limits = skill_instance_state;
 
 std::string sentence(const caf::error& error) {
   const auto why = to_failure(error);
@@ -51,7 +50,7 @@ void set_state(self_pointer self, instance_state next,
   st.row.state = next;
   st.row.since_unix_ms = unix_now_ms();
   // It may quote a path, which may have any bytes.
-  st.row.reason = valid_utf8(reason.substr(0, limits::reason_bytes));
+  st.row.reason = valid_utf8(reason.substr(0, limits::instance::reason_bytes));
   record_event(self, "instance_changed");
 }
 
@@ -98,11 +97,11 @@ void conclude(self_pointer self, instance_state last,
   log_query query;
   query.instance = st.row.spec.instance;
   ask<log_excerpt>(
-      self, st.config.runtime, limits::disk_limit, query,
+      self, st.config.runtime, limits::instance::disk, query,
       [=](const log_excerpt& log) {
         if (!log.text.empty())
           self->state.row.log_tail =
-              last_bytes(log.text, limits::log_tail_bytes);
+              last_bytes(log.text, limits::instance::log_tail_bytes);
         finish(self, last, reason);
       },
       [=](const caf::error&) { finish(self, last, reason); });
@@ -113,7 +112,7 @@ void take_down(self_pointer self, instance_state last,
   auto& st = self->state;
   enter(self, instance_state::stopping, reason);
   ask<container_stopped>(
-      self, st.config.runtime, grace + limits::stop_limit,
+      self, st.config.runtime, grace + limits::instance::stop,
       stop_container{st.row.spec.instance, st.row.container, grace.count()},
       [=](const container_stopped& x) {
         self->state.row.exit_code = x.exit_code;
@@ -133,7 +132,7 @@ void note(self_pointer self) {
   auto& st = self->state;
   const auto context = st.config.context;
   const auto instance = st.row.spec.instance;
-  self->request(st.config.store, limits::disk_limit, record_of(st.row))
+  self->request(st.config.store, limits::instance::disk, record_of(st.row))
       .then([](const record_stored&) {},
             [=](const caf::error& error) {
               context.tell("store_failed", instance,
@@ -145,7 +144,7 @@ void note(self_pointer self) {
 
 void on_running(self_pointer self) {
   enter(self, instance_state::running);
-  limit(self, watchdog_interval);
+  limit(self, limits::instance::watchdog);
   note(self);
 }
 
@@ -154,7 +153,7 @@ void on_started(self_pointer self, const std::string& container) {
   if (self->state.ready)
     return on_running(self);
   report(self);
-  limit(self, limits::ready_limit);
+  limit(self, limits::instance::ready);
   note(self);
 }
 

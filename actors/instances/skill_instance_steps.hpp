@@ -1,5 +1,6 @@
 #pragma once
 
+#include "actors/house/limits.hpp"
 #include "actors/instances/skill_instance.hpp"
 
 #include <caf/send.hpp>
@@ -59,9 +60,9 @@ void conclude(skill_instance_pointer self, instance_state last,
               const std::string& reason);
 
 /// Ends the program, then the instance, which will be `last`.
-void take_down(
-    skill_instance_pointer self, instance_state last, const std::string& reason,
-    std::chrono::milliseconds grace = skill_instance_state::stop_grace);
+void take_down(skill_instance_pointer self, instance_state last,
+               const std::string& reason,
+               std::chrono::milliseconds grace = limits::instance::stop_grace);
 
 /// The program has said that it is ready.
 void on_running(skill_instance_pointer self);

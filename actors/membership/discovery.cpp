@@ -2,6 +2,7 @@
 
 #include "actors/edge/dds/announcement.hpp"
 #include "actors/edge/io/socket_address.hpp"
+#include "actors/house/limits.hpp"
 #include "messages/failure.hpp"
 
 #include <caf/actor_cast.hpp>
@@ -15,9 +16,6 @@ namespace roscell {
 namespace {
 
 using self_pointer = discovery_actor::stateful_pointer<discovery_state>;
-
-/// As the schemas bound names and UUIDs.
-constexpr size_t max_name_bytes = 63;
 
 /// Whether this version can talk to who announces this. Coordinators of
 /// another version are told of as an event.
@@ -35,7 +33,7 @@ bool is_name(const std::string& text) {
   const auto is_fine = [](unsigned char c) {
     return std::isalnum(c) != 0 || c == '_' || c == '.' || c == '-';
   };
-  return !text.empty() && text.size() <= max_name_bytes
+  return !text.empty() && text.size() <= limits::text::name_bytes
          && std::isalnum(static_cast<unsigned char>(text.front())) != 0
          && std::all_of(text.begin(), text.end(), is_fine);
 }
@@ -44,7 +42,7 @@ bool is_uuid(const std::string& text) {
   const auto is_fine = [](unsigned char c) {
     return std::isxdigit(c) != 0 || c == '-';
   };
-  return !text.empty() && text.size() <= max_name_bytes
+  return !text.empty() && text.size() <= limits::text::name_bytes
          && std::all_of(text.begin(), text.end(), is_fine);
 }
 

@@ -1,6 +1,6 @@
 #include "actors/membership/membership.hpp"
 
-#include "actors/house/session_timeouts.hpp"
+#include "actors/house/limits.hpp"
 #include "actors/membership/membership_steps.hpp"
 
 #include <algorithm>
@@ -68,7 +68,7 @@ void leave(self_pointer self, const std::string& reason) {
     return finish_leaving(self);
   st.phase = phase::leaving;
   st.frames.call(message_json(node_departure{reason}),
-                 self->clock().now() + departure_timeout,
+                 self->clock().now() + limits::membership::departure,
                  [self](const caf::expected<json>&) {
                    if (self->state.phase == phase::leaving)
                      finish_leaving(self);

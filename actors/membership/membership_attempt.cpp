@@ -1,4 +1,4 @@
-#include "actors/house/session_timeouts.hpp"
+#include "actors/house/limits.hpp"
 #include "actors/membership/membership_steps.hpp"
 
 #include <utility>
@@ -8,17 +8,6 @@ namespace roscell::membership_steps {
 namespace {
 
 using phase = membership_phase;
-
-/// How long a discovery server is looked for before the next pause.
-constexpr session_duration search_span{5000};
-
-/// A coordinator that has refused once is unlikely to change its mind soon.
-constexpr session_duration refusal_pause{30'000};
-
-/// Longer than the handshake's own limit.
-constexpr session_duration open_timeout{10'000};
-
-constexpr session_duration local_timeout{5000};
 
 bool is_refusal(error_code code) {
   return code == error_code::unauthorized || code == error_code::conflict
@@ -100,7 +89,8 @@ void maybe_register(self_pointer self) {
       on_error(self, reply.error());
   };
   st.frames.call(message_json(registration_of(st)),
-                 self->clock().now() + registration_timeout, on_result);
+                 self->clock().now() + limits::membership::registration,
+                 on_result);
   set_timer(self);
 }
 
@@ -123,7 +113,7 @@ void on_opened(self_pointer self, const session_opened& reply) {
   st.opened = reply;
   st.phase = phase::registering;
   take_session(self, reply.session);
-  self->request(st.parts.supervisor, local_timeout, instance_query{})
+  self->request(st.parts.supervisor, limits::local::part, instance_query{})
       .then(
           [self, attempt = st.attempt](const instance_description& rows) {
             if (!is_current(self, attempt, phase::registering))
@@ -139,7 +129,7 @@ void on_opened(self_pointer self, const session_opened& reply) {
 void open(self_pointer self, const node_identity& who) {
   auto& st = self->state;
   st.config.identity = who;
-  self->request(st.parts.connector, open_timeout,
+  self->request(st.parts.connector, limits::session::open,
                 open_session{st.found_address, who})
       .then(
           [self, attempt = st.attempt](const session_opened& reply) {
@@ -157,7 +147,7 @@ void raise_epoch(self_pointer self) {
   auto& st = self->state;
   auto raised = st.config.identity;
   ++raised.epoch;
-  self->request(st.parts.store, local_timeout,
+  self->request(st.parts.store, limits::local::part,
                 store_record{"identity", "node", json(raised).dump()})
       .then(
           [self, raised, attempt = st.attempt](const record_stored&) {
@@ -219,7 +209,7 @@ void begin_attempt(self_pointer self) {
   auto& st = self->state;
   ++st.attempt;
   st.phase = phase::searching;
-  st.deadline = self->clock().now() + search_span;
+  st.deadline = self->clock().now() + limits::membership::search;
   if (st.standing == node_state::independent)
     st.standing = node_state::joining;
   st.older.reset();
@@ -228,10 +218,12 @@ void begin_attempt(self_pointer self) {
   st.instances.reset();
   st.registration_sent = false;
   st.unsent.clear();
-  self->request(st.parts.discovery, local_timeout, find_coordinator{st.wanted})
+  self->request(st.parts.discovery, limits::local::part,
+                find_coordinator{st.wanted})
       .then([](caf::ok_atom) {}, give_up(self));
   // Measuring takes a while; it goes on beside the search.
-  self->request(st.parts.agent, resource_query_timeout - answer_margin,
+  self->request(st.parts.agent,
+                limits::session::resource_query - limits::session::margin,
                 resource_query{})
       .then(
           [self, attempt = st.attempt](const resource_report& report) {
@@ -286,7 +278,7 @@ void attempt_refused(self_pointer self, const std::string& reason) {
          {{"reason", reason}, {"discovery_server", st.wanted}});
   st.refusal = reason;
   forget_place(self);
-  retreat(self, reason, refusal_pause);
+  retreat(self, reason, limits::membership::refusal_pause);
 }
 
 } // namespace roscell::membership_steps

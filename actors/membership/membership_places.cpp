@@ -1,4 +1,4 @@
-#include "actors/house/session_timeouts.hpp"
+#include "actors/house/limits.hpp"
 #include "actors/membership/membership_steps.hpp"
 
 #include <algorithm>
@@ -9,12 +9,6 @@ namespace roscell::membership_steps {
 namespace {
 
 using phase = membership_phase;
-
-/// Coordinators that were started together appear one after the other; asking
-/// all of them at once for places would make the first ones full.
-constexpr session_duration gathering_span{200};
-
-constexpr session_duration open_timeout{10'000};
 
 /// The one that hands out places: the lowest UUID, as every node computes it.
 const node_presence* place_giver(const membership_status& st) {
@@ -38,7 +32,7 @@ void ask_for_place(self_pointer self, const session_opened& reply) {
   take_session(self, reply.session);
   const auto& me = st.config.identity;
   st.frames.call(message_json(place_request{me.name, me.uuid, me.epoch}),
-                 self->clock().now() + place_timeout,
+                 self->clock().now() + limits::membership::place,
                  [self, attempt = st.attempt](const caf::expected<json>& body) {
                    if (!is_current(self, attempt, phase::asking))
                      return;
@@ -59,7 +53,7 @@ void open_to(self_pointer self, const node_presence& giver) {
   st.asked = giver.uuid;
   if (st.standing == node_state::independent)
     st.standing = node_state::joining;
-  self->request(st.parts.connector, open_timeout,
+  self->request(st.parts.connector, limits::session::open,
                 open_session{giver.address, st.config.identity})
       .then(
           [self, attempt = st.attempt](const session_opened& reply) {
@@ -79,7 +73,7 @@ void open_to(self_pointer self, const node_presence& giver) {
 void gather(self_pointer self) {
   auto& st = self->state;
   st.phase = phase::waiting;
-  st.deadline = self->clock().now() + gathering_span;
+  st.deadline = self->clock().now() + limits::membership::gathering;
   set_timer(self);
 }
 

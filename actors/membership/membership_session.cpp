@@ -1,4 +1,4 @@
-#include "actors/house/session_timeouts.hpp"
+#include "actors/house/limits.hpp"
 #include "actors/membership/membership_steps.hpp"
 
 #include <algorithm>
@@ -14,12 +14,13 @@ using phase = membership_phase;
 /// why there is none, back.
 template <class Reply, class Request>
 void forward(self_pointer self, uint64_t id, const Request& what,
-             session_duration timeout) {
+             std::chrono::milliseconds timeout) {
   auto answer = [self, session = self->state.session.id(), id](json body) {
     if (self->state.session && self->state.session.id() == session)
       self->state.frames.answer(id, body);
   };
-  self->request(self->state.parts.agent, timeout - answer_margin, what)
+  self->request(self->state.parts.agent, timeout - limits::session::margin,
+                what)
       .then([answer](const Reply& reply) { answer(message_json(reply)); },
             [answer](const caf::error& why) {
               answer(error_reply(to_failure(why)));
@@ -28,7 +29,7 @@ void forward(self_pointer self, uint64_t id, const Request& what,
 
 template <class Reply, class Request>
 void decode_and_forward(self_pointer self, const session_inquiry& x,
-                        session_duration timeout) {
+                        std::chrono::milliseconds timeout) {
   auto what = decode<Request>(x.body);
   if (auto* why = std::get_if<failure>(&what))
     self->state.frames.answer(*x.id, error_reply(*why));
@@ -37,10 +38,11 @@ void decode_and_forward(self_pointer self, const session_inquiry& x,
 }
 
 void forward_log_query(self_pointer self, const session_inquiry& x) {
-  const session_duration wait{x.body.value("wait_ms", int64_t{0})};
+  const std::chrono::milliseconds wait{x.body.value("wait_ms", int64_t{0})};
   decode_and_forward<log_excerpt, log_query>(
       self, x,
-      std::clamp(wait, session_duration{0}, max_log_wait) + log_query_timeout);
+      std::clamp(wait, std::chrono::milliseconds{0}, limits::log::wait)
+          + limits::log::session);
 }
 
 /// The coordinator moves this node, or lets it go.
@@ -64,17 +66,17 @@ void on_request(self_pointer self, const session_inquiry& x) {
   if (type == registration_switch::type)
     return on_switch(self, x);
   if (type == resource_query::type)
-    decode_and_forward<resource_report, resource_query>(self, x,
-                                                        resource_query_timeout);
+    decode_and_forward<resource_report, resource_query>(
+        self, x, limits::session::resource_query);
   else if (type == instance_reservation::type)
     decode_and_forward<instances_reserved, instance_reservation>(
-        self, x, resource_query_timeout);
+        self, x, limits::session::resource_query);
   else if (type == instance_deployment::type)
     decode_and_forward<instance_deployed, instance_deployment>(
-        self, x, deployment_timeout);
+        self, x, limits::task::deployment);
   else if (type == instance_removal::type)
-    decode_and_forward<instances_removed, instance_removal>(self, x,
-                                                            removal_timeout);
+    decode_and_forward<instances_removed, instance_removal>(
+        self, x, limits::task::removal);
   else if (type == log_query::type)
     forward_log_query(self, x);
   else
@@ -150,7 +152,7 @@ void on_session_lost(self_pointer self, const std::string& reason) {
   st.standing = node_state::orphaned;
   tell(self, "coordinator_lost", {{"cell", st.cell}, {"reason", reason}});
   // One that lasted ends the series of attempts before it.
-  if (self->clock().now() - st.joined_at >= lease_span)
+  if (self->clock().now() - st.joined_at >= limits::lease::span)
     st.pause.reset();
   attempt_failed(self, reason);
 }

@@ -1,6 +1,6 @@
 #include "actors/edge/io/socket_address.hpp"
 #include "actors/edge/session/session_handshake.hpp"
-#include "actors/house/session_timeouts.hpp"
+#include "actors/house/limits.hpp"
 #include "actors/membership/membership_steps.hpp"
 #include "actors/session/registration_order.hpp"
 
@@ -11,8 +11,6 @@ namespace roscell::membership_steps {
 namespace {
 
 using phase = membership_phase;
-
-constexpr session_duration local_timeout{5000};
 
 /// Whether a proof with this token says anything: without one, only programs
 /// of this host may be trusted, and only they reach a node on loopback.
@@ -64,11 +62,12 @@ void go_to_target(self_pointer self) {
 
 /// Ends what an orphan runs: it carries the address of the old cell's server.
 void end_instances(self_pointer self) {
-  self->request(self->state.parts.supervisor, local_timeout, instance_query{})
+  self->request(self->state.parts.supervisor, limits::local::part,
+                instance_query{})
       .then(
           [self](const instance_description& known) {
             for (const auto& x : known.instances)
-              self->request(self->state.parts.agent, removal_timeout,
+              self->request(self->state.parts.agent, limits::task::removal,
                             instance_removal{x.spec.task, x.spec.instance})
                   .then([](const instances_removed&) {},
                         [](const caf::error&) {
@@ -139,14 +138,14 @@ void write_down(self_pointer self, const switch_reply& reply) {
     depart(self);
   };
   const bool release = st.switching->order.target.empty();
-  self->request(st.parts.store, local_timeout,
+  self->request(st.parts.store, limits::local::part,
                 store_record{"identity", "node", json(raised).dump()})
       .then(
           [self, done, undo, release](const record_stored&) {
             if (!release)
               return done();
             const auto record = record_of(self->state);
-            self->request(self->state.parts.store, local_timeout,
+            self->request(self->state.parts.store, limits::local::part,
                           to_store(record))
                 .then(
                     [self, done, record](const record_stored&) {
@@ -245,7 +244,7 @@ bool give_up_switch(self_pointer self, const std::string& reason) {
   st.standing = before.standing == node_state::member ? node_state::orphaned
                                                       : before.standing;
   st.pause.reset();
-  retreat(self, reason, session_duration{0});
+  retreat(self, reason, std::chrono::milliseconds{0});
   return true;
 }
 
@@ -255,7 +254,7 @@ void store_membership(self_pointer self) {
   if (st.stored == record)
     return;
   st.stored = record;
-  self->request(st.parts.store, local_timeout, to_store(record))
+  self->request(st.parts.store, limits::local::part, to_store(record))
       .then([](const record_stored&) {},
             [self](const caf::error&) {
               // The state store has told of it; written again at the next

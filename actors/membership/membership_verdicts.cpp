@@ -1,4 +1,4 @@
-#include "actors/house/session_timeouts.hpp"
+#include "actors/house/limits.hpp"
 #include "actors/house/wall_clock.hpp"
 #include "actors/membership/membership_steps.hpp"
 
@@ -16,7 +16,7 @@ void stop(self_pointer self, const std::string& instance) {
   });
   if (row == rows.end())
     return;
-  self->request(st.parts.agent, removal_timeout,
+  self->request(st.parts.agent, limits::task::removal,
                 instance_removal{row->spec.task, instance})
       .then([](const instances_removed&) {},
             [self](const caf::error& why) {
@@ -39,7 +39,7 @@ void on_start_failed(self_pointer self, const instance_spec& spec,
 }
 
 void start(self_pointer self, const instance_spec& spec) {
-  self->request(self->state.parts.agent, deployment_timeout,
+  self->request(self->state.parts.agent, limits::task::deployment,
                 instance_deployment{spec})
       .then([](const instance_deployed&) {},
             [self, spec](const caf::error& why) {

@@ -1,5 +1,6 @@
 #include "actors/node/event_log.hpp"
 
+#include "actors/house/limits.hpp"
 #include "actors/house/wall_clock.hpp"
 
 #include <algorithm>
@@ -18,7 +19,7 @@ void record(self_pointer self, const record_event& fact) {
   for (const auto& listener : st.listeners)
     self->send(listener, x);
   st.kept.push_back(std::move(x));
-  if (st.kept.size() > event_log_state::kept_events)
+  if (st.kept.size() > limits::event::kept)
     st.kept.pop_front();
 }
 

@@ -12,9 +12,6 @@ namespace roscell {
 struct event_log_state {
   static constexpr const char* name = "event-log";
 
-  /// How many facts a listener that comes late can still get.
-  static constexpr size_t kept_events = 1000;
-
   uint64_t last_sequence = 0;
   std::deque<event> kept;
   std::vector<event_listener_actor> listeners;

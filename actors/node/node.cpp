@@ -1,5 +1,6 @@
 #include "actors/node/node.hpp"
 
+#include "actors/house/limits.hpp"
 #include "actors/house/wall_clock.hpp"
 #include "messages/failure.hpp"
 
@@ -15,11 +16,6 @@ namespace {
 using self_pointer = node_pointer;
 
 constexpr const char* version = "0.1.0";
-
-constexpr std::chrono::seconds part_timeout{5};
-
-/// Longest wait for the coordinator's word when the node leaves.
-constexpr std::chrono::seconds leave_timeout{3};
 
 /// A description whose parts come from several actors.
 struct description_draft {
@@ -59,7 +55,7 @@ void ask_membership(self_pointer self, const shared_draft& draft) {
   const auto& membership = self->state.parts.services->membership;
   if (!membership)
     return draft->finish_one();
-  self->request(membership, part_timeout, membership_query{})
+  self->request(membership, limits::local::part, membership_query{})
       .then(
           [draft](const membership_state& x) {
             draft->result.identity = x.identity;
@@ -77,14 +73,15 @@ caf::result<node_description> describe(self_pointer self,
   draft->result = first_draft(self, query);
   draft->promise = self->make_response_promise<node_description>();
   const auto& parts = self->state.parts;
-  self->request(parts.services->supervisor, part_timeout, instance_query{})
+  self->request(parts.services->supervisor, limits::local::part,
+                instance_query{})
       .then(
           [draft](instance_description& x) {
             draft->result.instances = std::move(x.instances);
             draft->finish_one();
           },
           [draft](const caf::error&) { draft->finish_one(); });
-  self->request(parts.agent, part_timeout, resource_query{})
+  self->request(parts.agent, limits::local::part, resource_query{})
       .then(
           [draft](resource_report& x) {
             draft->result.resources = std::move(x.resources);
@@ -112,7 +109,8 @@ void stop(self_pointer self) {
   const auto& membership = st.parts.services->membership;
   if (!membership)
     return end_children(self);
-  self->request(membership, leave_timeout, leave_cell{"the node is stopping"})
+  self->request(membership, limits::membership::leaving,
+                leave_cell{"the node is stopping"})
       .then([self](const node_departed&) { end_children(self); },
             [self](const caf::error&) { end_children(self); });
 }

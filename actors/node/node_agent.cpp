@@ -1,5 +1,6 @@
 #include "actors/node/node_agent.hpp"
 
+#include "actors/house/limits.hpp"
 #include "actors/placement/reservation.hpp"
 #include "actors/placement/search/report/text.hpp"
 
@@ -18,16 +19,6 @@ namespace roscell {
 namespace {
 
 using self_pointer = node_agent_actor::stateful_pointer<node_agent_state>;
-
-constexpr std::chrono::seconds query_timeout{5};
-
-/// An image may have to be built, with a base image that must be fetched.
-constexpr std::chrono::minutes deployment_timeout{15};
-
-/// Grace time, force, and the removal of what is left.
-constexpr std::chrono::seconds removal_timeout{35};
-
-constexpr std::chrono::seconds log_margin{5};
 
 /// Hands a request on and its answer back.
 template <class Reply, class Message>
@@ -101,14 +92,16 @@ void measure(self_pointer self,
     for (const auto& x : known.instances)
       if (const auto session = session_of(x); session && is_live(x.state))
         wish.sessions.push_back(*session);
-    self->request(self->state.config.probe, query_timeout, std::move(wish))
+    self->request(self->state.config.probe, limits::local::part,
+                  std::move(wish))
         .then(
             [self, done, known](host_measured& host) {
               done(complete(self, std::move(host.resources), known.instances));
             },
             on_error);
   };
-  self->request(self->state.config.supervisor, query_timeout, instance_query{})
+  self->request(self->state.config.supervisor, limits::local::part,
+                instance_query{})
       .then(on_known, on_error);
 }
 
@@ -132,7 +125,7 @@ std::optional<std::string> keep_room(self_pointer self, node_resources& node,
     return allocation::enumerated(missing);
   reserve(node, spec.resources, spec.gpu);
   self->state.kept[spec.instance] = {
-      spec, self->clock().now() + node_agent_state::longest_reservation};
+      spec, self->clock().now() + limits::task::longest_reservation};
   return std::nullopt;
 }
 
@@ -171,7 +164,8 @@ caf::result<instances_reserved> keep(self_pointer self,
 caf::result<instance_deployed> deploy(self_pointer self,
                                       const instance_deployment& wish) {
   auto promise = self->make_response_promise<instance_deployed>();
-  self->request(self->state.config.supervisor, deployment_timeout, wish)
+  self->request(self->state.config.supervisor, limits::task::agent_deployment,
+                wish)
       .then(
           [promise](instance_deployed& x) mutable {
             promise.deliver(std::move(x));
@@ -199,11 +193,11 @@ node_agent_actor::behavior_type node_agent(self_pointer self,
       [self](const instance_deployment& x) { return deploy(self, x); },
       [self](const instance_removal& x) {
         give_up_room(self, x.task, x.instance);
-        return forward<instances_removed>(self, removal_timeout, x);
+        return forward<instances_removed>(self, limits::task::agent_removal, x);
       },
       [self](const log_query& x) {
         return forward<log_excerpt>(
-            self, log_margin + std::chrono::milliseconds{x.wait_ms}, x);
+            self, limits::log::agent + std::chrono::milliseconds{x.wait_ms}, x);
       },
   };
 }

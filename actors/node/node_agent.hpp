@@ -30,9 +30,6 @@ struct kept_room {
 struct node_agent_state {
   static constexpr const char* name = "node-agent";
 
-  /// From a reservation to its deployment only a record is written.
-  static constexpr std::chrono::minutes longest_reservation{1};
-
   node_agent_config config;
   std::map<std::string, kept_room> kept; ///< By instance.
   uint64_t reports = 0;

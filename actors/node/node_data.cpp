@@ -2,6 +2,7 @@
 
 #include "actors/edge/disk/small_file.hpp"
 #include "actors/edge/io/crypto.hpp"
+#include "actors/house/limits.hpp"
 #include "messages/failure.hpp"
 #include "schemas/decode.hpp"
 
@@ -22,9 +23,6 @@ namespace {
 using records = std::vector<sqlite_store::record>;
 
 namespace fs = std::filesystem;
-
-constexpr size_t min_site_token_bytes = 16;
-constexpr size_t max_token_bytes = 4096;
 
 caf::error to_caf(const edge_error& why) {
   return fail(why.code, why.message, "", why.hint);
@@ -71,7 +69,8 @@ caf::error load_token(node_data& data, const fs::path& dir) {
   if (!fs::exists(path))
     if (auto why = write_secret(path, to_hex(random_bytes(32)) + "\n"))
       return why;
-  data.token = trim(read_small_file(path, max_token_bytes).value_or(""));
+  data.token =
+      trim(read_small_file(path, limits::token::most_bytes).value_or(""));
   if (data.token.empty())
     return fail(error_code::internal,
                 "cannot read the token in '" + path.string() + "'", "",
@@ -82,14 +81,14 @@ caf::error load_token(node_data& data, const fs::path& dir) {
 caf::error load_site_token(node_data& data, const fs::path& path) {
   if (path.empty())
     return caf::none;
-  const auto text = read_small_file(path, max_token_bytes);
+  const auto text = read_small_file(path, limits::token::most_bytes);
   if (!text)
     return fail(error_code::unauthorized,
                 "cannot read the site token in '" + path.string() + "'", "",
                 "give --site-token a file of at most 4096 bytes that this user "
                 "can read");
   data.site_token = trim(*text);
-  if (data.site_token.size() < min_site_token_bytes)
+  if (data.site_token.size() < limits::token::least_site_bytes)
     return fail(error_code::unauthorized,
                 "the site token in '" + path.string()
                     + "' is shorter than 16 characters",

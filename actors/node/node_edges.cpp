@@ -2,6 +2,7 @@
 
 #include "actors/edge/dds/announcement.hpp"
 #include "actors/edge/dds/site_survey.hpp"
+#include "actors/house/limits.hpp"
 #include "actors/requests/rest_routes.hpp"
 #include "actors/session/wire_session.hpp"
 #include "messages/failure.hpp"
@@ -44,10 +45,6 @@ caf::error open_http(const node_config& config, const node_data& data,
   return caf::none;
 }
 
-/// A coordinator that is there answers within some milliseconds; one that does
-/// not in this time is told of when it is seen.
-constexpr std::chrono::milliseconds survey_span{60};
-
 /// A coordinator hears the beats of many members; one sample serves for all. A
 /// little shorter than the pause between the beats of one session.
 constexpr std::chrono::milliseconds mark_distance{3500};
@@ -70,7 +67,7 @@ caf::error survey(const node_config& config, const node_data& data,
     return x.role == "coordinator" && x.cell == config.cell
            && x.uuid != data.identity.uuid;
   };
-  auto seen = survey_site(options, survey_span, claims_our_name);
+  auto seen = survey_site(options, limits::discovery::survey, claims_our_name);
   if (auto* why = std::get_if<edge_error>(&seen))
     return to_caf(*why);
   std::set<int64_t> used;

@@ -1,6 +1,7 @@
 #include "actors/node/resource_probe.hpp"
 
 #include "actors/edge/host/host_probe_processes.hpp"
+#include "actors/house/limits.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -27,7 +28,7 @@ void mark(self_pointer self, clock::time_point now) {
     return;
   st.samples.push_back({now, instance_usage(self).cpu_seconds});
   while (st.samples.size() > 1
-         && now - st.samples[1].at >= host_probe::max_sample_age)
+         && now - st.samples[1].at >= limits::resource::most_sample_age)
     st.samples.pop_front();
 }
 
@@ -36,7 +37,7 @@ double instance_cpu(const resource_probe_state& st, clock::time_point now,
                     double cpu_seconds) {
   for (auto i = st.samples.rbegin(); i != st.samples.rend(); ++i) {
     const std::chrono::duration<double> span = now - i->at;
-    if (span >= host_probe::min_sample_age)
+    if (span >= limits::resource::least_sample_age)
       return std::max(0.0, (cpu_seconds - i->cpu_seconds) / span.count());
   }
   return 0;

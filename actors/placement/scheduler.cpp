@@ -1,5 +1,6 @@
 #include "actors/placement/scheduler.hpp"
 
+#include "actors/house/limits.hpp"
 #include "actors/placement/task_allocation.hpp"
 #include "messages/failure.hpp"
 
@@ -19,7 +20,7 @@ caf::result<task_plan> answer(self_pointer self, const allocate_task& asked) {
   for (const auto& node : asked.nodes)
     nodes.insert(node.name);
   guard.begin(std::move(nodes));
-  auto outcome = allocate(asked, default_allocation_budget,
+  auto outcome = allocate(asked, limits::task::allocation_budget,
                           [&guard] { return guard.must_stop(); });
   if (const auto gone = guard.end(); !gone.empty()) {
     ++self->state.interrupted;

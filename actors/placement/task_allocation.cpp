@@ -1,5 +1,6 @@
 #include "actors/placement/task_allocation.hpp"
 
+#include "actors/house/limits.hpp"
 #include "actors/placement/search/allocation.hpp"
 #include "actors/placement/search/report/alternative.hpp"
 #include "actors/placement/search/report/use.hpp"
@@ -253,7 +254,7 @@ std::variant<task_plan, failure> allocate_offline(const plan_document& document,
                    document.nodes,
                    {},
                    why},
-                  offline_allocation_budget);
+                  limits::task::offline_allocation_budget);
 }
 
 } // namespace roscell

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "actors/house/limits.hpp"
 #include "messages/allocation_report.hpp"
 #include "messages/coordination.hpp"
 #include "messages/failure.hpp"
@@ -11,12 +12,6 @@
 
 namespace roscell {
 
-/// Longest search for the optimum; after it the best that was found is taken.
-constexpr std::chrono::milliseconds default_allocation_budget{200};
-
-/// On paper there is time to find the optimum of larger cells.
-constexpr std::chrono::milliseconds offline_allocation_budget{20000};
-
 /// Runs the search of actors/allocation on messages, and another one for the
 /// alternative where one is asked for. `cancelled` may be empty; true ends the
 /// search with the best that was found. Errors: no_feasible_allocation with
@@ -24,7 +19,7 @@ constexpr std::chrono::milliseconds offline_allocation_budget{20000};
 /// and for an unknown step, timeout.
 std::variant<task_plan, failure>
 allocate(const allocate_task& asked,
-         std::chrono::milliseconds budget = default_allocation_budget,
+         std::chrono::milliseconds budget = limits::task::allocation_budget,
          const std::function<bool()>& cancelled = {});
 
 /// The same for a cell on paper, where every node has every skill. `why` is a

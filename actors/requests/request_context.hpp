@@ -37,12 +37,6 @@ struct handler_pipeline_state {
 using pipeline_pointer =
     handler_pipeline_actor::stateful_pointer<handler_pipeline_state>;
 
-/// Longest wait for an answer that needs no work outside this machine.
-constexpr std::chrono::seconds local_timeout{10};
-
-/// A search has a budget of its own, so this is never reached.
-constexpr std::chrono::seconds search_timeout{60};
-
 /// What a handler works with besides its input.
 struct request_context {
   pipeline_pointer self;

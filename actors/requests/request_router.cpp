@@ -1,5 +1,6 @@
 #include "actors/requests/request_router.hpp"
 
+#include "actors/house/limits.hpp"
 #include "actors/requests/handler_pipeline.hpp"
 #include "schemas/document.hpp"
 #include "schemas/message_catalogue.hpp"
@@ -16,9 +17,6 @@ namespace {
 using self_pointer =
     request_router_actor::stateful_pointer<request_router_state>;
 using promise_type = caf::typed_response_promise<request_routed>;
-
-/// Longest life of a request: an image may have to be built for it.
-constexpr std::chrono::minutes request_timeout{15};
 
 request_routed refusal(self_pointer self, const failure& why) {
   ++self->state.refused;
@@ -43,9 +41,8 @@ std::vector<promise_type> forget(self_pointer self, const std::string& id) {
 /// Drops the oldest finished answers beyond the limit.
 void trim(self_pointer self) {
   auto& st = self->state;
-  while (st.remembered.size() > request_router_state::remembered_limit
-         || st.remembered_bytes
-                > request_router_state::remembered_bytes_limit) {
+  while (st.remembered.size() > limits::request::remembered
+         || st.remembered_bytes > limits::request::remembered_bytes) {
     auto i = std::find_if(
         st.remembered_order.begin(), st.remembered_order.end(),
         [&](const auto& id) { return !st.remembered.at(id).reply.empty(); });
@@ -108,7 +105,8 @@ void dispatch(self_pointer self, const request_runner& run,
   const auto address = worker.address();
   self->state.running[address] = {id, worker, std::move(promise)};
   self->monitor(worker);
-  self->request(worker, request_timeout, process_request{std::move(text)})
+  self->request(worker, limits::request::handler,
+                process_request{std::move(text)})
       .then(
           [self, address](request_processed& done) {
             settle(self, address, [&] {

@@ -31,12 +31,6 @@ struct running_request {
 struct request_router_state {
   static constexpr const char* name = "request-router";
 
-  /// How many answers are remembered; the oldest goes first.
-  static constexpr size_t remembered_limit = 256;
-
-  /// How much memory they may take, requests included.
-  static constexpr size_t remembered_bytes_limit = 4 * 1024 * 1024;
-
   std::shared_ptr<const request_registry> registry;
   std::shared_ptr<const node_services> services;
   std::map<std::string, remembered_request> remembered;

@@ -1,5 +1,6 @@
 #include "actors/requests/rest.hpp"
 
+#include "actors/house/limits.hpp"
 #include "actors/requests/rest_routes.hpp"
 #include "actors/requests/rest_streams.hpp"
 
@@ -13,9 +14,6 @@ namespace roscell {
 
 namespace {
 
-/// Longer than the router's own limit, so that its answer always comes first.
-constexpr std::chrono::minutes router_timeout{16};
-
 /// One HTTP request that waits for the router.
 struct rest_exchange_state {
   static constexpr const char* name = "rest-exchange";
@@ -25,7 +23,8 @@ introspected_actor::behavior_type
 rest_exchange(introspected_actor::stateful_pointer<rest_exchange_state> self,
               const request_router_actor& router, const json_request& what,
               const responder& answer) {
-  self->request(router, router_timeout, route_request{what.text, what.only})
+  self->request(router, limits::request::router,
+                route_request{what.text, what.only})
       .then(
           [self, answer](const request_routed& done) {
             const int status = done.refusal.empty()

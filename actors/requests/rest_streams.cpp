@@ -1,5 +1,6 @@
 #include "actors/requests/rest_streams.hpp"
 
+#include "actors/house/limits.hpp"
 #include "schemas/decode.hpp"
 
 #include <chrono>
@@ -11,11 +12,6 @@ namespace roscell {
 namespace {
 
 constexpr const char* text_content = "text/plain; charset=utf-8";
-
-/// How long one question for more of a log may wait at the node.
-constexpr std::chrono::milliseconds log_wait{20'000};
-
-constexpr std::chrono::seconds log_answer_timeout{60};
 
 struct event_stream_state {
   static constexpr const char* name = "event-stream";
@@ -69,7 +65,7 @@ void on_excerpt(log_pointer self, const log_excerpt& excerpt) {
   if (!more)
     return finish(self);
   st.wish.query.offset = excerpt.next_offset;
-  st.wish.query.wait_ms = log_wait.count();
+  st.wish.query.wait_ms = limits::log::wait.count();
   ask_for_more(self);
 }
 
@@ -91,7 +87,7 @@ void on_reply(log_pointer self, const request_routed& reply) {
 
 void ask_for_more(log_pointer self) {
   auto& st = self->state;
-  self->request(st.router, log_answer_timeout,
+  self->request(st.router, limits::log::stream,
                 route_request{message_json(st.wish.query).dump()})
       .then([self](const request_routed& reply) { on_reply(self, reply); },
             [self](const caf::error&) { finish(self); });

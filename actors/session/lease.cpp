@@ -1,14 +1,16 @@
 #include "actors/session/lease.hpp"
 
+#include "actors/house/limits.hpp"
+
 #include <algorithm>
 
 namespace roscell {
 
 lease::lease(lease_side side, time_point now)
-    : side_(side), heard_(now), next_(now + beat_period),
-      next_beat_(now + beat_period) {
+    : side_(side), heard_(now), next_(now + limits::lease::beat_period),
+      next_beat_(now + limits::lease::beat_period) {
   if (side == lease_side::coordinator)
-    next_ += probe_interval;
+    next_ += limits::lease::probe_interval;
 }
 
 void lease::heard(time_point now) {
@@ -45,14 +47,15 @@ lease::step lease::member_due(time_point now) {
   }
   if (!unanswered_) {
     unanswered_ = true;
-    next_beat_ = now + beat_period;
+    next_beat_ = now + limits::lease::beat_period;
   }
   next_ = repeat_at(now);
   return {false, beat_kind::beat};
 }
 
 lease::step lease::coordinator_due(time_point now) {
-  const auto missed_at = heard_ + beat_period + probe_interval;
+  const auto missed_at =
+      heard_ + limits::lease::beat_period + limits::lease::probe_interval;
   if (now < missed_at) {
     next_ = missed_at;
     return {};
@@ -62,8 +65,10 @@ lease::step lease::coordinator_due(time_point now) {
 }
 
 lease::time_point lease::repeat_at(time_point now) const {
-  const bool urgent = end() - now <= urgent_span;
-  return now + (urgent ? urgent_probe_interval : probe_interval);
+  const bool urgent = end() - now <= limits::lease::urgent_span;
+  return now
+         + (urgent ? limits::lease::urgent_probe_interval
+                   : limits::lease::probe_interval);
 }
 
 } // namespace roscell

@@ -1,27 +1,12 @@
 #pragma once
 
+#include "actors/house/limits.hpp"
 #include "messages/link.hpp"
 
 #include <chrono>
 #include <optional>
 
 namespace roscell {
-
-/// How long a silent peer counts as alive. Both sides use the same numbers.
-/// An outage of less than `lease_span - beat_period` is never noticed.
-constexpr std::chrono::milliseconds lease_span{8000};
-
-/// A member's beats are this far apart.
-constexpr std::chrono::milliseconds beat_period{4000};
-
-/// After a miss the peer is asked again this often,
-constexpr std::chrono::milliseconds probe_interval{250};
-
-/// and this often in the last seconds of the lease: 16 questions in all would
-/// lose a living member every 14,000 hours where each direction loses 20 %,
-/// 24 questions lose it every 50 million hours.
-constexpr std::chrono::milliseconds urgent_probe_interval{125};
-constexpr std::chrono::milliseconds urgent_span{2000};
 
 /// A member beats and waits for each ack; a coordinator answers, and asks by
 /// itself only when a beat is missing.
@@ -69,7 +54,7 @@ private:
   time_point repeat_at(time_point now) const;
 
   time_point end() const {
-    return heard_ + lease_span;
+    return heard_ + limits::lease::span;
   }
 
   lease_side side_ = lease_side::member;

@@ -1,6 +1,6 @@
 #include "actors/session/member.hpp"
 
-#include "actors/house/session_timeouts.hpp"
+#include "actors/house/limits.hpp"
 
 #include <caf/typed_response_promise.hpp>
 
@@ -75,7 +75,7 @@ void ask_for_row(self_pointer self, uint64_t id, node_registration wish) {
   st.announced = true;
   set_name(wish, st.peer.name);
   self->request(
-          st.coordinator, row_timeout,
+          st.coordinator, limits::membership::row,
           register_node{std::move(wish), caf::actor_cast<member_actor>(self)})
       .then(
           [self, id](const node_registered& reply) {
@@ -107,7 +107,7 @@ void on_departure(self_pointer self, uint64_t id, const json& body) {
   auto& st = self->state;
   const auto reason = body.value("reason", "");
   st.phase = phase::departing;
-  self->request(st.coordinator, departure_timeout,
+  self->request(st.coordinator, limits::membership::departure,
                 depart_node{st.peer.uuid, caf::actor_cast<member_actor>(self),
                             reason})
       .then(
@@ -128,7 +128,7 @@ void on_place_request(self_pointer self, uint64_t id, const json& body) {
   auto& x = std::get<place_request>(wish);
   x.name = st.peer.name;
   x.uuid = st.peer.uuid;
-  self->request(st.coordinator, place_timeout, x)
+  self->request(st.coordinator, limits::membership::place, x)
       .then(
           [self, id](const place_granted& reply) {
             self->state.frames.answer(id, message_json(reply));
@@ -226,7 +226,7 @@ using review = std::function<void(Reply&)>;
 
 template <class Reply, class Request>
 caf::result<Reply> ask_node(self_pointer self, const Request& what,
-                            session_duration timeout,
+                            std::chrono::milliseconds timeout,
                             const review<Reply>& look = nullptr) {
   auto& st = self->state;
   if (st.phase != phase::active)
@@ -268,7 +268,8 @@ void take_over(self_pointer self, session_admitted accepted,
   st.peer = std::move(accepted.peer);
   st.coordinator = std::move(coordinator);
   st.life = lease{lease_side::coordinator, now(self)};
-  st.registration_deadline = now(self) + registration_limit;
+  st.registration_deadline =
+      now(self) + limits::membership::registration_arrival;
   st.frames = session_exchange{[self](std::string text) {
     self->send(self->state.session, send_frame{std::move(text)});
   }};
@@ -293,29 +294,34 @@ member_actor::behavior_type member(self_pointer self, session_admitted accepted,
       [self](const state_query&) { return describe(self); },
       [self](const resource_query& x) {
         return ask_node<resource_report>(
-            self, x, resource_query_timeout, [self](resource_report& report) {
+            self, x, limits::session::resource_query,
+            [self](resource_report& report) {
               report.resources.name = self->state.peer.name;
             });
       },
       [self](const instance_reservation& x) {
-        return ask_node<instances_reserved>(self, x, resource_query_timeout);
+        return ask_node<instances_reserved>(self, x,
+                                            limits::session::resource_query);
       },
       [self](const instance_deployment& x) {
-        return ask_node<instance_deployed>(
-            self, x, deployment_timeout, [self](instance_deployed& reply) {
-              reply.instance.node = self->state.peer.name;
-            });
+        return ask_node<instance_deployed>(self, x, limits::task::deployment,
+                                           [self](instance_deployed& reply) {
+                                             reply.instance.node =
+                                                 self->state.peer.name;
+                                           });
       },
       [self](const instance_removal& x) {
-        return ask_node<instances_removed>(self, x, removal_timeout);
+        return ask_node<instances_removed>(self, x, limits::task::removal);
       },
       [self](const registration_switch& x) {
-        return ask_node<switch_accepted>(self, x, switch_timeout);
+        return ask_node<switch_accepted>(self, x,
+                                         limits::membership::switching);
       },
       [self](const log_query& x) {
-        const auto wait = std::clamp(session_duration{x.wait_ms},
-                                     session_duration{0}, max_log_wait);
-        return ask_node<log_excerpt>(self, x, wait + log_query_timeout);
+        const auto wait =
+            std::clamp(std::chrono::milliseconds{x.wait_ms},
+                       std::chrono::milliseconds{0}, limits::log::wait);
+        return ask_node<log_excerpt>(self, x, wait + limits::log::session);
       },
       [self](const frame_received& frame) { on_frame(self, frame); },
       [self](const beat_received& beat) { on_beat(self, beat); },

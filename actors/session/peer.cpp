@@ -1,6 +1,6 @@
 #include "actors/session/peer.hpp"
 
-#include "actors/house/session_timeouts.hpp"
+#include "actors/house/limits.hpp"
 
 #include <caf/actor_cast.hpp>
 #include <caf/typed_response_promise.hpp>
@@ -42,7 +42,7 @@ void end(self_pointer self, const std::string& reason) {
 
 template <class Reply, class Request>
 void pass_on(self_pointer self, const session_inquiry& x,
-             session_duration timeout) {
+             std::chrono::milliseconds timeout) {
   auto what = decode<Request>(x.body);
   if (auto* why = std::get_if<failure>(&what))
     return self->state.frames.answer(*x.id, error_reply(*why));
@@ -61,15 +61,18 @@ void pass_on(self_pointer self, const session_inquiry& x,
 void on_question(self_pointer self, const session_inquiry& x) {
   const auto type = x.type();
   if (type == place_request::type)
-    pass_on<place_granted, place_request>(self, x, place_timeout);
+    pass_on<place_granted, place_request>(self, x, limits::membership::place);
   else if (type == place_reservation::type)
-    pass_on<place_reserved, place_reservation>(self, x, peer_timeout);
+    pass_on<place_reserved, place_reservation>(self, x,
+                                               limits::session::peer_answer);
   else if (type == member_surrender::type)
-    pass_on<members_surrendered, member_surrender>(self, x, transfer_timeout);
+    pass_on<members_surrendered, member_surrender>(self, x,
+                                                   limits::transfer::forwarded);
   else if (type == node_transfer::type)
-    pass_on<node_transferred, node_transfer>(self, x, transfer_timeout);
+    pass_on<node_transferred, node_transfer>(self, x,
+                                             limits::transfer::forwarded);
   else if (type == node_release::type)
-    pass_on<node_released, node_release>(self, x, transfer_timeout);
+    pass_on<node_released, node_release>(self, x, limits::transfer::forwarded);
   else
     self->state.frames.answer(
         *x.id, error_reply({error_code::unknown_type,
@@ -148,7 +151,7 @@ void on_tick(self_pointer self, uint64_t number) {
 
 template <class Reply, class Request>
 caf::result<Reply> ask(self_pointer self, const Request& what,
-                       session_duration timeout) {
+                       std::chrono::milliseconds timeout) {
   auto promise = self->make_response_promise<Reply>();
   self->state.frames.call(message_json(what), now(self) + timeout,
                           [promise](const caf::expected<json>& body) mutable {
@@ -207,19 +210,20 @@ peer_actor::behavior_type peer(self_pointer self, const peer_setup& setup) {
   return {
       [self](const state_query&) { return describe(self); },
       [self](const place_request& x) {
-        return ask<place_granted>(self, x, place_timeout - answer_margin);
+        return ask<place_granted>(
+            self, x, limits::membership::place - limits::session::margin);
       },
       [self](const place_reservation& x) {
-        return ask<place_reserved>(self, x, peer_timeout);
+        return ask<place_reserved>(self, x, limits::session::peer_answer);
       },
       [self](const member_surrender& x) {
-        return ask<members_surrendered>(self, x, transfer_timeout);
+        return ask<members_surrendered>(self, x, limits::transfer::forwarded);
       },
       [self](const node_transfer& x) {
-        return ask<node_transferred>(self, x, transfer_timeout);
+        return ask<node_transferred>(self, x, limits::transfer::forwarded);
       },
       [self](const node_release& x) {
-        return ask<node_released>(self, x, transfer_timeout);
+        return ask<node_released>(self, x, limits::transfer::forwarded);
       },
       [self](const cell_standing& x) { tell(self, x); },
       [self](const cell_changed& x) { tell(self, x); },

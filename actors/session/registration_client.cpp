@@ -4,6 +4,7 @@
 #include "actors/edge/io/socket_address.hpp"
 #include "actors/edge/session/registration_proof.hpp"
 #include "actors/edge/session/session_handshake.hpp"
+#include "actors/house/limits.hpp"
 #include "actors/requests/rest_routes.hpp"
 #include "actors/session/registration_order.hpp"
 #include "messages/failure.hpp"
@@ -23,8 +24,6 @@ namespace {
 using self_pointer =
     registration_client_actor::stateful_pointer<registration_client_state>;
 
-constexpr std::chrono::milliseconds call_timeout{5000};
-
 /// On the io thread: turns an outcome into a message.
 node_answered to_message(uint64_t call, edge_result<http_reply> result) {
   node_answered answer;
@@ -40,13 +39,13 @@ void send(self_pointer self, uint64_t call, const std::string& method,
           const std::string& body) {
   auto& st = self->state;
   const auto to = *parse_socket_address(st.calls.at(call).wish.address);
-  exchange_http(
-      *st.config.io,
-      {to.address, to.port, method, registration_path, body, call_timeout},
-      [me = registration_client_actor{self},
-       call](edge_result<http_reply> result) {
-        caf::anon_send(me, to_message(call, std::move(result)));
-      });
+  exchange_http(*st.config.io,
+                {to.address, to.port, method, registration_path, body,
+                 limits::cell::registration_call},
+                [me = registration_client_actor{self},
+                 call](edge_result<http_reply> result) {
+                  caf::anon_send(me, to_message(call, std::move(result)));
+                });
 }
 
 /// The answer as `Reply`, or why it is none.

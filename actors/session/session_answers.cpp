@@ -1,5 +1,7 @@
 #include "actors/session/session_answers.hpp"
 
+#include "actors/house/limits.hpp"
+
 #include <algorithm>
 
 namespace roscell {
@@ -15,7 +17,7 @@ session_answers::admission session_answers::admit(uint64_t id) {
   }
   if (id <= forgotten_)
     return {verdict::stale, {}};
-  if (answers_.size() >= window && !drop_oldest_done())
+  if (answers_.size() >= limits::session::known_calls && !drop_oldest_done())
     return {verdict::crowded, {}};
   answers_.emplace(id, answer{});
   return {verdict::fresh, {}};
@@ -26,7 +28,7 @@ void session_answers::record(uint64_t id, const std::string& text) {
   if (known == answers_.end())
     return;
   known->second.done = true;
-  if (text.size() <= max_kept_bytes)
+  if (text.size() <= limits::session::kept_answer_bytes)
     known->second.text = text;
 }
 

@@ -10,13 +10,6 @@ namespace roscell {
 /// delivered twice is done once: ids count up, and the latest are remembered.
 class session_answers {
 public:
-  /// How many of the latest ids are known. More requests at once are refused.
-  static constexpr size_t window = 256;
-
-  /// Larger answers are not kept: the sender of a repeated request is told to
-  /// ask anew.
-  static constexpr size_t max_kept_bytes = 16 * 1024;
-
   enum class verdict {
     fresh,  ///< To be done, then `record`.
     busy,   ///< Being done; its answer will come.

@@ -1,5 +1,7 @@
 #include "actors/session/session_calls.hpp"
 
+#include "actors/house/limits.hpp"
+
 #include <algorithm>
 #include <utility>
 
@@ -20,12 +22,12 @@ caf::expected<json> result_of(const session_envelope& reply) {
 
 std::optional<std::string>
 session_calls::begin(const json& body, time_point deadline, on_result done) {
-  if (calls_.size() >= max_pending) {
+  if (calls_.size() >= limits::session::pending_calls) {
     done(fail(error_code::conflict, "too many requests wait for the peer"));
     return std::nullopt;
   }
   auto text = write_envelope(envelope_kind::request, last_id_ + 1, body);
-  if (text.size() > max_session_frame_bytes) {
+  if (text.size() > limits::session::frame_bytes) {
     done(fail(error_code::conflict, "the request is too large for a session"));
     return std::nullopt;
   }

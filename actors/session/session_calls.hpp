@@ -26,9 +26,6 @@ public:
   /// it tells of.
   using on_result = std::function<void(caf::expected<json>)>;
 
-  /// No peer needs more at once, and each one holds memory.
-  static constexpr size_t max_pending = 256;
-
   /// The frame of a new request. Where there is none, `done` has been called
   /// with the error: conflict (too many calls wait, or it is too large).
   std::optional<std::string> begin(const json& body, time_point deadline,

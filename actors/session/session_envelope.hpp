@@ -11,9 +11,6 @@
 /// The frames that pass between a member and its coordinator, as text.
 namespace roscell {
 
-/// Largest frame that a session carries, in and out.
-constexpr size_t max_session_frame_bytes = 1024 * 1024;
-
 enum class envelope_kind { request, reply, notice };
 
 /// A frame that came in. Its body has passed its schema unless `refused`.

@@ -1,5 +1,7 @@
 #include "actors/session/session_exchange.hpp"
 
+#include "actors/house/limits.hpp"
+
 #include <utility>
 
 namespace roscell {
@@ -27,7 +29,7 @@ void session_exchange::call(const json& body, time_point deadline,
 
 void session_exchange::notify(const json& body) {
   auto text = write_envelope(envelope_kind::notice, 0, body);
-  if (text.size() <= max_session_frame_bytes)
+  if (text.size() <= limits::session::frame_bytes)
     send_(std::move(text));
 }
 
@@ -57,7 +59,7 @@ session_exchange::receive(const std::string& frame) {
 
 void session_exchange::answer(uint64_t id, const json& body) {
   auto text = reply_text(id, body);
-  if (text.size() > max_session_frame_bytes)
+  if (text.size() > limits::session::frame_bytes)
     text = reply_text(id, refusal(error_code::conflict,
                                   "the answer is too large for a session"));
   answers_.record(id, text);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "actors/house/limits.hpp"
 #include "actors/session/session_answers.hpp"
 #include "actors/session/session_calls.hpp"
 #include "actors/session/session_envelope.hpp"
@@ -27,9 +28,6 @@ public:
   using time_point = session_calls::time_point;
   using send_function = std::function<void(std::string)>;
 
-  /// A peer that sends more of them does not speak our language.
-  static constexpr unsigned max_bad_frames = 3;
-
   session_exchange() = default;
 
   /// Sends frames by `send`.
@@ -50,7 +48,7 @@ public:
 
   /// The peer has sent too many bad frames; the session is to be closed.
   bool hopeless() const {
-    return bad_frames_ >= max_bad_frames;
+    return bad_frames_ >= limits::session::bad_frames;
   }
 
   session_calls& calls() {

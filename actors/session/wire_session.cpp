@@ -1,5 +1,7 @@
 #include "actors/session/wire_session.hpp"
 
+#include "actors/house/limits.hpp"
+
 #include <mutex>
 #include <utility>
 
@@ -23,9 +25,6 @@ namespace {
 
 using self_pointer = session_actor::stateful_pointer<wire_session_state>;
 
-/// Longest time in which an owner takes a frame; one that is so late is stuck.
-constexpr std::chrono::seconds owner_answer_timeout{30};
-
 void end(self_pointer self, const std::string& reason) {
   auto& st = self->state;
   if (st.owner)
@@ -41,7 +40,7 @@ void let_read_on(self_pointer self) {
 }
 
 void hand_over(self_pointer self, const frame_received& frame) {
-  self->request(self->state.owner, owner_answer_timeout, frame)
+  self->request(self->state.owner, limits::session::owner, frame)
       .then([self] { let_read_on(self); },
             [self](const caf::error&) {
               end(self, "the receiving side is overloaded");

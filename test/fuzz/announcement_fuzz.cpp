@@ -1,5 +1,6 @@
 #include "actors/edge/dds/announcement.hpp"
 #include "actors/edge/dds/rtps/discovery_probe.hpp"
+#include "actors/house/limits.hpp"
 
 #include <cstdint>
 #include <cstdlib>
@@ -14,7 +15,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
     return 0;
   auto written = roscell::encode(*read);
   auto again = roscell::decode(written);
-  if (written.size() <= roscell::max_announcement_bytes && again != read)
+  if (written.size() <= limits::discovery::announcement_bytes && again != read)
     std::abort();
   return 0;
 }

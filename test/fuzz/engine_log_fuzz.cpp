@@ -1,6 +1,7 @@
 #include "actors/edge/engine/engine_log.hpp"
 #include "actors/edge/io/line_splitter.hpp"
 #include "actors/edge/io/utf8.hpp"
+#include "actors/house/limits.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -21,7 +22,7 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, size_t size) {
       more_pieces = pieces.take(bytes.substr(at, 7));
     const auto part = whole.part();
     // Replacements are three times as long as what they replace.
-    if (part.text.size() > 3 * instance_log::max_part_bytes
+    if (part.text.size() > 3 * limits::log::part_bytes
         || valid_utf8(part.text) != part.text || part.next_offset < 0
         || (size > 0 && more != more_pieces) || part.text != pieces.part().text
         || part.next_offset != pieces.part().next_offset)

@@ -1,4 +1,4 @@
-#include "actors/house/session_timeouts.hpp"
+#include "actors/house/limits.hpp"
 #include "test/site/site_watch.hpp"
 
 #include <cstdlib>
@@ -64,13 +64,13 @@ public:
   /// For how long a registry may show a node that does not believe in it: a
   /// lease, and until the next look.
   std::chrono::milliseconds longest_honest_lie() const {
-    std::chrono::milliseconds result = lease_span + site_watch::period;
+    std::chrono::milliseconds result = limits::lease::span + site_watch::period;
     // A frame that was held up is a sign of life when it arrives.
     if (holds_)
       result += held_for;
     // A lost frame, which TCP would repeat, costs the wait for its answer.
     if (hostile_)
-      result += registration_timeout;
+      result += limits::membership::registration;
     return result;
   }
 

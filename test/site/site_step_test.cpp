@@ -1,4 +1,4 @@
-#include "actors/house/session_timeouts.hpp"
+#include "actors/house/limits.hpp"
 #include "test/site/site_watch.hpp"
 
 #include <iostream>
@@ -118,8 +118,8 @@ size_t count_messages(virtual_time& clock, const procedure& what) {
 bool ends_well(step_site& x, const std::string& what) {
   const auto left = calm_down(x.place) + old_registrations(x.place);
   const auto lie = x.watch.longest_lie();
-  const auto limit =
-      lease_span + site_watch::period + registration_timeout + 1s;
+  const auto limit = limits::lease::span + site_watch::period
+                     + limits::membership::registration + 1s;
   if (left.empty() && lie <= limit)
     return true;
   std::cerr << what << ": " << left << "longest lie " << lie.count() << " ms\n";

@@ -1,5 +1,7 @@
 #include "actors/cell/books/cell_registry.hpp"
 
+#include "actors/house/limits.hpp"
+
 #include <algorithm>
 #include <utility>
 
@@ -23,8 +25,9 @@ cell_registry::refusal(const node_identity& who,
   if (!namesake || namesake->row.identity.uuid == who.uuid)
     return std::nullopt;
   const auto& row = namesake->row;
-  const bool free = row.state == row_state::lost
-                    && now.steady - namesake->inactive_since > name_held;
+  const bool free =
+      row.state == row_state::lost
+      && now.steady - namesake->inactive_since > limits::membership::name_held;
   if (free)
     return std::nullopt;
   return "the name '" + who.name + "' belongs to the node with UUID "

@@ -47,9 +47,6 @@ member_claim claim_of(const registry_row& row);
 /// sends nothing.
 class cell_registry {
 public:
-  /// How long a lost node keeps its name for itself: one lease.
-  static constexpr std::chrono::seconds name_held{8};
-
   /// Why a node cannot have a row now, if so: its name belongs to another
   /// UUID, or its epoch is older than one already seen.
   std::optional<std::string> refusal(const node_identity& who,

@@ -1,5 +1,7 @@
 #include "actors/cell/books/task_table.hpp"
 
+#include "actors/house/limits.hpp"
+
 #include <algorithm>
 #include <utility>
 
@@ -38,7 +40,7 @@ void task_table::remember_ended(const task_terminated& reply) {
                      [&](const auto& x) { return x.task == reply.task; }),
       ended_.end());
   ended_.push_back(reply);
-  if (ended_.size() > ended_limit)
+  if (ended_.size() > limits::task::ended)
     ended_.pop_front();
 }
 

@@ -49,9 +49,6 @@ struct task_entry {
 /// The coordinator's table of tasks. Pure.
 class task_table {
 public:
-  /// How many ended tasks are remembered, to answer a repeated termination.
-  static constexpr size_t ended_limit = 100;
-
   task_entry* find(const std::string& task);
   const task_entry* find(const std::string& task) const;
   task_entry* find_owned_by(const caf::actor_addr& owner);

@@ -1,6 +1,7 @@
 #include "actors/cell/state/arrivals.hpp"
 
 #include "actors/cell/state/coordinator_timer.hpp"
+#include "actors/house/limits.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -8,18 +9,11 @@
 
 namespace roscell {
 
-namespace {
-
-/// From the node's word that it comes to its registration.
-constexpr std::chrono::seconds arrival_span{25};
-
-} // namespace
-
 void await_arrival(coordinator_pointer self, const std::string& uuid,
                    std::function<void(const failure*)> done) {
   self->state.arrivals.emplace(
-      uuid,
-      awaited_arrival{self->clock().now() + arrival_span, std::move(done)});
+      uuid, awaited_arrival{self->clock().now() + limits::cell::arrival,
+                            std::move(done)});
   set_timer(self);
 }
 

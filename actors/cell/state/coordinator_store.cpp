@@ -1,16 +1,11 @@
 #include "actors/cell/state/coordinator_store.hpp"
 
+#include "actors/house/limits.hpp"
 #include "messages/failure.hpp"
 
 #include <utility>
 
 namespace roscell {
-
-namespace {
-
-constexpr std::chrono::seconds store_timeout{5};
-
-} // namespace
 
 void keep_records(coordinator_pointer self, std::vector<store_record> records,
                   std::function<void()> kept,
@@ -19,7 +14,7 @@ void keep_records(coordinator_pointer self, std::vector<store_record> records,
   if (!st.setup.store || records.empty())
     return kept();
   const auto subject = records.front().key;
-  self->request(st.setup.store, store_timeout,
+  self->request(st.setup.store, limits::store::write,
                 store_records{std::move(records)})
       .then([kept = std::move(kept)](const record_stored&) { kept(); },
             [self, subject,

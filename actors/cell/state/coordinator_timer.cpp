@@ -2,6 +2,7 @@
 
 #include "actors/cell/state/arrivals.hpp"
 #include "actors/cell/state/peer_attempts.hpp"
+#include "actors/house/limits.hpp"
 
 #include <algorithm>
 
@@ -10,9 +11,6 @@ namespace roscell {
 namespace {
 
 using time_point = std::chrono::steady_clock::time_point;
-
-/// Nodes that are joining, and coordinators that are appearing, get this long.
-constexpr std::chrono::seconds settling_span{2};
 
 time_point next_transfer_deadline(const cell_coordinator_state& st) {
   auto result = time_point::max();
@@ -36,7 +34,7 @@ void set_timer(coordinator_pointer self) {
 void arm_balance(coordinator_pointer self) {
   if (!self->state.setup.rebalance)
     return;
-  self->state.balance_due = self->clock().now() + settling_span;
+  self->state.balance_due = self->clock().now() + limits::cell::settling;
   set_timer(self);
 }
 

@@ -1,6 +1,7 @@
 #include "actors/cell/state/transfer_end.hpp"
 
 #include "actors/cell/state/coordinator_store.hpp"
+#include "actors/house/limits.hpp"
 #include "actors/house/wall_clock.hpp"
 
 #include <utility>
@@ -9,11 +10,8 @@ namespace roscell {
 
 namespace {
 
-/// So many ended transfers are remembered.
-constexpr size_t ended_limit = 100;
-
 void forget_oldest(cell_coordinator_state& st) {
-  while (st.transfers.size() > ended_limit) {
+  while (st.transfers.size() > limits::transfer::ended) {
     auto oldest = st.transfers.end();
     for (auto i = st.transfers.begin(); i != st.transfers.end(); ++i)
       if (!is_open(i->second.row.state)

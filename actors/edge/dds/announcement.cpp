@@ -1,5 +1,7 @@
 #include "actors/edge/dds/announcement.hpp"
 
+#include "actors/house/limits.hpp"
+
 #include <array>
 #include <charconv>
 #include <set>
@@ -125,7 +127,7 @@ std::string encode(const announcement& x) {
 }
 
 std::optional<announcement> decode(std::string_view bytes) {
-  if (bytes.size() > max_announcement_bytes
+  if (bytes.size() > limits::discovery::announcement_bytes
       || bytes.substr(0, magic.size()) != magic)
     return std::nullopt;
   announcement result;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "actors/house/limits.hpp"
+
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -7,10 +9,6 @@
 #include <string_view>
 
 namespace roscell {
-
-/// The most bytes of USER_DATA that we send or look at: enough for the longest
-/// names that a session takes, all of whose bytes are escaped.
-constexpr std::size_t max_announcement_bytes = 1024;
 
 /// What a participant says of itself before anybody has a session with it. It
 /// rides in the USER_DATA of the DDS participant, so it costs no topic.
@@ -44,7 +42,7 @@ bool operator==(const announcement& x, const announcement& y);
 bool operator!=(const announcement& x, const announcement& y);
 
 /// The wire form of `x`. It never fails; what does not fit into
-/// `max_announcement_bytes` is refused where it is sent.
+/// `limits::discovery::announcement_bytes` is refused where it is sent.
 std::string encode(const announcement& x);
 
 /// Reads a wire form. Unknown keys are ignored, absent ones stay empty, so

@@ -2,6 +2,7 @@
 
 #include "actors/edge/dds/rtps/discovery_probe.hpp"
 #include "actors/edge/io/edge_error.hpp"
+#include "actors/house/limits.hpp"
 
 #include <chrono>
 #include <cstdint>
@@ -17,9 +18,11 @@ struct cell_client_options {
   /// The local IPv4 address to use; empty for the one that reaches the server.
   std::string address;
   std::uint32_t domain_id = 0; ///< The ROS domain of the cell, 0 to 232.
-  std::string announcement;    ///< At most `max_announcement_bytes`.
-  std::chrono::seconds lease{600};
-  std::chrono::seconds announcement_period{200}; ///< Shorter than the lease.
+  std::string
+      announcement; ///< At most `limits::discovery::announcement_bytes`.
+  std::chrono::seconds lease = limits::discovery::lease;
+  std::chrono::seconds announcement_period =
+      limits::discovery::announcement_period; ///< Shorter than the lease.
 };
 
 /// What a client learned of its server.

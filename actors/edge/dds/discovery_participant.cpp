@@ -2,6 +2,7 @@
 
 #include "actors/edge/dds/announcement.hpp"
 #include "actors/edge/dds/rtps/discovery_transport.hpp"
+#include "actors/house/limits.hpp"
 
 #include <fastdds/rtps/RTPSDomain.h>
 #include <fastdds/rtps/participant/ParticipantDiscoveryInfo.h>
@@ -62,7 +63,7 @@ sighting to_sighting(const ParticipantDiscoveryInfo& info) {
               result.prefix.begin());
   result.name = info.info.m_participantName.to_string();
   auto& data = info.info.m_userData;
-  if (data.size() <= max_announcement_bytes)
+  if (data.size() <= limits::discovery::announcement_bytes)
     result.announcement.assign(data.begin(), data.end());
   return result;
 }
@@ -74,11 +75,11 @@ edge_error out_of_bounds(std::string message) {
 } // namespace
 
 std::optional<edge_error> check_announcement(const std::string& bytes) {
-  if (bytes.size() <= max_announcement_bytes)
+  if (bytes.size() <= limits::discovery::announcement_bytes)
     return std::nullopt;
   return out_of_bounds("an announcement of " + std::to_string(bytes.size())
                        + " bytes is over the limit of "
-                       + std::to_string(max_announcement_bytes));
+                       + std::to_string(limits::discovery::announcement_bytes));
 }
 
 std::optional<edge_error> check_settings(std::uint32_t domain_id,

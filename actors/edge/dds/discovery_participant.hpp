@@ -2,6 +2,7 @@
 
 #include "actors/edge/dds/discovery_sighting.hpp"
 #include "actors/edge/io/edge_error.hpp"
+#include "actors/house/limits.hpp"
 
 #include <chrono>
 #include <cstdint>
@@ -24,15 +25,16 @@ constexpr std::uint32_t max_domain_id = 232;
 struct participant_settings {
   std::string address; ///< The one local IPv4 address that it uses.
   std::string announcement;
-  std::chrono::seconds lease{600};
+  std::chrono::seconds lease = limits::discovery::lease;
   /// Half of a lease would do; a third lets one announcement get lost.
-  std::chrono::seconds announcement_period{200};
+  std::chrono::seconds announcement_period =
+      limits::discovery::announcement_period;
   /// The most bytes in one datagram, sent or received. It costs memory: a
   /// buffer of this size for each direction.
   std::uint32_t max_message_bytes = 16384;
 };
 
-/// `schema_violation` when it is over `max_announcement_bytes`.
+/// `schema_violation` when it is over `limits::discovery::announcement_bytes`.
 std::optional<edge_error> check_announcement(const std::string& bytes);
 
 /// `schema_violation` for a domain, periods or an announcement out of bounds.

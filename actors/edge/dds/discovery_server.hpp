@@ -2,6 +2,7 @@
 
 #include "actors/edge/dds/discovery_sighting.hpp"
 #include "actors/edge/io/edge_error.hpp"
+#include "actors/house/limits.hpp"
 
 #include <chrono>
 #include <cstdint>
@@ -16,10 +17,12 @@ struct cell_server_options {
   std::uint16_t port = 11811;  ///< UDP; 0 picks a free one.
   std::uint8_t server_id = 0;  ///< n of the GUID prefix 44.53.n.…
   std::uint32_t domain_id = 0; ///< The ROS domain, 0 to 232.
-  std::string announcement;    ///< At most `max_announcement_bytes`.
+  std::string
+      announcement; ///< At most `limits::discovery::announcement_bytes`.
   /// So long a silent client is remembered, and this server by its clients.
-  std::chrono::seconds lease{600};
-  std::chrono::seconds announcement_period{200}; ///< Shorter than the lease.
+  std::chrono::seconds lease = limits::discovery::lease;
+  std::chrono::seconds announcement_period =
+      limits::discovery::announcement_period; ///< Shorter than the lease.
 };
 
 /// A cell's discovery server: the SERVER participant that ROS 2 nodes of the

@@ -4,6 +4,7 @@
 #include "actors/edge/dds/discovery_participant.hpp"
 #include "actors/edge/dds/herald.hpp"
 #include "actors/edge/dds/presence_table.hpp"
+#include "actors/house/limits.hpp"
 
 #include <charconv>
 #include <random>
@@ -55,7 +56,8 @@ std::vector<rtps::Locator_t> peer_locators(const std::string& text,
   if (!to_socket_address(address, 0))
     return result;
   if (colon == std::string::npos) {
-    for (unsigned place = 0; place < presence_places; ++place)
+    for (unsigned place = 0; place < limits::discovery::presence_places;
+         ++place)
       result.push_back(udp_locator(address, unicast_port(domain_id, place)));
     return result;
   }
@@ -194,7 +196,7 @@ public_presence::open(const presence_options& options, presence_events events) {
   if (auto* error = std::get_if<edge_error>(&peers))
     return *error;
   auto port = free_port(options.address, unicast_port(options.domain_id, 0),
-                        presence_places);
+                        limits::discovery::presence_places);
   if (auto* error = std::get_if<edge_error>(&port))
     return *error;
   auto x = std::make_unique<impl>(std::move(events));

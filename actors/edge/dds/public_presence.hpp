@@ -2,6 +2,7 @@
 
 #include "actors/edge/dds/announcement.hpp"
 #include "actors/edge/io/edge_error.hpp"
+#include "actors/house/limits.hpp"
 
 #include <chrono>
 #include <cstdint>
@@ -17,12 +18,14 @@ struct presence_options {
   std::string address; ///< An IPv4 address of this host; nothing else is used.
   std::uint32_t domain_id = 99; ///< Of the site, 0 to 232.
   /// Others to greet directly, where multicast does not reach: "ADDR", for the
-  /// first `presence_places` of that host, or "ADDR:PORT".
+  /// first `limits::discovery::presence_places` of that host, or "ADDR:PORT".
   std::vector<std::string> peers;
-  std::string announcement; ///< At most `max_announcement_bytes`.
+  std::string
+      announcement; ///< At most `limits::discovery::announcement_bytes`.
   /// So long the others remember one that fell silent without a farewell.
-  std::chrono::seconds lease{600};
-  std::chrono::seconds announcement_period{200}; ///< Shorter than the lease.
+  std::chrono::seconds lease = limits::discovery::lease;
+  std::chrono::seconds announcement_period =
+      limits::discovery::announcement_period; ///< Shorter than the lease.
 };
 
 /// Called on a thread of Fast DDS, one at a time for one presence. They must
@@ -37,9 +40,6 @@ struct presence_events {
   /// killed and has started again, told by its UUID.
   std::function<void(const announcement&)> on_gone;
 };
-
-/// So many presences on one host are reached by the host's address alone.
-constexpr unsigned presence_places = 4;
 
 /// A node's presence on the public domain of the site: a participant of simple
 /// discovery (multicast 239.255.0.1 with TTL 1, and the given peers) that has

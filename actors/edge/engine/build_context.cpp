@@ -1,6 +1,7 @@
 #include "actors/edge/engine/build_context.hpp"
 
 #include "actors/edge/process/process_spawner.hpp"
+#include "actors/house/limits.hpp"
 
 #include <cerrno>
 #include <chrono>
@@ -16,8 +17,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Some GiB of checkpoints on a slow disk.
-constexpr std::chrono::minutes pack_limit{5};
 constexpr size_t max_words_bytes = 4096;
 constexpr const char* prefix = "context-";
 
@@ -105,7 +104,8 @@ edge_result<fs::path> write_build_context(const image_content& content,
            "--transform=s,^\\.,opt/roscell/skill,S", "--directory",
            content.skill_dir.string(), "."})};
   for (const auto& step : steps) {
-    const auto done = run_program(step, pack_limit, max_words_bytes);
+    const auto done =
+        run_program(step, limits::engine::pack_step, max_words_bytes);
     if (const auto* error = std::get_if<edge_error>(&done)) {
       std::error_code ignored;
       fs::remove(file, ignored);

@@ -2,6 +2,7 @@
 
 #include "actors/edge/engine/engine_exchange.hpp"
 #include "actors/edge/io/utf8.hpp"
+#include "actors/house/limits.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -14,9 +15,6 @@ namespace roscell {
 namespace {
 
 using json = nlohmann::json;
-
-/// Longest text of an engine that is passed on to people, in bytes.
-constexpr size_t max_words_bytes = 2048;
 
 std::string text_of(const json& document, const char* name) {
   const auto i = document.find(name);
@@ -84,7 +82,8 @@ engine_stream engine_client::stream(engine_request what,
 }
 
 edge_error engine_refusal(const std::string& what, const engine_reply& reply) {
-  auto words = valid_utf8(words_of(reply.body).substr(0, max_words_bytes));
+  auto words =
+      valid_utf8(words_of(reply.body).substr(0, limits::engine::words_bytes));
   while (!words.empty() && (words.back() == '\n' || words.back() == '.'))
     words.pop_back();
   if (words.empty())

@@ -2,6 +2,7 @@
 
 #include "actors/edge/io/edge_error.hpp"
 #include "actors/edge/io/io_thread.hpp"
+#include "actors/house/limits.hpp"
 
 #include <chrono>
 #include <cstddef>
@@ -20,7 +21,7 @@ struct engine_request {
   std::string body;           ///< JSON; empty: none.
   std::filesystem::path file; ///< A tar file to be sent in place of `body`.
   /// From connecting to the last byte of the answer.
-  std::chrono::milliseconds limit{10'000};
+  std::chrono::milliseconds limit = limits::engine::call;
   /// The limit counts up to the answer's first byte; the rest may take forever.
   bool endless = false;
 };
@@ -76,9 +77,6 @@ private:
 /// from any thread.
 class engine_client {
 public:
-  /// Longest body of an answer that is no stream.
-  static constexpr size_t max_reply_bytes = 8 * 1024 * 1024;
-
   engine_client(std::shared_ptr<io_core> core, std::string socket);
 
   /// Calls `on_answer` once, on the io thread.

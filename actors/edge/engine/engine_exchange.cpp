@@ -1,5 +1,7 @@
 #include "actors/edge/engine/engine_exchange.hpp"
 
+#include "actors/house/limits.hpp"
+
 #include <boost/asio/buffer.hpp>
 #include <boost/asio/error.hpp>
 #include <boost/asio/local/stream_protocol.hpp>
@@ -24,7 +26,6 @@ namespace {
 namespace http = boost::beast::http;
 namespace local = boost::asio::local;
 
-constexpr size_t max_header_bytes = 64 * 1024;
 constexpr size_t piece_bytes = 64 * 1024;
 
 bool has_room_for(const std::string& path) {
@@ -40,9 +41,9 @@ engine_exchange::engine_exchange(std::shared_ptr<io_core> core,
       calls_(std::move(calls)), socket_(core_->context()),
       timer_(core_->context()) {
   parser_.eager(true);
-  parser_.header_limit(max_header_bytes);
+  parser_.header_limit(limits::engine::header_bytes);
   parser_.body_limit(calls_.on_bytes ? std::numeric_limits<uint64_t>::max()
-                                     : engine_client::max_reply_bytes);
+                                     : limits::engine::reply_bytes);
 }
 
 void engine_exchange::start() {
@@ -179,7 +180,7 @@ bool engine_exchange::pass_on() {
   if (!calls_.on_bytes || !parser_.is_header_done())
     return true;
   if (parser_.get().result_int() / 100 != 2) {
-    if (parser_.get().body().size() <= engine_client::max_reply_bytes)
+    if (parser_.get().body().size() <= limits::engine::reply_bytes)
       return true;
     fail("its answer has no end");
     return false;

@@ -1,6 +1,7 @@
 #include "actors/edge/engine/engine_log.hpp"
 
 #include "actors/edge/io/utf8.hpp"
+#include "actors/house/limits.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -11,8 +12,7 @@ namespace roscell {
 namespace {
 
 constexpr size_t header_bytes = 8;
-constexpr auto max_text_bytes =
-    static_cast<size_t>(instance_log::max_part_bytes);
+constexpr auto max_text_bytes = static_cast<size_t>(limits::log::part_bytes);
 
 /// Takes `digits` decimal digits from the front of `text`.
 bool take_number(std::string_view& text, size_t digits, int64_t& value) {

@@ -3,6 +3,7 @@
 #include "actors/edge/engine/engine_client.hpp"
 #include "actors/edge/http/http_client.hpp"
 #include "actors/edge/io/unique_fd.hpp"
+#include "actors/house/limits.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -21,8 +22,6 @@
 namespace roscell {
 
 namespace {
-
-constexpr std::chrono::seconds answer_limit{2};
 
 constexpr size_t max_version_bytes = 64;
 
@@ -76,7 +75,7 @@ edge_result<found_engine> ask_for_engine(const std::string& socket) {
   http_endpoint to;
   to.socket_path = socket;
   http_client::options how;
-  how.timeout = answer_limit;
+  how.timeout = limits::engine::probe;
   auto answer = http_client{to}.request("GET", "/version", {}, how);
   if (auto* why = std::get_if<edge_error>(&answer))
     return edge_error{why->code,

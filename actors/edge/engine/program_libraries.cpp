@@ -2,6 +2,7 @@
 
 #include "actors/edge/io/unique_fd.hpp"
 #include "actors/edge/process/process_spawner.hpp"
+#include "actors/house/limits.hpp"
 
 #include <fcntl.h>
 #include <link.h>
@@ -24,7 +25,6 @@ namespace {
 constexpr size_t max_programs = 256;
 constexpr size_t max_entries = 10'000;
 constexpr size_t max_words_bytes = 256 * 1024;
-constexpr std::chrono::seconds linker_limit{10};
 
 /// The dynamic linker that runs this very program.
 fs::path own_linker() {
@@ -140,7 +140,7 @@ find_libraries(const fs::path& folder, const fs::path& program) {
   const auto linker = own_linker();
   for (const auto& path : programs_in(folder, program)) {
     const auto words = run_program({linker, {"--list", path.string()}, {}},
-                                   linker_limit, max_words_bytes);
+                                   limits::engine::linker, max_words_bytes);
     if (const auto* error = std::get_if<edge_error>(&words)) {
       // Other files may be made for other machines.
       if (path != program)

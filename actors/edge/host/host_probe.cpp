@@ -3,6 +3,7 @@
 #include "actors/edge/host/host_probe_capacity.hpp"
 #include "actors/edge/host/host_probe_files.hpp"
 #include "actors/edge/host/host_probe_limits.hpp"
+#include "actors/house/limits.hpp"
 
 #include <algorithm>
 #include <array>
@@ -20,11 +21,6 @@ namespace roscell {
 namespace {
 
 using namespace std::chrono_literals;
-
-/// Samples closer than this are one; so 16 of them always span more than
-/// `min_sample_age`.
-constexpr auto min_sample_distance = 100ms;
-constexpr std::size_t max_samples = 16;
 
 constexpr std::size_t max_devices = 256;
 
@@ -121,22 +117,24 @@ host_probe::host_probe(host_probe_options options)
     : options_(std::move(options)), gpu_probe_(options_.nvml_library) {}
 
 bool host_probe::sample(clock::time_point now) {
-  if (!samples_.empty() && now - samples_.back().at < min_sample_distance)
+  if (!samples_.empty()
+      && now - samples_.back().at < limits::resource::sample_distance)
     return false;
   auto busy = busy_seconds();
   if (!busy)
     return false;
   samples_.push_back({now, *busy});
-  if (samples_.size() > max_samples)
+  if (samples_.size() > limits::resource::samples)
     samples_.pop_front();
   return true;
 }
 
 std::optional<double> host_probe::cpu_used(clock::time_point now) {
   auto base = std::find_if(samples_.rbegin(), samples_.rend(), [&](auto& x) {
-    return now - x.at >= min_sample_age;
+    return now - x.at >= limits::resource::least_sample_age;
   });
-  if (base == samples_.rend() || now - base->at > max_sample_age)
+  if (base == samples_.rend()
+      || now - base->at > limits::resource::most_sample_age)
     return std::nullopt;
   auto busy = busy_seconds();
   if (!busy)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "actors/edge/host/gpu_probe.hpp"
+#include "actors/house/limits.hpp"
 #include "messages/resources.hpp"
 
 #include <chrono>
@@ -45,12 +46,6 @@ class host_probe {
 public:
   using clock = std::chrono::steady_clock;
 
-  /// A rate over less than this says little.
-  static constexpr std::chrono::seconds min_sample_age{1};
-
-  /// A rate over more than this is no rate of now.
-  static constexpr std::chrono::seconds max_sample_age{30};
-
   explicit host_probe(host_probe_options options);
 
   /// Remembers the CPU counters as of `now`. Samples that follow each other
@@ -58,8 +53,8 @@ public:
   bool sample(clock::time_point now);
 
   /// The cores in use since the newest sample that is at least
-  /// `min_sample_age` old. None when there is no such sample, or only one
-  /// older than `max_sample_age`.
+  /// `limits::resource::least_sample_age` old. None when there is no such
+  /// sample, or only one older than `limits::resource::most_sample_age`.
   std::optional<double> cpu_used(clock::time_point now);
 
   /// The cores that programs have wanted over the last minute, not more than

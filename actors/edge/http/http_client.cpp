@@ -2,6 +2,7 @@
 
 #include "actors/edge/http/client_socket.hpp"
 #include "actors/edge/io/line_splitter.hpp"
+#include "actors/house/limits.hpp"
 
 #include <boost/asio/buffer.hpp>
 #include <boost/beast/http/error.hpp>
@@ -27,8 +28,6 @@ namespace http = boost::beast::http;
 
 using parser = http::response_parser<http::string_body>;
 
-constexpr size_t max_reply_bytes = 64 * 1024 * 1024;
-constexpr size_t max_line_bytes = 1024 * 1024;
 constexpr size_t read_bytes = 16 * 1024;
 
 bool is_clean(std::string_view text) {
@@ -115,7 +114,7 @@ public:
 private:
   void expect_reply() {
     parser_.emplace();
-    parser_->body_limit(max_reply_bytes);
+    parser_->body_limit(limits::http::client_reply_bytes);
     parser_->eager(true);
   }
 
@@ -182,7 +181,7 @@ http_client::follow(const std::string& path,
   exchange turn{to_, how};
   if (auto failure = turn.send("GET", path, {}))
     return *failure;
-  line_splitter lines{max_line_bytes, on_line};
+  line_splitter lines{limits::http::client_line_bytes, on_line};
   auto& reply = turn.reply();
   bool streaming = false;
   while (!reply.is_done()) {

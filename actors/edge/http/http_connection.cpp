@@ -5,6 +5,7 @@
 #include "actors/edge/http/http_target.hpp"
 #include "actors/edge/io/crypto.hpp"
 #include "actors/edge/session/session_paths.hpp"
+#include "actors/house/limits.hpp"
 
 #include <boost/asio/buffer.hpp>
 #include <boost/asio/write.hpp>
@@ -23,10 +24,6 @@ namespace {
 namespace http = boost::beast::http;
 
 constexpr size_t read_bytes = 8 * 1024;
-
-/// Of a client whose request was refused: what it still sends is read, so
-/// that it gets to read the reply, but not without end.
-constexpr size_t max_lingered_bytes = 1024 * 1024;
 
 std::string_view to_view(boost::beast::string_view text) {
   return {text.data(), text.size()};
@@ -89,7 +86,7 @@ void http_connection::on_read(error ec, size_t size) {
   last_heard_ = clock::now();
   if (phase_ == phase::lingering) {
     lingered_bytes_ += size;
-    return lingered_bytes_ > max_lingered_bytes ? abort() : read();
+    return lingered_bytes_ > limits::http::lingered_bytes ? abort() : read();
   }
   if (phase_ != phase::waiting && phase_ != phase::reading)
     return;

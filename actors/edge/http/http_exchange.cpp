@@ -3,6 +3,7 @@
 #include "actors/edge/http/http_target.hpp"
 #include "actors/edge/io/io_core.hpp"
 #include "actors/edge/io/stream_socket.hpp"
+#include "actors/house/limits.hpp"
 
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/steady_timer.hpp>
@@ -64,7 +65,7 @@ public:
       : core_(std::move(core)), what_(std::move(what)),
         callback_(std::move(callback)), socket_(core_->context()),
         timer_(core_->context()) {
-    parser_.body_limit(max_exchanged_bytes);
+    parser_.body_limit(limits::http::exchanged_bytes);
   }
 
   /// The io thread may end before it has begun with this.
@@ -125,7 +126,8 @@ private:
     if (ec == http::error::body_limit)
       return fail(error_code::unreachable,
                   "the reply of " + name_of(what_) + " is longer than "
-                      + std::to_string(max_exchanged_bytes) + " bytes");
+                      + std::to_string(limits::http::exchanged_bytes)
+                      + " bytes");
     fail(error_code::unreachable,
          name_of(what_) + " gave no reply that can be read: " + ec.message());
   }

@@ -3,6 +3,7 @@
 #include "actors/edge/http/http_types.hpp"
 #include "actors/edge/io/edge_error.hpp"
 #include "actors/edge/io/io_thread.hpp"
+#include "actors/house/limits.hpp"
 
 #include <chrono>
 #include <cstddef>
@@ -20,11 +21,8 @@ struct http_call {
   std::string path; ///< Percent-encoded, begins with '/'.
   std::string body; ///< JSON; empty: none.
   /// From connecting to the last byte of the reply.
-  std::chrono::milliseconds timeout{5000};
+  std::chrono::milliseconds timeout = limits::cell::registration_call;
 };
-
-/// Longest reply that is taken, its header fields left out.
-inline constexpr size_t max_exchanged_bytes = 64 * 1024;
 
 /// Asks once over a connection of its own, without a bearer token and without
 /// waiting. Calls `callback` exactly once: on the io thread, but if that has

@@ -2,6 +2,7 @@
 
 #include "actors/edge/http/error_body.hpp"
 #include "actors/edge/http/http_connection.hpp"
+#include "actors/house/limits.hpp"
 
 #include <cerrno>
 #include <system_error>
@@ -17,9 +18,6 @@ namespace {
 
 /// Connections taken in a row before other handlers get their turn.
 constexpr int burst = 16;
-
-/// How long to wait when the host has no descriptors or memory left.
-constexpr std::chrono::milliseconds shortage_pause{100};
 
 /// Tells a client that there is no room, as far as that works at once.
 void turn_away(int fd) {
@@ -97,7 +95,7 @@ void http_listener::rest() {
     shared_->core->log("cannot take connections: "
                        + std::generic_category().message(why));
   shared_->table.evict_stranger();
-  pause_.expires_after(shortage_pause);
+  pause_.expires_after(limits::http::shortage_pause);
   pause_.async_wait([self = shared_from_this()](error ec) {
     if (!ec && self->listening_.is_open())
       self->wait();

@@ -1,6 +1,7 @@
 #include "actors/edge/http/http_stream_connection.hpp"
 
 #include "actors/edge/http/error_body.hpp"
+#include "actors/house/limits.hpp"
 
 #include <boost/asio/buffer.hpp>
 #include <boost/asio/write.hpp>
@@ -11,9 +12,6 @@
 namespace roscell {
 
 namespace {
-
-/// A client of a stream has nothing to say; a little is tolerated.
-constexpr size_t max_ignored_bytes = 64 * 1024;
 
 class stream_handle : public http_stream {
 public:
@@ -201,7 +199,7 @@ void stream_connection::watch() {
 
 void stream_connection::on_read(error ec, size_t size) {
   ignored_bytes_ += size;
-  if (ec || ignored_bytes_ > max_ignored_bytes)
+  if (ec || ignored_bytes_ > limits::http::stream_ignored_bytes)
     return abort();
   if (!over_)
     watch();

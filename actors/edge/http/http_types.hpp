@@ -1,5 +1,6 @@
 #pragma once
 
+#include "actors/house/limits.hpp"
 #include "messages/error_code.hpp"
 
 #include <atomic>
@@ -13,37 +14,20 @@
 
 namespace roscell {
 
-/// What one HTTP server puts up with. The defaults suit a node; tests shorten
-/// them.
+/// What one HTTP server puts up with, see `limits::http`. Tests shorten it.
 struct http_limits {
-  /// Request line and header fields together; more is answered with 431.
-  size_t header_bytes = 8 * 1024;
-  /// A request's body; more is answered with 413 before it is read.
-  size_t body_bytes = 1024 * 1024;
-  /// From connecting to the first byte.
-  std::chrono::milliseconds first_byte{10'000};
-  /// From a request's first byte to its last.
-  std::chrono::milliseconds whole_request{10'000};
-  /// Between two requests of one connection.
-  std::chrono::milliseconds idle{30'000};
-  /// For writing one reply to a slow reader.
-  std::chrono::milliseconds write{30'000};
-  /// For requests in progress when the server stops, and for a client to read
-  /// the error that ended its connection.
-  std::chrono::milliseconds grace{1'000};
-  /// TCP connections that have not shown the bearer token yet. When one more
-  /// comes, the one that was silent for longest is closed: a crowd of silent
-  /// connections keeps nobody out who speaks at once.
-  size_t strangers = 64;
-  /// TCP connections that have shown it; one more is answered with 503.
-  size_t trusted = 192;
-  /// Connections to the Unix socket; one more is answered with 503.
-  size_t local = 64;
-  /// Sessions; a request for one more is answered with 503.
-  size_t sessions = 1024;
-  /// Bytes that wait for one slow reader of a stream; beyond it the stream is
-  /// cut.
-  size_t stream_bytes = 1024 * 1024;
+  size_t header_bytes = limits::http::header_bytes;
+  size_t body_bytes = limits::http::body_bytes;
+  std::chrono::milliseconds first_byte = limits::http::first_byte;
+  std::chrono::milliseconds whole_request = limits::http::whole_request;
+  std::chrono::milliseconds idle = limits::http::idle;
+  std::chrono::milliseconds write = limits::http::write;
+  std::chrono::milliseconds grace = limits::http::grace;
+  size_t strangers = limits::http::strangers;
+  size_t trusted = limits::http::trusted;
+  size_t local = limits::http::local;
+  size_t sessions = limits::http::sessions;
+  size_t stream_bytes = limits::http::stream_bytes;
 };
 
 struct http_request {

@@ -1,13 +1,12 @@
 #include "actors/edge/http/node_sockets.hpp"
 
+#include "actors/house/limits.hpp"
+
 #include <utility>
 
 namespace roscell {
 
 namespace {
-
-/// Ports that the system hands out for UDP are rarely taken for TCP.
-constexpr int max_attempts = 16;
 
 edge_result<node_sockets> try_once(io_thread& io,
                                    const http_server_options& http,
@@ -31,7 +30,7 @@ edge_result<node_sockets> try_once(io_thread& io,
 edge_result<node_sockets>
 open_node_sockets(io_thread& io, http_server_options http, beat_filter filter) {
   auto result = try_once(io, http, filter);
-  for (int i = 1; i < max_attempts && http.port == 0; ++i) {
+  for (int i = 1; i < limits::http::port_attempts && http.port == 0; ++i) {
     const auto* why = std::get_if<edge_error>(&result);
     if (why == nullptr || why->code != error_code::conflict)
       break;

@@ -1,6 +1,7 @@
 #include "actors/edge/process/child_watch.hpp"
 
 #include "actors/edge/process/notify_socket.hpp"
+#include "actors/house/limits.hpp"
 
 #include <chrono>
 #include <utility>
@@ -8,10 +9,6 @@
 namespace roscell {
 
 namespace {
-
-/// A program that talks without end causes 50 messages a second at most: what
-/// comes in between is merged, or waits in its socket.
-constexpr std::chrono::milliseconds words_pause{20};
 
 using listener = std::function<void(const notification&)>;
 
@@ -31,7 +28,7 @@ fd_watch watch_notifications(const std::shared_ptr<io_core>& core,
             hear(notify_socket->get(), call);
             return true;
           },
-          words_pause};
+          limits::instance::words_pause};
 }
 
 child_watch::child_watch(const std::shared_ptr<io_core>& core, shared_fd pidfd,

@@ -2,6 +2,7 @@
 
 #include "actors/edge/io/unique_fd.hpp"
 #include "actors/edge/io/utf8.hpp"
+#include "actors/house/limits.hpp"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -115,7 +116,7 @@ instance_log::chunk instance_log::read(int64_t from) const {
   result.from = std::clamp(from, all.front().start, result.end);
   for (const auto& x : all) {
     const auto at = result.from + static_cast<int64_t>(result.bytes.size());
-    const auto left = result.from + max_part_bytes - at;
+    const auto left = result.from + limits::log::part_bytes - at;
     const bool gap = x.start > at;
     // The bytes of a gap are lost; what is behind it makes the next part.
     if (left <= 0 || (gap && !result.bytes.empty()))
@@ -149,8 +150,8 @@ log_part instance_log::read_from(int64_t offset) const {
 log_part instance_log::read_tail(int64_t lines) const {
   const auto all = files();
   const auto end = all.empty() ? 0 : all.back().start + all.back().size;
-  const auto last = read(std::max<int64_t>(0, end - max_part_bytes));
-  const auto wanted = std::clamp<int64_t>(lines, 0, max_part_bytes);
+  const auto last = read(std::max<int64_t>(0, end - limits::log::part_bytes));
+  const auto wanted = std::clamp<int64_t>(lines, 0, limits::log::part_bytes);
   return read_from(last.from
                    + static_cast<int64_t>(tail_begin(last.bytes, wanted)));
 }

@@ -19,9 +19,6 @@ struct log_part {
 /// ever logged, of which old ones disappear while we read. Blocks on the disk.
 class instance_log {
 public:
-  /// Most bytes of log in one part.
-  static constexpr int64_t max_part_bytes = 64 * 1024;
-
   static constexpr int64_t default_lines = 20;
 
   explicit instance_log(std::filesystem::path folder);

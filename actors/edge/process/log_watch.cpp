@@ -1,5 +1,7 @@
 #include "actors/edge/process/log_watch.hpp"
 
+#include "actors/house/limits.hpp"
+
 #include <sys/inotify.h>
 
 #include <array>
@@ -9,9 +11,6 @@
 namespace roscell {
 
 namespace {
-
-/// A program that prints without end wakes the io thread this often at most.
-constexpr std::chrono::milliseconds change_pause{20};
 
 void drain(int fd) {
   std::array<char, 4096> buffer;
@@ -37,7 +36,7 @@ fd_watch watch_folder(const std::shared_ptr<io_core>& core,
             call();
             return true;
           },
-          change_pause};
+          limits::log::change_pause};
 }
 
 } // namespace roscell

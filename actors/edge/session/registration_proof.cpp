@@ -2,6 +2,7 @@
 
 #include "actors/edge/session/session_handshake.hpp"
 #include "actors/edge/session/transcript.hpp"
+#include "actors/house/limits.hpp"
 
 #include <algorithm>
 
@@ -38,9 +39,9 @@ bool proves(const registration_order& order, std::string_view site_token,
 }
 
 std::string registration_challenges::issue(time_point now) {
-  if (outstanding_.size() == max_outstanding)
+  if (outstanding_.size() == limits::token::outstanding_nonces)
     outstanding_.pop_front();
-  outstanding_.push_back({make_nonce(), now + lifetime});
+  outstanding_.push_back({make_nonce(), now + limits::token::nonce_lifetime});
   return outstanding_.back().nonce;
 }
 

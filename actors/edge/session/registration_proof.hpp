@@ -1,5 +1,7 @@
 #pragma once
 
+#include "actors/house/limits.hpp"
+
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -40,14 +42,13 @@ class registration_challenges {
 public:
   using time_point = std::chrono::steady_clock::time_point;
 
-  static constexpr std::chrono::seconds lifetime{10};
-  static constexpr size_t max_outstanding = 16;
-
   /// A fresh nonce, 32 random bytes in hexadecimal digits. When there are
-  /// `max_outstanding` already, the oldest is worth nothing any more.
+  /// `limits::token::outstanding_nonces` already, the oldest is worth nothing
+  /// any more.
   std::string issue(time_point now);
 
-  /// Whether `nonce` was issued less than `lifetime` ago and not redeemed yet.
+  /// Whether `nonce` was issued less than `limits::token::nonce_lifetime` ago
+  /// and not redeemed yet.
   bool redeem(std::string_view nonce, time_point now);
 
 private:

@@ -4,6 +4,7 @@
 #include "actors/edge/io/io_thread.hpp"
 #include "actors/edge/session/fault_seam.hpp"
 #include "actors/edge/session/session_handshake.hpp"
+#include "actors/house/limits.hpp"
 
 #include <chrono>
 #include <cstddef>
@@ -14,23 +15,14 @@
 
 namespace roscell {
 
-/// Bounds of one session. They are the same for both sides.
+/// Bounds of one session, see `limits::session`; the same for both sides.
 struct session_options {
-  /// Largest frame, in and out.
-  size_t max_frame_bytes = size_t{1} << 20;
-  /// Frames that wait for a slow peer; beyond it the session is closed.
-  size_t max_queue_bytes = size_t{4} << 20;
-  /// Frames given to `on_frame` whose `done` was not called yet; beyond it
-  /// nothing is read, the end of the session included, and the peer feels it.
-  size_t max_undone_frames = 8;
-  /// From the first connection attempt to the last frame of the handshake.
-  std::chrono::milliseconds handshake_timeout{5000};
-  /// For frames that still wait and the closing handshake of WebSocket.
-  std::chrono::milliseconds close_timeout{1000};
-  /// How long sent bytes may stay unacknowledged by the peer's kernel, or
-  /// unsent because the peer does not read, before the connection is lost
-  /// (TCP_USER_TIMEOUT). Matches the lease of the membership.
-  std::chrono::milliseconds user_timeout{8000};
+  size_t max_frame_bytes = limits::session::frame_bytes;
+  size_t max_queue_bytes = limits::session::queue_bytes;
+  size_t max_undone_frames = limits::session::undone_frames;
+  std::chrono::milliseconds handshake_timeout = limits::session::handshake;
+  std::chrono::milliseconds close_timeout = limits::session::close;
+  std::chrono::milliseconds user_timeout = limits::session::unacknowledged;
   /// Faults for tests; empty in production.
   frame_filter filter;
 };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "actors/edge/io/stream_socket.hpp"
+#include "actors/house/limits.hpp"
 
 #include <boost/beast/websocket/teardown.hpp>
 
@@ -22,7 +23,7 @@ public:
   }
 
   /// How long a peer may take to read the last frame and close.
-  std::chrono::milliseconds linger_time{1000};
+  std::chrono::milliseconds linger_time = limits::session::linger;
 };
 
 /// Says that nothing more will be sent, and reads what still comes until the

@@ -1,6 +1,7 @@
 #include "actors/instances/engine/engine_calls.hpp"
 
 #include "actors/edge/io/line_splitter.hpp"
+#include "actors/house/limits.hpp"
 #include "messages/failure.hpp"
 
 #include <caf/send.hpp>
@@ -14,9 +15,6 @@ namespace roscell {
 namespace {
 
 using self_pointer = engine_runtime_pointer;
-
-/// A line of a build or an event is some hundred bytes.
-constexpr size_t max_line_bytes = 1024 * 1024;
 
 } // namespace
 
@@ -59,7 +57,7 @@ opened_call stream_lines(self_pointer self, engine_request what,
   // Used on the io thread only.
   auto lines = std::make_shared<std::vector<std::string>>();
   auto splitter = std::make_shared<line_splitter>(
-      max_line_bytes, [lines](std::string_view line) {
+      limits::engine::line_bytes, [lines](std::string_view line) {
         lines->emplace_back(line);
         return true;
       });

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "actors/house/limits.hpp"
 #include "actors/instances/engine/engine_calls.hpp"
 
 #include <chrono>
@@ -44,7 +45,7 @@ void on_container_ended(engine_runtime_pointer self,
 engine_request
 to_container(std::string method, const std::string& container,
              const std::string& what,
-             std::chrono::milliseconds limit = std::chrono::seconds{10});
+             std::chrono::milliseconds limit = limits::engine::call);
 
 /// What a request means: its container, or the present one of the instance.
 std::string target_of(const std::string& container,

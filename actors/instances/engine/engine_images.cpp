@@ -1,3 +1,4 @@
+#include "actors/house/limits.hpp"
 #include "actors/instances/engine/engine_parts.hpp"
 #include "actors/instances/engine/image_packer.hpp"
 #include "messages/failure.hpp"
@@ -14,17 +15,6 @@ namespace roscell {
 namespace {
 
 using self_pointer = engine_runtime_pointer;
-using namespace std::chrono_literals;
-
-/// Must be shorter than skill_instance's limit, so that the log goes along.
-constexpr auto build_limit = 9min;
-constexpr auto plan_limit = 60s;
-
-/// Must exceed the packer's own limit for each of its two steps.
-constexpr auto pack_limit = 11min;
-
-/// Longest line of a build that is kept, in bytes.
-constexpr size_t max_line_bytes = 512;
 
 std::string key_of(const prepare_image& wish) {
   return wish.skill + ' ' + wish.base_image;
@@ -111,7 +101,7 @@ void build(self_pointer self, const std::string& key) {
                    "&dockerfile=Dockerfile&t="
                    + percent_encoded(work.image);
   request.file = work.context;
-  request.limit = build_limit;
+  request.limit = limits::engine::build;
   work.began = self->clock().now();
   auto opened =
       stream_lines(self, std::move(request),
@@ -135,7 +125,7 @@ void ask_packer(self_pointer self, const std::string& key,
 }
 
 void pack(self_pointer self, const std::string& key) {
-  ask_packer<image_packed>(self, key, pack_limit, pack_image{},
+  ask_packer<image_packed>(self, key, limits::engine::pack, pack_image{},
                            [=](image_work& work, const image_packed& x) {
                              work.context = x.file;
                              build(self, key);
@@ -149,7 +139,7 @@ void plan(self_pointer self, const std::string& key) {
       spawn<caf::detached>(self->system(), st.config.context, image_packer,
                            st.config.data_dir / "build",
                            caf::actor_cast<engine_runtime_actor>(self));
-  ask_packer<image_planned>(self, key, plan_limit, work.wish,
+  ask_packer<image_planned>(self, key, limits::engine::plan, work.wish,
                             [=](image_work&, const image_planned& x) {
                               self->state.plans[key] = x.image;
                               look_for_image(self, key);
@@ -182,7 +172,7 @@ std::string step_of(const json& line) {
     text = text_at(line, "status") + " " + text_at(line, "progress");
   const auto end = text.find_last_not_of(" \r\n");
   text.resize(end == std::string::npos ? 0 : end + 1);
-  return text.substr(0, max_line_bytes);
+  return text.substr(0, limits::engine::build_line_bytes);
 }
 
 /// Whether a line tells of more than the engine's own book-keeping.
@@ -193,7 +183,7 @@ bool is_step(const std::string& line) {
 void tell_step(self_pointer self, image_work& work) {
   auto& st = self->state;
   const auto step = std::exchange(work.step, {});
-  work.next_words = self->clock().now() + engine_runtime_state::words_interval;
+  work.next_words = self->clock().now() + limits::engine::build_words;
   st.config.context.tell("image_building", work.image, {{"step", step}});
   for (const auto& x : work.waiters)
     self->send(st.listener,
@@ -234,7 +224,7 @@ void on_build_lines(self_pointer self, image_work& work,
     work.has_base = work.has_base || step.rfind("Step 2/", 0) == 0
                     || step.rfind("STEP 2/", 0) == 0;
     work.log.push_back(step);
-    if (work.log.size() > engine_runtime_state::kept_build_lines)
+    if (work.log.size() > limits::engine::kept_build_lines)
       work.log.pop_front();
     if (is_step(step))
       work.step = step;

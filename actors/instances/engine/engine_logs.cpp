@@ -1,4 +1,5 @@
 #include "actors/edge/engine/engine_log.hpp"
+#include "actors/house/limits.hpp"
 #include "actors/instances/engine/engine_containers.hpp"
 #include "actors/instances/engine/engine_parts.hpp"
 #include "actors/instances/instance_id.hpp"
@@ -16,9 +17,6 @@ namespace roscell {
 namespace {
 
 using self_pointer = engine_runtime_pointer;
-
-/// As messages/instance.hpp promises.
-constexpr int64_t max_wait_ms = 20'000;
 
 caf::error no_log(const std::string& instance) {
   return fail(error_code::unknown_task,
@@ -118,10 +116,10 @@ void open_log(self_pointer self, const engine_answered& x,
     return;
   }
   follower.running = is_running(found);
-  const auto wait_ms = std::clamp<int64_t>(query.wait_ms, 0, max_wait_ms);
-  const bool follow =
-      follower.running && wait_ms > 0
-      && st.followers.size() < engine_runtime_state::max_followers;
+  const auto wait_ms =
+      std::clamp<int64_t>(query.wait_ms, 0, limits::log::wait.count());
+  const bool follow = follower.running && wait_ms > 0
+                      && st.followers.size() < limits::log::followers;
   const auto origin = *created;
   if (follow) {
     follower.until = self->clock().now() + std::chrono::milliseconds{wait_ms};

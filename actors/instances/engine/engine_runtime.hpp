@@ -81,16 +81,6 @@ struct engine_runtime_state {
 
   using continuation = std::function<void(const engine_answered&)>;
 
-  /// Followers of logs at a time, each with a connection to the engine. Who
-  /// comes later is answered at once.
-  static constexpr size_t max_followers = 64;
-
-  /// Lines of a build that are kept, for the case that it fails.
-  static constexpr size_t kept_build_lines = 40;
-
-  /// A build says no more than once in this time how it gets on.
-  static constexpr std::chrono::seconds words_interval{1};
-
   engine_runtime_config config;
   container_listener_actor listener;
   std::unique_ptr<engine_client> client;

@@ -1,3 +1,4 @@
+#include "actors/house/limits.hpp"
 #include "actors/instances/engine/engine_containers.hpp"
 #include "actors/instances/engine/engine_parts.hpp"
 #include "actors/instances/instance_id.hpp"
@@ -13,11 +14,6 @@ namespace roscell {
 namespace {
 
 using self_pointer = engine_runtime_pointer;
-using namespace std::chrono_literals;
-
-/// Creating one copies nothing, but a loaded engine takes its time.
-constexpr auto create_limit = 20s;
-constexpr auto start_limit = 20s;
 
 caf::error runs_already(const std::string& instance) {
   return fail(error_code::engine_failed,
@@ -86,7 +82,7 @@ void on_created(self_pointer self, const shared_attempt& x,
                    engine_failure("the container cannot be created", answer));
   if (auto* container = find_container(self, x->wish.instance))
     container->id = id;
-  ask_engine(self, to_container("POST", id, "/start", start_limit),
+  ask_engine(self, to_container("POST", id, "/start", limits::engine::start),
              [=](const engine_answered& y) { on_started(self, x, id, y); });
 }
 
@@ -96,7 +92,7 @@ void create(self_pointer self, const shared_attempt& x) {
   request.target = "/containers/create?name="
                    + percent_encoded(container_name(x->wish.instance));
   request.body = x->body;
-  request.limit = create_limit;
+  request.limit = limits::engine::create;
   ask_engine(self, std::move(request),
              [=](const engine_answered& y) { on_created(self, x, y); });
 }

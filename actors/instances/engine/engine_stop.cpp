@@ -1,3 +1,4 @@
+#include "actors/house/limits.hpp"
 #include "actors/instances/engine/engine_containers.hpp"
 #include "actors/instances/engine/engine_parts.hpp"
 #include "actors/instances/instance_id.hpp"
@@ -11,13 +12,6 @@ namespace roscell {
 namespace {
 
 using self_pointer = engine_runtime_pointer;
-using namespace std::chrono_literals;
-
-/// Longest time between the polite request to end and force.
-constexpr int64_t max_grace_ms = 60'000;
-
-/// For an engine to kill what does not obey, beyond the grace.
-constexpr auto force_limit = 10s;
 
 using stop_promise = caf::typed_response_promise<container_stopped>;
 
@@ -32,11 +26,13 @@ void answer_stopped(self_pointer self, const std::string& target,
 void do_stop(self_pointer self, const stop_container& wish,
              stop_promise promise) {
   const auto target = target_of(wish.container, wish.instance);
-  const auto grace_ms = std::clamp<int64_t>(wish.grace_ms, 0, max_grace_ms);
+  const auto grace_ms = std::clamp<int64_t>(
+      wish.grace_ms, 0, limits::instance::most_stop_grace.count());
   const auto seconds = std::to_string((grace_ms + 999) / 1000);
   ask_engine(self,
              to_container("POST", target, "/stop?t=" + seconds,
-                          std::chrono::milliseconds{grace_ms} + force_limit),
+                          std::chrono::milliseconds{grace_ms}
+                              + limits::instance::force),
              [=](const engine_answered& x) mutable {
                if (is_lost(x))
                  self->state.unwanted.insert(wish.instance);
@@ -56,7 +52,9 @@ void do_remove(self_pointer self, const remove_container& wish,
                removal_promise promise) {
   const auto target = target_of(wish.container, wish.instance);
   ask_engine(
-      self, to_container("DELETE", target, "?force=true&v=true", force_limit),
+      self,
+      to_container("DELETE", target, "?force=true&v=true",
+                   limits::instance::force),
       [=](const engine_answered& x) mutable {
         if (is_lost(x))
           self->state.unwanted.insert(wish.instance);

@@ -2,6 +2,7 @@
 
 #include "actors/edge/process/notify_socket.hpp"
 #include "actors/edge/process/process_spawner.hpp"
+#include "actors/house/limits.hpp"
 
 #include <sys/stat.h>
 #include <unistd.h>
@@ -19,9 +20,6 @@ namespace roscell {
 namespace fs = std::filesystem;
 
 namespace {
-
-/// A shim needs 1 to 3 ms; a disk that hangs this long is broken.
-constexpr std::chrono::seconds start_limit{5};
 
 edge_error failed(const std::string& what, const fs::path& path,
                   const std::string& why, std::string hint = {}) {
@@ -108,7 +106,8 @@ edge_result<process_instance> launch(const process_runtime_config& config,
   auto socket = fresh_folder(dir);
   if (auto* error = std::get_if<edge_error>(&socket))
     return *error;
-  auto started = spawn_program(shim_for(config, dir, wish), start_limit);
+  auto started =
+      spawn_program(shim_for(config, dir, wish), limits::instance::shim);
   if (auto* error = std::get_if<edge_error>(&started)) {
     record_unknown_exit(dir);
     return *error;

@@ -2,6 +2,7 @@
 
 #include "actors/edge/process/instance_log.hpp"
 #include "actors/edge/process/log_watch.hpp"
+#include "actors/house/limits.hpp"
 #include "actors/instances/instance_id.hpp"
 #include "messages/failure.hpp"
 
@@ -14,9 +15,6 @@
 namespace roscell {
 
 namespace {
-
-/// As messages/instance.hpp promises.
-constexpr int64_t max_wait_ms = 20'000;
 
 instance_log log_of(process_runtime_pointer self, const std::string& instance) {
   return instance_log{self->state.config.instances_dir / instance};
@@ -82,11 +80,12 @@ caf::result<log_excerpt> read_log(process_runtime_pointer self,
                 "there is no log of an instance '" + query.instance + "'",
                 "/instance", "`roscell instances` lists them");
   auto excerpt = look(self, query);
-  const auto wait_ms = std::clamp<int64_t>(query.wait_ms, 0, max_wait_ms);
+  const auto wait_ms =
+      std::clamp<int64_t>(query.wait_ms, 0, limits::log::wait.count());
   if (says_something(excerpt) || wait_ms == 0)
     return excerpt;
   // An answer without a word would be asked again at once.
-  if (follower_count(st) >= process_runtime_state::max_followers)
+  if (follower_count(st) >= limits::log::followers)
     return fail(error_code::conflict, "too many follow the logs of this node",
                 {}, "ask without following");
   auto promise = self->make_response_promise<log_excerpt>();

@@ -1,6 +1,7 @@
 #include "actors/instances/process/process_runtime.hpp"
 
 #include "actors/edge/process/pidfd.hpp"
+#include "actors/house/limits.hpp"
 #include "actors/instances/instance_id.hpp"
 #include "actors/instances/process/process_logs.hpp"
 #include "messages/failure.hpp"
@@ -17,9 +18,6 @@ namespace roscell {
 namespace {
 
 using self_pointer = process_runtime_pointer;
-
-/// Longest time between the polite request to end and force.
-constexpr int64_t max_grace_ms = 60'000;
 
 caf::error to_caf(const edge_error& why) {
   return fail(why.code, why.message, {}, why.hint);
@@ -144,7 +142,7 @@ void give_up(const std::string& instance, running_process& x) {
 
 void advance(self_pointer self, const std::string& instance,
              running_process& x) {
-  constexpr auto wait = process_runtime_state::force_interval;
+  constexpr auto wait = limits::instance::force_interval;
   switch (x.stage) {
   case ending::none:
     break;
@@ -169,7 +167,8 @@ caf::result<container_stopped> stop(self_pointer self,
     return container_stopped{};
   if (!x.process.runs())
     return container_stopped{x.process.exit_code};
-  const auto grace = std::clamp<int64_t>(wish.grace_ms, 0, max_grace_ms);
+  const auto grace = std::clamp<int64_t>(
+      wish.grace_ms, 0, limits::instance::most_stop_grace.count());
   if (x.stage == ending::none)
     end(self, x, ending::asked, std::chrono::milliseconds{grace});
   auto promise = self->make_response_promise<container_stopped>();
@@ -204,7 +203,7 @@ caf::result<container_removed> remove(self_pointer self,
     return container_removed{};
   }
   if (x.stage == ending::none || x.stage == ending::asked)
-    end(self, x, ending::killed, process_runtime_state::force_interval);
+    end(self, x, ending::killed, limits::instance::force_interval);
   auto promise = self->make_response_promise<container_removed>();
   x.removers.push_back(promise);
   return promise;

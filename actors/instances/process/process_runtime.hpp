@@ -46,12 +46,6 @@ struct followed_log {
 struct process_runtime_state {
   static constexpr const char* name = "process-runtime";
 
-  /// Followers of logs at a time. Who comes later is answered at once.
-  static constexpr size_t max_followers = 64;
-
-  /// From one stage of ending to the next, once force is used.
-  static constexpr std::chrono::seconds force_interval{2};
-
   process_runtime_config config;
   container_listener_actor listener;
   std::map<std::string, running_process> processes;

@@ -1,3 +1,4 @@
+#include "actors/house/limits.hpp"
 #include "actors/placement/instance_specs.hpp"
 #include "actors/requests/handlers/task_pipeline.hpp"
 
@@ -10,12 +11,6 @@ namespace roscell {
 
 namespace {
 
-/// How often a task is placed anew because nodes refused or left.
-constexpr int most_rounds = 3;
-
-/// A member measures its host for it.
-constexpr std::chrono::seconds reservation_timeout{10};
-
 /// One task on its way to a place where every member keeps room for it. Lives
 /// as long as the requests that hold it.
 class placing : public std::enable_shared_from_this<placing> {
@@ -27,7 +22,7 @@ public:
   void search() {
     allocate_task question{
         task_.request.task, task_.steps, task_.nodes, held_.refused, {}};
-    ask<task_plan>(context_.services->scheduler, search_timeout,
+    ask<task_plan>(context_.services->scheduler, limits::task::search,
                    std::move(question),
                    [](placing& self, task_plan& plan) { self.adopt(plan); });
   }
@@ -61,7 +56,8 @@ private:
     for (const auto& x : held_.task.plan.allocations)
       question.nodes.push_back(x.node);
     ask<agents_found>(
-        context_.services->coordinator, local_timeout, std::move(question),
+        context_.services->coordinator, limits::local::answer,
+        std::move(question),
         [](placing& self, agents_found& found) { self.reserve(found); });
   }
 
@@ -85,7 +81,7 @@ private:
   void reserve_on(const std::string& node, const node_agent_actor& agent,
                   const instance_reservation& wish) {
     auto self = shared_from_this();
-    context_.self->request(agent, reservation_timeout, wish)
+    context_.self->request(agent, limits::task::reservation, wish)
         .then(
             [self](const instances_reserved& reply) {
               for (const auto& x : reply.refused)
@@ -131,10 +127,10 @@ private:
   void start_again(failure why) {
     auto self = shared_from_this();
     auto next = [self, why] {
-      if (++self->rounds_ > most_rounds)
+      if (++self->rounds_ > limits::task::placement_rounds)
         return self->done_.fail(why);
       self->ask<cell_resources>(self->context_.services->coordinator,
-                                local_timeout, collect_resources{},
+                                limits::local::answer, collect_resources{},
                                 [](placing& x, cell_resources& cell) {
                                   x.task_.nodes = std::move(cell.nodes);
                                   x.search();
@@ -154,7 +150,7 @@ private:
     };
     for (const auto& [node, wish] : wishes)
       context_.self
-          ->request(wish.agent, reservation_timeout,
+          ->request(wish.agent, limits::task::reservation,
                     instance_removal{task_.request.task, ""})
           .then([finish](const instances_removed&) { finish(); },
                 [finish](const caf::error&) { finish(); });

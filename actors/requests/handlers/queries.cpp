@@ -1,5 +1,7 @@
 #include "actors/requests/handlers/queries.hpp"
 
+#include "actors/house/limits.hpp"
+
 #include <utility>
 
 namespace roscell {
@@ -17,34 +19,28 @@ void forward(const request_context& context, const Handle& whom,
 
 /// A log may be waited for; the answer comes soon after that.
 std::chrono::milliseconds log_timeout(const log_query& query) {
-  return local_timeout + std::chrono::milliseconds{query.wait_ms};
+  return limits::log::answer + std::chrono::milliseconds{query.wait_ms};
 }
-
-/// Ending an instance takes its grace time, on every node at once.
-constexpr std::chrono::seconds termination_timeout{60};
-
-/// A node may have to wait for its instances to be started elsewhere.
-constexpr std::chrono::minutes departure_limit{15};
 
 } // namespace
 
 void describe_node(const request_context& context, node_query query,
                    outcome<node_description> done) {
-  forward(context, context.services->node, local_timeout, query, done);
+  forward(context, context.services->node, limits::local::answer, query, done);
 }
 
 void describe_local_instances(const request_context& context,
                               instance_query query,
                               outcome<instance_description> done) {
-  forward(context, context.services->supervisor, local_timeout,
+  forward(context, context.services->supervisor, limits::local::answer,
           std::move(query), done);
 }
 
 void list_local_skills(const request_context& context, skill_query query,
                        outcome<skill_list> done) {
   ask<node_description>(
-      context, context.services->node, local_timeout, node_query{}, done,
-      [done, query](const node_description& node) {
+      context, context.services->node, limits::local::answer, node_query{},
+      done, [done, query](const node_description& node) {
         skill_list result;
         for (const auto& skill : node.skills)
           if (query.operation.empty()
@@ -63,29 +59,31 @@ void read_local_log(const request_context& context, log_query query,
 
 void describe_cell(const request_context& context, cell_query query,
                    outcome<cell_description> done) {
-  forward(context, context.services->coordinator, local_timeout, query, done);
+  forward(context, context.services->coordinator, limits::local::answer, query,
+          done);
 }
 
 void list_cells(const request_context& context, cell_list_query query,
                 outcome<cell_list> done) {
-  forward(context, context.services->coordinator, local_timeout, query, done);
+  forward(context, context.services->coordinator, limits::local::answer, query,
+          done);
 }
 
 void describe_tasks(const request_context& context, task_query query,
                     outcome<task_description> done) {
-  forward(context, context.services->coordinator, local_timeout,
+  forward(context, context.services->coordinator, limits::local::answer,
           std::move(query), done);
 }
 
 void describe_instances(const request_context& context, instance_query query,
                         outcome<instance_description> done) {
-  forward(context, context.services->coordinator, local_timeout,
+  forward(context, context.services->coordinator, limits::local::answer,
           std::move(query), done);
 }
 
 void list_skills(const request_context& context, skill_query query,
                  outcome<skill_list> done) {
-  forward(context, context.services->coordinator, local_timeout,
+  forward(context, context.services->coordinator, limits::local::answer,
           std::move(query), done);
 }
 
@@ -98,44 +96,45 @@ void read_log(const request_context& context, log_query query,
 
 void terminate_task(const request_context& context, task_termination request,
                     outcome<task_terminated> done) {
-  forward(context, context.services->coordinator, termination_timeout,
+  forward(context, context.services->coordinator, limits::task::termination,
           std::move(request), done);
 }
 
 void challenge_registration(const request_context& context,
                             registration_query query,
                             outcome<registration_challenge> done) {
-  forward(context, context.services->membership, local_timeout, query, done);
+  forward(context, context.services->membership, limits::local::answer, query,
+          done);
 }
 
 void switch_registration(const request_context& context,
                          registration_switch order,
                          outcome<switch_accepted> done) {
-  forward(context, context.services->membership, local_timeout,
+  forward(context, context.services->membership, limits::local::answer,
           std::move(order), done);
 }
 
 void form_cell(const request_context& context, cell_formation request,
                outcome<cell_formed> done) {
-  forward(context, context.services->coordinator, departure_limit,
+  forward(context, context.services->coordinator, limits::transfer::answer,
           std::move(request), done);
 }
 
 void release_node(const request_context& context, node_release request,
                   outcome<node_released> done) {
-  forward(context, context.services->coordinator, departure_limit,
+  forward(context, context.services->coordinator, limits::transfer::answer,
           std::move(request), done);
 }
 
 void transfer_node(const request_context& context, node_transfer request,
                    outcome<node_transferred> done) {
-  forward(context, context.services->coordinator, departure_limit,
+  forward(context, context.services->coordinator, limits::transfer::answer,
           std::move(request), done);
 }
 
 void describe_transfers(const request_context& context, transfer_query query,
                         outcome<transfer_description> done) {
-  forward(context, context.services->coordinator, local_timeout,
+  forward(context, context.services->coordinator, limits::local::answer,
           std::move(query), done);
 }
 

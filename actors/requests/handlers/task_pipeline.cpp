@@ -1,5 +1,6 @@
 #include "actors/requests/handlers/task_pipeline.hpp"
 
+#include "actors/house/limits.hpp"
 #include "actors/placement/instance_specs.hpp"
 #include "actors/placement/skill_resolution.hpp"
 
@@ -10,15 +11,6 @@
 namespace roscell {
 
 namespace {
-
-/// Longest wait for the turn: that of a few requests before this one.
-constexpr std::chrono::seconds turn_timeout{60};
-
-/// Longest wait until an instance runs: an image may have to be built.
-constexpr std::chrono::minutes deployment_timeout{13};
-
-/// Ending what a failed deployment has started, on every node at once.
-constexpr std::chrono::seconds rollback_timeout{60};
 
 std::string text_of(const task_request& request) {
   return message_json(request).dump();
@@ -65,7 +57,7 @@ std::optional<failure> think_otherwise(const what_if& other,
 void claim(const request_context& context, task_request request,
            outcome<claimed_task> done) {
   claim_task wish{request.task, text_of(request)};
-  ask<task_claimed>(context, context.services->coordinator, turn_timeout,
+  ask<task_claimed>(context, context.services->coordinator, limits::task::turn,
                     std::move(wish), done,
                     [done, request](const task_claimed& claimed) {
                       if (claimed.accepted.empty())
@@ -85,8 +77,9 @@ void adopt_plan_query(const request_context&, task_plan_query query,
 void resolve_skills(const request_context& context, claimed_task task,
                     outcome<resolved_task> done) {
   ask<skill_list>(
-      context, context.services->coordinator, local_timeout, skill_query{},
-      done, [done, task = std::move(task)](const skill_list& known) {
+      context, context.services->coordinator, limits::local::answer,
+      skill_query{}, done,
+      [done, task = std::move(task)](const skill_list& known) {
         auto steps = resolve_steps(task.request.pipeline, known.skills);
         if (auto* why = std::get_if<failure>(&steps))
           done.fail(std::move(*why));
@@ -99,8 +92,8 @@ void resolve_skills(const request_context& context, claimed_task task,
 
 void collect(const request_context& context, resolved_task task,
              outcome<resourced_task> done) {
-  ask<cell_resources>(context, context.services->coordinator, local_timeout,
-                      collect_resources{}, done,
+  ask<cell_resources>(context, context.services->coordinator,
+                      limits::local::answer, collect_resources{}, done,
                       [done, task = std::move(task)](cell_resources cell) {
                         resourced_task known{task.request, task.steps,
                                              std::move(cell.nodes),
@@ -119,7 +112,7 @@ void place(const request_context& context, resourced_task task,
                          std::move(task.nodes),
                          {},
                          std::move(task.why)};
-  ask<task_plan>(context, context.services->scheduler, search_timeout,
+  ask<task_plan>(context, context.services->scheduler, limits::task::search,
                  std::move(question), done,
                  [done, request = std::move(task.request),
                   steps = std::move(task.steps)](task_plan plan) {
@@ -153,8 +146,8 @@ void record_plan(const request_context& context, reserved_task held,
       "allocation_chosen", task.request.task,
       {{"score", task.plan.score}, {"allocations", task.plan.allocations}});
   ask<intent_recorded>(
-      context, context.services->coordinator, local_timeout, std::move(intent),
-      done, [done, reply](intent_recorded known) {
+      context, context.services->coordinator, limits::local::answer,
+      std::move(intent), done, [done, reply](intent_recorded known) {
         done.deliver({reply, std::move(known.specs), std::move(known.agents)});
       });
 }
@@ -199,7 +192,8 @@ void deploy(const request_context& context, intended_task task,
     const auto& spec = task.specs[i];
     const auto& node = task.reply.instances[i].node;
     context.self
-        ->request(task.agents[i], deployment_timeout, instance_deployment{spec})
+        ->request(task.agents[i], limits::task::deployment_answer,
+                  instance_deployment{spec})
         .then([tally](const instance_deployed&) { tally->add_success(); },
               [tally, spec, node, i](const caf::error& why) {
                 tally->add_failure(step_failure(spec, node, why, i));
@@ -213,8 +207,9 @@ void record_result(const request_context& context, deployed_task task,
   record_outcome fact{task.reply.task, running,
                       running ? "" : task.problem->message};
   ask<outcome_recorded>(
-      context, context.services->coordinator, rollback_timeout, std::move(fact),
-      done, [done, task = std::move(task), running](const outcome_recorded&) {
+      context, context.services->coordinator, limits::task::rollback,
+      std::move(fact), done,
+      [done, task = std::move(task), running](const outcome_recorded&) {
         if (running)
           return done.deliver(task.reply);
         auto why = *task.problem;

@@ -1,3 +1,4 @@
+#include "actors/house/limits.hpp"
 #include "actors/instances/container_supervisor.hpp"
 
 #include "messages/failure.hpp"
@@ -416,8 +417,8 @@ TEST_CASE("queries choose by task and by instance") {
 TEST_CASE("live instances are bounded, and so are the rows of ended ones") {
   bench b;
   b.start();
-  const auto live = container_supervisor_state::max_instances;
-  const auto ended = container_supervisor_state::max_ended;
+  const auto live = limits::instance::most;
+  const auto ended = limits::instance::most_ended;
   for (size_t i = 0; i < live; ++i)
     b.deploy("i" + std::to_string(i));
   CHECK(refusal(b.deploy("one-more")).code == error_code::conflict);

@@ -1,3 +1,4 @@
+#include "actors/house/limits.hpp"
 #include "actors/instances/skill_instance.hpp"
 
 #include "actors/instances/instance_environment.hpp"
@@ -191,12 +192,12 @@ TEST_CASE("signs of life keep a program, silence ends it by force at once") {
   bench b;
   b.start_ready();
   for (int i = 0; i < 5; ++i) {
-    b.advance(watchdog_interval - 1s);
+    b.advance(limits::instance::watchdog - 1s);
     b.alive();
   }
   CHECK(b.state() == instance_state::running);
   CHECK(b.runtime->stopped.empty());
-  b.advance(watchdog_interval + 1s);
+  b.advance(limits::instance::watchdog + 1s);
   CHECK(b.state() == instance_state::failed);
   CHECK(contains(b.reason(), "no sign of life"));
   REQUIRE(b.runtime->stopped.size() == 1);
@@ -283,7 +284,7 @@ TEST_CASE("a running program is adopted without a restart") {
   b.adopt_as(instance_state::running, {true, "c1", -1});
   CHECK(b.state() == instance_state::running);
   CHECK(b.runtime->prepared.empty());
-  b.advance(watchdog_interval + 1s);
+  b.advance(limits::instance::watchdog + 1s);
   CHECK(b.state() == instance_state::failed);
 }
 

@@ -1,3 +1,4 @@
+#include "actors/house/limits.hpp"
 #include "test/actors/fakes/cell_fakes.hpp"
 
 /// What a node does when it loses its coordinator.
@@ -44,9 +45,9 @@ TEST_CASE_METHOD(orphan_test, "a silent coordinator is lost within a "
   site.pass(21s);
   node.link->silent = true;
   node.refusal = {error_code::unreachable, "no route to host"};
-  site.pass(lease_span - beat_period - 1s);
+  site.pass(limits::lease::span - limits::lease::beat_period - 1s);
   CHECK(state() == node_state::member);
-  site.pass(beat_period + 1s);
+  site.pass(limits::lease::beat_period + 1s);
   CHECK(state() == node_state::orphaned);
   CHECK(site.facts.back().data["reason"] == "silent for 8 s");
 }

@@ -1,3 +1,4 @@
+#include "actors/house/limits.hpp"
 #include "test/actors/fakes/cell_fakes.hpp"
 
 #include <iostream>
@@ -199,7 +200,7 @@ bool ends_well(virtual_time& clock, uint32_t seed) {
   const bool works = agreed && x.works();
   // The next look is up to 250 ms late. A lost frame, which TCP would repeat,
   // costs the wait for its answer on top.
-  const auto limit = lease_span + 250ms + (x.hostile() ? 5000ms : 0ms);
+  const auto limit = limits::lease::span + 250ms + (x.hostile() ? 5000ms : 0ms);
   const bool honest = x.longest_lie() <= limit;
   if (!works || !honest)
     std::cerr << "seed " << seed << ": agreed " << agreed << ", works " << works

@@ -1,3 +1,4 @@
+#include "actors/house/limits.hpp"
 #include "test/actors/fakes/cell_fakes.hpp"
 
 namespace {
@@ -185,7 +186,7 @@ TEST_CASE_METHOD(membership_test, "a registration that is not answered is "
   site.base.mute = true;
   form_cell();
   auto first = node.link;
-  site.pass(lease_span);
+  site.pass(limits::lease::span);
   CHECK_FALSE(first->open);
   site.base.mute = false;
   site.pass(40s);

@@ -1,3 +1,4 @@
+#include "actors/house/limits.hpp"
 #include "actors/requests/request_router.hpp"
 #include "test/actors/fakes/coordinator_fakes.hpp"
 
@@ -327,7 +328,7 @@ TEST_CASE_METHOD(router_fixture,
   start();
   for (int i = 0; i < 300; ++i)
     ask(list_query("id-" + std::to_string(i)));
-  CHECK(state().at("remembered") == request_router_state::remembered_limit);
+  CHECK(state().at("remembered") == limits::request::remembered);
   CHECK(run_of(ask(list_query("id-299"))) == 300);
   CHECK(run_of(ask(list_query("id-0"))) == 301);
 }

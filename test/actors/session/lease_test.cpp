@@ -1,3 +1,4 @@
+#include "actors/house/limits.hpp"
 #include "actors/session/lease.hpp"
 
 #include <catch2/catch.hpp>
@@ -122,8 +123,9 @@ TEST_CASE("a silent member is lost one lease after it was last heard") {
     x.run(start + 100s);
     CHECK(x.member_lost);
     // What flew when it died still counts.
-    CHECK(x.now - died <= lease_span + 40ms);
-    CHECK(x.now - died >= lease_span - beat_period - 40ms);
+    CHECK(x.now - died <= limits::lease::span + 40ms);
+    CHECK(x.now - died
+          >= limits::lease::span - limits::lease::beat_period - 40ms);
   }
 }
 
@@ -136,8 +138,9 @@ TEST_CASE("a silent coordinator is lost one lease after it was last heard") {
     const auto died = x.now;
     x.run(start + 100s);
     CHECK(x.coordinator_lost);
-    CHECK(x.now - died <= lease_span + 40ms);
-    CHECK(x.now - died >= lease_span - beat_period - 90ms);
+    CHECK(x.now - died <= limits::lease::span + 40ms);
+    CHECK(x.now - died
+          >= limits::lease::span - limits::lease::beat_period - 90ms);
   }
 }
 
@@ -147,7 +150,8 @@ TEST_CASE("an outage of less than the lease without a beat is not noticed") {
     pair_of_leases x{seed};
     x.run(start + std::chrono::milliseconds{x.random() % 30'000});
     x.loss = 1;
-    x.run(x.now + lease_span - beat_period - 2 * urgent_probe_interval);
+    x.run(x.now + limits::lease::span - limits::lease::beat_period
+          - 2 * limits::lease::urgent_probe_interval);
     x.loss = 0;
     x.run(x.now + 60s);
     CHECK_FALSE(x.member_lost);
@@ -188,10 +192,11 @@ TEST_CASE("after a miss the peer is asked until the lease is over") {
           std::chrono::duration_cast<std::chrono::milliseconds>(now - start));
   }
   REQUIRE(asked.size() > 2);
-  CHECK(asked[0] == beat_period + probe_interval);
-  CHECK(asked[1] == asked[0] + probe_interval);
-  CHECK(asked.back() == lease_span - urgent_probe_interval);
-  CHECK(now - start == lease_span);
+  CHECK(asked[0] == limits::lease::beat_period + limits::lease::probe_interval);
+  CHECK(asked[1] == asked[0] + limits::lease::probe_interval);
+  CHECK(asked.back()
+        == limits::lease::span - limits::lease::urgent_probe_interval);
+  CHECK(now - start == limits::lease::span);
 }
 
 TEST_CASE("any frame counts as a sign of life") {

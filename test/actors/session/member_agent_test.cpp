@@ -1,4 +1,4 @@
-#include "actors/house/session_timeouts.hpp"
+#include "actors/house/limits.hpp"
 #include "test/actors/fakes/cell_fakes.hpp"
 
 /// Members with a real membership at the other end of the wire.
@@ -107,7 +107,7 @@ TEST_CASE_METHOD(cell_fixture, "a lost request times out and the session goes "
   form_cell();
   site.faults.lose_frame = 1;
   auto reply = time.ask<resource_report>(member(), resource_query{});
-  site.pass(resource_query_timeout);
+  site.pass(limits::session::resource_query);
   REQUIRE(*reply);
   CHECK(to_failure((*reply)->error()).code == error_code::timeout);
   site.faults.lose_frame = 0;

@@ -1,3 +1,4 @@
+#include "actors/house/limits.hpp"
 #include "actors/session/session_calls.hpp"
 
 #include "actors/session/session_answers.hpp"
@@ -123,13 +124,13 @@ TEST_CASE("the end of a session fails every call at once") {
 TEST_CASE("the calls that wait are bounded in number and size") {
   session_calls calls;
   outcome it;
-  for (size_t i = 0; i < session_calls::max_pending; ++i)
+  for (size_t i = 0; i < limits::session::pending_calls; ++i)
     CHECK(calls.begin(departure, start, [](const caf::expected<json>&) {}));
   CHECK_FALSE(calls.begin(departure, start, it.keep()));
   CHECK(it.code() == error_code::conflict);
   session_calls others;
   outcome huge;
-  const auto text = std::string(max_session_frame_bytes, 'x');
+  const auto text = std::string(limits::session::frame_bytes, 'x');
   CHECK_FALSE(
       others.begin(message_json(node_departure{text}), start, huge.keep()));
   CHECK(huge.code() == error_code::conflict);
@@ -215,8 +216,9 @@ TEST_CASE("an answer too large for a frame becomes an error") {
   session_exchange x{
       [&](std::string text) { sent.push_back(std::move(text)); }};
   x.receive(write_envelope(envelope_kind::request, 5, departure));
-  x.answer(5, message_json(log_excerpt{
-                  "a", std::string(max_session_frame_bytes, 'x'), 0, false}));
+  x.answer(5,
+           message_json(log_excerpt{
+               "a", std::string(limits::session::frame_bytes, 'x'), 0, false}));
   REQUIRE(sent.size() == 1);
   CHECK(failure_from(read_envelope(sent[0])->body).code
         == error_code::conflict);
@@ -226,7 +228,7 @@ using verdict_of = session_answers::verdict;
 
 TEST_CASE("what was answered long ago is not done again") {
   session_answers answers;
-  for (uint64_t id = 1; id <= session_answers::window + 10; ++id) {
+  for (uint64_t id = 1; id <= limits::session::known_calls + 10; ++id) {
     REQUIRE(answers.admit(id).what == verdict_of::fresh);
     answers.record(id, "done");
   }
@@ -238,13 +240,13 @@ TEST_CASE("what was answered long ago is not done again") {
 TEST_CASE("an answer too large to be kept is not done again either") {
   session_answers answers;
   answers.admit(1);
-  answers.record(1, std::string(session_answers::max_kept_bytes + 1, 'x'));
+  answers.record(1, std::string(limits::session::kept_answer_bytes + 1, 'x'));
   CHECK(answers.admit(1).what == verdict_of::stale);
 }
 
 TEST_CASE("more requests at once than can be remembered are refused") {
   session_answers answers;
-  for (uint64_t id = 1; id <= session_answers::window; ++id)
+  for (uint64_t id = 1; id <= limits::session::known_calls; ++id)
     REQUIRE(answers.admit(id).what == verdict_of::fresh);
   CHECK(answers.admit(1000).what == verdict_of::crowded);
   answers.record(7, "done");

@@ -1,5 +1,6 @@
 #include "actors/edge/dds/announcement.hpp"
 #include "actors/edge/session/session_frames.hpp"
+#include "actors/house/limits.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -57,7 +58,7 @@ TEST_CASE("the longest names and numbers fit into an announcement",
   x.incarnation = session_frame_bounds::number;
   x.epoch = session_frame_bounds::number;
   x.server = 255;
-  CHECK(encode(x).size() <= max_announcement_bytes);
+  CHECK(encode(x).size() <= limits::discovery::announcement_bytes);
   CHECK(decode(encode(x)) == x);
 }
 
@@ -107,6 +108,6 @@ TEST_CASE("the USER_DATA of strangers is no announcement", "[announcement]") {
 
 TEST_CASE("an announcement over the limit is not looked at", "[announcement]") {
   auto x = sample();
-  x.cell = std::string(max_announcement_bytes, 'c');
+  x.cell = std::string(limits::discovery::announcement_bytes, 'c');
   CHECK_FALSE(decode(encode(x)));
 }

@@ -1,5 +1,6 @@
 #include "actors/edge/dds/announcement.hpp"
 #include "actors/edge/dds/discovery_address.hpp"
+#include "actors/house/limits.hpp"
 #include "discovery_fixture.hpp"
 
 #include <atomic>
@@ -47,15 +48,16 @@ TEST_CASE("a server's new announcement reaches its clients", "[discovery]") {
 TEST_CASE("an announcement over the limit is refused and changes nothing",
           "[discovery]") {
   auto server = must_open(local_server(3, "old"));
-  auto error =
-      server->update_announcement(std::string(max_announcement_bytes + 1, 'x'));
+  auto error = server->update_announcement(
+      std::string(limits::discovery::announcement_bytes + 1, 'x'));
   REQUIRE(error);
   CHECK(error->code == error_code::schema_violation);
-  CHECK_FALSE(
-      server->update_announcement(std::string(max_announcement_bytes, 'y')));
+  CHECK_FALSE(server->update_announcement(
+      std::string(limits::discovery::announcement_bytes, 'y')));
   diary seen;
   auto client = must_open(client_of(server->port()), writing_to(seen));
-  CHECK(seen.wait_for("3 " + std::string(max_announcement_bytes, 'y')));
+  CHECK(seen.wait_for(
+      "3 " + std::string(limits::discovery::announcement_bytes, 'y')));
 }
 
 TEST_CASE("a client whose server is not there says why and finds it later",

@@ -1,4 +1,5 @@
 #include "actors/edge/dds/announcement.hpp"
+#include "actors/house/limits.hpp"
 #include "discovery_fixture.hpp"
 
 #include <arpa/inet.h>
@@ -71,7 +72,8 @@ TEST_CASE("a discovery server refuses an address of another host and lists "
 }
 
 TEST_CASE("a discovery server refuses options out of bounds", "[discovery]") {
-  auto too_long = local_server(1, std::string(max_announcement_bytes + 1, 'x'));
+  auto too_long = local_server(
+      1, std::string(limits::discovery::announcement_bytes + 1, 'x'));
   CHECK(error_of(cell_server::open(too_long)).message
         == "an announcement of 1025 bytes is over the limit of 1024");
   auto domain = local_server(1, "");

@@ -1,5 +1,6 @@
 #include "actors/edge/dds/public_presence.hpp"
 #include "actors/edge/dds/site_survey.hpp"
+#include "actors/house/limits.hpp"
 #include "discovery_fixture.hpp"
 
 #include <algorithm>
@@ -222,7 +223,8 @@ TEST_CASE("a presence refuses options out of bounds", "[presence]") {
   CHECK(refusal([](options& x) { x.lease = x.announcement_period; }).code
         == error_code::schema_violation);
   CHECK(refusal([](options& x) {
-          x.announcement = std::string(max_announcement_bytes + 1, 'x');
+          x.announcement =
+              std::string(limits::discovery::announcement_bytes + 1, 'x');
         }).code
         == error_code::schema_violation);
   auto elsewhere = refusal([](options& x) { x.address = "192.0.2.9"; });
@@ -236,7 +238,8 @@ TEST_CASE("a presence refuses options out of bounds", "[presence]") {
     CHECK(why.message == '"' + std::string{peer} + "\" is no peer");
   }
   auto presence = must_open(at_home({}));
-  CHECK(presence->update(std::string(max_announcement_bytes + 1, 'x')));
+  CHECK(presence->update(
+      std::string(limits::discovery::announcement_bytes + 1, 'x')));
 }
 
 TEST_CASE("a presence can be closed twice, and told something then",
@@ -250,13 +253,14 @@ TEST_CASE("a presence can be closed twice, and told something then",
 TEST_CASE("the first presences of a host take the places that peers try",
           "[presence]") {
   std::set<std::uint16_t> places;
-  for (unsigned i = 0; i < presence_places; ++i)
+  for (unsigned i = 0; i < limits::discovery::presence_places; ++i)
     places.insert(
         static_cast<std::uint16_t>(7400 + 250 * own_domain() + 10 + 2 * i));
   std::vector<std::unique_ptr<public_presence>> all;
-  for (unsigned i = 0; i < presence_places + 1; ++i) {
+  for (unsigned i = 0; i < limits::discovery::presence_places + 1; ++i) {
     all.push_back(must_open(at_home({})));
-    CHECK((places.erase(all.back()->port()) == 1) == (i < presence_places));
+    CHECK((places.erase(all.back()->port()) == 1)
+          == (i < limits::discovery::presence_places));
   }
 }
 

@@ -1,5 +1,6 @@
 #include "actors/edge/engine/engine_client.hpp"
 #include "actors/edge/engine/engine_search.hpp"
+#include "actors/house/limits.hpp"
 #include "test/actors/edge/io/edge_fixture.hpp"
 #include "test/fake_engine.hpp"
 
@@ -230,7 +231,7 @@ TEST_CASE("an answer without an end is given up") {
   engine_bench b{[](engine_caller& who, const engine_call_seen&) {
     who.open();
     const std::string piece(1 << 20, 'x');
-    for (size_t i = 0; i <= engine_client::max_reply_bytes >> 20; ++i)
+    for (size_t i = 0; i <= limits::engine::reply_bytes >> 20; ++i)
       who.chunk(piece);
     who.end();
   }};

@@ -1,4 +1,5 @@
 #include "actors/edge/engine/engine_log.hpp"
+#include "actors/house/limits.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -73,7 +74,7 @@ TEST_CASE("a part of a log is bounded") {
     log_collector collector{{origin, 0, false}};
     CHECK_FALSE(collector.take(bytes));
     const auto part = collector.part();
-    CHECK(part.text.size() <= instance_log::max_part_bytes);
+    CHECK(part.text.size() <= limits::log::part_bytes);
     CHECK(part.text.substr(0, 2) == "0x");
     log_collector rest{{origin, part.next_offset, false}};
     rest.take(bytes);
@@ -83,7 +84,7 @@ TEST_CASE("a part of a log is bounded") {
     log_collector collector{{origin, 0, true}};
     CHECK(collector.take(bytes));
     const auto part = collector.part();
-    CHECK(part.text.size() <= instance_log::max_part_bytes);
+    CHECK(part.text.size() <= limits::log::part_bytes);
     CHECK(part.text.find("199x") != std::string::npos);
   }
 }

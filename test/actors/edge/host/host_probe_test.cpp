@@ -1,4 +1,5 @@
 #include "actors/edge/host/host_probe.hpp"
+#include "actors/house/limits.hpp"
 #include "host_probe_fixture.hpp"
 
 #include <catch2/catch.hpp>
@@ -102,8 +103,8 @@ TEST_CASE("a sample of long ago is no base for a rate", "[host_probe]") {
   make_host(root);
   host_probe probe{options_for(root)};
   probe.sample(start);
-  CHECK(probe.cpu_used(start + host_probe::max_sample_age));
-  CHECK_FALSE(probe.cpu_used(start + host_probe::max_sample_age + 1ms));
+  CHECK(probe.cpu_used(start + limits::resource::most_sample_age));
+  CHECK_FALSE(probe.cpu_used(start + limits::resource::most_sample_age + 1ms));
 }
 
 TEST_CASE("without a sample in time the load average tells the CPU's use",

@@ -1,4 +1,5 @@
 #include "actors/edge/http/http_exchange.hpp"
+#include "actors/house/limits.hpp"
 #include "test/actors/edge/http/canned_server.hpp"
 
 namespace roscell::test::wire {
@@ -80,15 +81,16 @@ TEST_CASE("an exchange takes a reply up to its limit, and no longer one") {
            + "\r\n\r\n";
   };
   {
-    const canned_server full{head(max_exchanged_bytes)
-                             + std::string(max_exchanged_bytes, 'x')};
+    const canned_server full{head(limits::http::exchanged_bytes)
+                             + std::string(limits::http::exchanged_bytes, 'x')};
     io_thread io;
     CHECK(expect(ask(io, call_to(full.port()))).body.size()
-          == max_exchanged_bytes);
+          == limits::http::exchanged_bytes);
   }
-  const auto long_body = std::string(max_exchanged_bytes + 1, 'x');
+  const auto long_body = std::string(limits::http::exchanged_bytes + 1, 'x');
   for (const auto& reply :
-       {head(max_exchanged_bytes + 1), "HTTP/1.1 200 OK\r\n\r\n" + long_body,
+       {head(limits::http::exchanged_bytes + 1),
+        "HTTP/1.1 200 OK\r\n\r\n" + long_body,
         "HTTP/1.1 200 OK\r\nTransfer-Encoding: chunked\r\n\r\n10001\r\n"
             + long_body}) {
     const canned_server server{reply, false};

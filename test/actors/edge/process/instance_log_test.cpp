@@ -1,5 +1,6 @@
 #include "actors/edge/process/instance_log.hpp"
 
+#include "actors/house/limits.hpp"
 #include "test/actors/edge/process/supervision_fixture.hpp"
 
 #include <string>
@@ -84,7 +85,7 @@ TEST_CASE("a part is bounded, and reading all parts gives all bytes") {
   const instance_log log{folder.path()};
   std::string read;
   for (auto part = log.read_from(0);; part = log.read_from(part.next_offset)) {
-    CHECK(part.text.size() <= size_t{instance_log::max_part_bytes});
+    CHECK(part.text.size() <= size_t{limits::log::part_bytes});
     read += part.text;
     if (part.ended)
       break;
@@ -114,7 +115,7 @@ TEST_CASE("one endless line does not make the tail long") {
   own_folder folder;
   folder.write("log.0", std::string(1'000'000, 'x'));
   const auto part = instance_log{folder.path()}.read_tail(5);
-  CHECK(part.text.size() == size_t{instance_log::max_part_bytes});
+  CHECK(part.text.size() == size_t{limits::log::part_bytes});
   CHECK(part.next_offset == 1'000'000);
 }
 

@@ -1,4 +1,5 @@
 #include "actors/edge/session/registration_proof.hpp"
+#include "actors/house/limits.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -87,18 +88,18 @@ TEST_CASE("a nonce is good for its lifetime only") {
   const auto first = x.issue(start);
   const auto second = x.issue(start + 1s);
   const auto third = x.issue(start + 2s);
-  const auto end = start + registration_challenges::lifetime;
+  const auto end = start + limits::token::nonce_lifetime;
   CHECK(x.redeem(second, end));
   CHECK_FALSE(x.redeem(first, end));
   CHECK(x.redeem(third, end + 2s - 1ns));
   const auto fourth = x.issue(end);
-  CHECK_FALSE(x.redeem(fourth, end + registration_challenges::lifetime));
+  CHECK_FALSE(x.redeem(fourth, end + limits::token::nonce_lifetime));
 }
 
 TEST_CASE("when too many nonces are out, the oldest goes") {
   registration_challenges x;
   std::vector<std::string> nonces;
-  for (size_t i = 0; i <= registration_challenges::max_outstanding; ++i)
+  for (size_t i = 0; i <= limits::token::outstanding_nonces; ++i)
     nonces.push_back(x.issue(start));
   CHECK(std::set<std::string>{nonces.begin(), nonces.end()}.size()
         == nonces.size());
