@@ -91,6 +91,11 @@ constexpr seconds most_sample_age{30};
 constexpr milliseconds sample_distance{100};
 constexpr size_t samples = 16;
 
+/// A coordinator hears the beats of many members; one sample serves for all. A
+/// little shorter than the pause between the beats of one member.
+constexpr milliseconds mark_distance{3500};
+
+static_assert(mark_distance < lease::beat_period);
 static_assert(sample_distance * samples > least_sample_age);
 static_assert(collection < local::answer);
 
@@ -299,6 +304,12 @@ constexpr milliseconds departure{2000};
 
 /// and the NODE for the node to have left.
 constexpr seconds leaving{3};
+
+/// From the signal to the process's end: systemd would wait 90 s before it uses
+/// force.
+constexpr seconds stopping{5};
+
+static_assert(leaving < stopping);
 
 /// Coordinators that were started together appear one after the other; asking
 /// all of them at once for places would make the first ones full.

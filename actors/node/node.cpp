@@ -104,8 +104,9 @@ void stop(self_pointer self) {
   if (std::exchange(st.stopping, true))
     return;
   st.parts.context.tell("node_stopping", st.parts.identity.name);
-  // No new requests; those in progress get a moment.
+  // No new requests; those in progress are told while they can be answered.
   st.parts.edges->sockets.http->stop([] {});
+  self->send_exit(st.parts.router, caf::exit_reason::user_shutdown);
   const auto& membership = st.parts.services->membership;
   if (!membership)
     return end_children(self);

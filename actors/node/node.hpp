@@ -23,6 +23,7 @@ struct node_parts {
   node_identity identity;
   node_agent_actor agent;
   std::vector<installed_skill> skills;
+  request_router_actor router;
   std::vector<caf::actor> children; ///< In the order of their start.
 };
 

@@ -264,13 +264,14 @@ private:
   }
 
   void start_requests() {
-    auto registry = std::make_shared<const request_registry>(
+    const auto registry = std::make_shared<const request_registry>(
         make_registry(parts_.config.coordinator));
-    auto router = start(request_router, registry,
-                        std::shared_ptr<const node_services>(parts_.services));
+    parts_.router =
+        start(request_router, registry,
+              std::shared_ptr<const node_services>(parts_.services));
     parts_.services->node = spawn(system_, parts_.context, node, parts_);
     parts_.edges->handler->set(
-        make_rest_handler(system_, {parts_.context, router}));
+        make_rest_handler(system_, {parts_.context, parts_.router}));
   }
 
   caf::actor_system& system_;
@@ -308,6 +309,7 @@ caf::expected<running_node> spawn_node(caf::actor_system& system,
   }
   running_node result;
   result.events = context.events;
+  result.actors = context.directory;
   result.name = config.name;
   result.http_address = (*edges)->http_address;
   result.socket = (*edges)->socket_path;

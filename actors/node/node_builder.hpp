@@ -1,5 +1,6 @@
 #pragma once
 
+#include "actors/house/actor_directory.hpp"
 #include "actors/node/node_config.hpp"
 #include "messages/actors.hpp"
 #include "messages/failure.hpp"
@@ -7,6 +8,7 @@
 #include <caf/actor_system.hpp>
 #include <caf/expected.hpp>
 
+#include <memory>
 #include <string>
 
 namespace roscell {
@@ -15,6 +17,8 @@ namespace roscell {
 struct running_node {
   node_actor actor;       ///< `stop_node` ends it in order.
   event_log_actor events; ///< The node's facts, for whoever embeds it.
+  /// Who of the node's actors lives, also after `actor` has ended.
+  std::shared_ptr<const actor_directory> actors;
   std::string name;
   std::string http_address;     ///< "ip:port" that was really bound.
   std::string socket;           ///< Path of the Unix socket.

@@ -45,10 +45,6 @@ caf::error open_http(const node_config& config, const node_data& data,
   return caf::none;
 }
 
-/// A coordinator hears the beats of many members; one sample serves for all. A
-/// little shorter than the pause between the beats of one session.
-constexpr std::chrono::milliseconds mark_distance{3500};
-
 caf::error name_in_use(const announcement& other) {
   return fail(error_code::conflict,
               "the cell name '" + other.cell + "' is in use: node '"
@@ -178,7 +174,7 @@ void mark_samples_at_beats(node_edges& edges,
   using clock = std::chrono::steady_clock;
   edges.sockets.beat->watch([probe, last = clock::time_point{}]() mutable {
     const auto now = clock::now();
-    if (now - last < mark_distance)
+    if (now - last < limits::resource::mark_distance)
       return;
     last = now;
     caf::anon_send(probe, mark_sample{});

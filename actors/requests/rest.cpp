@@ -14,15 +14,35 @@ namespace roscell {
 
 namespace {
 
+failure node_ended() {
+  return {error_code::unreachable,
+          "the node ended before it had answered",
+          {},
+          "ask again, with the same request, once it runs"};
+}
+
 /// One HTTP request that waits for the router.
 struct rest_exchange_state {
   static constexpr const char* name = "rest-exchange";
 };
 
+using exchange_pointer =
+    introspected_actor::stateful_pointer<rest_exchange_state>;
+
+void finish_exchange(exchange_pointer self, const responder& answer,
+                     const failure& why) {
+  answer.error(http_status(why.code), why.code, why.message, why.hint);
+  self->quit();
+}
+
 introspected_actor::behavior_type
-rest_exchange(introspected_actor::stateful_pointer<rest_exchange_state> self,
-              const request_router_actor& router, const json_request& what,
-              const responder& answer) {
+rest_exchange(exchange_pointer self, const request_router_actor& router,
+              const json_request& what, const responder& answer) {
+  // A router that ends leaves its requests unanswered.
+  self->monitor(router);
+  self->set_down_handler([self, answer](const caf::down_msg&) {
+    finish_exchange(self, answer, node_ended());
+  });
   self->request(router, limits::request::router,
                 route_request{what.text, what.only})
       .then(
@@ -34,10 +54,7 @@ rest_exchange(introspected_actor::stateful_pointer<rest_exchange_state> self,
             self->quit();
           },
           [self, answer](const caf::error& why) {
-            const auto problem = to_failure(why);
-            answer.error(http_status(problem.code), problem.code,
-                         problem.message, problem.hint);
-            self->quit();
+            finish_exchange(self, answer, to_failure(why));
           });
   return {
       [](const state_query&) { return state_of(json::object()); },

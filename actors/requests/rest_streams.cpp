@@ -114,6 +114,8 @@ introspected_actor::behavior_type log_stream(log_pointer self,
   self->state.router = router;
   self->state.wish = wish;
   self->state.answer = answer;
+  self->monitor(router);
+  self->set_down_handler([self](const caf::down_msg&) { finish(self); });
   ask_for_more(self);
   return {
       [self](const state_query&) {

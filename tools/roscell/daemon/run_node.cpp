@@ -1,4 +1,5 @@
 #include "actors/edge/dds/discovery_setup.hpp"
+#include "actors/house/limits.hpp"
 #include "actors/node/node_builder.hpp"
 #include "tools/roscell/daemon/interface_choice.hpp"
 #include "tools/roscell/daemon/journal.hpp"
@@ -16,16 +17,16 @@
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <thread>
+
+#include <unistd.h>
 
 namespace roscell::cli {
 
 namespace {
-
-/// Longest wait for a node to stop in order: leaving the cell takes a round
-/// trip, and systemd would wait 90 s before it uses force.
-constexpr std::chrono::seconds stop_patience{5};
 
 class node_system_config : public caf::actor_system_config {
 public:
@@ -84,18 +85,55 @@ void introduce(const running_node& node, const node_config& config) {
     spdlog::info("no site token: only nodes of this machine can be members");
 }
 
+using stop_clock = std::chrono::steady_clock;
+
+std::string names_of(const std::vector<actor_row>& rows) {
+  std::string result;
+  for (const auto& x : rows)
+    result += (result.empty() ? "" : ", ") + x.name;
+  return result;
+}
+
+/// Ends the process although parts of it have not ended: threads that hang must
+/// not keep it.
+[[noreturn]] void end_by_force(const running_node& node, exit_code code) {
+  spdlog::warn("node '{}' is ended before it has stopped in order: {}",
+               node.name, names_of(node.actors->rows()));
+  _exit(code);
+}
+
+/// True if what is waited for ends in time, and no other signal comes.
+bool ends_in_time(stop_signals& signals, stop_clock::time_point deadline) {
+  const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(
+      deadline - stop_clock::now());
+  return signals.wait_for(std::max(left, std::chrono::milliseconds{0}))
+         == stop_signals::cause::ended;
+}
+
+/// The node has ended; what it leaves behind, such as the answer to a request,
+/// gets the rest of the time.
+void await_rest(caf::actor_system& system, const running_node& node,
+                stop_signals& signals, stop_clock::time_point deadline,
+                exit_code code) {
+  std::thread rest{[&] {
+    system.await_all_actors_done();
+    signals.end();
+  }};
+  if (!ends_in_time(signals, deadline))
+    end_by_force(node, code);
+  rest.join();
+}
+
 /// Waits until the node has stopped, but not for long, and not at all after
 /// another signal.
-void stop(const running_node& node, stop_signals& signals) {
+void stop(caf::actor_system& system, const running_node& node,
+          stop_signals& signals) {
+  const auto deadline = stop_clock::now() + limits::membership::stopping;
   spdlog::info("node '{}' stops", node.name);
   caf::anon_send(node.actor, stop_node{});
-  const auto seen = signals.wait_for(stop_patience);
-  signals.release();
-  if (seen == stop_signals::cause::ended)
-    return;
-  spdlog::warn("node '{}' is ended before it has stopped in order", node.name);
-  // Threads that hang must not keep the process.
-  _exit(exit_done);
+  if (!ends_in_time(signals, deadline))
+    end_by_force(node, exit_done);
+  await_rest(system, node, signals, deadline, exit_done);
 }
 
 } // namespace
@@ -121,10 +159,12 @@ int run_node(const node_options& options) {
   starter.ready();
   if (signals.wait() == stop_signals::cause::ended) {
     spdlog::error("node '{}' has failed", node.name);
+    await_rest(system, node, signals,
+               stop_clock::now() + limits::membership::stopping, exit_refused);
     return exit_refused;
   }
   starter.stopping();
-  stop(node, signals);
+  stop(system, node, signals);
   return exit_done;
 }
 

@@ -46,11 +46,6 @@ stop_signals::cause stop_signals::wait_for(std::chrono::milliseconds limit) {
   return poll_once(static_cast<int>(limit.count()));
 }
 
-void stop_signals::release() {
-  const auto taken = taken_signals();
-  pthread_sigmask(SIG_UNBLOCK, &taken, nullptr);
-}
-
 void stop_signals::end() {
   eventfd_write(event_fd_, 1);
 }
@@ -59,8 +54,11 @@ stop_signals::cause stop_signals::poll_once(int timeout_ms) {
   std::array<pollfd, 2> fds{{{event_fd_, POLLIN, 0}, {signal_fd_, POLLIN, 0}}};
   if (poll(fds.data(), fds.size(), timeout_ms) <= 0)
     return cause::timeout;
-  if (fds[0].revents != 0)
+  if (fds[0].revents != 0) {
+    eventfd_t ends = 0;
+    eventfd_read(event_fd_, &ends);
     return cause::ended;
+  }
   signalfd_siginfo taken{};
   const auto n = read(signal_fd_, &taken, sizeof taken);
   return n > 0 ? cause::signal : cause::timeout;

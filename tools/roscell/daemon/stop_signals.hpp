@@ -19,10 +19,7 @@ public:
   cause wait();
   cause wait_for(std::chrono::milliseconds limit);
 
-  /// From now on the signals end the process at once again.
-  void release();
-
-  /// What is waited for has ended by itself; from any thread.
+  /// What is waited for has ended by itself; from any thread. Ends one wait.
   void end();
 
 private:
