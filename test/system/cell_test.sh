@@ -1,199 +1,157 @@
-#One cell of real processes on loopback.
+# One cell of real processes on loopback.
 
 start_cell() {
   start_node head --coordinator --cell line --interface lo --label place=head
   server=$(discovery_of head)
-  for name in "$@";
-  do
-    start_node "$name" --interface lo-- join "$server" --label
-        "place=$name" await_joined head "$name" done
+  for name in "$@"; do
+    start_node "$name" --interface lo --join "$server" --label "place=$name"
+    await_joined head "$name"
+  done
 }
 
-test_members_join_by_the_address_of_the_discovery_server(){
-    start_cell arm belt expect
-    "active rows"
-    "$(get head /v1/cell | jq '[.nodes[] | select(.state == " active
-    ")] | length')" 3 expect "the member's own view"
-                             "$(get arm /v1/node | jq -r '.state + "
-                             " + .cell')"
-                             "member line"}
+test_members_join_by_the_address_of_the_discovery_server() {
+  start_cell arm belt
+  expect "active rows" \
+    "$(get head /v1/cell | jq '[.nodes[] | select(.state == "active")] | length')" 3
+  expect "the member's own view" \
+    "$(get arm /v1/node | jq -r '.state + " " + .cell')" "member line"
+}
 
-test_a_task_runs_and_one_request_removes_it(){
-    start_cell arm echo_task hello arm > "$scratch/task.json" to head request
-                                         "$scratch/task.json"
-            > "$scratch/reply.json"
-        || fail "refused: $(cat " $scratch
-               / reply.json ")" expect "the node"
-                            "$(jq -r '.instances[0].node' " $scratch
-               / reply.json ")" arm instance =
-        $(jq - r '.instances[0].instance' "$scratch/reply.json") expect
-                "the task"
-                "$(get head /v1/tasks | jq -r '.tasks[0].state')" running
-#The skill follows its input file, and really writes what it gets.
-                    mkfifo "$scratch/seen" timeout "$deadline_s" tail
-                - n + 1 - F "$scratch/data/hello.out"
-            > "$scratch/seen" 2 > / dev / null& echo "a line"
-            >> "$scratch/data/hello.in" read - r
-                   - t "$deadline_s" line<
-                       "$scratch/seen"
-                           || fail "nothing was written" expect
-                                   "what was written"
-                                   "$line"
-                                   "a line" child =
-                           $(cut - d ' '
-                             - f3 "$scratch/arm/instances/$instance/pid")
-                               echo '{"type":"task_termination","task":"hello"}'
-                           | to head request> "$scratch/end.json"
-        || fail "$(cat " $scratch
-               / end.json ")" expect "what was removed"
-                          "$(jq -r '.instances[0]' " $scratch
-               / end.json ")"
-                          "$instance"[[!-d / proc / $child]]
-        || fail "the skill's process is still there"[
-            [!-e $scratch / arm / instances / $instance]]
-        || fail "its folder is still there" expect "tasks"
-                "$(get head /v1/tasks | jq '.tasks | length')" 0 expect
-        "instances"
-        "$(get head /v1/instances | jq '.instances | length')" 0}
+test_a_task_runs_and_one_request_removes_it() {
+  start_cell arm
+  echo_task hello arm > "$scratch/task.json"
+  to head request "$scratch/task.json" > "$scratch/reply.json" \
+    || fail "refused: $(cat "$scratch/reply.json")"
+  expect "the node" "$(jq -r '.instances[0].node' "$scratch/reply.json")" arm
+  instance=$(jq -r '.instances[0].instance' "$scratch/reply.json")
+  expect "the task" "$(get head /v1/tasks | jq -r '.tasks[0].state')" running
+  # The skill follows its input file, and really writes what it gets.
+  mkfifo "$scratch/seen"
+  timeout "$deadline_s" tail -n +1 -F "$scratch/data/hello.out" \
+    > "$scratch/seen" 2>/dev/null &
+  echo "a line" >> "$scratch/data/hello.in"
+  read -r -t "$deadline_s" line < "$scratch/seen" || fail "nothing was written"
+  expect "what was written" "$line" "a line"
+  child=$(cut -d' ' -f3 "$scratch/arm/instances/$instance/pid")
+  echo '{"type":"task_termination","task":"hello"}' \
+    | to head request > "$scratch/end.json" || fail "$(cat "$scratch/end.json")"
+  expect "what was removed" "$(jq -r '.instances[0]' "$scratch/end.json")" \
+    "$instance"
+  [[ ! -d /proc/$child ]] || fail "the skill's process is still there"
+  [[ ! -e $scratch/arm/instances/$instance ]] || fail "its folder is still there"
+  expect "tasks" "$(get head /v1/tasks | jq '.tasks | length')" 0
+  expect "instances" "$(get head /v1/instances | jq '.instances | length')" 0
+}
 
-test_the_same_task_again_gets_the_first_reply_and_another_body_is_refused(){
-    start_cell echo_task twice > "$scratch/task.json" to head request
-                                 "$scratch/task.json"
-        > "$scratch/first.json" to head request "$scratch/task.json"
-        > "$scratch/second.json" cmp "$scratch/first.json"
-          "$scratch/second.json"
-    || fail
-           "the replies differ" jq '.pipeline[0].parameters = {"prefix": "x"}' "$scratch/task.json"
-           | to head request > "$scratch/third.json" expect "exit code" $
-    ? 1 expect "code"
-               "$(jq -r .error.code " $scratch
-          / third.json ")" task_exists }
+test_the_same_task_again_gets_the_first_reply_and_another_body_is_refused() {
+  start_cell
+  echo_task twice > "$scratch/task.json"
+  to head request "$scratch/task.json" > "$scratch/first.json"
+  to head request "$scratch/task.json" > "$scratch/second.json"
+  cmp "$scratch/first.json" "$scratch/second.json" || fail "the replies differ"
+  jq '.pipeline[0].parameters = {"prefix": "x"}' "$scratch/task.json" \
+    | to head request > "$scratch/third.json"
+  expect "exit code" $? 1
+  expect "code" "$(jq -r .error.code "$scratch/third.json")" task_exists
+}
 
-          test_a_killed_member_is_noticed_by_its_connection(){start_cell arm
-                                                                  stop_node arm
-                                                                      KILL await
-                                                                          head '.event == "node_lost" and .subject == "arm"'
-                                                              > "$scratch/"
-                                                                "lost."
-                                                                "json" expect
-                                                                "the reason"
-                                                                "$(jq -r "
-                                                                ".data."
-                                                                "reason"
-                                                                " " $scratch
-                                                                    / lost.json
-                                                                      " \
-    | grep -c 'silent')" 0 expect "the row"
-                                  "$(row_state head arm)" lost}
+test_a_killed_member_is_noticed_by_its_connection() {
+  start_cell arm
+  stop_node arm KILL
+  await head '.event == "node_lost" and .subject == "arm"' > "$scratch/lost.json"
+  expect "the reason" "$(jq -r .data.reason "$scratch/lost.json" \
+    | grep -c 'silent')" 0
+  expect "the row" "$(row_state head arm)" lost
+}
 
-          test_a_stopped_member_is_lost_within_its_lease_and_comes_back_as_the_same(){
-              start_cell arm uuid =
-                  $(get head / v1 / cell
-                    | jq - r '.nodes[] | select(.identity.name == "arm") | .identity.uuid')
-                              kill
-                          - STOP "${pid[arm]}" await
-                              head '.event == "node_lost" and .subject == "arm"'
-                      > "$scratch/lost.json" grep
-                            - q silent "$scratch/lost.json"
-                  || fail "the reason does not say silent" kill
-                         - CONT "${pid[arm]}" await_joined head arm
-                                "$(jq .sequence " $scratch
-                               / lost.json ")" expect "the UUID"
-                                           "$(get head /v1/cell \
-    | jq -r '.nodes[] | select(.identity.name == " arm ") | .identity.uuid')"
-                                           "$uuid"}
+test_a_stopped_member_is_lost_within_its_lease_and_comes_back_as_the_same() {
+  start_cell arm
+  uuid=$(get head /v1/cell | jq -r '.nodes[] | select(.identity.name == "arm") | .identity.uuid')
+  kill -STOP "${pid[arm]}"
+  await head '.event == "node_lost" and .subject == "arm"' > "$scratch/lost.json"
+  grep -q silent "$scratch/lost.json" || fail "the reason does not say silent"
+  kill -CONT "${pid[arm]}"
+  await_joined head arm "$(jq .sequence "$scratch/lost.json")"
+  expect "the UUID" "$(get head /v1/cell \
+    | jq -r '.nodes[] | select(.identity.name == "arm") | .identity.uuid')" "$uuid"
+}
 
-          test_an_instance_survives_a_killed_node_and_is_adopted(){
-              start_cell arm echo_task steady arm
-                  | to head request > "$scratch/reply.json" instance = $(
-                  jq - r '.instances[0].instance' "$scratch/reply.json") child =
-                  $(cut - d ' ' - f3 "$scratch/arm/instances/$instance/pid")
-                          stop_node arm KILL await head '.event == "node_lost"'
-                      > "$scratch/lost.json"[[-d / proc / $child]]
-                  || fail "the skill died with its node" start_node
-                      arm-- interface lo-- join "$server" --label place =
-                      arm await_joined head arm "$(jq .sequence " $scratch
-                      / lost.json ")" expect "the process"
-                                  "$(cut -d' ' -f3 " $scratch
-                      / arm / instances / $instance
-                      / pid
-                      ")"
-                      "$child" expect "the instance"
-                      "$(get arm /v1/instances/" $instance " \
-    | jq -r '.instances[0].state')" running expect "the task"
-                      "$(get head /v1/tasks | jq -r '.tasks[0].state')" running}
+test_an_instance_survives_a_killed_node_and_is_adopted() {
+  start_cell arm
+  echo_task steady arm | to head request > "$scratch/reply.json"
+  instance=$(jq -r '.instances[0].instance' "$scratch/reply.json")
+  child=$(cut -d' ' -f3 "$scratch/arm/instances/$instance/pid")
+  stop_node arm KILL
+  await head '.event == "node_lost"' > "$scratch/lost.json"
+  [[ -d /proc/$child ]] || fail "the skill died with its node"
+  start_node arm --interface lo --join "$server" --label place=arm
+  await_joined head arm "$(jq .sequence "$scratch/lost.json")"
+  expect "the process" \
+    "$(cut -d' ' -f3 "$scratch/arm/instances/$instance/pid")" "$child"
+  expect "the instance" "$(get arm /v1/instances/"$instance" \
+    | jq -r '.instances[0].state')" running
+  expect "the task" "$(get head /v1/tasks | jq -r '.tasks[0].state')" running
+}
 
-          test_a_restarted_coordinator_keeps_its_tasks_and_restarts_no_instance(){
-              start_cell arm echo_task lasting arm
-                  | to head request > "$scratch/reply.json" instance =
-                  $(jq - r '.instances[0].instance' "$scratch/reply.json")
-                      child = $(cut - d ' '
-                                - f3 "$scratch/arm/instances/$instance/pid")
-                          discovery_port =
-              ${server##* :
-              } stop_node head KILL await arm '.event == "coordinator_lost"'
-              > / dev
-                    / null start_node head-- coordinator-- cell
-                        line-- interface lo-- label place =
-                  head await_joined head arm expect "the process"
-                                                    "$(cut -d' ' -f3 " $scratch
-                  / arm / instances / $instance
-                  / pid
-                  ")"
-                  "$child" expect "the task"
-                  "$(get head /v1/tasks | jq -r '.tasks[0].task')" lasting}
+test_a_restarted_coordinator_keeps_its_tasks_and_restarts_no_instance() {
+  start_cell arm
+  echo_task lasting arm | to head request > "$scratch/reply.json"
+  instance=$(jq -r '.instances[0].instance' "$scratch/reply.json")
+  child=$(cut -d' ' -f3 "$scratch/arm/instances/$instance/pid")
+  discovery_port=${server##*:}
+  stop_node head KILL
+  await arm '.event == "coordinator_lost"' > /dev/null
+  start_node head --coordinator --cell line --interface lo --label place=head
+  await_joined head arm
+  expect "the process" \
+    "$(cut -d' ' -f3 "$scratch/arm/instances/$instance/pid")" "$child"
+  expect "the task" "$(get head /v1/tasks | jq -r '.tasks[0].task')" lasting
+}
 
-          test_a_task_terminated_while_its_node_is_away_ends_when_the_node_returns(){
-              start_cell arm echo_task gone arm
-                  | to head request > "$scratch/reply.json" instance = $(
-                  jq - r '.instances[0].instance' "$scratch/reply.json") child =
-                  $(cut - d ' ' - f3 "$scratch/arm/instances/$instance/pid")
-                              stop_node arm KILL await
-                                  head '.event == "node_lost"'
-                          > "$scratch/"
-                            "lost."
-                            "jso"
-                            "n" echo '{"type":"task_termination","task":"gone"}'
-                      | to head request > "$scratch/end.json"
-                  || fail "$(cat " $scratch
-                         / end.json ")" expect "who is away"
-                                    "$(jq -r '.pending_nodes[0]' " $scratch
-                         / end.json ")" arm start_node arm-- interface lo-- join
-                           "$server" --label place =
-                      arm await_joined head arm "$(jq .sequence " $scratch
-                      / lost.json ")" timeout "$deadline_s" tail-- pid =
-                          "$child" - f / dev / null
-                          || fail "the instance of the ended task runs on"}
+test_a_task_terminated_while_its_node_is_away_ends_when_the_node_returns() {
+  start_cell arm
+  echo_task gone arm | to head request > "$scratch/reply.json"
+  instance=$(jq -r '.instances[0].instance' "$scratch/reply.json")
+  child=$(cut -d' ' -f3 "$scratch/arm/instances/$instance/pid")
+  stop_node arm KILL
+  await head '.event == "node_lost"' > "$scratch/lost.json"
+  echo '{"type":"task_termination","task":"gone"}' | to head request \
+    > "$scratch/end.json" || fail "$(cat "$scratch/end.json")"
+  expect "who is away" "$(jq -r '.pending_nodes[0]' "$scratch/end.json")" arm
+  start_node arm --interface lo --join "$server" --label place=arm
+  await_joined head arm "$(jq .sequence "$scratch/lost.json")"
+  timeout "$deadline_s" tail --pid="$child" -f /dev/null \
+    || fail "the instance of the ended task runs on"
+}
 
-          test_logs_are_read_through_the_coordinator(){
-              start_cell arm echo_task chatty arm
-                  | to head request > "$scratch/reply.json" instance =
-                  $(jq - r '.instances[0].instance' "$scratch/reply.json")
-                          to head logs "$instance"
-                      > "$scratch/log.txt"
-                  || fail "$(cat " $scratch / log.txt ")"}
+test_logs_are_read_through_the_coordinator() {
+  start_cell arm
+  echo_task chatty arm | to head request > "$scratch/reply.json"
+  instance=$(jq -r '.instances[0].instance' "$scratch/reply.json")
+  to head logs "$instance" > "$scratch/log.txt" || fail "$(cat "$scratch/log.txt")"
+}
 
-          test_a_node_leaves_in_order_on_sigterm(){
-              start_cell arm stop_node arm TERM await
-                  head '.event == "node_left" and .subject == "arm"'
-              > / dev
-                    / null expect
-                    "rows"
-                    "$(get head /v1/cell | jq '.nodes | length')" 1}
+test_a_node_leaves_in_order_on_sigterm() {
+  start_cell arm
+  stop_node arm TERM
+  await head '.event == "node_left" and .subject == "arm"' > /dev/null
+  expect "rows" "$(get head /v1/cell | jq '.nodes | length')" 1
+}
 
-          test_a_coordinator_that_deploys_ends_within_5_s_of_sigterm() {
+test_a_coordinator_that_deploys_ends_within_5_s_of_sigterm() {
   local asked begin took
-#The skill never says that it is ready.
-          printf '#!/bin/sh\nexec sleep 1000\n'
-      > "$skills/echo/bin/echo" start_node head-- coordinator-- cell
-          line-- interface lo {
-    echo_task slow | to head request > "$scratch/reply.json";
-  } 2 > "$scratch/reply.err" & asked =
-      $ !await head '.event == "allocation_chosen"' > / dev / null begin =
-          $(date + % s % 3N) stop_node head TERM took =
-              $(($(date + % s % 3N) - begin)) [[$took - le 5000]]
-              || fail "it took $took ms" wait "$asked" expect
-                      "what the client is told"
-                      "$(jq -r .error.code " $scratch
-                     / reply.json ")" unreachable
+  # The skill never says that it is ready.
+  printf '#!/bin/sh\nexec sleep 1000\n' > "$skills/echo/bin/echo"
+  start_node head --coordinator --cell line --interface lo
+  { echo_task slow | to head request > "$scratch/reply.json"; } \
+    2> "$scratch/reply.err" &
+  asked=$!
+  await head '.event == "allocation_chosen"' > /dev/null
+  begin=$(date +%s%3N)
+  stop_node head TERM
+  took=$(($(date +%s%3N) - begin))
+  [[ $took -le 5000 ]] || fail "it took $took ms"
+  wait "$asked"
+  expect "what the client is told" \
+    "$(jq -r .error.code "$scratch/reply.json")" unreachable
 }
