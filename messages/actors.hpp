@@ -1,4 +1,296 @@
 #pragma once
 
-/// The whole protocol inside a node: every message and every typed handle.
-#include "messages/type_ids.hpp"
+#include "messages/forward.hpp"
+
+#include <caf/atom.hpp>
+#include <caf/replies_to.hpp>
+#include <caf/typed_actor.hpp>
+
+/// Every typed handle: the whole protocol inside a node on one scroll. What
+/// each message holds stands in the file of its family.
+namespace roscell {
+
+/// The clause that every typed handle includes.
+using introspected_actor =
+    caf::typed_actor<caf::replies_to<state_query>::with<actor_state>>;
+
+/// Gets facts as they happen, in the order of their sequence numbers.
+using event_listener_actor = caf::typed_actor<caf::reacts_to<event>>;
+
+/// The EVENT LOG: the node's one stream of facts.
+using event_log_actor = introspected_actor::extend<
+    // Gives the fact the next sequence number and tells the listeners.
+    caf::reacts_to<record_event>,
+    // Adds a listener until it ends.
+    caf::reacts_to<subscribe_events>>;
+
+/// Who hears of exits and notifications: the container supervisor.
+using container_listener_actor =
+    caf::typed_actor<caf::reacts_to<container_exited>,
+                     caf::reacts_to<instance_notified>,
+                     caf::reacts_to<runtime_troubled>>;
+
+/// The RUNTIME: the only actor that starts and stops programs.
+using runtime_actor = introspected_actor::extend<
+    // Errors: engine_failed (missing or not executable entry point, failed
+    // build: details "log_tail").
+    caf::replies_to<prepare_image>::with<image_prepared>,
+    // Errors: engine_failed.
+    caf::replies_to<start_container>::with<container_started>,
+    // Neither fails for a container that is gone already. Errors:
+    // engine_failed (it cannot be killed, its files cannot be removed).
+    caf::replies_to<stop_container>::with<container_stopped>,
+    caf::replies_to<remove_container>::with<container_removed>,
+    caf::replies_to<adopt_container>::with<container_adopted>,
+    // Errors: unknown_task (no log of that instance), conflict (too many
+    // wait for more).
+    caf::replies_to<log_query>::with<log_excerpt>>;
+
+/// The PROCESS RUNTIME: runs skills as supervised processes.
+using process_runtime_actor =
+    runtime_actor::extend<caf::reacts_to<program_ended>,
+                          caf::reacts_to<log_grown>,
+                          // INTERNAL: alarm number N is due.
+                          caf::reacts_to<caf::tick_atom, uint64_t>>;
+
+/// The IMAGE PACKER: looks into one skill folder and packs it.
+using image_packer_actor = introspected_actor::extend<
+    // Errors: engine_failed (missing or not executable entry point, a library
+    // that this host has not).
+    caf::replies_to<prepare_image>::with<image_planned>,
+    // Errors: engine_failed (the disk is full), conflict (nothing is planned).
+    caf::replies_to<pack_image>::with<image_packed>>;
+
+/// The ENGINE RUNTIME: runs skills as containers of Docker or Podman.
+using engine_runtime_actor =
+    runtime_actor::extend<caf::reacts_to<engine_answered>,
+                          caf::reacts_to<engine_streamed>,
+                          caf::reacts_to<engine_log_read>,
+                          // INTERNAL: alarm number N is due.
+                          caf::reacts_to<caf::tick_atom, uint64_t>>;
+
+/// The SKILL INSTANCE: one instance's life, a state machine around a container.
+/// All that comes of it is told to the supervisor as `instance_changed`; the
+/// actor ends with its instance.
+using skill_instance_actor = introspected_actor::extend<
+    caf::reacts_to<start_instance>, caf::reacts_to<stop_instance>,
+    caf::reacts_to<container_exited>, caf::reacts_to<instance_notified>,
+    // INTERNAL: a deadline of phase number N has passed.
+    caf::reacts_to<caf::tick_atom, uint64_t>>;
+
+/// Told of every change of an instance: the membership, or the coordinator.
+using instance_listener_actor =
+    caf::typed_actor<caf::reacts_to<instance_changed>>;
+
+/// The CONTAINER SUPERVISOR: owns every skill instance of the node.
+using container_supervisor_actor = introspected_actor::extend<
+    // Replies once the instance runs; the same spec again gets the same answer.
+    // Errors: unknown_operation (no such skill here), unknown_model,
+    // unknown_deployment, engine_failed (with details "instance", "node",
+    // "exit_code", "log_tail"), conflict (the id is in use by another spec, the
+    // node is full, the instance is being removed), schema_violation (the id
+    // cannot be a file name).
+    caf::replies_to<instance_deployment>::with<instance_deployed>,
+    // Replies once they are gone; none is no error.
+    // Errors: engine_failed (one cannot be removed).
+    caf::replies_to<instance_removal>::with<instances_removed>,
+    // Errors: unknown_task (no such instance).
+    caf::replies_to<instance_query>::with<instance_description>,
+    caf::replies_to<log_query>::with<log_excerpt>,
+    caf::reacts_to<listen_to_instances>, caf::reacts_to<container_exited>,
+    caf::reacts_to<instance_notified>, caf::reacts_to<runtime_troubled>,
+    // INTERNAL: from a skill instance.
+    caf::reacts_to<instance_changed>>;
+
+/// The STATE STORE: the only actor that writes the node's database.
+using state_store_actor = introspected_actor::extend<
+    // Replies once the record is on disk. Errors: internal (disk full, ...);
+    // the disk then holds what it held before.
+    caf::replies_to<store_record>::with<record_stored>,
+    // The same for several at once.
+    caf::replies_to<store_records>::with<record_stored>>;
+
+/// The NODE AGENT: what a coordinator may ask of a node. The local node, a
+/// member behind a session and a test's fake all have this handle.
+using node_agent_actor = introspected_actor::extend<
+    // Errors: timeout, unreachable.
+    caf::replies_to<resource_query>::with<resource_report>,
+    // Errors: timeout, unreachable. A refusal is no error.
+    caf::replies_to<instance_reservation>::with<instances_reserved>,
+    // Replies once the instance runs. Errors: as the CONTAINER SUPERVISOR's.
+    caf::replies_to<instance_deployment>::with<instance_deployed>,
+    // Replies once the named instances are gone from the node.
+    caf::replies_to<instance_removal>::with<instances_removed>,
+    // Errors: unknown_task.
+    caf::replies_to<log_query>::with<log_excerpt>>;
+
+/// The RESOURCE PROBE: answers when asked, at once; it never polls.
+using resource_probe_actor = introspected_actor::extend<
+    caf::replies_to<measure_host>::with<host_measured>,
+    caf::reacts_to<mark_sample>>;
+
+/// Who hears of one session. `frame_received` is sent as a request: the next
+/// frames are read once it is answered, which is the back-pressure. All three
+/// come from the session itself, so that an owner of several in a row can tell
+/// them apart by their sender.
+using session_owner_actor = caf::typed_actor<caf::reacts_to<frame_received>,
+                                             caf::reacts_to<beat_received>,
+                                             caf::reacts_to<session_closed>>;
+
+/// The SESSION: one connection. It ends after `session_closed`.
+using session_actor = introspected_actor::extend<
+    // Whom to tell; what came before is kept for the owner.
+    caf::reacts_to<own_session>, caf::reacts_to<send_frame>,
+    caf::reacts_to<send_beat>, caf::reacts_to<close_session>,
+    // INTERNAL: from the wire.
+    caf::reacts_to<frame_received>, caf::reacts_to<beat_received>,
+    caf::reacts_to<session_closed>>;
+
+/// The SESSION CONNECTOR. Errors: unreachable, unauthorized, timeout, conflict.
+using session_connector_actor = introspected_actor::extend<
+    caf::replies_to<open_session>::with<session_opened>,
+    caf::reacts_to<session_settled>>;
+
+/// Who hears of coordinators: the membership.
+using discovery_listener_actor =
+    caf::typed_actor<caf::reacts_to<coordinator_found>>;
+
+/// Who hears of presences: whoever announces its own.
+using presence_listener_actor = caf::typed_actor<caf::reacts_to<presence_seen>,
+                                                 caf::reacts_to<presence_gone>>;
+
+/// The DISCOVERY edge of a node: its CLIENT and its public participant.
+using discovery_actor = introspected_actor::extend<
+    // Errors: unreachable (the local address cannot be used).
+    caf::replies_to<find_coordinator>::with<caf::ok_atom>,
+    caf::reacts_to<forget_coordinator>,
+    // What is seen is told to the sender.
+    caf::reacts_to<announce_presence>, caf::reacts_to<withdraw_presence>>;
+
+/// The MEMBERSHIP: the node's side of belonging to a cell.
+using membership_actor = introspected_actor::extend<
+    caf::replies_to<membership_query>::with<membership_state>,
+    caf::reacts_to<join_cell>, caf::reacts_to<seek_cell>,
+    // Gives out a nonce for a switch.
+    caf::replies_to<registration_query>::with<registration_challenge>,
+    // From the REST API. Errors: unauthorized (a wrong proof, or a member's
+    // registration, which only its coordinator can switch), conflict (another
+    // epoch than the present one, or it is switching already).
+    caf::replies_to<registration_switch>::with<switch_accepted>,
+    // Replies once the coordinator knows, or after a short wait.
+    caf::replies_to<leave_cell>::with<node_departed>,
+    caf::reacts_to<coordinator_found>, caf::reacts_to<presence_seen>,
+    caf::reacts_to<presence_gone>, caf::reacts_to<instance_changed>,
+    caf::reacts_to<frame_received>, caf::reacts_to<beat_received>,
+    caf::reacts_to<session_closed>,
+    // INTERNAL: a timer of attempt or lease number N.
+    caf::reacts_to<caf::tick_atom, uint64_t>>;
+
+/// The MEMBER: the coordinator's view of one remote node. A node agent that
+/// speaks over a session, and the lease of that session. It ends with it.
+using member_actor = node_agent_actor::extend<
+    // Errors: those of the node; unreachable and timeout leave it open whether
+    // the node has gone.
+    caf::replies_to<registration_switch>::with<switch_accepted>,
+    caf::reacts_to<frame_received>, caf::reacts_to<beat_received>,
+    caf::reacts_to<session_closed>,
+    // Ends the session, telling the node why.
+    caf::reacts_to<close_session>,
+    // INTERNAL: a timer of lease number N.
+    caf::reacts_to<caf::tick_atom, uint64_t>>;
+
+/// The PEER: a coordinator's view of another one. The questions are those that
+/// a coordinator answers itself; it asks them over the session. It ends with
+/// the session, telling the coordinator `peer_lost`.
+using peer_actor = introspected_actor::extend<
+    // Errors: those of the other coordinator; unreachable, timeout.
+    caf::replies_to<place_request>::with<place_granted>,
+    caf::replies_to<place_reservation>::with<place_reserved>,
+    caf::replies_to<member_surrender>::with<members_surrendered>,
+    caf::replies_to<node_transfer>::with<node_transferred>,
+    caf::replies_to<node_release>::with<node_released>,
+    // To be told to the other coordinator; the standing comes first.
+    caf::reacts_to<cell_standing>, caf::reacts_to<cell_changed>,
+    caf::reacts_to<frame_received>, caf::reacts_to<beat_received>,
+    caf::reacts_to<session_closed>,
+    // Ends the session, telling the other coordinator why.
+    caf::reacts_to<close_session>,
+    // INTERNAL: a timer of lease number N.
+    caf::reacts_to<caf::tick_atom, uint64_t>>;
+
+/// The REGISTRATION CLIENT. Errors: unreachable, timeout, and those of the
+/// node.
+using registration_client_actor = introspected_actor::extend<
+    caf::replies_to<switch_node>::with<switch_accepted>,
+    caf::reacts_to<node_answered>>;
+
+/// The SCHEDULER. Errors: no_feasible_allocation, conflict (a node has left in
+/// the middle of the search).
+using scheduler_actor =
+    introspected_actor::extend<caf::replies_to<allocate_task>::with<task_plan>>;
+
+/// The CELL COORDINATOR: owns the cell registry and the tasks.
+using cell_coordinator_actor = introspected_actor::extend<
+    // A node has authenticated itself; a MEMBER is made for it.
+    caf::reacts_to<session_admitted>,
+    // Errors: conflict (the name belongs to another UUID, an old epoch).
+    caf::replies_to<register_node>::with<node_registered>,
+    caf::replies_to<depart_node>::with<node_departed>,
+    caf::reacts_to<member_lost>,
+    // From a member or the local supervisor.
+    caf::reacts_to<instance_changed>,
+    caf::replies_to<cell_query>::with<cell_description>,
+    caf::replies_to<cell_list_query>::with<cell_list>,
+    // Errors of the queries: unknown_task.
+    caf::replies_to<task_query>::with<task_description>,
+    caf::replies_to<instance_query>::with<instance_description>,
+    caf::replies_to<log_query>::with<log_excerpt>,
+    caf::replies_to<skill_query>::with<skill_list>,
+    // Waits while the same request is being deployed. The task is the sender's
+    // until it records an outcome or ends. Errors: task_exists, conflict.
+    caf::replies_to<claim_task>::with<task_claimed>,
+    caf::replies_to<collect_resources>::with<cell_resources>,
+    // Errors: conflict (a member has gone meanwhile).
+    caf::replies_to<find_agents>::with<agents_found>,
+    // Errors: conflict (a member has gone meanwhile).
+    caf::replies_to<record_intent>::with<intent_recorded>,
+    caf::replies_to<record_outcome>::with<outcome_recorded>,
+    // Errors: unknown_task.
+    caf::replies_to<task_termination>::with<task_terminated>,
+    caf::reacts_to<presence_seen>, caf::reacts_to<presence_gone>,
+    caf::reacts_to<peer_opened>, caf::reacts_to<peer_lost>,
+    caf::reacts_to<peer_told>, caf::reacts_to<peer_changed>,
+    // Errors: unreachable (the coordinator that hands out places is silent).
+    caf::replies_to<place_request>::with<place_granted>,
+    // Errors: conflict (the name belongs to another node).
+    caf::replies_to<place_reservation>::with<place_reserved>,
+    // Errors: unknown_cell, conflict (this cell is not to be evened out).
+    caf::replies_to<member_surrender>::with<members_surrendered>,
+    // One outcome a name; no errors.
+    caf::replies_to<cell_formation>::with<cell_formed>,
+    // Errors: unknown_node, unknown_cell, conflict (a coordination node, the
+    // node's own cell, instances, already switching), unreachable, unresolved,
+    // no_feasible_allocation.
+    caf::replies_to<node_transfer>::with<node_transferred>,
+    caf::replies_to<node_release>::with<node_released>,
+    // Errors: unknown_task.
+    caf::replies_to<transfer_query>::with<transfer_description>,
+    // INTERNAL: timer number N.
+    caf::reacts_to<caf::tick_atom, uint64_t>>;
+
+/// The REQUEST ROUTER: message type to pipeline, else handler, else rejection.
+/// It always replies; what goes wrong is in the reply's text.
+using request_router_actor = introspected_actor::extend<
+    caf::replies_to<route_request>::with<request_routed>>;
+
+/// A HANDLER PIPELINE: one request on its way through a chain of handlers. It
+/// ends with its request. Errors: those of its handlers.
+using handler_pipeline_actor = introspected_actor::extend<
+    caf::replies_to<process_request>::with<request_processed>>;
+
+/// The NODE: root of everything that runs on one machine.
+using node_actor = introspected_actor::extend<
+    caf::replies_to<node_query>::with<node_description>,
+    caf::reacts_to<stop_node>>;
+
+} // namespace roscell

@@ -6,20 +6,6 @@
 
 namespace roscell {
 
-/// The NODE AGENT: what a coordinator may ask of a node. The local node, a
-/// member behind a session and a test's fake all have this handle.
-using node_agent_actor = introspected_actor::extend<
-    // Errors: timeout, unreachable.
-    caf::replies_to<resource_query>::with<resource_report>,
-    // Errors: timeout, unreachable. A refusal is no error.
-    caf::replies_to<instance_reservation>::with<instances_reserved>,
-    // Replies once the instance runs. Errors: as the CONTAINER SUPERVISOR's.
-    caf::replies_to<instance_deployment>::with<instance_deployed>,
-    // Replies once the named instances are gone from the node.
-    caf::replies_to<instance_removal>::with<instances_removed>,
-    // Errors: unknown_task.
-    caf::replies_to<log_query>::with<log_excerpt>>;
-
 /// Asks the probe for what the host has and what programs outside our
 /// instances use of it.
 struct measure_host {
@@ -45,10 +31,5 @@ struct mark_sample {
     return std::make_tuple();
   }
 };
-
-/// The RESOURCE PROBE: answers when asked, at once; it never polls.
-using resource_probe_actor = introspected_actor::extend<
-    caf::replies_to<measure_host>::with<host_measured>,
-    caf::reacts_to<mark_sample>>;
 
 } // namespace roscell

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "messages/actors.hpp"
 #include "messages/agent.hpp"
 #include "messages/allocation_report.hpp"
 #include "messages/cell.hpp"
@@ -169,11 +170,6 @@ struct allocate_task {
   }
 };
 
-/// The SCHEDULER. Errors: no_feasible_allocation, conflict (a node has left in
-/// the middle of the search).
-using scheduler_actor =
-    introspected_actor::extend<caf::replies_to<allocate_task>::with<task_plan>>;
-
 /// Holds the resources of an allocation from now on.
 struct record_intent {
   std::string task;
@@ -241,55 +237,6 @@ struct task_claimed {
   }
 };
 
-/// The CELL COORDINATOR: owns the cell registry and the tasks.
-using cell_coordinator_actor = introspected_actor::extend<
-    // A node has authenticated itself; a MEMBER is made for it.
-    caf::reacts_to<session_admitted>,
-    // Errors: conflict (the name belongs to another UUID, an old epoch).
-    caf::replies_to<register_node>::with<node_registered>,
-    caf::replies_to<depart_node>::with<node_departed>,
-    caf::reacts_to<member_lost>,
-    // From a member or the local supervisor.
-    caf::reacts_to<instance_changed>,
-    caf::replies_to<cell_query>::with<cell_description>,
-    caf::replies_to<cell_list_query>::with<cell_list>,
-    // Errors of the queries: unknown_task.
-    caf::replies_to<task_query>::with<task_description>,
-    caf::replies_to<instance_query>::with<instance_description>,
-    caf::replies_to<log_query>::with<log_excerpt>,
-    caf::replies_to<skill_query>::with<skill_list>,
-    // Waits while the same request is being deployed. The task is the sender's
-    // until it records an outcome or ends. Errors: task_exists, conflict.
-    caf::replies_to<claim_task>::with<task_claimed>,
-    caf::replies_to<collect_resources>::with<cell_resources>,
-    // Errors: conflict (a member has gone meanwhile).
-    caf::replies_to<find_agents>::with<agents_found>,
-    // Errors: conflict (a member has gone meanwhile).
-    caf::replies_to<record_intent>::with<intent_recorded>,
-    caf::replies_to<record_outcome>::with<outcome_recorded>,
-    // Errors: unknown_task.
-    caf::replies_to<task_termination>::with<task_terminated>,
-    caf::reacts_to<presence_seen>, caf::reacts_to<presence_gone>,
-    caf::reacts_to<peer_opened>, caf::reacts_to<peer_lost>,
-    caf::reacts_to<peer_told>, caf::reacts_to<peer_changed>,
-    // Errors: unreachable (the coordinator that hands out places is silent).
-    caf::replies_to<place_request>::with<place_granted>,
-    // Errors: conflict (the name belongs to another node).
-    caf::replies_to<place_reservation>::with<place_reserved>,
-    // Errors: unknown_cell, conflict (this cell is not to be evened out).
-    caf::replies_to<member_surrender>::with<members_surrendered>,
-    // One outcome a name; no errors.
-    caf::replies_to<cell_formation>::with<cell_formed>,
-    // Errors: unknown_node, unknown_cell, conflict (a coordination node, the
-    // node's own cell, instances, already switching), unreachable, unresolved,
-    // no_feasible_allocation.
-    caf::replies_to<node_transfer>::with<node_transferred>,
-    caf::replies_to<node_release>::with<node_released>,
-    // Errors: unknown_task.
-    caf::replies_to<transfer_query>::with<transfer_description>,
-    // INTERNAL: timer number N.
-    caf::reacts_to<caf::tick_atom, uint64_t>>;
-
 /// A request as it came in at an edge.
 struct route_request {
   std::string text; ///< Bytes from outside, not checked yet.
@@ -313,11 +260,6 @@ struct request_routed {
   }
 };
 
-/// The REQUEST ROUTER: message type to pipeline, else handler, else rejection.
-/// It always replies; what goes wrong is in the reply's text.
-using request_router_actor = introspected_actor::extend<
-    caf::replies_to<route_request>::with<request_routed>>;
-
 /// A request that has passed its schema.
 struct process_request {
   std::string text;
@@ -335,21 +277,11 @@ struct request_processed {
   }
 };
 
-/// A HANDLER PIPELINE: one request on its way through a chain of handlers. It
-/// ends with its request. Errors: those of its handlers.
-using handler_pipeline_actor = introspected_actor::extend<
-    caf::replies_to<process_request>::with<request_processed>>;
-
 /// Ends the node in order: leaves the cell, closes the edges, keeps instances.
 struct stop_node {
   static constexpr auto fields() {
     return std::make_tuple();
   }
 };
-
-/// The NODE: root of everything that runs on one machine.
-using node_actor = introspected_actor::extend<
-    caf::replies_to<node_query>::with<node_description>,
-    caf::reacts_to<stop_node>>;
 
 } // namespace roscell

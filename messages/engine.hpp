@@ -78,20 +78,4 @@ struct image_packed {
   }
 };
 
-/// The IMAGE PACKER: looks into one skill folder and packs it.
-using image_packer_actor = introspected_actor::extend<
-    // Errors: engine_failed (missing or not executable entry point, a library
-    // that this host has not).
-    caf::replies_to<prepare_image>::with<image_planned>,
-    // Errors: engine_failed (the disk is full), conflict (nothing is planned).
-    caf::replies_to<pack_image>::with<image_packed>>;
-
-/// The ENGINE RUNTIME: runs skills as containers of Docker or Podman.
-using engine_runtime_actor =
-    runtime_actor::extend<caf::reacts_to<engine_answered>,
-                          caf::reacts_to<engine_streamed>,
-                          caf::reacts_to<engine_log_read>,
-                          // INTERNAL: alarm number N is due.
-                          caf::reacts_to<caf::tick_atom, uint64_t>>;
-
 } // namespace roscell

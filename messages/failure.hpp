@@ -1,7 +1,7 @@
 #pragma once
 
+#include "messages/codec/json_codec.hpp"
 #include "messages/error_code.hpp"
-#include "messages/json_codec.hpp"
 
 #include <caf/error.hpp>
 #include <caf/make_message.hpp>

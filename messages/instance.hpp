@@ -1,6 +1,6 @@
 #pragma once
 
-#include "messages/enum_words.hpp"
+#include "messages/codec/enum_words.hpp"
 #include "messages/resources.hpp"
 
 #include <array>

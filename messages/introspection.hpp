@@ -1,9 +1,7 @@
 #pragma once
 
+#include "messages/actors.hpp"
 #include "messages/event.hpp"
-
-#include <caf/replies_to.hpp>
-#include <caf/typed_actor.hpp>
 
 #include <string>
 #include <vector>
@@ -26,10 +24,6 @@ struct actor_state {
   }
 };
 
-/// The clause that every typed handle includes.
-using introspected_actor =
-    caf::typed_actor<caf::replies_to<state_query>::with<actor_state>>;
-
 /// A fact to be numbered, dated and kept.
 struct record_event {
   std::string what;    ///< A past participle: "node_joined".
@@ -43,9 +37,6 @@ struct record_event {
   }
 };
 
-/// Gets facts as they happen, in the order of their sequence numbers.
-using event_listener_actor = caf::typed_actor<caf::reacts_to<event>>;
-
 /// Wants every event after `since` that is still kept, then each new one.
 struct subscribe_events {
   event_listener_actor listener;
@@ -56,12 +47,5 @@ struct subscribe_events {
                            required("since", &subscribe_events::since));
   }
 };
-
-/// The EVENT LOG: the node's one stream of facts.
-using event_log_actor = introspected_actor::extend<
-    // Gives the fact the next sequence number and tells the listeners.
-    caf::reacts_to<record_event>,
-    // Adds a listener until it ends.
-    caf::reacts_to<subscribe_events>>;
 
 } // namespace roscell

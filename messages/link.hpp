@@ -1,5 +1,6 @@
 #pragma once
 
+#include "messages/actors.hpp"
 #include "messages/beat.hpp"
 #include "messages/failure.hpp"
 #include "messages/introspection.hpp"
@@ -62,14 +63,6 @@ struct session_closed {
   }
 };
 
-/// Who hears of one session. `frame_received` is sent as a request: the next
-/// frames are read once it is answered, which is the back-pressure. All three
-/// come from the session itself, so that an owner of several in a row can tell
-/// them apart by their sender.
-using session_owner_actor = caf::typed_actor<caf::reacts_to<frame_received>,
-                                             caf::reacts_to<beat_received>,
-                                             caf::reacts_to<session_closed>>;
-
 struct own_session {
   session_owner_actor owner;
 
@@ -77,15 +70,6 @@ struct own_session {
     return std::make_tuple(required("owner", &own_session::owner));
   }
 };
-
-/// The SESSION: one connection. It ends after `session_closed`.
-using session_actor = introspected_actor::extend<
-    // Whom to tell; what came before is kept for the owner.
-    caf::reacts_to<own_session>, caf::reacts_to<send_frame>,
-    caf::reacts_to<send_beat>, caf::reacts_to<close_session>,
-    // INTERNAL: from the wire.
-    caf::reacts_to<frame_received>, caf::reacts_to<beat_received>,
-    caf::reacts_to<session_closed>>;
 
 /// A fact for the COORDINATOR: a node has proved that it knows the site token.
 struct session_admitted {
@@ -141,11 +125,6 @@ struct session_settled {
   }
 };
 
-/// The SESSION CONNECTOR. Errors: unreachable, unauthorized, timeout, conflict.
-using session_connector_actor = introspected_actor::extend<
-    caf::replies_to<open_session>::with<session_opened>,
-    caf::reacts_to<session_settled>>;
-
 /// Looks for the discovery server at an address until told to stop.
 struct find_coordinator {
   std::string address; ///< "ip:port"
@@ -177,10 +156,6 @@ struct coordinator_found {
         required("incarnation", &coordinator_found::incarnation));
   }
 };
-
-/// Who hears of coordinators: the membership.
-using discovery_listener_actor =
-    caf::typed_actor<caf::reacts_to<coordinator_found>>;
 
 /// What a node announces to everybody, or is known to announce.
 struct node_presence {
@@ -241,17 +216,5 @@ struct presence_gone {
     return std::make_tuple(required("who", &presence_gone::who));
   }
 };
-
-/// Who hears of presences: whoever announces its own.
-using presence_listener_actor = caf::typed_actor<caf::reacts_to<presence_seen>,
-                                                 caf::reacts_to<presence_gone>>;
-
-/// The DISCOVERY edge of a node: its CLIENT and its public participant.
-using discovery_actor = introspected_actor::extend<
-    // Errors: unreachable (the local address cannot be used).
-    caf::replies_to<find_coordinator>::with<caf::ok_atom>,
-    caf::reacts_to<forget_coordinator>,
-    // What is seen is told to the sender.
-    caf::reacts_to<announce_presence>, caf::reacts_to<withdraw_presence>>;
 
 } // namespace roscell

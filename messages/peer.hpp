@@ -4,8 +4,6 @@
 #include "messages/formation.hpp"
 #include "messages/introspection.hpp"
 
-#include <caf/typed_actor.hpp>
-
 #include <array>
 #include <string>
 #include <vector>
@@ -247,11 +245,5 @@ struct node_answered {
                            required("problem", &node_answered::problem));
   }
 };
-
-/// The REGISTRATION CLIENT. Errors: unreachable, timeout, and those of the
-/// node.
-using registration_client_actor = introspected_actor::extend<
-    caf::replies_to<switch_node>::with<switch_accepted>,
-    caf::reacts_to<node_answered>>;
 
 } // namespace roscell

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "messages/described.hpp"
+#include "messages/codec/described.hpp"
 
 #include <map>
 #include <string>

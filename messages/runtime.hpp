@@ -1,5 +1,6 @@
 #pragma once
 
+#include "messages/actors.hpp"
 #include "messages/instance.hpp"
 #include "messages/introspection.hpp"
 #include "messages/session.hpp"
@@ -182,28 +183,6 @@ struct runtime_troubled {
   }
 };
 
-/// Who hears of exits and notifications: the container supervisor.
-using container_listener_actor =
-    caf::typed_actor<caf::reacts_to<container_exited>,
-                     caf::reacts_to<instance_notified>,
-                     caf::reacts_to<runtime_troubled>>;
-
-/// The RUNTIME: the only actor that starts and stops programs.
-using runtime_actor = introspected_actor::extend<
-    // Errors: engine_failed (missing or not executable entry point, failed
-    // build: details "log_tail").
-    caf::replies_to<prepare_image>::with<image_prepared>,
-    // Errors: engine_failed.
-    caf::replies_to<start_container>::with<container_started>,
-    // Neither fails for a container that is gone already. Errors:
-    // engine_failed (it cannot be killed, its files cannot be removed).
-    caf::replies_to<stop_container>::with<container_stopped>,
-    caf::replies_to<remove_container>::with<container_removed>,
-    caf::replies_to<adopt_container>::with<container_adopted>,
-    // Errors: unknown_task (no log of that instance), conflict (too many
-    // wait for more).
-    caf::replies_to<log_query>::with<log_excerpt>>;
-
 /// INTERNAL to the process runtime: a watched program has ended.
 struct program_ended {
   std::string instance;
@@ -224,13 +203,6 @@ struct log_grown {
   }
 };
 
-/// The PROCESS RUNTIME: runs skills as supervised processes.
-using process_runtime_actor =
-    runtime_actor::extend<caf::reacts_to<program_ended>,
-                          caf::reacts_to<log_grown>,
-                          // INTERNAL: alarm number N is due.
-                          caf::reacts_to<caf::tick_atom, uint64_t>>;
-
 /// INTERNAL to supervision: bring the instance up, or take it over when an
 /// earlier run of the node has brought it up.
 struct start_instance {
@@ -248,19 +220,6 @@ struct stop_instance {
   }
 };
 
-/// The SKILL INSTANCE: one instance's life, a state machine around a container.
-/// All that comes of it is told to the supervisor as `instance_changed`; the
-/// actor ends with its instance.
-using skill_instance_actor = introspected_actor::extend<
-    caf::reacts_to<start_instance>, caf::reacts_to<stop_instance>,
-    caf::reacts_to<container_exited>, caf::reacts_to<instance_notified>,
-    // INTERNAL: a deadline of phase number N has passed.
-    caf::reacts_to<caf::tick_atom, uint64_t>>;
-
-/// Told of every change of an instance: the membership, or the coordinator.
-using instance_listener_actor =
-    caf::typed_actor<caf::reacts_to<instance_changed>>;
-
 /// Replaces whom the supervisor tells of changes.
 struct listen_to_instances {
   instance_listener_actor listener;
@@ -270,25 +229,5 @@ struct listen_to_instances {
         required("listener", &listen_to_instances::listener));
   }
 };
-
-/// The CONTAINER SUPERVISOR: owns every skill instance of the node.
-using container_supervisor_actor = introspected_actor::extend<
-    // Replies once the instance runs; the same spec again gets the same answer.
-    // Errors: unknown_operation (no such skill here), unknown_model,
-    // unknown_deployment, engine_failed (with details "instance", "node",
-    // "exit_code", "log_tail"), conflict (the id is in use by another spec, the
-    // node is full, the instance is being removed), schema_violation (the id
-    // cannot be a file name).
-    caf::replies_to<instance_deployment>::with<instance_deployed>,
-    // Replies once they are gone; none is no error.
-    // Errors: engine_failed (one cannot be removed).
-    caf::replies_to<instance_removal>::with<instances_removed>,
-    // Errors: unknown_task (no such instance).
-    caf::replies_to<instance_query>::with<instance_description>,
-    caf::replies_to<log_query>::with<log_excerpt>,
-    caf::reacts_to<listen_to_instances>, caf::reacts_to<container_exited>,
-    caf::reacts_to<instance_notified>, caf::reacts_to<runtime_troubled>,
-    // INTERNAL: from a skill instance.
-    caf::reacts_to<instance_changed>>;
 
 } // namespace roscell

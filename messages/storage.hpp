@@ -36,12 +36,4 @@ struct record_stored {
   }
 };
 
-/// The STATE STORE: the only actor that writes the node's database.
-using state_store_actor = introspected_actor::extend<
-    // Replies once the record is on disk. Errors: internal (disk full, ...);
-    // the disk then holds what it held before.
-    caf::replies_to<store_record>::with<record_stored>,
-    // The same for several at once.
-    caf::replies_to<store_records>::with<record_stored>>;
-
 } // namespace roscell

@@ -1,4 +1,4 @@
-#include "messages/type_ids.hpp"
+#include "messages/messages.hpp"
 
 #include <caf/actor_system_config.hpp>
 #include <caf/init_global_meta_objects.hpp>

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "messages/codec/json_codec.hpp"
 #include "messages/failure.hpp"
-#include "messages/json_codec.hpp"
 
 #include <exception>
 #include <string>
@@ -27,7 +27,9 @@ std::variant<T, failure> decode(const json& document) {
         return failure{error_code::unknown_type,
                        std::string{"expected a message of type "} + T::type,
                        "/type"};
-    return document.get<T>();
+    T result;
+    from_json(document, result);
+    return result;
   } catch (const std::exception& error) {
     return failure{error_code::schema_violation,
                    std::string{"cannot be read: "} + error.what()};

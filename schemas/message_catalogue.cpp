@@ -1,6 +1,6 @@
 #include "schemas/message_catalogue.hpp"
 
-#include "messages/enum_words.hpp"
+#include "messages/codec/enum_words.hpp"
 #include "schemas/closest_word.hpp"
 #include "schemas/embedded_schemas.hpp"
 #include "schemas/semantic_checks.hpp"

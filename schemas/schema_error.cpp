@@ -1,6 +1,6 @@
 #include "schemas/schema_error.hpp"
 
-#include "messages/json_codec.hpp"
+#include "messages/codec/json_codec.hpp"
 
 #include <algorithm>
 

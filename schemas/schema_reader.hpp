@@ -1,6 +1,6 @@
 #pragma once
 
-#include "messages/json_codec.hpp"
+#include "messages/codec/json_codec.hpp"
 #include "schemas/schema_rule.hpp"
 
 #include <deque>

@@ -1,6 +1,6 @@
 #include "actors/house/house.hpp"
 
-#include "messages/type_ids.hpp"
+#include "messages/messages.hpp"
 
 namespace roscell {
 

@@ -2,7 +2,7 @@
 
 #include "actors/house/house.hpp"
 #include "actors/instances/skill_catalogue.hpp"
-#include "messages/type_ids.hpp"
+#include "messages/messages.hpp"
 
 #include <caf/error.hpp>
 #include <caf/typed_response_promise.hpp>

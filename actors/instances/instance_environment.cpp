@@ -1,7 +1,7 @@
 #include "actors/instances/instance_environment.hpp"
 
 #include "actors/house/limits.hpp"
-#include "messages/json_codec.hpp"
+#include "messages/codec/json_codec.hpp"
 
 namespace roscell {
 

@@ -1,7 +1,7 @@
 #include "actors/instances/instance_words.hpp"
 
 #include "actors/edge/io/utf8.hpp"
-#include "messages/json_codec.hpp"
+#include "messages/codec/json_codec.hpp"
 
 namespace roscell {
 

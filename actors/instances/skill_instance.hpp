@@ -3,7 +3,7 @@
 #include "actors/house/alarm.hpp"
 #include "actors/house/house.hpp"
 #include "actors/instances/skill_catalogue.hpp"
-#include "messages/type_ids.hpp"
+#include "messages/messages.hpp"
 
 #include <chrono>
 #include <optional>

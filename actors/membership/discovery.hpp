@@ -3,7 +3,7 @@
 #include "actors/edge/dds/discovery_client.hpp"
 #include "actors/edge/dds/public_presence.hpp"
 #include "actors/house/house.hpp"
-#include "messages/type_ids.hpp"
+#include "messages/messages.hpp"
 
 #include <cstdint>
 #include <memory>

@@ -6,7 +6,7 @@
 #include "actors/house/house.hpp"
 #include "actors/session/lease.hpp"
 #include "actors/session/session_exchange.hpp"
-#include "messages/type_ids.hpp"
+#include "messages/messages.hpp"
 
 #include <caf/typed_response_promise.hpp>
 

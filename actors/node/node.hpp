@@ -2,7 +2,7 @@
 
 #include "actors/node/node_edges.hpp"
 #include "actors/requests/request_context.hpp"
-#include "messages/type_ids.hpp"
+#include "messages/messages.hpp"
 
 #include <caf/actor.hpp>
 

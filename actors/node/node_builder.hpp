@@ -2,8 +2,8 @@
 
 #include "actors/house/actor_directory.hpp"
 #include "actors/node/node_config.hpp"
-#include "messages/actors.hpp"
 #include "messages/failure.hpp"
+#include "messages/messages.hpp"
 
 #include <caf/actor_system.hpp>
 #include <caf/expected.hpp>

@@ -5,7 +5,7 @@
 #include "actors/edge/io/io_thread.hpp"
 #include "actors/house/house.hpp"
 #include "actors/node/node_data.hpp"
-#include "messages/type_ids.hpp"
+#include "messages/messages.hpp"
 
 #include <caf/expected.hpp>
 

@@ -3,7 +3,7 @@
 #include "actors/edge/io/io_thread.hpp"
 #include "actors/house/house.hpp"
 #include "actors/node/node_config.hpp"
-#include "messages/type_ids.hpp"
+#include "messages/messages.hpp"
 
 #include <caf/expected.hpp>
 

@@ -3,7 +3,7 @@
 #include "actors/edge/host/host_probe.hpp"
 #include "actors/edge/host/host_probe_capacity.hpp"
 #include "actors/house/house.hpp"
-#include "messages/type_ids.hpp"
+#include "messages/messages.hpp"
 
 #include <chrono>
 #include <deque>

@@ -2,7 +2,7 @@
 
 #include "actors/edge/disk/sqlite_store.hpp"
 #include "actors/house/house.hpp"
-#include "messages/type_ids.hpp"
+#include "messages/messages.hpp"
 
 #include <memory>
 

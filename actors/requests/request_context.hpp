@@ -2,7 +2,7 @@
 
 #include "actors/house/house.hpp"
 #include "messages/failure.hpp"
-#include "messages/type_ids.hpp"
+#include "messages/messages.hpp"
 
 #include <caf/actor_cast.hpp>
 

@@ -2,7 +2,7 @@
 
 #include "actors/edge/http/http_types.hpp"
 #include "actors/house/house.hpp"
-#include "messages/type_ids.hpp"
+#include "messages/messages.hpp"
 
 #include <memory>
 

@@ -3,7 +3,7 @@
 #include "actors/edge/http/http_types.hpp"
 #include "actors/house/house.hpp"
 #include "actors/requests/rest_routes.hpp"
-#include "messages/type_ids.hpp"
+#include "messages/messages.hpp"
 
 #include <memory>
 #include <optional>

@@ -4,7 +4,7 @@
 #include "actors/house/house.hpp"
 #include "actors/session/lease.hpp"
 #include "actors/session/session_exchange.hpp"
-#include "messages/type_ids.hpp"
+#include "messages/messages.hpp"
 
 #include <array>
 #include <chrono>

@@ -2,7 +2,7 @@
 
 #include "actors/edge/io/io_thread.hpp"
 #include "actors/house/house.hpp"
-#include "messages/type_ids.hpp"
+#include "messages/messages.hpp"
 
 #include <caf/typed_response_promise.hpp>
 

@@ -3,7 +3,7 @@
 #include "actors/edge/session/beat_socket.hpp"
 #include "actors/edge/session/session_link.hpp"
 #include "actors/house/house.hpp"
-#include "messages/type_ids.hpp"
+#include "messages/messages.hpp"
 
 #include <cstdint>
 #include <deque>

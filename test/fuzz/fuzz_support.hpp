@@ -1,7 +1,7 @@
 #pragma once
 
+#include "messages/codec/json_codec.hpp"
 #include "messages/failure.hpp"
-#include "messages/json_codec.hpp"
 #include "schemas/decode.hpp"
 #include "schemas/document.hpp"
 #include "schemas/message_catalogue.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "messages/enum_words.hpp"
-#include "messages/json_codec.hpp"
+#include "messages/codec/enum_words.hpp"
+#include "messages/codec/json_codec.hpp"
 
 #include <map>
 #include <string>

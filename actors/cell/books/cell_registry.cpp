@@ -1,11 +1,14 @@
 #include "actors/cell/books/cell_registry.hpp"
 
 #include "actors/house/limits.hpp"
+#include "messages/codec/instantiate.hpp"
 
 #include <algorithm>
 #include <utility>
 
 namespace roscell {
+
+ROSCELL_CODEC(member_record)
 
 member_claim claim_of(const registry_row& row) {
   return {row.identity.name, row.identity.uuid, row.identity.epoch,

@@ -1,11 +1,14 @@
 #include "actors/cell/books/task_table.hpp"
 
 #include "actors/house/limits.hpp"
+#include "messages/codec/instantiate.hpp"
 
 #include <algorithm>
 #include <utility>
 
 namespace roscell {
+
+ROSCELL_CODEC(task_record)
 
 task_entry* task_table::find(const std::string& task) {
   auto i = entries_.find(task);

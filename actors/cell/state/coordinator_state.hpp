@@ -6,7 +6,7 @@
 #include "actors/house/backoff.hpp"
 #include "actors/house/house.hpp"
 #include "actors/placement/search_guard.hpp"
-#include "messages/type_ids.hpp"
+#include "messages/messages.hpp"
 
 #include <caf/typed_response_promise.hpp>
 

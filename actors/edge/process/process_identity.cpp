@@ -2,7 +2,7 @@
 
 #include "actors/edge/disk/small_file.hpp"
 #include "actors/edge/process/pidfd.hpp"
-#include "messages/json_codec.hpp"
+#include "messages/codec/json_codec.hpp"
 
 #include <poll.h>
 #include <sys/wait.h>

@@ -2,12 +2,17 @@
 
 #include "actors/edge/http/error_body.hpp"
 #include "actors/edge/io/crypto.hpp"
-#include "messages/json_codec.hpp"
+#include "messages/codec/instantiate.hpp"
 
 #include <algorithm>
 #include <optional>
 
 namespace roscell {
+
+ROSCELL_CODEC(session_hello)
+ROSCELL_CODEC(session_challenge)
+ROSCELL_CODEC(session_proof)
+ROSCELL_CODEC(session_accepted)
 
 namespace {
 

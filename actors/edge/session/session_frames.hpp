@@ -1,7 +1,7 @@
 #pragma once
 
 #include "actors/edge/io/edge_error.hpp"
-#include "messages/described.hpp"
+#include "messages/codec/described.hpp"
 
 #include <cstdint>
 #include <string>

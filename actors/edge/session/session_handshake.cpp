@@ -17,8 +17,9 @@ constexpr std::string_view acceptor_beat_label = "roscell beat v1 acceptor";
 constexpr std::string_view joiner_beat_label = "roscell beat v1 joiner";
 
 /// HMAC over the label and all that both sides said.
-digest bind(std::string_view token, std::string_view label,
-            const session_hello& hello, const session_challenge& challenge) {
+digest keyed_digest(std::string_view token, std::string_view label,
+                    const session_hello& hello,
+                    const session_challenge& challenge) {
   transcript said{label};
   said.add(hello.version)
       .add(hello.node)
@@ -39,7 +40,7 @@ digest bind(std::string_view token, std::string_view label,
 
 std::string session_id(std::string_view token, const session_hello& hello,
                        const session_challenge& challenge) {
-  const auto id = to_hex(bind(token, session_label, hello, challenge));
+  const auto id = to_hex(keyed_digest(token, session_label, hello, challenge));
   return id.substr(0, session_frame_bounds::session);
 }
 
@@ -133,7 +134,8 @@ handshake_step acceptor_handshake::on_hello(std::string_view frame) {
   hello_ = std::get<session_hello>(std::move(decoded));
   if (auto refusal = check_version(hello_.node, hello_.version))
     return fail(*refusal, true);
-  challenge_.proof = to_hex(bind(token_, acceptor_label, hello_, challenge_));
+  challenge_.proof =
+      to_hex(keyed_digest(token_, acceptor_label, hello_, challenge_));
   state_ = state::wait_proof;
   handshake_step step;
   step.reply = encode(challenge_);
@@ -144,12 +146,14 @@ handshake_step acceptor_handshake::on_proof(std::string_view frame) {
   auto decoded = decode_frame<session_proof>(frame);
   if (auto* error = std::get_if<edge_error>(&decoded))
     return fail(*error, true);
-  const auto expected = bind(token_, joiner_label, hello_, challenge_);
+  const auto expected = keyed_digest(token_, joiner_label, hello_, challenge_);
   if (!is_proof(std::get<session_proof>(decoded).proof, expected))
     return fail(wrong_token(hello_.node), true);
   agreement_.session = session_id(token_, hello_, challenge_);
-  agreement_.keys.send = bind(token_, acceptor_beat_label, hello_, challenge_);
-  agreement_.keys.receive = bind(token_, joiner_beat_label, hello_, challenge_);
+  agreement_.keys.send =
+      keyed_digest(token_, acceptor_beat_label, hello_, challenge_);
+  agreement_.keys.receive =
+      keyed_digest(token_, joiner_beat_label, hello_, challenge_);
   handshake_step step;
   step.reply = encode(session_accepted{agreement_.session});
   step.done = true;
@@ -189,7 +193,8 @@ handshake_step joiner_handshake::on_challenge(std::string_view frame) {
   challenge_ = std::get<session_challenge>(std::move(decoded));
   if (auto refusal = check_version(challenge_.node, challenge_.version))
     return fail(*refusal, true);
-  const auto expected = bind(token_, acceptor_label, hello_, challenge_);
+  const auto expected =
+      keyed_digest(token_, acceptor_label, hello_, challenge_);
   if (!is_proof(challenge_.proof, expected))
     return fail(wrong_token(challenge_.node), true);
   if (!expected_cell_.empty() && challenge_.cell != expected_cell_)
@@ -200,8 +205,8 @@ handshake_step joiner_handshake::on_challenge(std::string_view frame) {
                 true);
   state_ = state::wait_accepted;
   handshake_step step;
-  step.reply = encode(
-      session_proof{to_hex(bind(token_, joiner_label, hello_, challenge_))});
+  step.reply = encode(session_proof{
+      to_hex(keyed_digest(token_, joiner_label, hello_, challenge_))});
   return step;
 }
 
@@ -212,9 +217,10 @@ handshake_step joiner_handshake::on_accepted(std::string_view frame) {
   agreement_.session = session_id(token_, hello_, challenge_);
   if (std::get<session_accepted>(decoded).session != agreement_.session)
     return fail(wrong_token(challenge_.node), false);
-  agreement_.keys.send = bind(token_, joiner_beat_label, hello_, challenge_);
+  agreement_.keys.send =
+      keyed_digest(token_, joiner_beat_label, hello_, challenge_);
   agreement_.keys.receive =
-      bind(token_, acceptor_beat_label, hello_, challenge_);
+      keyed_digest(token_, acceptor_beat_label, hello_, challenge_);
   handshake_step step;
   step.done = true;
   return step;

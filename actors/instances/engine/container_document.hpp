@@ -1,7 +1,7 @@
 #pragma once
 
 #include "actors/edge/io/edge_error.hpp"
-#include "messages/json_codec.hpp"
+#include "messages/codec/json_codec.hpp"
 #include "messages/runtime.hpp"
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 #include "actors/instances/engine/dockerfile.hpp"
 
 #include "actors/edge/io/crypto.hpp"
-#include "messages/json_codec.hpp"
+#include "messages/codec/json_codec.hpp"
 
 namespace roscell {
 

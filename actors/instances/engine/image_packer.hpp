@@ -2,7 +2,7 @@
 
 #include "actors/edge/engine/build_context.hpp"
 #include "actors/house/house.hpp"
-#include "messages/type_ids.hpp"
+#include "messages/messages.hpp"
 
 #include <filesystem>
 #include <string>

@@ -3,7 +3,7 @@
 #include "actors/house/alarm.hpp"
 #include "actors/house/house.hpp"
 #include "actors/instances/process/process_instance.hpp"
-#include "messages/type_ids.hpp"
+#include "messages/messages.hpp"
 
 #include <caf/typed_response_promise.hpp>
 

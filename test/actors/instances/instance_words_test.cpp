@@ -1,6 +1,6 @@
 #include "actors/instances/instance_words.hpp"
 
-#include "messages/json_codec.hpp"
+#include "messages/codec/json_codec.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,5 +1,5 @@
 #include "actors/requests/rest_routes.hpp"
-#include "messages/json_codec.hpp"
+#include "messages/codec/json_codec.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "actors/edge/http/http_client.hpp"
+#include "messages/codec/json_codec.hpp"
 #include "messages/event.hpp"
-#include "messages/json_codec.hpp"
 #include "tools/roscell/client/target.hpp"
 
 #include <chrono>

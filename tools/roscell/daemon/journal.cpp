@@ -1,6 +1,6 @@
 #include "tools/roscell/daemon/journal.hpp"
 
-#include "messages/type_ids.hpp"
+#include "messages/messages.hpp"
 #include "tools/roscell/client/event_stream.hpp"
 #include "tools/roscell/view/format.hpp"
 

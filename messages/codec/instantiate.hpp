@@ -1,18 +1,17 @@
 #pragma once
 
-#include "messages/described.hpp"
-
-#include <nlohmann/json.hpp>
+#include "messages/codec/enum_words.hpp"
+#include "messages/codec/json_codec.hpp"
 
 #include <map>
 #include <string>
 #include <vector>
 
-/// JSON from and to described structs. Decoding expects a document that has
-/// passed its schema; on any other it throws nlohmann::json::exception.
+/// What is derived from the fields of a described struct. It is costly to
+/// compile, so each struct has it instantiated once, by ROSCELL_CODEC or, where
+/// it has no JSON form, by ROSCELL_DESCRIBED. One that has been forgotten does
+/// not link.
 namespace roscell {
-
-using json = nlohmann::json;
 
 namespace codec {
 
@@ -75,23 +74,31 @@ void decode_field(const json& j, const Field& f, T& x) {
 
 } // namespace codec
 
-template <class T, class = if_described<T>>
+template <class T, class>
 void to_json(json& j, const T& x) {
   j = json::object();
   for_each_field<T>([&](const auto& f) { codec::encode_field(j, f, x); });
 }
 
-template <class T, class = if_described<T>>
+template <class T, class>
 void from_json(const json& j, T& x) {
   for_each_field<T>([&](const auto& f) { codec::decode_field(j, f, x); });
 }
 
-/// The JSON form of a message: its fields and its `"type"`.
-template <class T>
-json message_json(const T& x) {
-  json j = x;
-  j["type"] = T::type;
-  return j;
+template <class T, class>
+bool operator==(const T& x, const T& y) {
+  return std::apply(
+      [&](const auto&... fs) {
+        return ((x.*(fs.member) == y.*(fs.member)) && ...);
+      },
+      T::fields());
 }
 
 } // namespace roscell
+
+#define ROSCELL_DESCRIBED(T) template bool operator==(const T&, const T&);
+
+#define ROSCELL_CODEC(T)                                                       \
+  ROSCELL_DESCRIBED(T)                                                         \
+  template void to_json(json&, const T&);                                      \
+  template void from_json(const json&, T&);

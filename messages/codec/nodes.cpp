@@ -1,0 +1,44 @@
+#include "messages/codec/instantiate.hpp"
+#include "messages/event.hpp"
+#include "messages/failure.hpp"
+#include "messages/instance.hpp"
+#include "messages/node.hpp"
+#include "messages/resources.hpp"
+#include "messages/session.hpp"
+
+namespace roscell {
+
+ROSCELL_CODEC(event)
+ROSCELL_CODEC(failure)
+ROSCELL_CODEC(io_endpoint)
+ROSCELL_CODEC(instance_spec)
+ROSCELL_CODEC(instance_row)
+ROSCELL_CODEC(instance_query)
+ROSCELL_CODEC(instance_description)
+ROSCELL_CODEC(log_query)
+ROSCELL_CODEC(log_excerpt)
+ROSCELL_CODEC(node_identity)
+ROSCELL_CODEC(actor_row)
+ROSCELL_CODEC(node_query)
+ROSCELL_CODEC(node_description)
+ROSCELL_CODEC(amount)
+ROSCELL_CODEC(gpu_resources)
+ROSCELL_CODEC(node_resources)
+ROSCELL_CODEC(resource_request)
+ROSCELL_CODEC(session_request)
+ROSCELL_CODEC(session_reply)
+ROSCELL_CODEC(session_notice)
+ROSCELL_CODEC(node_registration)
+ROSCELL_CODEC(instance_verdict)
+ROSCELL_CODEC(node_registered)
+ROSCELL_CODEC(node_departure)
+ROSCELL_CODEC(node_departed)
+ROSCELL_CODEC(resource_query)
+ROSCELL_CODEC(resource_report)
+ROSCELL_CODEC(instance_deployment)
+ROSCELL_CODEC(instance_deployed)
+ROSCELL_CODEC(instance_removal)
+ROSCELL_CODEC(instances_removed)
+ROSCELL_CODEC(instance_changed)
+
+} // namespace roscell

@@ -1,0 +1,42 @@
+#include "messages/allocation_report.hpp"
+#include "messages/codec/instantiate.hpp"
+#include "messages/reservation.hpp"
+#include "messages/skill.hpp"
+#include "messages/skill_descriptor.hpp"
+#include "messages/task.hpp"
+
+namespace roscell {
+
+ROSCELL_CODEC(allocation_score)
+ROSCELL_CODEC(resource_fractions)
+ROSCELL_CODEC(step_allocation)
+ROSCELL_CODEC(rejection_cause)
+ROSCELL_CODEC(rejected_candidate)
+ROSCELL_CODEC(excluded_candidate)
+ROSCELL_CODEC(resource_use)
+ROSCELL_CODEC(step_alternative)
+ROSCELL_CODEC(task_plan)
+ROSCELL_CODEC(task_accepted)
+ROSCELL_CODEC(plan_document)
+ROSCELL_CODEC(instance_reservation)
+ROSCELL_CODEC(refused_instance)
+ROSCELL_CODEC(instances_reserved)
+ROSCELL_CODEC(installed_skill)
+ROSCELL_CODEC(skill_query)
+ROSCELL_CODEC(skill_row)
+ROSCELL_CODEC(skill_list)
+ROSCELL_CODEC(port_description)
+ROSCELL_CODEC(deployment_option)
+ROSCELL_CODEC(implementation_model)
+ROSCELL_CODEC(skill_descriptor)
+ROSCELL_CODEC(task_step)
+ROSCELL_CODEC(task_request)
+ROSCELL_CODEC(task_plan_query)
+ROSCELL_CODEC(placed_instance)
+ROSCELL_CODEC(task_termination)
+ROSCELL_CODEC(task_terminated)
+ROSCELL_CODEC(task_row)
+ROSCELL_CODEC(task_query)
+ROSCELL_CODEC(task_description)
+
+} // namespace roscell
