@@ -40,7 +40,8 @@ wanted=()
 $containers && wanted=(--containers)
 tools/install.sh "${wanted[@]}"
 say "building (the first time takes some minutes)"
-export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1
+export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1 \
+  CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime
 [[ -f build/release/build.ninja ]] || cmake --preset release > /dev/null
 ninja -C build/release roscell instance_shim image_source_skill \
   pose_estimation_skill render_scenes compare_poses | tail -n 1

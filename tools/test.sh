@@ -93,7 +93,8 @@ system() {
 say "installing"
 tools/install.sh --with-tests || exit 1
 # Compilers' answers are shared between clones of this tree.
-export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1
+export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1 \
+  CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime
 # Fast DDS 2.9.1 deletes its statistics objects through a base class of another
 # size; everything else that ASan checks stays on.
 export ASAN_OPTIONS=detect_leaks=1:new_delete_type_mismatch=0

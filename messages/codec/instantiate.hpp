@@ -96,9 +96,12 @@ bool operator==(const T& x, const T& y) {
 
 } // namespace roscell
 
+// A type cannot stand in parentheses.
+// NOLINTBEGIN(bugprone-macro-parentheses)
 #define ROSCELL_DESCRIBED(T) template bool operator==(const T&, const T&);
 
 #define ROSCELL_CODEC(T)                                                       \
   ROSCELL_DESCRIBED(T)                                                         \
   template void to_json(json&, const T&);                                      \
   template void from_json(const json&, T&);
+// NOLINTEND(bugprone-macro-parentheses)
