@@ -22,7 +22,9 @@ using event_log_actor = introspected_actor::extend<
     // Gives the fact the next sequence number and tells the listeners.
     caf::reacts_to<record_event>,
     // Adds a listener until it ends.
-    caf::reacts_to<subscribe_events>>;
+    caf::reacts_to<subscribe_events>,
+    // INTERNAL: refusals that were held back are to be told.
+    caf::reacts_to<caf::tick_atom, uint64_t>>;
 
 /// Who hears of exits and notifications: the container supervisor.
 using container_listener_actor =

@@ -41,13 +41,16 @@ std::vector<instance_verdict> reconcile(const cell_coordinator_state& st,
   return result;
 }
 
-/// What of a node's instances belongs to a task of this cell.
+/// What of a node's instances belongs to a task of this cell. The task knows
+/// more of an instance than the node says when it registers.
 std::vector<instance_row> kept_rows(const cell_coordinator_state& st,
                                     const node_registration& node) {
   std::vector<instance_row> result;
   for (auto x : node.instances) {
-    if (!st.tasks.find_spec(x.spec.instance, node.identity.name))
+    const auto* spec = st.tasks.find_spec(x.spec.instance, node.identity.name);
+    if (spec == nullptr)
       continue;
+    x.spec = *spec;
     x.node = node.identity.name;
     result.push_back(std::move(x));
   }

@@ -150,7 +150,7 @@ void terminate_tasks(self_pointer self, const std::string& id,
     return next();
   const auto task = tasks.back();
   tasks.pop_back();
-  self->request(cell_coordinator_actor{self}, limits::transfer::termination,
+  self->request(cell_coordinator_actor{self}, limits::task::termination,
                 task_termination{task})
       .then(
           [self, id, tasks, task, next](const task_terminated&) {

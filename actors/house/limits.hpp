@@ -24,13 +24,10 @@ namespace lease {
 
 /// An outage of less than `span - beat_period` is never noticed.
 constexpr milliseconds span{8000};
-
 /// A member's beats are this far apart.
 constexpr milliseconds beat_period{4000};
-
 /// After a miss the peer is asked again this often,
 constexpr milliseconds probe_interval{250};
-
 /// and this often in the last seconds of the lease: 16 questions in all would
 /// lose a living member every 14,000 hours where each direction loses 20 %,
 /// 24 questions lose it every 50 million hours.
@@ -54,7 +51,6 @@ namespace local {
 
 /// For a part that only looks at its own state, or at the host.
 constexpr seconds part{5};
-
 /// For what may ask one part after another.
 constexpr seconds answer{10};
 
@@ -78,19 +74,15 @@ namespace resource {
 /// What a coordinator waits for its members' figures: those that come later
 /// are missing, since one silent node must not hold up a task.
 constexpr seconds collection{3};
-
 /// How often a node is asked in one collection, at most.
 constexpr int rounds = 3;
-
 /// CPU use is a rate over at least the first and at most the second.
 constexpr seconds least_sample_age{1};
 constexpr seconds most_sample_age{30};
-
 /// Samples closer than this are one; so that many always span more than
 /// `least_sample_age`.
 constexpr milliseconds sample_distance{100};
 constexpr size_t samples = 16;
-
 /// A coordinator hears the beats of many members; one sample serves for all. A
 /// little shorter than the pause between the beats of one member.
 constexpr milliseconds mark_distance{3500};
@@ -106,63 +98,44 @@ namespace instance {
 
 /// Live ones on a node. Each costs a shim and three descriptors.
 constexpr size_t most = 256;
-
 /// Ended ones whose rows and logs stay until their task is removed.
 constexpr size_t most_ended = 32;
-
 /// An actor that dies more often than this will not do better next time.
 constexpr int most_deaths = 5;
-
 /// For one record on a slow disk, and for reading the end of a log.
 constexpr seconds disk{10};
-
 /// A container engine may have to fetch a base image of some GiB.
 constexpr minutes build{10};
-
 /// From the runtime's "start" to its answer.
 constexpr seconds start{30};
-
 /// From the start of the program to READY=1; loading a model takes a while.
 constexpr seconds ready{30};
-
 /// All of it.
 constexpr seconds deployment = build + start + ready + 2 * disk;
-
 /// From the polite request to end to force.
 constexpr seconds stop_grace{5};
-
 /// The longest that a runtime can be told to grant.
 constexpr milliseconds most_stop_grace{60'000};
-
 /// From one stage of force to the next, for processes.
 constexpr seconds force_interval{2};
-
 /// For an engine to kill what does not obey.
 constexpr seconds force{10};
-
 /// Beyond the grace; must exceed the runtime's stages of force.
 constexpr seconds stop{15};
-
 /// For what an instance left.
 constexpr seconds cleaning{15};
-
 /// All of it.
 constexpr seconds removal = stop_grace + stop + cleaning + disk;
-
 /// Silence after which a running skill is taken for hung. Skills say that they
 /// are alive twice in this time, so one lost word does no harm.
 constexpr seconds watchdog{10};
-
 /// Most of the log's end that goes along with a failure.
 constexpr size_t log_tail_bytes = 8 * kib;
-
 /// Most of what is said of why it ended.
 constexpr size_t reason_bytes = 2 * kib;
-
 /// A program that talks to its NOTIFY_SOCKET without end causes 50 messages a
 /// second at most: what comes in between is merged, or waits in its socket.
 constexpr milliseconds words_pause{20};
-
 /// For a shim to say that its program runs.
 constexpr seconds shim{5};
 
@@ -177,39 +150,29 @@ namespace engine {
 
 /// For a call that takes an idle engine milliseconds.
 constexpr seconds call{10};
-
 /// For one that shows whether an engine is there.
 constexpr seconds probe{2};
-
 /// Creating a container copies nothing, but a loaded engine takes its time.
 constexpr seconds create{20};
 constexpr seconds start{20};
-
 /// For an image's plan: hashing a folder, finding the libraries of programs.
 constexpr seconds plan{60};
 constexpr seconds linker{10};
-
 /// For each of the packer's two steps: some GiB of checkpoints, a slow disk.
 constexpr minutes pack_step{5};
 constexpr minutes pack{11};
-
 /// Shorter than the instance's limit, so that the log goes along.
 constexpr minutes build{9};
-
 /// A build says no more than once in this time how it gets on.
 constexpr seconds build_words{1};
-
 /// Lines of a build that are kept for the case that it fails, and their bytes.
 constexpr size_t kept_build_lines = 40;
 constexpr size_t build_line_bytes = 512;
-
 /// A line of a build or an event is some hundred bytes.
 constexpr size_t line_bytes = mib;
-
 /// Longest body of an answer that is no stream.
 constexpr size_t reply_bytes = 8 * mib;
 constexpr size_t header_bytes = 64 * kib;
-
 /// Longest text of an engine, or of a program it runs, that people get.
 constexpr size_t words_bytes = 2 * kib;
 
@@ -225,50 +188,38 @@ static_assert(start < instance::start);
 namespace session {
 
 constexpr milliseconds margin{2000};
-
 /// Largest frame, in and out.
 constexpr size_t frame_bytes = mib;
-
 /// Frames that wait for a slow peer; beyond it the session is closed.
 constexpr size_t queue_bytes = 4 * mib;
-
 /// Frames of the peer that wait for their handler; beyond it nothing is read,
 /// and the peer feels it.
 constexpr size_t undone_frames = 8;
-
 /// From the first connection attempt to the last frame of the handshake.
 constexpr milliseconds handshake{5000};
-
 /// For frames that still wait and the closing handshake of WebSocket.
 constexpr milliseconds close{1000};
-
 /// What a listener still reads of a connection that it has refused.
 constexpr milliseconds linger{1000};
-
 /// How long sent bytes may stay unacknowledged before the connection is lost.
 constexpr milliseconds unacknowledged = lease::span;
-
 /// For the owner of a session to take a frame.
 constexpr seconds owner{30};
-
 /// For a session to another coordinator, or of a node that joins.
 constexpr seconds open{10};
-
 /// Requests that wait for their replies. No peer needs more at once.
 constexpr size_t pending_calls = 256;
-
 /// Ids of requests that are known, so that one delivered twice is done once.
 constexpr size_t known_calls = 256;
-
 /// Larger answers are not kept: who asks again is told to ask anew.
 constexpr size_t kept_answer_bytes = 16 * kib;
-
+/// Of the specs that an answer to a registration carries; half a frame, since
+/// JSON escapes some bytes.
+constexpr size_t answered_starts_bytes = frame_bytes / 2;
 /// A peer that sends more that cannot be read does not speak our language.
 constexpr unsigned bad_frames = 3;
-
 /// A measurement that has no CPU sample yet takes a second.
 constexpr milliseconds resource_query{6000};
-
 /// One coordinator's word to another one.
 constexpr milliseconds peer_answer{3000};
 
@@ -284,27 +235,20 @@ namespace membership {
 
 /// From the session's start to the registration.
 constexpr milliseconds registration_arrival{15'000};
-
 /// From the registration to its answer. Shorter than a lease: a registry must
 /// not show for longer a member that does not know that it is one.
 constexpr milliseconds registration{5000};
-
 /// What the coordinator has for it, so that the node hears the outcome.
 constexpr milliseconds row{4000};
-
 /// For a place: the coordinator that hands them out may be another one, and a
 /// third one has to keep it.
 constexpr milliseconds place{8000};
-
 /// For a switch to be written down.
 constexpr milliseconds switching{6000};
-
 /// How long a node that leaves waits for the coordinator to know,
 constexpr milliseconds departure{2000};
-
 /// and the NODE for the node to have left.
 constexpr seconds leaving{3};
-
 /// From the signal to the process's end: systemd would wait 90 s before it uses
 /// force.
 constexpr seconds stopping{5};
@@ -314,13 +258,10 @@ static_assert(leaving < stopping);
 /// Coordinators that were started together appear one after the other; asking
 /// all of them at once for places would make the first ones full.
 constexpr milliseconds gathering{200};
-
 /// How long a discovery server is looked for before the next pause.
 constexpr milliseconds search{5000};
-
 /// A coordinator that has refused once is unlikely to change its mind soon.
 constexpr milliseconds refusal_pause{30'000};
-
 /// How long a name stays with a node that is silent.
 constexpr milliseconds name_held = lease::span;
 
@@ -336,18 +277,14 @@ namespace cell {
 /// Time for a place's node to come: it has to find the server and open a
 /// session.
 constexpr seconds place{30};
-
 /// For a node's REST answer to a registration switch, which another node's
 /// HTTP client gives `registration_call` for.
 constexpr milliseconds registration_call{5000};
 constexpr seconds invitation{12};
-
 /// For a node that said yes to arrive.
 constexpr seconds arrival{25};
-
 /// For a place that waits for an invited node.
 constexpr seconds invited_place{40};
-
 /// After a change of the coordinators' sizes, until they are evened out.
 constexpr seconds settling{2};
 
@@ -361,39 +298,29 @@ namespace task {
 
 /// Searching an allocation while other searches wait.
 constexpr seconds search{60};
-
 /// What the search itself may take, for a live cell and for a plan on paper.
 constexpr milliseconds allocation_budget{200};
 constexpr milliseconds offline_allocation_budget{20'000};
-
 /// For one node to keep room, and how long it keeps it at most.
 constexpr seconds reservation{10};
 constexpr minutes longest_reservation{1};
-
 /// How often a task is placed anew because nodes refused or left.
 constexpr int placement_rounds = 3;
-
 /// What one node's agent waits for its supervisor,
 constexpr milliseconds agent_deployment{11 * 60'000 + 30'000};
-
 /// what the coordinator's end of a session waits for the node,
 constexpr milliseconds deployment{12 * 60'000};
-
 /// and who wants the instance to run.
 constexpr minutes deployment_answer{13};
-
 /// The same for removal.
 constexpr milliseconds agent_removal{48'000};
 constexpr milliseconds removal{52'000};
 constexpr milliseconds removal_answer{55'000};
 constexpr seconds termination{60};
-
 /// For the others of a deployment that failed to be removed.
 constexpr seconds rollback{60};
-
 /// For a task's turn while another one is placed.
 constexpr seconds turn{60};
-
 /// Ended tasks that are remembered, to answer a repeated termination.
 constexpr size_t ended = 100;
 
@@ -416,24 +343,17 @@ namespace transfer {
 
 /// For a node that has left to be seen in its new cell.
 constexpr seconds arrival{25};
-
 /// How long the other coordinator keeps a place for it.
 constexpr minutes place{2};
-
-/// For what ran on the node to end first.
-constexpr seconds termination = task::termination;
-
 /// For one that another coordinator carries out: instances may have to be
 /// started elsewhere first.
 constexpr milliseconds forwarded = task::deployment + minutes{2};
-
 /// What the request for it waits.
 constexpr milliseconds answer = forwarded + seconds{30};
-
 /// Ended ones that are remembered.
 constexpr size_t ended = 100;
 
-static_assert(arrival + termination < place);
+static_assert(arrival + task::termination < place);
 static_assert(task::deployment_answer < forwarded);
 
 } // namespace transfer
@@ -443,10 +363,8 @@ namespace request {
 
 /// The router's limit for a handler or a pipeline,
 constexpr minutes handler{15};
-
 /// and the HTTP side's for the router.
 constexpr minutes router{16};
-
 /// Answers that are remembered for the case that a request comes again, and
 /// the memory that they may take with their requests.
 constexpr size_t remembered = 256;
@@ -470,13 +388,10 @@ constexpr seconds session{10};
 constexpr seconds coordinator{12};
 constexpr seconds answer{14};
 constexpr seconds stream{60};
-
 /// A program that prints without end wakes the io thread this often at most.
 constexpr milliseconds change_pause{20};
-
 /// Followers at a time. Who comes later is answered at once.
 constexpr size_t followers = 64;
-
 /// Most bytes in one part.
 constexpr int64_t part_bytes = 64 * kib;
 
@@ -491,59 +406,52 @@ namespace http {
 
 /// Request line and header fields together; more is answered with 431.
 constexpr size_t header_bytes = 8 * kib;
-
 /// A request's body; more is answered with 413 before it is read.
 constexpr size_t body_bytes = mib;
-
+/// The same for strangers, on the few paths that are open to them: more than
+/// the longest registration switch.
+constexpr size_t public_body_bytes = 8 * kib;
 /// From connecting to the first byte.
 constexpr milliseconds first_byte{10'000};
-
 /// From a request's first byte to its last.
 constexpr milliseconds whole_request{10'000};
-
 /// Between two requests of one connection.
 constexpr milliseconds idle{30'000};
-
 /// For writing one reply to a slow reader.
 constexpr milliseconds write{30'000};
-
 /// For requests in progress when the server stops, and for a client to read
 /// the error that ended its connection.
 constexpr milliseconds grace{1000};
-
 /// Of a client whose request was refused: what it still sends is read, so
 /// that it gets to read the reply, but not without end.
 constexpr size_t lingered_bytes = mib;
-
 /// TCP connections that have not shown the bearer token yet. When one more
 /// comes, the one that was silent for longest is closed: a crowd of silent
 /// connections keeps nobody out who speaks at once.
 constexpr size_t strangers = 64;
-
 /// TCP connections that have shown it; one more is answered with 503.
 constexpr size_t trusted = 192;
-
-/// Connections to the Unix socket; one more is answered with 503.
+/// Connections to the Unix socket that are served at a time, those that wait
+/// for their turn, and how long one waits before it is answered with 503, as
+/// one more is at once.
 constexpr size_t local = 64;
-
+constexpr size_t waiting = 448;
+constexpr seconds turn{60};
 /// Sessions; a request for one more is answered with 503.
 constexpr size_t sessions = 1024;
-
 /// Bytes that wait for one slow reader of a stream; beyond it, it is cut.
 constexpr size_t stream_bytes = mib;
-
 /// A client of a stream has nothing to say; a little is tolerated.
 constexpr size_t stream_ignored_bytes = 64 * kib;
-
 /// Replies that a client takes: of a node that it was pointed to, of another
 /// node while it forms a cell, and one line of a stream.
 constexpr size_t client_reply_bytes = 64 * mib;
 constexpr size_t exchanged_bytes = 64 * kib;
 constexpr size_t client_line_bytes = mib;
-
+/// What a client waits where nothing else is said.
+constexpr seconds client_timeout{30};
 /// Ports that the system hands out for UDP are rarely taken for TCP.
 constexpr int port_attempts = 16;
-
 /// After the process ran out of descriptors.
 constexpr milliseconds shortage_pause{100};
 
@@ -555,10 +463,11 @@ namespace token {
 /// A site token shorter than this could be guessed.
 constexpr size_t least_site_bytes = 16;
 constexpr size_t most_bytes = 4 * kib;
-
 /// For a registration switch to come with the nonce that it was given.
 constexpr seconds nonce_lifetime{10};
-constexpr size_t outstanding_nonces = 16;
+/// Nonces that have proven a switch and are not too old yet. More switches in
+/// that time are refused.
+constexpr size_t spent_nonces = 64;
 
 static_assert(cell::registration_call < nonce_lifetime);
 
@@ -568,6 +477,7 @@ static_assert(cell::registration_call < nonce_lifetime);
 namespace text {
 
 constexpr size_t name_bytes = 63;
+constexpr size_t uuid_bytes = 64;
 
 } // namespace text
 
@@ -576,6 +486,10 @@ namespace event {
 
 /// How many a listener that comes late can still get.
 constexpr size_t kept = 1000;
+/// Refusals of one kind that are told one by one in this time; those beyond
+/// are counted. Whoever provokes them without end adds six facts a minute.
+constexpr size_t refusals = 5;
+constexpr seconds refusal_window{60};
 
 } // namespace event
 
@@ -583,14 +497,11 @@ constexpr size_t kept = 1000;
 namespace skill {
 
 constexpr size_t most = 1024;
-
 /// Longest descriptor that is read.
 constexpr size_t descriptor_bytes = mib;
-
 /// Longest path, which is shown as an instance's image
 /// (schemas/common.schema.json).
 constexpr size_t path_bytes = 512;
-
 /// Errors of one descriptor that are told.
 constexpr size_t errors = 20;
 
@@ -602,14 +513,11 @@ namespace discovery {
 /// Fast DDS's own periods cost 194 B/s a member, these about 3.
 constexpr seconds lease{600};
 constexpr seconds announcement_period{200};
-
 /// For the coordinators of the site to be seen at the start.
 constexpr milliseconds survey{60};
-
 /// The most bytes of USER_DATA that we send or look at: enough for the longest
 /// names that a session takes, all of whose bytes are escaped.
 constexpr size_t announcement_bytes = 1024;
-
 /// So many presences on one host are reached by the host's address alone.
 constexpr unsigned presence_places = 4;
 

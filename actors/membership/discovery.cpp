@@ -1,14 +1,13 @@
 #include "actors/membership/discovery.hpp"
 
 #include "actors/edge/dds/announcement.hpp"
+#include "actors/edge/io/plain_text.hpp"
 #include "actors/edge/io/socket_address.hpp"
-#include "actors/house/limits.hpp"
+#include "actors/house/edge_failure.hpp"
 #include "messages/failure.hpp"
 
 #include <caf/actor_cast.hpp>
 
-#include <algorithm>
-#include <cctype>
 #include <utility>
 
 namespace roscell {
@@ -27,23 +26,6 @@ bool speaks_with(const house& context, const announcement& said) {
                  {{"protocol_version", said.protocol_version},
                   {"reason", "this node speaks version 1.0"}});
   return false;
-}
-
-bool is_name(const std::string& text) {
-  const auto is_fine = [](unsigned char c) {
-    return std::isalnum(c) != 0 || c == '_' || c == '.' || c == '-';
-  };
-  return !text.empty() && text.size() <= limits::text::name_bytes
-         && std::isalnum(static_cast<unsigned char>(text.front())) != 0
-         && std::all_of(text.begin(), text.end(), is_fine);
-}
-
-bool is_uuid(const std::string& text) {
-  const auto is_fine = [](unsigned char c) {
-    return std::isxdigit(c) != 0 || c == '-';
-  };
-  return !text.empty() && text.size() <= limits::text::name_bytes
-         && std::all_of(text.begin(), text.end(), is_fine);
 }
 
 /// Whether a stranger's words can be what they claim to be: they end up in
@@ -69,10 +51,6 @@ void on_server(const house& context, const discovery_listener_actor& listener,
     return;
   caf::anon_send(listener, coordinator_found{said->cell, said->node,
                                              said->session, said->incarnation});
-}
-
-caf::error to_caf(const edge_error& why) {
-  return fail(why.code, why.message, "", why.hint);
 }
 
 caf::result<caf::ok_atom> find(self_pointer self,

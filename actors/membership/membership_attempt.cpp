@@ -53,6 +53,16 @@ void on_registered(self_pointer self, const node_registered& reply) {
     notify(self, fact);
 }
 
+/// Leaves what identifies an instance and how it is. The coordinator knows the
+/// rest; hundreds of whole rows would not fit into one frame.
+void shorten(instance_row& row) {
+  row.log_tail.clear();
+  row.spec.input.clear();
+  row.spec.output.clear();
+  row.spec.parameters.clear();
+  row.spec.environment.clear();
+}
+
 node_registration registration_of(const membership_status& st) {
   node_registration result;
   result.identity = st.config.identity;
@@ -66,8 +76,7 @@ node_registration registration_of(const membership_status& st) {
     result.transfer = st.switching->order.transfer;
   for (auto& row : result.instances) {
     row.node = st.config.identity.name;
-    // Hundreds of them would not fit into one frame.
-    row.log_tail.clear();
+    shorten(row);
   }
   return result;
 }

@@ -164,7 +164,7 @@ void keep_lease(self_pointer self) {
     return;
   const auto next = st.life.due(now);
   if (next.over)
-    on_session_lost(self, "silent for 8 s");
+    on_session_lost(self, silence_of_a_lease());
   else if (next.send)
     self->send(self->state.session, send_beat{*next.send});
 }

@@ -195,16 +195,18 @@ registration_challenge make_challenge(self_pointer self) {
 void on_proven_switch(self_pointer self, const registration_switch& order,
                       switch_reply reply) {
   auto& st = self->state;
-  const bool fresh = st.challenges.redeem(order.nonce, self->clock().now());
+  const auto now = self->clock().now();
   if (!can_be_proven(st))
     return reply(fail(error_code::unauthorized,
                       "this node has no site token, so nobody can switch it",
                       "", "install the site token"));
-  if (!fresh || !proves(order_of(order), st.config.site_token, order.proof))
+  if (!st.challenges.is_fresh(order.nonce, now)
+      || !proves(order_of(order), st.config.site_token, order.proof))
     return reply(fail(error_code::unauthorized,
                       "the switch is not proven with the site token and a "
                       "nonce of this node that is still good",
                       "/proof", "ask for a registration_challenge first"));
+  st.challenges.spend(order.nonce, now);
   if (is_repetition(st, order))
     return reply(switch_accepted{st.config.identity.epoch});
   if (auto why = refusal(st, order))

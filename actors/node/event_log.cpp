@@ -12,7 +12,7 @@ namespace {
 
 using self_pointer = event_log_actor::stateful_pointer<event_log_state>;
 
-void record(self_pointer self, const record_event& fact) {
+void tell_listeners(self_pointer self, const record_event& fact) {
   auto& st = self->state;
   event x{++st.last_sequence, unix_now_ms(), fact.what, fact.subject,
           fact.data};
@@ -21,6 +21,25 @@ void record(self_pointer self, const record_event& fact) {
   st.kept.push_back(std::move(x));
   if (st.kept.size() > limits::event::kept)
     st.kept.pop_front();
+}
+
+void record(self_pointer self, const record_event& fact) {
+  auto& st = self->state;
+  if (st.gate.lets_through(fact.what, fact.subject, self->clock().now()))
+    return tell_listeners(self, fact);
+  st.timer.set(self, *st.gate.next());
+}
+
+void tell_held_back(self_pointer self) {
+  auto& st = self->state;
+  for (const auto& x : st.gate.take_due(self->clock().now())) {
+    const json data{{"more", x.more},
+                    {"message", "and " + std::to_string(x.more)
+                                    + " more, not told one by one"}};
+    tell_listeners(self, {x.what, x.subject, data.dump()});
+  }
+  if (const auto next = st.gate.next())
+    st.timer.set(self, *next);
 }
 
 void subscribe(self_pointer self, const subscribe_events& wish) {
@@ -51,6 +70,10 @@ event_log_actor::behavior_type event_log(self_pointer self) {
                          {"listeners", st.listeners.size()}});
       },
       [self](const record_event& fact) { record(self, fact); },
+      [self](caf::tick_atom, uint64_t number) {
+        if (self->state.timer.rings(number))
+          tell_held_back(self);
+      },
       [self](const subscribe_events& wish) { subscribe(self, wish); },
   };
 }

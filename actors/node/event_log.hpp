@@ -1,6 +1,8 @@
 #pragma once
 
+#include "actors/house/alarm.hpp"
 #include "actors/house/house.hpp"
+#include "actors/node/refusal_gate.hpp"
 #include "messages/messages.hpp"
 
 #include <deque>
@@ -15,6 +17,8 @@ struct event_log_state {
   uint64_t last_sequence = 0;
   std::deque<event> kept;
   std::vector<event_listener_actor> listeners;
+  refusal_gate gate;
+  alarm timer;
 };
 
 /// The EVENT LOG. Messages: messages/introspection.hpp.

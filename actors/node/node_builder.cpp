@@ -3,6 +3,7 @@
 #include "actors/cell/cell_coordinator.hpp"
 #include "actors/edge/host/interfaces.hpp"
 #include "actors/edge/io/socket_address.hpp"
+#include "actors/house/edge_failure.hpp"
 #include "actors/instances/container_supervisor.hpp"
 #include "actors/membership/discovery.hpp"
 #include "actors/membership/membership.hpp"
@@ -30,10 +31,6 @@ namespace roscell {
 namespace {
 
 constexpr uint16_t default_discovery_port = 11811;
-
-caf::error to_caf(const edge_error& why) {
-  return fail(why.code, why.message, "", why.hint);
-}
 
 /// Refuses words that would make every message of this node invalid.
 caf::error check_words(const std::string& option,

@@ -2,6 +2,7 @@
 
 #include "actors/edge/disk/small_file.hpp"
 #include "actors/edge/io/crypto.hpp"
+#include "actors/house/edge_failure.hpp"
 #include "actors/house/limits.hpp"
 #include "messages/failure.hpp"
 #include "schemas/decode.hpp"
@@ -23,10 +24,6 @@ namespace {
 using records = std::vector<sqlite_store::record>;
 
 namespace fs = std::filesystem;
-
-caf::error to_caf(const edge_error& why) {
-  return fail(why.code, why.message, "", why.hint);
-}
 
 /// A random UUID, version 4 of RFC 4122.
 std::string make_uuid() {

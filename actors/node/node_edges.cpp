@@ -2,8 +2,9 @@
 
 #include "actors/edge/dds/announcement.hpp"
 #include "actors/edge/dds/site_survey.hpp"
+#include "actors/edge/http/http_paths.hpp"
+#include "actors/house/edge_failure.hpp"
 #include "actors/house/limits.hpp"
-#include "actors/requests/rest_routes.hpp"
 #include "actors/session/wire_session.hpp"
 #include "messages/failure.hpp"
 
@@ -14,10 +15,6 @@
 namespace roscell {
 
 namespace {
-
-caf::error to_caf(const edge_error& why) {
-  return fail(why.code, why.message, "", why.hint);
-}
 
 std::string socket_path(const node_config& config) {
   return (config.socket.empty() ? config.data_dir / "node.sock" : config.socket)

@@ -1,6 +1,7 @@
 #include "actors/node/node_runtime.hpp"
 
 #include "actors/edge/engine/engine_search.hpp"
+#include "actors/house/edge_failure.hpp"
 #include "actors/instances/engine/engine_runtime.hpp"
 #include "actors/instances/process/process_runtime.hpp"
 #include "messages/failure.hpp"
@@ -84,7 +85,7 @@ caf::expected<chosen_runtime> choose_runtime(const node_config& config) {
   const auto& why = std::get<edge_error>(engine);
   if (name == "auto" && colon == std::string::npos)
     return choose_processes(config, why.message + " (" + why.hint + ")");
-  return fail(why.code, why.message, "", why.hint);
+  return to_caf(why);
 }
 
 std::function<runtime_actor(container_listener_actor)>

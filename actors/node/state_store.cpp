@@ -1,5 +1,6 @@
 #include "actors/node/state_store.hpp"
 
+#include "actors/house/edge_failure.hpp"
 #include "messages/failure.hpp"
 
 #include <caf/result.hpp>
@@ -28,7 +29,7 @@ caf::result<record_stored> store(self_pointer self,
   const auto error = st.database->write(changes);
   (error ? st.refused : st.written) += records.size();
   if (error)
-    return fail(error->code, error->message, {}, error->hint);
+    return to_caf(*error);
   return record_stored{};
 }
 

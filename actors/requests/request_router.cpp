@@ -25,7 +25,8 @@ request_routed refusal(self_pointer self, const failure& why) {
 }
 
 /// Removes a remembered request and gives those who wait for it.
-std::vector<promise_type> forget(self_pointer self, const std::string& id) {
+std::vector<promise_type> forget_answer(self_pointer self,
+                                        const std::string& id) {
   auto& st = self->state;
   auto i = st.remembered.find(id);
   if (i == st.remembered.end())
@@ -49,12 +50,12 @@ void trim(self_pointer self) {
     if (i == st.remembered_order.end())
       return;
     const auto id = *i;
-    forget(self, id);
+    forget_answer(self, id);
   }
 }
 
-void answer(self_pointer self, const std::string& id, promise_type promise,
-            const request_routed& reply) {
+void answer_request(self_pointer self, const std::string& id,
+                    promise_type promise, const request_routed& reply) {
   promise.deliver(reply);
   if (id.empty())
     return;
@@ -68,7 +69,7 @@ void answer(self_pointer self, const std::string& id, promise_type promise,
     trim(self);
   } else {
     // A refused request may be tried again under its id.
-    for (auto& other : forget(self, id))
+    for (auto& other : forget_answer(self, id))
       other.deliver(reply);
   }
 }
@@ -82,7 +83,7 @@ void settle(self_pointer self, const caf::actor_addr& worker,
     return;
   const auto request = std::move(i->second);
   running.erase(i);
-  answer(self, request.id, request.promise, reply());
+  answer_request(self, request.id, request.promise, reply());
 }
 
 /// A pipeline that is killed cannot answer: it is answered for.

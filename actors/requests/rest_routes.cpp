@@ -1,5 +1,7 @@
 #include "actors/requests/rest_routes.hpp"
 
+#include "actors/edge/http/http_paths.hpp"
+
 #include <algorithm>
 #include <charconv>
 #include <optional>

@@ -34,9 +34,6 @@ struct json_request {
 using rest_route = std::variant<json_request, event_stream_request,
                                 log_stream_request, health_check, failure>;
 
-/// Where nodes are told to switch; needs no bearer token.
-inline constexpr const char* registration_path = "/v1/registration";
-
 /// The paths of the REST interface; docs/operations.md lists them.
 rest_route route_of(const http_request& request);
 

@@ -41,7 +41,7 @@ using log_pointer = introspected_actor::stateful_pointer<log_stream_state>;
 
 void ask_for_more(log_pointer self);
 
-void finish(log_pointer self) {
+void finish_log_stream(log_pointer self) {
   if (self->state.stream)
     self->state.stream->close();
   self->quit();
@@ -52,7 +52,7 @@ void on_excerpt(log_pointer self, const log_excerpt& excerpt) {
   const bool more = st.wish.follow && !excerpt.ended;
   if (!st.stream && !more) {
     st.answer->reply(200, text_content, excerpt.text);
-    return finish(self);
+    return finish_log_stream(self);
   }
   if (!st.stream) {
     st.stream = st.answer->stream(text_content);
@@ -61,9 +61,9 @@ void on_excerpt(log_pointer self, const log_excerpt& excerpt) {
     });
   }
   if (!excerpt.text.empty() && !st.stream->write(excerpt.text))
-    return finish(self);
+    return finish_log_stream(self);
   if (!more)
-    return finish(self);
+    return finish_log_stream(self);
   st.wish.query.offset = excerpt.next_offset;
   st.wish.query.wait_ms = limits::log::wait.count();
   ask_for_more(self);
@@ -76,13 +76,13 @@ void on_reply(log_pointer self, const request_routed& reply) {
     if (!st.stream)
       st.answer->reply(http_status(error_code_from(reply.refusal)),
                        json_content, reply.text);
-    return finish(self);
+    return finish_log_stream(self);
   }
   auto excerpt = decode<log_excerpt>(json::parse(reply.text));
   if (auto* x = std::get_if<log_excerpt>(&excerpt))
     on_excerpt(self, *x);
   else
-    finish(self);
+    finish_log_stream(self);
 }
 
 void ask_for_more(log_pointer self) {
@@ -90,7 +90,7 @@ void ask_for_more(log_pointer self) {
   self->request(st.router, limits::log::stream,
                 route_request{message_json(st.wish.query).dump()})
       .then([self](const request_routed& reply) { on_reply(self, reply); },
-            [self](const caf::error&) { finish(self); });
+            [self](const caf::error&) { finish_log_stream(self); });
 }
 
 } // namespace
@@ -115,7 +115,8 @@ introspected_actor::behavior_type log_stream(log_pointer self,
   self->state.wish = wish;
   self->state.answer = answer;
   self->monitor(router);
-  self->set_down_handler([self](const caf::down_msg&) { finish(self); });
+  self->set_down_handler(
+      [self](const caf::down_msg&) { finish_log_stream(self); });
   ask_for_more(self);
   return {
       [self](const state_query&) {

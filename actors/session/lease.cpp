@@ -71,4 +71,11 @@ lease::time_point lease::repeat_at(time_point now) const {
                    : limits::lease::probe_interval);
 }
 
+std::string silence_of_a_lease() {
+  using seconds = std::chrono::seconds;
+  constexpr auto span =
+      std::chrono::duration_cast<seconds>(limits::lease::span);
+  return "silent for " + std::to_string(span.count()) + " s";
+}
+
 } // namespace roscell

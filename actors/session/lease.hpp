@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <optional>
+#include <string>
 
 namespace roscell {
 
@@ -63,5 +64,8 @@ private:
   time_point next_beat_;
   bool unanswered_ = false; ///< A beat was sent and nothing heard since.
 };
+
+/// Why a peer was given up, in words.
+std::string silence_of_a_lease();
 
 } // namespace roscell

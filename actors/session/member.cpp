@@ -1,6 +1,8 @@
 #include "actors/session/member.hpp"
 
 #include "actors/house/limits.hpp"
+#include "actors/house/wall_clock.hpp"
+#include "actors/session/long_starts.hpp"
 
 #include <caf/typed_response_promise.hpp>
 
@@ -30,7 +32,7 @@ void set_timer(self_pointer self) {
 }
 
 /// Closes the session and ends the actor.
-void end(self_pointer self, const std::string& reason) {
+void end_member(self_pointer self, const std::string& reason) {
   auto& st = self->state;
   if (std::exchange(st.ended, true))
     return;
@@ -44,7 +46,7 @@ void end(self_pointer self, const std::string& reason) {
   self->quit();
 }
 
-void refuse(self_pointer self, uint64_t id, const failure& why) {
+void refuse_call(self_pointer self, uint64_t id, const failure& why) {
   self->state.frames.answer(id, error_reply(why));
 }
 
@@ -65,8 +67,43 @@ bool is_proven(const node_identity& claimed, const node_identity& proven) {
 
 void on_row_refused(self_pointer self, uint64_t id, const caf::error& why) {
   const auto reason = to_failure(why);
-  refuse(self, id, reason);
-  end(self, reason.message);
+  refuse_call(self, id, reason);
+  end_member(self, reason.message);
+}
+
+/// The node does not have to hear of an instance twice if the session ends: it
+/// registers anew then.
+void on_late_start_failed(self_pointer self, const instance_spec& spec,
+                          const caf::error& error) {
+  const auto why = to_failure(error);
+  if (why.code == error_code::unreachable)
+    return;
+  instance_changed fact;
+  fact.instance.spec = spec;
+  fact.instance.node = self->state.peer.name;
+  fact.instance.state = instance_state::failed;
+  fact.instance.since_unix_ms = unix_now_ms();
+  fact.instance.reason = why.message;
+  self->send(self->state.coordinator, std::move(fact));
+}
+
+void start_late(self_pointer self, const instance_spec& spec) {
+  self->state.frames.call(message_json(instance_deployment{spec}),
+                          now(self) + limits::task::deployment,
+                          [self, spec](const caf::expected<json>& reply) {
+                            if (!reply)
+                              on_late_start_failed(self, spec, reply.error());
+                          });
+  set_timer(self);
+}
+
+void on_row(self_pointer self, uint64_t id, node_registered reply) {
+  auto& st = self->state;
+  st.phase = phase::active;
+  const auto late = take_long_starts(reply);
+  st.frames.answer(id, message_json(reply));
+  for (const auto& spec : late)
+    start_late(self, spec);
 }
 
 void ask_for_row(self_pointer self, uint64_t id, node_registration wish) {
@@ -78,9 +115,8 @@ void ask_for_row(self_pointer self, uint64_t id, node_registration wish) {
           st.coordinator, limits::membership::row,
           register_node{std::move(wish), caf::actor_cast<member_actor>(self)})
       .then(
-          [self, id](const node_registered& reply) {
-            self->state.phase = phase::active;
-            self->state.frames.answer(id, message_json(reply));
+          [self, id](node_registered& reply) {
+            on_row(self, id, std::move(reply));
           },
           [self, id](const caf::error& why) { on_row_refused(self, id, why); });
 }
@@ -89,18 +125,18 @@ void on_registration(self_pointer self, uint64_t id, const json& body) {
   auto& st = self->state;
   auto wish = decode<node_registration>(body);
   if (auto* why = std::get_if<failure>(&wish))
-    return refuse(self, id, *why);
+    return refuse_call(self, id, *why);
   if (st.phase != phase::awaiting)
-    return refuse(self, id,
-                  {error_code::conflict, "this session is registered already"});
+    return refuse_call(
+        self, id, {error_code::conflict, "this session is registered already"});
   auto& registration = std::get<node_registration>(wish);
   if (is_proven(registration.identity, st.peer))
     return ask_for_row(self, id, std::move(registration));
-  refuse(self, id,
-         {error_code::unauthorized,
-          "the registration is not of the node that opened the session",
-          "/identity"});
-  end(self, "it registered with another identity than it proved");
+  refuse_call(self, id,
+              {error_code::unauthorized,
+               "the registration is not of the node that opened the session",
+               "/identity"});
+  end_member(self, "it registered with another identity than it proved");
 }
 
 void on_departure(self_pointer self, uint64_t id, const json& body) {
@@ -124,7 +160,7 @@ void on_place_request(self_pointer self, uint64_t id, const json& body) {
   auto& st = self->state;
   auto wish = decode<place_request>(body);
   if (auto* why = std::get_if<failure>(&wish))
-    return refuse(self, id, *why);
+    return refuse_call(self, id, *why);
   auto& x = std::get<place_request>(wish);
   x.name = st.peer.name;
   x.uuid = st.peer.uuid;
@@ -134,7 +170,7 @@ void on_place_request(self_pointer self, uint64_t id, const json& body) {
             self->state.frames.answer(id, message_json(reply));
           },
           [self, id](const caf::error& why) {
-            refuse(self, id, to_failure(why));
+            refuse_call(self, id, to_failure(why));
           });
 }
 
@@ -145,16 +181,17 @@ void on_request(self_pointer self, uint64_t id, const session_inquiry& x) {
   if (type == node_registration::type)
     return on_registration(self, id, x.body);
   if (self->state.phase != phase::active) {
-    refuse(self, id,
-           {error_code::conflict, "this session has no registered node"});
+    refuse_call(self, id,
+                {error_code::conflict, "this session has no registered node"});
     if (self->state.phase == phase::awaiting)
-      end(self, "its first request was no registration");
+      end_member(self, "its first request was no registration");
     return;
   }
   if (type == node_departure::type)
     return on_departure(self, id, x.body);
-  refuse(self, id,
-         {error_code::unknown_type, "a member may not ask for this", "/type"});
+  refuse_call(
+      self, id,
+      {error_code::unknown_type, "a member may not ask for this", "/type"});
 }
 
 void on_notice(self_pointer self, const json& body) {
@@ -188,7 +225,7 @@ void on_frame(self_pointer self, const frame_received& frame) {
       on_notice(self, x->body);
   }
   if (st.frames.hopeless())
-    end(self, "it sent frames that make no sense");
+    end_member(self, "it sent frames that make no sense");
   set_timer(self);
 }
 
@@ -206,12 +243,12 @@ void on_tick(self_pointer self, uint64_t number) {
     return;
   const auto time = now(self);
   if (st.phase == phase::awaiting && time >= st.registration_deadline)
-    return end(self, "it did not register in time");
+    return end_member(self, "it did not register in time");
   st.frames.calls().expire(time);
   if (time >= st.life.next()) {
     const auto next = st.life.due(time);
     if (next.over)
-      return end(self, "silent for 8 s");
+      return end_member(self, silence_of_a_lease());
     if (next.send)
       self->send(st.session, send_beat{*next.send});
   }
@@ -276,9 +313,9 @@ void take_over(self_pointer self, session_admitted accepted,
   self->monitor(st.session);
   self->monitor(st.coordinator);
   self->set_down_handler([self](const caf::down_msg& down) {
-    end(self, down.source == self->state.session
-                  ? "its session has failed"
-                  : "the coordinator has stopped");
+    end_member(self, down.source == self->state.session
+                         ? "its session has failed"
+                         : "the coordinator has stopped");
   });
   self->send(st.session,
              own_session{caf::actor_cast<session_owner_actor>(self)});
@@ -327,9 +364,9 @@ member_actor::behavior_type member(self_pointer self, session_admitted accepted,
       [self](const beat_received& beat) { on_beat(self, beat); },
       [self](const session_closed& fact) {
         if (is_from_session(self))
-          end(self, fact.reason);
+          end_member(self, fact.reason);
       },
-      [self](const close_session& wish) { end(self, wish.reason); },
+      [self](const close_session& wish) { end_member(self, wish.reason); },
       [self](caf::tick_atom, uint64_t number) { on_tick(self, number); },
   };
 }

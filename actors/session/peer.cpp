@@ -26,7 +26,7 @@ void set_timer(self_pointer self) {
 }
 
 /// Closes the session and ends the actor.
-void end(self_pointer self, const std::string& reason) {
+void end_peer(self_pointer self, const std::string& reason) {
   auto& st = self->state;
   if (std::exchange(st.ended, true))
     return;
@@ -86,7 +86,7 @@ void on_notice(self_pointer self, const json& body) {
     auto told = decode<cell_standing>(body);
     auto* standing = std::get_if<cell_standing>(&told);
     if (!standing || standing->uuid != st.setup.uuid)
-      return end(self, "it says that it is another one than it proved");
+      return end_peer(self, "it says that it is another one than it proved");
     st.cell = standing->place.cell;
     self->send(st.setup.coordinator,
                peer_told{peer_actor{self}, std::move(*standing)});
@@ -118,7 +118,7 @@ void on_frame(self_pointer self, const frame_received& frame) {
       on_notice(self, x->body);
   }
   if (st.frames.hopeless())
-    end(self, "it sent frames that make no sense");
+    end_peer(self, "it sent frames that make no sense");
   set_timer(self);
 }
 
@@ -139,7 +139,7 @@ void on_tick(self_pointer self, uint64_t number) {
   if (time >= st.life.next()) {
     const auto next = st.life.due(time);
     if (next.over)
-      return end(self, "silent for 8 s");
+      return end_peer(self, silence_of_a_lease());
     if (next.send)
       self->send(st.setup.session, send_beat{*next.send});
   }
@@ -192,9 +192,9 @@ void take_over(self_pointer self, const peer_setup& setup) {
   self->monitor(setup.session);
   self->monitor(setup.coordinator);
   self->set_down_handler([self](const caf::down_msg& down) {
-    end(self, down.source == self->state.setup.session
-                  ? "its session has failed"
-                  : "the coordinator has stopped");
+    end_peer(self, down.source == self->state.setup.session
+                       ? "its session has failed"
+                       : "the coordinator has stopped");
   });
   self->send(setup.session,
              own_session{caf::actor_cast<session_owner_actor>(self)});
@@ -231,9 +231,9 @@ peer_actor::behavior_type peer(self_pointer self, const peer_setup& setup) {
       [self](const beat_received& beat) { on_beat(self, beat); },
       [self](const session_closed& fact) {
         if (is_from_session(self))
-          end(self, fact.reason);
+          end_peer(self, fact.reason);
       },
-      [self](const close_session& wish) { end(self, wish.reason); },
+      [self](const close_session& wish) { end_peer(self, wish.reason); },
       [self](caf::tick_atom, uint64_t number) { on_tick(self, number); },
   };
 }

@@ -1,11 +1,12 @@
 #include "actors/session/registration_client.hpp"
 
-#include "actors/edge/http/http_exchange.hpp"
+#include "actors/edge/http/client/http_call.hpp"
+#include "actors/edge/http/http_paths.hpp"
 #include "actors/edge/io/socket_address.hpp"
 #include "actors/edge/session/registration_proof.hpp"
 #include "actors/edge/session/session_handshake.hpp"
+#include "actors/house/edge_failure.hpp"
 #include "actors/house/limits.hpp"
-#include "actors/requests/rest_routes.hpp"
 #include "actors/session/registration_order.hpp"
 #include "messages/failure.hpp"
 #include "schemas/decode.hpp"
@@ -25,7 +26,9 @@ using self_pointer =
     registration_client_actor::stateful_pointer<registration_client_state>;
 
 /// On the io thread: turns an outcome into a message.
-node_answered to_message(uint64_t call, edge_result<http_reply> result) {
+node_answered to_message(uint64_t call, const http_call& what,
+                         http_outcome outcome) {
+  auto result = to_edge_result(std::move(outcome), what);
   node_answered answer;
   answer.call = call;
   if (auto* why = std::get_if<edge_error>(&result))
@@ -35,17 +38,21 @@ node_answered to_message(uint64_t call, edge_result<http_reply> result) {
   return answer;
 }
 
-void send(self_pointer self, uint64_t call, const std::string& method,
-          const std::string& body) {
+void send_to_node(self_pointer self, uint64_t call, const std::string& method,
+                  const std::string& body) {
   auto& st = self->state;
   const auto to = *parse_socket_address(st.calls.at(call).wish.address);
-  exchange_http(*st.config.io,
-                {to.address, to.port, method, registration_path, body,
-                 limits::cell::registration_call},
-                [me = registration_client_actor{self},
-                 call](edge_result<http_reply> result) {
-                  caf::anon_send(me, to_message(call, std::move(result)));
-                });
+  http_call what;
+  what.to.address = to.address;
+  what.to.port = to.port;
+  what.method = method;
+  what.target = registration_path;
+  what.body = body;
+  call_http(
+      st.config.io->core(), what,
+      [me = registration_client_actor{self}, call, what](http_outcome outcome) {
+        caf::anon_send(me, to_message(call, what, std::move(outcome)));
+      });
 }
 
 /// The answer as `Reply`, or why it is none.
@@ -63,8 +70,8 @@ std::variant<Reply, failure> read(const node_answered& answer) {
   return decode<Reply>(document);
 }
 
-void end(self_pointer self, uint64_t call,
-         std::variant<switch_accepted, failure> outcome) {
+void end_registration_call(self_pointer self, uint64_t call,
+                           std::variant<switch_accepted, failure> outcome) {
   auto node = self->state.calls.extract(call);
   auto& promise = node.mapped().promise;
   if (auto* why = std::get_if<failure>(&outcome))
@@ -79,17 +86,18 @@ void on_challenge(self_pointer self, uint64_t call,
   auto& x = st.calls.at(call);
   auto& order = x.wish.order;
   if (challenge.uuid != order.uuid || challenge.node != order.node)
-    return end(self, call,
-               failure{error_code::unknown_node,
-                       "at " + x.wish.address + " there is node '"
-                           + challenge.node + "' with UUID " + challenge.uuid
-                           + ", not '" + order.node + "'"});
+    return end_registration_call(
+        self, call,
+        failure{error_code::unknown_node,
+                "at " + x.wish.address + " there is node '" + challenge.node
+                    + "' with UUID " + challenge.uuid + ", not '" + order.node
+                    + "'"});
   // What the node announces may be a little older than what it says now.
   order.epoch = challenge.epoch;
   order.nonce = challenge.nonce;
   order.proof = prove(order_of(order), st.config.site_token);
   x.proven = true;
-  send(self, call, "POST", message_json(order).dump());
+  send_to_node(self, call, "POST", message_json(order).dump());
 }
 
 void on_answer(self_pointer self, const node_answered& answer) {
@@ -97,10 +105,11 @@ void on_answer(self_pointer self, const node_answered& answer) {
   if (i == self->state.calls.end())
     return;
   if (i->second.proven)
-    return end(self, answer.call, read<switch_accepted>(answer));
+    return end_registration_call(self, answer.call,
+                                 read<switch_accepted>(answer));
   auto challenge = read<registration_challenge>(answer);
   if (auto* why = std::get_if<failure>(&challenge))
-    end(self, answer.call, *why);
+    end_registration_call(self, answer.call, *why);
   else
     on_challenge(self, answer.call,
                  std::get<registration_challenge>(challenge));
@@ -114,11 +123,11 @@ caf::result<switch_accepted> call_node(self_pointer self,
     return fail(error_code::unreachable,
                 "'" + wish.address + "' is not an address like 10.0.0.1:8420");
   if (auto why = check_token_for(st.config.site_token, to->address))
-    return fail(why->code, why->message, "", why->hint);
+    return to_caf(*why);
   auto promise = self->make_response_promise<switch_accepted>();
   const auto call = ++st.last_call;
   st.calls.emplace(call, registration_call{wish, false, promise});
-  send(self, call, "GET", "");
+  send_to_node(self, call, "GET", "");
   return promise;
 }
 

@@ -25,7 +25,7 @@ namespace {
 
 using self_pointer = session_actor::stateful_pointer<wire_session_state>;
 
-void end(self_pointer self, const std::string& reason) {
+void end_wire_session(self_pointer self, const std::string& reason) {
   auto& st = self->state;
   if (st.owner)
     self->send(st.owner, session_closed{reason});
@@ -43,7 +43,7 @@ void hand_over(self_pointer self, const frame_received& frame) {
   self->request(self->state.owner, limits::session::owner, frame)
       .then([self] { let_read_on(self); },
             [self](const caf::error&) {
-              end(self, "the receiving side is overloaded");
+              end_wire_session(self, "the receiving side is overloaded");
             });
 }
 
@@ -75,8 +75,9 @@ wire_session(self_pointer self, const std::shared_ptr<session_wire>& wire,
              const std::string& peer) {
   self->state.wire = wire;
   self->state.peer = peer;
-  self->set_down_handler(
-      [self](const caf::down_msg&) { end(self, "the owner has ended"); });
+  self->set_down_handler([self](const caf::down_msg&) {
+    end_wire_session(self, "the owner has ended");
+  });
   return {
       [self](const state_query&) {
         const auto& st = self->state;
@@ -90,13 +91,17 @@ wire_session(self_pointer self, const std::shared_ptr<session_wire>& wire,
       [self](const send_beat& beat) {
         self->state.wire->beats->send(beat.kind, ++self->state.beat_sequence);
       },
-      [self](const close_session& wish) { end(self, wish.reason); },
+      [self](const close_session& wish) {
+        end_wire_session(self, wish.reason);
+      },
       [self](const frame_received& frame) { on_frame(self, frame); },
       [self](const beat_received& beat) {
         if (self->state.owner)
           self->send(self->state.owner, beat);
       },
-      [self](const session_closed& fact) { end(self, fact.reason); },
+      [self](const session_closed& fact) {
+        end_wire_session(self, fact.reason);
+      },
   };
 }
 

@@ -1,17 +1,16 @@
 #include "tools/roscell/client/node_client.hpp"
 
+#include "test/fake_engine.hpp"
 #include "tools/roscell/exit_code.hpp"
 
 #include <catch2/catch.hpp>
 
+#include <string>
+
+#include <unistd.h>
+
 using namespace roscell;
 using namespace roscell::cli;
-
-TEST_CASE("an id becomes one segment of a path", "[tools]") {
-  CHECK(url_encoded("t-poses-1a2b3c4d") == "t-poses-1a2b3c4d");
-  CHECK(url_encoded("a/b?c=d&e f") == "a%2Fb%3Fc%3Dd%26e%20f");
-  CHECK(url_encoded("ö\r\n") == "%C3%B6%0D%0A");
-}
 
 TEST_CASE("a node that is not there is unreachable", "[tools]") {
   const node_client nobody{{"/nowhere/node.sock", {}}};
@@ -31,6 +30,30 @@ TEST_CASE("a node that is not there is unreachable", "[tools]") {
           nobody.follow("/v1/events", [](std::string_view) { return true; });
         })
         == exit_unreachable);
+}
+
+TEST_CASE("a node that ends while it deploys is told of, and the remedy",
+          "[tools]") {
+  const auto path = "/tmp/roscell-node-client-" + std::to_string(::getpid());
+  const test::fake_engine node{
+      path, [](test::engine_caller& who, const test::engine_call_seen&) {
+        who.hang_up();
+      }};
+  const node_client client{{path, {}}};
+  const auto told = [&](const std::string& body) {
+    try {
+      client.post("/v1/requests", body, std::chrono::seconds{10});
+      return std::string{};
+    } catch (const command_error& e) {
+      return std::string{e.what()} + "; " + e.hint;
+    }
+  };
+  CHECK(told(R"({"type":"task_request","task":"t"})")
+        == "the node ended while it deployed; ask again with the same file "
+           "once it is back");
+  CHECK(told(R"({"type":"cell_query"})")
+        == "the node ended while it worked on the request; ask again once it "
+           "is back");
 }
 
 TEST_CASE("an error reply keeps its form", "[tools]") {

@@ -1,6 +1,5 @@
 #include "actors/edge/engine/engine_client.hpp"
 
-#include "actors/edge/engine/engine_exchange.hpp"
 #include "actors/edge/io/utf8.hpp"
 #include "actors/house/limits.hpp"
 
@@ -33,32 +32,72 @@ std::string words_of(const std::string& body) {
   return result;
 }
 
-} // namespace
-
-engine_stream::engine_stream(std::shared_ptr<io_core> core,
-                             std::shared_ptr<engine_exchange> exchange)
-    : core_(std::move(core)), exchange_(std::move(exchange)) {
-  // nop
+http_call to_call(const std::string& socket, engine_request what) {
+  http_call result;
+  result.to.socket_path = socket;
+  result.method = std::move(what.method);
+  result.target = std::move(what.target);
+  result.body = std::move(what.body);
+  result.file = std::move(what.file);
+  result.timeout = what.limit;
+  result.endless = what.endless;
+  result.max_header_bytes = limits::engine::header_bytes;
+  result.max_reply_bytes = limits::engine::reply_bytes;
+  return result;
 }
 
-engine_stream& engine_stream::operator=(engine_stream&& other) noexcept {
-  if (this != &other) {
-    cancel();
-    core_ = std::move(other.core_);
-    exchange_ = std::move(other.exchange_);
+/// Why an engine gave no reply, with the remedy.
+edge_error engine_trouble(const std::string& socket, const http_failure& why,
+                          std::chrono::milliseconds limit,
+                          const std::string& file) {
+  const auto engine = "the container engine on '" + socket + "'";
+  switch (why.what) {
+  case http_failure::kind::no_connection:
+    return no_engine(socket, why.system_error);
+  case http_failure::kind::no_file:
+    return {error_code::engine_failed,
+            "cannot read '" + file
+                + "': " + std::generic_category().message(why.system_error),
+            ""};
+  case http_failure::kind::timeout:
+    return {error_code::timeout,
+            engine + " did not answer within "
+                + std::to_string(limit.count() / 1000) + " s",
+            "look into the engine's own log: journalctl -u docker"};
+  case http_failure::kind::cut_off:
+    return {error_code::unreachable,
+            engine + " went away: it broke the connection",
+            "is it being restarted? journalctl -u docker tells"};
+  case http_failure::kind::too_long:
+    return {error_code::unreachable, engine + " gave an answer without an end",
+            "look into the engine's own log: journalctl -u docker"};
+  default:
+    return {error_code::unreachable,
+            engine + " gave no answer that can be read: " + why.reason,
+            "is it a container engine? journalctl -u docker tells"};
   }
-  return *this;
 }
 
-engine_stream::~engine_stream() {
-  cancel();
+/// What is told at the end of a call. Nothing is when the node stops: whoever
+/// waits is about to end too.
+std::function<void(http_outcome)>
+end_of_call(const std::string& socket, const engine_request& what,
+            std::function<void(engine_answer)> on_end) {
+  if (!on_end)
+    return {};
+  return [socket, limit = what.limit, file = what.file.string(),
+          on_end = std::move(on_end)](http_outcome outcome) {
+    const auto* why = std::get_if<http_failure>(&outcome);
+    if (why == nullptr) {
+      auto& reply = std::get<http_reply>(outcome);
+      on_end(engine_reply{reply.status, std::move(reply.body)});
+    } else if (why->what != http_failure::kind::stopped) {
+      on_end(engine_trouble(socket, *why, limit, file));
+    }
+  };
 }
 
-void engine_stream::cancel() noexcept {
-  if (exchange_)
-    core_->post([exchange = std::move(exchange_)] { exchange->cancel(); });
-  exchange_ = nullptr;
-}
+} // namespace
 
 engine_client::engine_client(std::shared_ptr<io_core> core, std::string socket)
     : core_(std::move(core)), socket_(std::move(socket)) {
@@ -67,18 +106,16 @@ engine_client::engine_client(std::shared_ptr<io_core> core, std::string socket)
 
 void engine_client::request(
     engine_request what, std::function<void(engine_answer)> on_answer) const {
-  auto exchange = std::make_shared<engine_exchange>(
-      core_, socket_, std::move(what),
-      engine_stream_callbacks{{}, {}, std::move(on_answer)});
-  core_->post([exchange] { exchange->start(); });
+  auto on_end = end_of_call(socket_, what, std::move(on_answer));
+  call_http(core_, to_call(socket_, std::move(what)), std::move(on_end));
 }
 
 engine_stream engine_client::stream(engine_request what,
                                     engine_stream_callbacks calls) const {
-  auto exchange = std::make_shared<engine_exchange>(
-      core_, socket_, std::move(what), std::move(calls));
-  core_->post([exchange] { exchange->start(); });
-  return {core_, exchange};
+  auto on_end = end_of_call(socket_, what, std::move(calls.on_end));
+  return subscribe_http(
+      core_, to_call(socket_, std::move(what)),
+      {std::move(calls.on_open), std::move(calls.on_bytes), std::move(on_end)});
 }
 
 edge_error engine_refusal(const std::string& what, const engine_reply& reply) {
@@ -116,22 +153,6 @@ edge_error no_engine(const std::string& socket, int error_number) {
                 + std::generic_category().message(error_number),
             "is the engine running? systemctl status docker"};
   }
-}
-
-std::string percent_encoded(std::string_view text) {
-  constexpr std::string_view digits = "0123456789ABCDEF";
-  std::string result;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z')
-                       || (c >= '0' && c <= '9') || c == '-' || c == '_'
-                       || c == '.' || c == '~';
-    if (plain)
-      result += c;
-    else
-      (((result += '%') += digits[byte >> 4]) += digits[byte & 15]);
-  }
-  return result;
 }
 
 } // namespace roscell

@@ -1,11 +1,8 @@
 #pragma once
 
-#include "actors/edge/io/edge_error.hpp"
-#include "actors/edge/io/io_thread.hpp"
-#include "actors/house/limits.hpp"
+#include "actors/edge/http/client/http_call.hpp"
 
 #include <chrono>
-#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -50,27 +47,8 @@ struct engine_stream_callbacks {
   std::function<void(engine_answer)> on_end;
 };
 
-class engine_exchange;
-
-/// A streamed answer, which is cancelled when this is let go. A callback that
-/// runs at that moment is not waited for.
-class engine_stream {
-public:
-  /// No stream.
-  engine_stream() = default;
-
-  engine_stream(std::shared_ptr<io_core> core,
-                std::shared_ptr<engine_exchange> exchange);
-  engine_stream(engine_stream&&) noexcept = default;
-  engine_stream& operator=(engine_stream&& other) noexcept;
-  ~engine_stream();
-
-private:
-  void cancel() noexcept;
-
-  std::shared_ptr<io_core> core_;
-  std::shared_ptr<engine_exchange> exchange_;
-};
+/// A streamed answer, which is cancelled when this is let go.
+using engine_stream = http_subscription;
 
 /// Speaks HTTP with a container engine (Docker, Podman) on its Unix socket,
 /// without waiting. Each request has a connection of its own. May be called
@@ -101,8 +79,5 @@ edge_error engine_refusal(const std::string& what, const engine_reply& reply);
 
 /// Why a socket cannot be connected to, with the remedy.
 edge_error no_engine(const std::string& socket, int error_number);
-
-/// Text as it must stand in a path or a query.
-std::string percent_encoded(std::string_view text);
 
 } // namespace roscell

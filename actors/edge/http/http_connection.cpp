@@ -1,10 +1,10 @@
 #include "actors/edge/http/http_connection.hpp"
 
 #include "actors/edge/http/error_body.hpp"
+#include "actors/edge/http/http_paths.hpp"
 #include "actors/edge/http/http_sink.hpp"
 #include "actors/edge/http/http_target.hpp"
 #include "actors/edge/io/crypto.hpp"
-#include "actors/edge/session/session_paths.hpp"
 #include "actors/house/limits.hpp"
 
 #include <boost/asio/buffer.hpp>
@@ -39,9 +39,16 @@ http_connection::http_connection(std::shared_ptr<http_shared> shared,
 }
 
 void http_connection::run() {
+  // One that waited too long for its turn is being told so.
+  if (phase_ != phase::queued)
+    return;
   next_request();
   limit(shared_->limits.first_byte);
   read();
+}
+
+void http_connection::wait_for_turn() {
+  limit(shared_->limits.turn);
 }
 
 void http_connection::next_request() {
@@ -66,9 +73,12 @@ void http_connection::on_time_limit() {
   // A timer that was cancelled may still have had its handler queued.
   if (phase_ == phase::answering || phase_ == phase::handed_over)
     return;
+  if (phase_ == phase::queued)
+    return refuse_crowd();
   if (phase_ != phase::reading)
     return abort();
-  refuse(408, error_code::timeout, "the request took too long to arrive");
+  refuse_request(408, error_code::timeout,
+                 "the request took too long to arrive");
 }
 
 void http_connection::read() {
@@ -126,16 +136,17 @@ bool http_connection::parse_some() {
 
 void http_connection::on_bad_request(error ec) {
   if (ec == http::error::header_limit)
-    refuse(431, error_code::schema_violation,
-           "the header of the request is larger than "
-               + std::to_string(shared_->limits.header_bytes) + " bytes");
+    refuse_request(431, error_code::schema_violation,
+                   "the header of the request is larger than "
+                       + std::to_string(shared_->limits.header_bytes)
+                       + " bytes");
   else if (ec == http::error::body_limit)
-    refuse(413, error_code::malformed_json,
-           "the body of the request is larger than "
-               + std::to_string(shared_->limits.body_bytes) + " bytes");
+    refuse_request(413, error_code::malformed_json,
+                   "the body of the request is larger than "
+                       + std::to_string(body_limit_) + " bytes");
   else
-    refuse(400, error_code::schema_violation,
-           "this is no HTTP request: " + ec.message());
+    refuse_request(400, error_code::schema_violation,
+                   "this is no HTTP request: " + ec.message());
 }
 
 /// Checks what can be known before the body. False if that was the end, or
@@ -144,12 +155,14 @@ bool http_connection::on_header() {
   const auto& request = parser_->get();
   const auto target = parse_target(to_view(request.target()));
   if (!target) {
-    refuse(400, error_code::schema_violation, "the target is malformed");
+    refuse_request(400, error_code::schema_violation,
+                   "the target is malformed");
     return false;
   }
   if (request.method() != http::verb::get
       && request.method() != http::verb::post) {
-    refuse(405, error_code::unknown_type, "the method is neither GET nor POST");
+    refuse_request(405, error_code::unknown_type,
+                   "the method is neither GET nor POST");
     return false;
   }
   if (target->path == session_path && !local_) {
@@ -158,17 +171,26 @@ bool http_connection::on_header() {
   }
   const bool trusted = local_ || has_token();
   if (!trusted && !is_public(target->path)) {
-    refuse(401, error_code::unauthorized,
-           "the bearer token is missing or wrong",
-           "the node wrote it to its data directory; on the node's own host "
-           "the Unix socket needs none");
+    refuse_request(
+        401, error_code::unauthorized, "the bearer token is missing or wrong",
+        "the node wrote it to its data directory; on the node's own host "
+        "the Unix socket needs none");
     return false;
   }
   if (trusted && !local_ && !shared_->table.trust(this)) {
-    refuse(503, error_code::conflict, "too many clients are connected");
+    refuse_crowd();
     return false;
   }
-  return check_body();
+  return check_body(trusted ? shared_->limits.body_bytes
+                            : shared_->limits.public_body_bytes);
+}
+
+/// The reply has the form of one to a request, but none need have been read.
+void http_connection::refuse_crowd() {
+  if (!parser_)
+    parser_.emplace();
+  const auto words = crowd_words();
+  refuse_request(503, words.code, words.message, words.hint);
 }
 
 bool http_connection::has_token() const {
@@ -183,14 +205,15 @@ bool http_connection::is_public(const std::string& path) const {
   return std::find(open.begin(), open.end(), path) != open.end();
 }
 
-bool http_connection::check_body() {
+bool http_connection::check_body(size_t most_bytes) {
+  body_limit_ = most_bytes;
   const auto announced = parser_->content_length();
-  if (announced && *announced > shared_->limits.body_bytes) {
+  if (announced && *announced > most_bytes) {
     on_bad_request(http::error::body_limit);
     return false;
   }
   // For a body in chunks, whose length nobody knows.
-  parser_->body_limit(shared_->limits.body_bytes);
+  parser_->body_limit(most_bytes);
   parser_->eager(true);
   const auto expect = parser_->get()[http::field::expect];
   if (parser_->is_done() || !boost::beast::iequals(expect, "100-continue"))
@@ -228,19 +251,23 @@ void http_connection::begin_session() {
   const auto& acceptor = shared_->sessions;
   const auto& request = parser_->get();
   if (!acceptor)
-    return refuse(404, error_code::conflict,
-                  "this node takes no sessions, it coordinates no cell");
+    return refuse_request(
+        404, error_code::conflict,
+        "this node takes no sessions, it coordinates no cell");
   if (!boost::beast::websocket::is_upgrade(request) || !parser_->is_done()
       || incoming_.size() > 0)
-    return refuse(400, error_code::schema_violation,
-                  "a session begins with a request for a WebSocket");
+    return refuse_request(400, error_code::schema_violation,
+                          "a session begins with a request for a WebSocket");
   // Only browsers send this field. A page that someone looks at on this host
   // must not become a member of the cell.
   if (request.count(http::field::origin) != 0)
-    return refuse(403, error_code::unauthorized,
-                  "a session cannot be opened by a web page");
+    return refuse_request(403, error_code::unauthorized,
+                          "a session cannot be opened by a web page");
   if (shared_->open_sessions >= shared_->limits.sessions)
-    return refuse(503, error_code::conflict, "too many sessions are open");
+    return refuse_request(
+        503, error_code::conflict, "too many sessions are open",
+        "one node coordinates " + std::to_string(shared_->limits.sessions)
+            + " sessions; use another coordinator");
   start_session(acceptor);
 }
 
@@ -273,8 +300,9 @@ void http_connection::hand_over(
     stream->finish();
 }
 
-void http_connection::refuse(int status, error_code code,
-                             std::string_view message, std::string_view hint) {
+void http_connection::refuse_request(int status, error_code code,
+                                     std::string_view message,
+                                     std::string_view hint) {
   phase_ = phase::answering;
   last_reply_ = true;
   reply({status, json_content, error_body(code, message, hint)});
@@ -323,7 +351,7 @@ void http_connection::linger() {
 }
 
 void http_connection::drain() {
-  if (phase_ == phase::waiting)
+  if (phase_ == phase::waiting || phase_ == phase::queued)
     abort();
   else if (stream_)
     stream_->finish();

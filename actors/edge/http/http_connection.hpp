@@ -29,6 +29,9 @@ public:
 
   void run();
 
+  /// Is served later, by `run`.
+  void wait_for_turn();
+
   /// Closes at once.
   void abort();
 
@@ -49,6 +52,7 @@ private:
       boost::beast::http::request_parser<boost::beast::http::string_body>;
 
   enum class phase {
+    queued,      ///< For its turn; nothing is read.
     waiting,     ///< For the first byte of a request.
     reading,     ///< A request.
     answering,   ///< Somebody else works on the answer.
@@ -69,15 +73,16 @@ private:
   void on_bad_request(error ec);
   bool has_token() const;
   bool is_public(const std::string& path) const;
-  bool check_body();
+  bool check_body(size_t most_bytes);
   void dispatch();
   void begin_session();
   void start_session(const std::shared_ptr<const session_acceptor>& acceptor);
   void write(std::string text);
   void on_written(error ec);
   void linger();
-  void refuse(int status, error_code code, std::string_view message,
-              std::string_view hint = {});
+  void refuse_crowd();
+  void refuse_request(int status, error_code code, std::string_view message,
+                      std::string_view hint = {});
 
   std::shared_ptr<http_shared> shared_;
   stream_socket socket_;
@@ -89,10 +94,11 @@ private:
   std::shared_ptr<stream_connection> stream_;
   std::weak_ptr<session_accept> session_;
   clock::time_point last_heard_ = clock::now();
-  phase phase_ = phase::waiting;
+  phase phase_ = phase::queued;
   bool header_done_ = false;
   bool last_reply_ = false;
   size_t lingered_bytes_ = 0;
+  size_t body_limit_ = 0; ///< Of the request that is being read.
 };
 
 } // namespace roscell

@@ -21,8 +21,8 @@ constexpr int burst = 16;
 
 /// Tells a client that there is no room, as far as that works at once.
 void turn_away(int fd) {
-  const auto body =
-      error_body(error_code::conflict, "too many clients are connected");
+  const auto why = crowd_words();
+  const auto body = error_body(why.code, why.message, why.hint);
   const auto text = "HTTP/1.1 503 Service Unavailable\r\nContent-Type: "
                     "application/json\r\nConnection: close\r\nContent-Length: "
                     + std::to_string(body.size()) + "\r\n\r\n" + body;
@@ -118,7 +118,6 @@ void http_listener::admit(int fd) {
   auto connection =
       std::make_shared<http_connection>(shared_, std::move(socket), local_);
   shared_->table.add(connection, group);
-  connection->run();
 }
 
 } // namespace roscell

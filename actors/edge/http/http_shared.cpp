@@ -2,12 +2,20 @@
 
 #include "actors/edge/http/http_connection.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace roscell {
 
+edge_error crowd_words() {
+  return {error_code::conflict, "too many clients are connected",
+          "ask again in a moment; clients that follow events or logs keep "
+          "their places until they end"};
+}
+
 connection_table::connection_table(const http_limits& limits)
-    : limits_{limits.strangers, limits.trusted, limits.local} {
+    : limits_{limits.strangers, limits.trusted, limits.local},
+      waiting_limit_(limits.waiting) {
   // nop
 }
 
@@ -18,14 +26,32 @@ bool connection_table::full(http_group group) {
 bool connection_table::make_room(http_group group) {
   if (group == http_group::strangers && full(group))
     evict_stranger();
-  return !full(group);
+  return !full(group)
+         || (group == http_group::local && queue_.size() < waiting_limit_);
 }
 
-void connection_table::add(std::shared_ptr<http_connection> connection,
+void connection_table::add(const std::shared_ptr<http_connection>& connection,
                            http_group group) {
-  const auto* key = connection.get();
-  entries_.emplace(key, entry{std::move(connection), group});
+  const bool queued = full(group);
+  entries_.emplace(connection.get(), entry{connection, group, queued});
+  if (queued) {
+    queue_.push_back(connection.get());
+    return connection->wait_for_turn();
+  }
   ++count(group);
+  connection->run();
+}
+
+void connection_table::serve_next() {
+  while (!queue_.empty() && !full(http_group::local)) {
+    auto& next = entries_.at(queue_.front());
+    queue_.pop_front();
+    next.queued = false;
+    ++count(http_group::local);
+    // A copy, since its end would drop the entry.
+    const auto connection = next.connection;
+    connection->run();
+  }
 }
 
 bool connection_table::trust(const http_connection* connection) {
@@ -47,8 +73,14 @@ void connection_table::remove(const http_connection* connection) {
   const auto i = entries_.find(connection);
   if (i == entries_.end())
     return;
-  --count(i->second.group);
+  const auto gone = i->second;
   entries_.erase(i);
+  if (gone.queued) {
+    queue_.erase(std::find(queue_.begin(), queue_.end(), connection));
+    return;
+  }
+  --count(gone.group);
+  serve_next();
 }
 
 void connection_table::evict_stranger() {

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstddef>
+#include <deque>
 #include <memory>
 #include <string>
 #include <unordered_map>
@@ -14,6 +15,9 @@
 namespace roscell {
 
 class http_connection;
+
+/// What a client is told for whom there is no room.
+edge_error crowd_words();
 
 /// Whom a connection comes from; each group has its own allowance.
 enum class http_group {
@@ -30,7 +34,9 @@ public:
   /// Whether one more can be added. Makes room among strangers by closing one.
   bool make_room(http_group group);
 
-  void add(std::shared_ptr<http_connection> connection, http_group group);
+  /// Serves the connection, or a local one when it is its turn.
+  void add(const std::shared_ptr<http_connection>& connection,
+           http_group group);
 
   /// Moves a stranger to the trusted; false if there is no room.
   bool trust(const http_connection* connection);
@@ -50,6 +56,7 @@ private:
   struct entry {
     std::shared_ptr<http_connection> connection;
     http_group group;
+    bool queued;
   };
 
   size_t& count(http_group group) {
@@ -57,9 +64,13 @@ private:
   }
 
   bool full(http_group group);
+  void serve_next();
 
   std::array<size_t, 3> limits_;
+  size_t waiting_limit_;
   std::array<size_t, 3> counts_{};
+  /// Local clients that wait for their turn.
+  std::deque<const http_connection*> queue_;
   std::unordered_map<const http_connection*, entry> entries_;
 };
 

@@ -1,17 +1,13 @@
 #include "actors/edge/http/http_target.hpp"
 
 #include "actors/edge/io/crypto.hpp"
+#include "actors/edge/io/plain_text.hpp"
 
 #include <algorithm>
 
 namespace roscell {
 
 namespace {
-
-bool is_control(char c) {
-  const auto byte = static_cast<unsigned char>(c);
-  return byte < 0x20 || byte == 0x7f;
-}
 
 std::optional<std::string> decode(std::string_view text, bool plus_is_space) {
   std::string result;
@@ -29,6 +25,14 @@ std::optional<std::string> decode(std::string_view text, bool plus_is_space) {
   if (std::any_of(result.begin(), result.end(), is_control))
     return std::nullopt;
   return result;
+}
+
+void append_escaped(std::string& to, char c) {
+  constexpr std::string_view digits = "0123456789ABCDEF";
+  const auto byte = static_cast<unsigned char>(c);
+  to += '%';
+  to += digits[byte >> 4];
+  to += digits[byte & 0xf];
 }
 
 bool parse_pair(std::string_view pair,
@@ -74,7 +78,7 @@ std::string percent_encode(std::string_view text) {
     if (plain.find(c) != std::string_view::npos)
       result += c;
     else
-      result += '%' + to_hex({&c, 1});
+      append_escaped(result, c);
   return result;
 }
 

@@ -18,6 +18,7 @@ namespace roscell {
 struct http_limits {
   size_t header_bytes = limits::http::header_bytes;
   size_t body_bytes = limits::http::body_bytes;
+  size_t public_body_bytes = limits::http::public_body_bytes;
   std::chrono::milliseconds first_byte = limits::http::first_byte;
   std::chrono::milliseconds whole_request = limits::http::whole_request;
   std::chrono::milliseconds idle = limits::http::idle;
@@ -26,6 +27,8 @@ struct http_limits {
   size_t strangers = limits::http::strangers;
   size_t trusted = limits::http::trusted;
   size_t local = limits::http::local;
+  size_t waiting = limits::http::waiting;
+  std::chrono::milliseconds turn = limits::http::turn;
   size_t sessions = limits::http::sessions;
   size_t stream_bytes = limits::http::stream_bytes;
 };

@@ -17,15 +17,24 @@ void set(stream_socket& socket, int level, int name, int value) {
   ::setsockopt(socket.native_handle(), level, name, &value, sizeof value);
 }
 
+/// Who connects or sends finds out what went wrong here.
+void open_socket(stream_socket& socket, int family, int protocol) {
+  const int fd = ::socket(family, SOCK_STREAM | SOCK_CLOEXEC, protocol);
+  boost::system::error_code ec;
+  if (fd >= 0)
+    socket.assign({family, protocol}, fd, ec);
+  if (ec)
+    ::close(fd);
+}
+
 } // namespace
 
 void open_tcp(stream_socket& socket) {
-  const int fd = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  boost::system::error_code ec;
-  if (fd >= 0)
-    socket.assign({AF_INET, IPPROTO_TCP}, fd, ec);
-  if (ec)
-    ::close(fd);
+  open_socket(socket, AF_INET, IPPROTO_TCP);
+}
+
+void open_unix(stream_socket& socket) {
+  open_socket(socket, AF_UNIX, 0);
 }
 
 socket_address peer_of(stream_socket& socket) {

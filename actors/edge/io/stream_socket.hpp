@@ -20,6 +20,9 @@ struct socket_address {
 /// Opens a TCP socket that forked instances do not inherit.
 void open_tcp(stream_socket& socket);
 
+/// The same for a Unix socket.
+void open_unix(stream_socket& socket);
+
 /// The other end of a connected socket; empty if it is gone already.
 socket_address peer_of(stream_socket& socket);
 

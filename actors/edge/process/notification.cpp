@@ -1,5 +1,6 @@
 #include "actors/edge/process/notification.hpp"
 
+#include "actors/edge/io/plain_text.hpp"
 #include "actors/edge/io/utf8.hpp"
 
 #include <algorithm>
@@ -18,9 +19,6 @@ std::string status_line(std::string_view bytes) {
     result.resize(max_status_bytes);
     result.resize(result.size() - unfinished_utf8(result));
   }
-  const auto is_control = [](char c) {
-    return static_cast<unsigned char>(c) < 0x20 || c == 0x7F;
-  };
   std::replace_if(result.begin(), result.end(), is_control, ' ');
   return result;
 }

@@ -1,10 +1,11 @@
 #include "actors/edge/session/registration_proof.hpp"
 
-#include "actors/edge/session/session_handshake.hpp"
+#include "actors/edge/io/crypto.hpp"
 #include "actors/edge/session/transcript.hpp"
 #include "actors/house/limits.hpp"
 
-#include <algorithm>
+#include <cstring>
+#include <iterator>
 
 namespace roscell {
 
@@ -26,6 +27,25 @@ digest sign(const registration_order& order, std::string_view site_token) {
       .sign(site_token);
 }
 
+constexpr size_t nonce_digits = 64;
+
+using time_point = registration_challenges::time_point;
+
+/// The time in eight bytes, which only this process reads again.
+std::string time_bytes(time_point when) {
+  const int64_t count = when.time_since_epoch().count();
+  return {reinterpret_cast<const char*>(&count), sizeof count};
+}
+
+/// When a nonce of which `made` is the first half was made; the seal must have
+/// been checked.
+time_point made_at(const std::string& made) {
+  int64_t count = 0;
+  const auto bytes = from_hex(made.substr(0, 2 * sizeof count));
+  std::memcpy(&count, bytes->data(), sizeof count);
+  return time_point{time_point::duration{count}};
+}
+
 } // namespace
 
 std::string prove(const registration_order& order,
@@ -38,23 +58,37 @@ bool proves(const registration_order& order, std::string_view site_token,
   return is_proof(proof, sign(order, site_token));
 }
 
-std::string registration_challenges::issue(time_point now) {
-  if (outstanding_.size() == limits::token::outstanding_nonces)
-    outstanding_.pop_front();
-  outstanding_.push_back({make_nonce(), now + limits::token::nonce_lifetime});
-  return outstanding_.back().nonce;
+registration_challenges::registration_challenges() : key_(random_bytes(32)) {
+  // nop
 }
 
-bool registration_challenges::redeem(std::string_view nonce, time_point now) {
-  while (!outstanding_.empty() && outstanding_.front().end <= now)
-    outstanding_.pop_front();
-  const auto i =
-      std::find_if(outstanding_.begin(), outstanding_.end(),
-                   [&](const challenge& x) { return x.nonce == nonce; });
-  if (i == outstanding_.end())
+std::string registration_challenges::issue(time_point now) const {
+  const auto made = to_hex(time_bytes(now) + random_bytes(8));
+  return made + seal(made);
+}
+
+bool registration_challenges::is_fresh(const std::string& nonce,
+                                       time_point now) {
+  forget_old(now);
+  if (nonce.size() != nonce_digits || spent_.count(nonce) > 0
+      || spent_.size() >= limits::token::spent_nonces)
     return false;
-  outstanding_.erase(i);
-  return true;
+  const auto made = nonce.substr(0, nonce_digits / 2);
+  return equal_in_constant_time(nonce.substr(nonce_digits / 2), seal(made))
+         && now < made_at(made) + limits::token::nonce_lifetime;
+}
+
+void registration_challenges::spend(const std::string& nonce, time_point now) {
+  spent_.emplace(nonce, now + limits::token::nonce_lifetime);
+}
+
+void registration_challenges::forget_old(time_point now) {
+  for (auto i = spent_.begin(); i != spent_.end();)
+    i = i->second <= now ? spent_.erase(i) : std::next(i);
+}
+
+std::string registration_challenges::seal(std::string_view made) const {
+  return to_hex(hmac_sha256(key_, made)).substr(0, nonce_digits / 2);
 }
 
 } // namespace roscell

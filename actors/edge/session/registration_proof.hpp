@@ -3,9 +3,8 @@
 #include "actors/house/limits.hpp"
 
 #include <chrono>
-#include <cstddef>
 #include <cstdint>
-#include <deque>
+#include <map>
 #include <string>
 #include <string_view>
 
@@ -36,28 +35,32 @@ std::string prove(const registration_order& order, std::string_view site_token);
 bool proves(const registration_order& order, std::string_view site_token,
             std::string_view proof);
 
-/// The nonces that a node has handed out. Strangers may ask for them, so there
-/// are few.
+/// The nonces that a node hands out. Strangers may ask for as many as they
+/// like: none is remembered, since each says when it was made and proves that
+/// this node made it. Only those that have proven a switch are, so that each is
+/// good for one.
 class registration_challenges {
 public:
   using time_point = std::chrono::steady_clock::time_point;
 
-  /// A fresh nonce, 32 random bytes in hexadecimal digits. When there are
-  /// `limits::token::outstanding_nonces` already, the oldest is worth nothing
-  /// any more.
-  std::string issue(time_point now);
+  registration_challenges();
 
-  /// Whether `nonce` was issued less than `limits::token::nonce_lifetime` ago
-  /// and not redeemed yet.
-  bool redeem(std::string_view nonce, time_point now);
+  /// A fresh nonce: 64 hexadecimal digits.
+  std::string issue(time_point now) const;
+
+  /// Whether `nonce` was issued here less than `limits::token::nonce_lifetime`
+  /// ago and was not spent yet.
+  bool is_fresh(const std::string& nonce, time_point now);
+
+  /// Makes a nonce worthless that has proven something.
+  void spend(const std::string& nonce, time_point now);
 
 private:
-  struct challenge {
-    std::string nonce;
-    time_point end;
-  };
+  std::string seal(std::string_view made) const;
+  void forget_old(time_point now);
 
-  std::deque<challenge> outstanding_; ///< The oldest first.
+  std::string key_;
+  std::map<std::string, time_point> spent_; ///< And when it would have ended.
 };
 
 } // namespace roscell

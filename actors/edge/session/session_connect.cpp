@@ -1,6 +1,6 @@
 #include "actors/edge/http/error_body.hpp"
+#include "actors/edge/http/http_paths.hpp"
 #include "actors/edge/session/session_dialog.hpp"
-#include "actors/edge/session/session_paths.hpp"
 
 #include <boost/asio/ip/tcp.hpp>
 #include <nlohmann/json.hpp>

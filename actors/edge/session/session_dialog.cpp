@@ -66,7 +66,7 @@ void session_dialog::take(handshake_step step) {
 
 void session_dialog::conclude(const handshake_step& step) {
   if (step.failure)
-    return refuse(*step.failure);
+    return refuse_peer(*step.failure);
   if (!step.done)
     return read();
   if (!report_once())
@@ -88,7 +88,7 @@ void session_dialog::fail_with(error ec) {
         "the connection broke during the handshake: " + ec.message(), ""});
 }
 
-void session_dialog::refuse(const edge_error& why) {
+void session_dialog::refuse_peer(const edge_error& why) {
   if (!report_once())
     return;
   const auto self = shared_from_this();

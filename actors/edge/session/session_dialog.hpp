@@ -38,7 +38,7 @@ protected:
   virtual void on_refused(const edge_error& why) = 0;
 
   /// Reports `why` and closes, letting the peer read what was written.
-  void refuse(const edge_error& why);
+  void refuse_peer(const edge_error& why);
 
   /// Reports `why` and breaks the connection.
   void fail(const edge_error& why);

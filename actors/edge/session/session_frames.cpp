@@ -2,6 +2,7 @@
 
 #include "actors/edge/http/error_body.hpp"
 #include "actors/edge/io/crypto.hpp"
+#include "actors/edge/io/plain_text.hpp"
 #include "messages/codec/instantiate.hpp"
 
 #include <algorithm>
@@ -24,11 +25,6 @@ std::string encode_frame(const Frame& frame) {
                                   json::error_handler_t::replace);
 }
 
-bool is_control(char c) {
-  const auto byte = static_cast<unsigned char>(c);
-  return byte < 0x20 || byte == 0x7f;
-}
-
 bool is_version(const std::string& text) {
   const auto dot = text.find('.');
   if (text.size() > bounds::version || dot == std::string::npos || dot == 0
@@ -36,17 +32,6 @@ bool is_version(const std::string& text) {
     return false;
   return text.find_first_not_of("0123456789.") == std::string::npos
          && text.find('.', dot + 1) == std::string::npos;
-}
-
-bool is_name(const std::string& text) {
-  return !text.empty() && text.size() <= bounds::name
-         && std::none_of(text.begin(), text.end(), is_control);
-}
-
-bool is_uuid(const std::string& text) {
-  return !text.empty() && text.size() <= bounds::uuid
-         && text.find_first_not_of("0123456789abcdefABCDEF-")
-                == std::string::npos;
 }
 
 bool is_hex(const std::string& text, size_t digits) {

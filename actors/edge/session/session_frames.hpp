@@ -23,8 +23,6 @@ inline constexpr std::string_view coordinator_role = "coordinator";
 struct session_frame_bounds {
   static constexpr size_t frame = 4096;
   static constexpr size_t version = 16;
-  static constexpr size_t name = 128; ///< Node and cell names.
-  static constexpr size_t uuid = 64;
   static constexpr size_t nonce = 64;   ///< Hexadecimal digits, exactly.
   static constexpr size_t proof = 64;   ///< Hexadecimal digits, exactly.
   static constexpr size_t session = 16; ///< Hexadecimal digits, exactly.

@@ -1,6 +1,7 @@
 #include "actors/instances/engine/engine_calls.hpp"
 
 #include "actors/edge/io/line_splitter.hpp"
+#include "actors/house/edge_failure.hpp"
 #include "actors/house/limits.hpp"
 #include "messages/failure.hpp"
 
@@ -91,7 +92,7 @@ caf::error engine_failure(const std::string& what, const engine_answered& x) {
     return fail(error_code::engine_failed, what + ": " + x.why.message, {},
                 x.why.hint);
   const auto why = engine_refusal(what, {x.status, x.body});
-  return fail(why.code, why.message, {}, why.hint);
+  return to_caf(why);
 }
 
 json object_of(const engine_answered& x) {

@@ -1,8 +1,10 @@
 #include "actors/instances/engine/engine_containers.hpp"
 
+#include "actors/edge/http/http_target.hpp"
 #include "actors/edge/io/crypto.hpp"
 #include "actors/edge/process/child_watch.hpp"
 #include "actors/edge/process/notify_socket.hpp"
+#include "actors/house/edge_failure.hpp"
 #include "messages/failure.hpp"
 
 #include <caf/send.hpp>
@@ -15,10 +17,6 @@ namespace roscell {
 namespace fs = std::filesystem;
 
 using self_pointer = engine_runtime_pointer;
-
-caf::error to_caf(const edge_error& why) {
-  return fail(why.code, why.message, {}, why.hint);
-}
 
 caf::error bad_id(const std::string& instance) {
   return fail(error_code::engine_failed,
@@ -88,7 +86,7 @@ engine_request to_container(std::string method, const std::string& container,
                             std::chrono::milliseconds limit) {
   engine_request result;
   result.method = std::move(method);
-  result.target = "/containers/" + percent_encoded(container) + what;
+  result.target = "/containers/" + percent_encode(container) + what;
   result.limit = limit;
   return result;
 }

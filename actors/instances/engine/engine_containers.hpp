@@ -10,7 +10,6 @@
 /// INTERNAL to the engine runtime: what it knows of its containers.
 namespace roscell {
 
-caf::error to_caf(const edge_error& why);
 caf::error bad_id(const std::string& instance);
 
 /// Null if none is known.

@@ -1,3 +1,4 @@
+#include "actors/edge/http/http_target.hpp"
 #include "actors/house/limits.hpp"
 #include "actors/instances/engine/engine_parts.hpp"
 #include "actors/instances/engine/image_packer.hpp"
@@ -99,7 +100,7 @@ void build(self_pointer self, const std::string& key) {
   // What a base image does in a build sees the network as an instance does.
   request.target = "/build?rm=1&forcerm=1&networkmode=host"
                    "&dockerfile=Dockerfile&t="
-                   + percent_encoded(work.image);
+                   + percent_encode(work.image);
   request.file = work.context;
   request.limit = limits::engine::build;
   work.began = self->clock().now();

@@ -1,4 +1,5 @@
 #include "actors/edge/engine/engine_log.hpp"
+#include "actors/edge/http/http_target.hpp"
 #include "actors/house/limits.hpp"
 #include "actors/instances/engine/engine_containers.hpp"
 #include "actors/instances/engine/engine_parts.hpp"
@@ -28,7 +29,7 @@ caf::error no_log(const std::string& instance) {
 /// leaves out what is too early.
 std::string log_target(const std::string& container, const log_query& query,
                        log_ticks origin, bool follow) {
-  auto result = "/containers/" + percent_encoded(container)
+  auto result = "/containers/" + percent_encode(container)
                 + "/logs?stdout=true&stderr=true&timestamps=true";
   if (query.offset < 0) {
     const auto lines =
@@ -151,8 +152,8 @@ caf::result<log_excerpt> read_log(self_pointer self, const log_query& query) {
   const auto promise = follower->promise =
       self->make_response_promise<log_excerpt>();
   engine_request request;
-  request.target = "/containers/"
-                   + percent_encoded(container_name(query.instance)) + "/json";
+  request.target =
+      "/containers/" + percent_encode(container_name(query.instance)) + "/json";
   ask_engine(self, std::move(request), [=](const engine_answered& x) {
     open_log(self, x, std::move(*follower));
   });

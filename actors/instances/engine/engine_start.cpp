@@ -1,3 +1,5 @@
+#include "actors/edge/http/http_target.hpp"
+#include "actors/house/edge_failure.hpp"
 #include "actors/house/limits.hpp"
 #include "actors/instances/engine/engine_containers.hpp"
 #include "actors/instances/engine/engine_parts.hpp"
@@ -90,7 +92,7 @@ void create(self_pointer self, const shared_attempt& x) {
   engine_request request;
   request.method = "POST";
   request.target = "/containers/create?name="
-                   + percent_encoded(container_name(x->wish.instance));
+                   + percent_encode(container_name(x->wish.instance));
   request.body = x->body;
   request.limit = limits::engine::create;
   ask_engine(self, std::move(request),

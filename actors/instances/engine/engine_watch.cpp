@@ -1,3 +1,4 @@
+#include "actors/edge/http/http_target.hpp"
 #include "actors/instances/engine/engine_containers.hpp"
 #include "actors/instances/engine/engine_parts.hpp"
 #include "messages/failure.hpp"
@@ -17,7 +18,7 @@ constexpr backoff::duration longest_pause{2'000};
 /// The filter of this node's containers, for a query.
 std::string filter(const engine_runtime_state& st, json more) {
   more["label"] = json::array({"roscell.node=" + st.config.setting.node_uuid});
-  return "filters=" + percent_encoded(more.dump());
+  return "filters=" + percent_encode(more.dump());
 }
 
 void trouble(self_pointer self, const std::string& why) {

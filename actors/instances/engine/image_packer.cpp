@@ -1,5 +1,6 @@
 #include "actors/instances/engine/image_packer.hpp"
 
+#include "actors/house/edge_failure.hpp"
 #include "actors/instances/engine/dockerfile.hpp"
 #include "actors/instances/process/process_instance.hpp"
 #include "messages/failure.hpp"
@@ -14,10 +15,6 @@ namespace roscell {
 namespace {
 
 using self_pointer = image_packer_actor::stateful_pointer<image_packer_state>;
-
-caf::error to_caf(const edge_error& why) {
-  return fail(why.code, why.message, {}, why.hint);
-}
 
 caf::result<image_planned> plan(self_pointer self, const prepare_image& wish) {
   const auto program = find_program(wish);

@@ -1,6 +1,7 @@
 #include "actors/instances/process/process_runtime.hpp"
 
 #include "actors/edge/process/pidfd.hpp"
+#include "actors/house/edge_failure.hpp"
 #include "actors/house/limits.hpp"
 #include "actors/instances/instance_id.hpp"
 #include "actors/instances/process/process_logs.hpp"
@@ -18,10 +19,6 @@ namespace roscell {
 namespace {
 
 using self_pointer = process_runtime_pointer;
-
-caf::error to_caf(const edge_error& why) {
-  return fail(why.code, why.message, {}, why.hint);
-}
 
 caf::error bad_id(const std::string& instance) {
   return fail(error_code::engine_failed,

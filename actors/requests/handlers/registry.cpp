@@ -1,36 +1,66 @@
 #include "actors/requests/handlers/registry.hpp"
 
-#include "actors/requests/handlers/queries.hpp"
+#include "actors/house/limits.hpp"
+#include "actors/requests/handlers/forwarding.hpp"
+#include "actors/requests/handlers/local_skills.hpp"
 #include "actors/requests/handlers/task_pipeline.hpp"
 
 namespace roscell {
 
 namespace {
 
+using services = node_services;
+
+constexpr std::chrono::milliseconds soon = limits::local::answer;
+
+/// A log may be waited for; the answer comes soon after that.
+std::chrono::milliseconds log_timeout(const log_query& query) {
+  return limits::log::answer + std::chrono::milliseconds{query.wait_ms};
+}
+
 void add_node_requests(request_registry& registry) {
-  registry.add(describe_node);
+  registry.add(
+      forward_within<node_query, node_description>(soon, &services::node));
 }
 
 void add_primary_requests(request_registry& registry) {
-  registry.add(describe_local_instances);
+  registry.add(forward_within<instance_query, instance_description>(
+      soon, &services::supervisor));
   registry.add(list_local_skills);
-  registry.add(read_local_log);
-  registry.add(challenge_registration);
-  registry.add(switch_registration);
+  registry.add(
+      forward_to<log_query, log_excerpt>(&services::supervisor, log_timeout));
+  registry.add(forward_within<registration_query, registration_challenge>(
+      soon, &services::membership));
+  registry.add(forward_within<registration_switch, switch_accepted>(
+      soon, &services::membership));
 }
 
-void add_cell_requests(request_registry& registry) {
-  registry.add(describe_cell);
-  registry.add(list_cells);
-  registry.add(describe_tasks);
-  registry.add(describe_instances);
-  registry.add(list_skills);
-  registry.add(read_log);
-  registry.add(terminate_task);
-  registry.add(form_cell);
-  registry.add(release_node);
-  registry.add(transfer_node);
-  registry.add(describe_transfers);
+void add_cell_queries(request_registry& registry) {
+  const auto whom = &services::coordinator;
+  registry.add(forward_within<cell_query, cell_description>(soon, whom));
+  registry.add(forward_within<cell_list_query, cell_list>(soon, whom));
+  registry.add(forward_within<task_query, task_description>(soon, whom));
+  registry.add(
+      forward_within<instance_query, instance_description>(soon, whom));
+  registry.add(forward_within<skill_query, skill_list>(soon, whom));
+  registry.add(
+      forward_within<transfer_query, transfer_description>(soon, whom));
+  registry.add(forward_to<log_query, log_excerpt>(whom, log_timeout));
+}
+
+void add_cell_commands(request_registry& registry) {
+  const auto whom = &services::coordinator;
+  registry.add(forward_within<task_termination, task_terminated>(
+      limits::task::termination, whom));
+  registry.add(forward_within<cell_formation, cell_formed>(
+      limits::transfer::answer, whom));
+  registry.add(forward_within<node_release, node_released>(
+      limits::transfer::answer, whom));
+  registry.add(forward_within<node_transfer, node_transferred>(
+      limits::transfer::answer, whom));
+}
+
+void add_task_pipelines(request_registry& registry) {
   registry.add(start_with("claim_task", claim)
                    .then("resolve_skills", resolve_skills)
                    .then("collect_resources", collect)
@@ -43,6 +73,12 @@ void add_cell_requests(request_registry& registry) {
                    .then("collect_resources", collect)
                    .then("allocate", place)
                    .then("present_plan", present_plan));
+}
+
+void add_cell_requests(request_registry& registry) {
+  add_cell_queries(registry);
+  add_cell_commands(registry);
+  add_task_pipelines(registry);
 }
 
 } // namespace

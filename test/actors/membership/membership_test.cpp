@@ -128,6 +128,18 @@ TEST_CASE_METHOD(membership_test, "what a node runs is in its registration") {
   CHECK(said.resources == some_resources("arm-1"));
 }
 
+TEST_CASE_METHOD(membership_test, "however long the parameters of what it "
+                                  "runs, a node can register") {
+  for (int i = 0; i < 12; ++i) {
+    node.instances.push_back(some_row("t-a-" + std::to_string(i), "t"));
+    node.instances.back().spec.parameters =
+        R"({"x":")" + std::string(100'000, 'y') + "\"}";
+  }
+  form_cell();
+  CHECK(state() == node_state::member);
+  CHECK(site.base.rows.at("arm-1").registration.instances.size() == 12);
+}
+
 TEST_CASE_METHOD(membership_test, "verdicts are carried out one by one") {
   node.instances = {some_row("t-a-1", "t"), some_row("t-b-2", "t")};
   site.base.verdicts = {{"t-a-1", verdict::keep, {}},

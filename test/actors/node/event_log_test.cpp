@@ -1,3 +1,4 @@
+#include "actors/house/limits.hpp"
 #include "actors/node/event_log.hpp"
 #include "test/fixture.hpp"
 
@@ -75,6 +76,20 @@ TEST_CASE_METHOD(log_fixture, "The newest 1000 facts are kept", "[event_log]") {
   REQUIRE(seen.size() == 1000);
   CHECK(seen.front().sequence == 201);
   CHECK(seen.back().sequence == 1200);
+}
+
+TEST_CASE_METHOD(log_fixture, "Refusals without end leave room for other facts",
+                 "[event_log]") {
+  listen(ear);
+  tell("node_joined");
+  for (int i = 0; i < 1300; ++i)
+    tell("session_refused");
+  CHECK(seen.size() == 1 + limits::event::refusals);
+  time.advance(limits::event::refusal_window);
+  REQUIRE(seen.size() == 2 + limits::event::refusals);
+  CHECK(seen.back().what == "session_refused");
+  CHECK(json::parse(seen.back().data).at("more") == 1295);
+  CHECK(state().at("kept") == seen.size());
 }
 
 TEST_CASE_METHOD(log_fixture, "A listener that ends is forgotten",

@@ -77,6 +77,23 @@ TEST_CASE_METHOD(member_test, "a registration becomes a row") {
   CHECK(site.base.rows.at("arm-1").member == it);
 }
 
+TEST_CASE_METHOD(member_test, "starts for which the answer has no room follow "
+                              "it") {
+  for (int i = 0; i < 12; ++i) {
+    auto spec = some_spec("t-a-" + std::to_string(i), "t");
+    spec.parameters = R"({"x":")" + std::string(100'000, 'y') + "\"}";
+    site.base.verdicts.push_back({spec.instance, verdict::start, {spec}});
+  }
+  request(1, registration());
+  REQUIRE(heard.size() > 1);
+  CHECK(heard[0].body["type"] == "node_registered");
+  const auto in_answer = heard[0].body["verdicts"].size();
+  CHECK(in_answer + heard.size() - 1 == 12);
+  for (size_t i = 1; i < heard.size(); ++i)
+    CHECK(heard[i].body["type"] == "instance_deployment");
+  CHECK(closed.empty());
+}
+
 TEST_CASE_METHOD(member_test, "a registration that comes twice is answered "
                               "twice and done once") {
   request(1, registration());

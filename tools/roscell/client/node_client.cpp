@@ -5,7 +5,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include <algorithm>
 #include <variant>
 
 namespace roscell::cli {
@@ -53,6 +52,19 @@ json document_of(const target& to, const http_reply& reply) {
   return document;
 }
 
+/// What a request may find when the node is stopped in the middle of it. What
+/// was done already is not done twice: a task's request names the task.
+edge_error node_ended_while(const std::string& body) {
+  const auto request = json::parse(body, nullptr, false);
+  const bool deploys =
+      request.is_object() && request.value("type", json{}) == "task_request";
+  return {error_code::unreachable,
+          deploys ? "the node ended while it deployed"
+                  : "the node ended while it worked on the request",
+          deploys ? "ask again with the same file once it is back"
+                  : "ask again once it is back"};
+}
+
 const http_reply& checked(const edge_result<http_reply>& result) {
   if (const auto* why = std::get_if<edge_error>(&result))
     give_up(*why);
@@ -95,6 +107,7 @@ json node_client::post(const std::string& path, const std::string& body,
                        std::chrono::milliseconds limit) const {
   http_client::options how;
   how.timeout = limit;
+  how.when_cut_off = node_ended_while(body);
   const auto result = http_.request("POST", path, body, how);
   return document_of(to_, checked(result));
 }
@@ -131,26 +144,6 @@ void follow_events(const node_client& node, uint64_t since,
         return !complete || on_event(*complete);
       },
       cancel);
-}
-
-std::string url_encoded(std::string_view text) {
-  constexpr std::string_view digits = "0123456789ABCDEF";
-  constexpr std::string_view plain = "-._~";
-  std::string result;
-  for (const auto c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    const bool letter = (byte >= '0' && byte <= '9')
-                        || (byte >= 'A' && byte <= 'Z')
-                        || (byte >= 'a' && byte <= 'z');
-    if (letter || plain.find(c) != plain.npos) {
-      result += c;
-    } else {
-      result += '%';
-      result += digits[byte >> 4];
-      result += digits[byte & 0xf];
-    }
-  }
-  return result;
 }
 
 } // namespace roscell::cli

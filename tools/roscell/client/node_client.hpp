@@ -1,6 +1,6 @@
 #pragma once
 
-#include "actors/edge/http/http_client.hpp"
+#include "actors/edge/http/client/http_client.hpp"
 #include "messages/codec/json_codec.hpp"
 #include "messages/event.hpp"
 #include "tools/roscell/client/target.hpp"
@@ -83,8 +83,5 @@ using event_handler = std::function<bool(const event& e)>;
 void follow_events(const node_client& node, uint64_t since,
                    const event_handler& on_event,
                    const http_cancel* cancel = nullptr);
-
-/// `text` as one segment of a URL's path, or one value of its query.
-std::string url_encoded(std::string_view text);
 
 } // namespace roscell::cli

@@ -1,3 +1,4 @@
+#include "actors/edge/http/http_target.hpp"
 #include "messages/instance.hpp"
 #include "tools/roscell/client/node_client.hpp"
 #include "tools/roscell/commands.hpp"
@@ -46,7 +47,7 @@ void print_kept(const node_client& node, const std::string& instance) {
 }
 
 std::string stream_path(const logs_options& options) {
-  auto path = "/v1/instances/" + url_encoded(options.instance) + "/logs";
+  auto path = "/v1/instances/" + percent_encode(options.instance) + "/logs";
   path +=
       options.tail == 0 ? "?offset=0" : "?tail=" + std::to_string(options.tail);
   return options.follow ? path + "&follow=1" : path;

@@ -1,3 +1,4 @@
+#include "actors/edge/http/http_target.hpp"
 #include "tools/roscell/client/node_client.hpp"
 #include "tools/roscell/commands.hpp"
 #include "tools/roscell/commands/watch.hpp"
@@ -91,7 +92,7 @@ int show_subject(const subject& what, const show_options& options) {
   const node_client node{options.connection};
   auto path = std::string{what.path};
   if (!options.argument.empty())
-    path += "/" + url_encoded(options.argument);
+    path += "/" + percent_encode(options.argument);
   return show(
       options, node, [&] { return node.get(path); },
       [&](const json& reply) { return what.view(reply, view_style_now()); });

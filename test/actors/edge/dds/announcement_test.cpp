@@ -50,8 +50,8 @@ TEST_CASE("the longest names and numbers fit into an announcement",
           "[announcement]") {
   announcement x;
   x.role = "coordinator";
-  x.node = std::string(session_frame_bounds::name, '\xc3');
-  x.cell = std::string(session_frame_bounds::name, ' ');
+  x.node = std::string(limits::text::name_bytes, '\xc3');
+  x.cell = std::string(limits::text::name_bytes, ' ');
   x.session = "255.255.255.255:65535";
   x.discovery = x.session;
   x.uuid = "3b241101-e2bb-4255-8caf-4136c566a962";

@@ -1,5 +1,6 @@
 #include "actors/edge/engine/engine_client.hpp"
 #include "actors/edge/engine/engine_search.hpp"
+#include "actors/edge/http/http_target.hpp"
 #include "actors/house/limits.hpp"
 #include "test/actors/edge/io/edge_fixture.hpp"
 #include "test/fake_engine.hpp"
@@ -69,7 +70,7 @@ TEST_CASE("an engine is asked with method, path and body") {
   }};
   engine_request request;
   request.method = "POST";
-  request.target = "/containers/create?name=" + percent_encoded("a b/c");
+  request.target = "/containers/create?name=" + percent_encode("a b/c");
   request.body = "{}";
   const auto reply = expect(b.ask(request));
   CHECK(reply.status == 201);

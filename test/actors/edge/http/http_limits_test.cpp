@@ -1,6 +1,8 @@
 #include "test/actors/edge/io/edge_fixture.hpp"
 
 #include <algorithm>
+#include <string>
+#include <tuple>
 #include <vector>
 
 #include <dirent.h>
@@ -208,10 +210,29 @@ TEST_CASE("the stranger that was silent for longest makes room") {
   CHECK_FALSE(first.is_closed());
 }
 
+TEST_CASE("strangers may post little to a public path, others much") {
+  http_fixture node;
+  const auto post = [](const std::string& more, size_t size) {
+    return "POST /healthz HTTP/1.1\r\n" + more + "Connection: close\r\n"
+           + "Content-Length: " + std::to_string(size) + "\r\n\r\n"
+           + std::string(size, 'x');
+  };
+  const auto token = "Authorization: Bearer " + std::string{bearer} + "\r\n";
+  const auto little = limits::http::public_body_bytes;
+  for (const auto& [more, size, status] :
+       {std::tuple{std::string{}, little, "200"},
+        std::tuple{std::string{}, little + 1, "413"},
+        std::tuple{token, little + 1, "200"}}) {
+    raw_client client{node.server->port()};
+    client.send(post(more, size));
+    CHECK(starts_with(client.read_to_end(), std::string{"HTTP/1.1 "} + status));
+  }
+}
+
 TEST_CASE("who posts to a public path stays a stranger with bounded bodies") {
   http_limits limits;
   limits.strangers = 1;
-  limits.body_bytes = 8;
+  limits.public_body_bytes = 8;
   http_fixture node{limits};
   const auto post = [](const std::string& path, const std::string& body) {
     return "POST " + path + " HTTP/1.1\r\nContent-Length: "
@@ -264,9 +285,60 @@ TEST_CASE("a client that showed its token is no stranger any more") {
     }();
 }
 
-TEST_CASE("a client of the Unix socket over the limit is told so") {
+TEST_CASE("clients of the Unix socket wait for their turn") {
   http_limits limits;
   limits.local = 1;
+  http_fixture node{limits};
+  raw_client first{node.socket_path()};
+  first.send("GET /echo HTTP/1.1\r\n\r\n");
+  first.read_until("local ");
+  raw_client second{node.socket_path()};
+  second.send("GET /echo HTTP/1.1\r\n\r\n");
+  raw_client gone{node.socket_path()};
+  raw_client third{node.socket_path()};
+  third.send("GET /echo HTTP/1.1\r\n\r\n");
+  settle(node.io);
+  CHECK_FALSE(second.is_readable());
+  gone.close();
+  first.close();
+  CHECK(starts_with(second.read_until("local "), "HTTP/1.1 200 "));
+  settle(node.io);
+  CHECK_FALSE(third.is_readable());
+  second.close();
+  CHECK(starts_with(third.read_until("local "), "HTTP/1.1 200 "));
+}
+
+TEST_CASE("who waits too long for a turn is told so, with a hint") {
+  http_limits limits;
+  limits.local = 1;
+  limits.turn = 50ms;
+  http_fixture node{limits};
+  raw_client first{node.socket_path()};
+  first.send("GET /echo HTTP/1.1\r\n\r\n");
+  first.read_until("local ");
+  raw_client second{node.socket_path()};
+  const auto reply = second.read_to_end();
+  CHECK(starts_with(reply, "HTTP/1.1 503 "));
+  CHECK(reply.find("ask again in a moment") != std::string::npos);
+  first.send("GET /echo HTTP/1.1\r\n\r\n");
+  CHECK(starts_with(first.read_until("local "), "HTTP/1.1 200 "));
+}
+
+TEST_CASE("200 requests at once on the Unix socket are all answered") {
+  http_fixture node;
+  std::vector<raw_client> crowd;
+  for (int i = 0; i < 200; ++i) {
+    crowd.emplace_back(node.socket_path());
+    crowd.back().send("GET /echo HTTP/1.1\r\nConnection: close\r\n\r\n");
+  }
+  for (auto& client : crowd)
+    REQUIRE(starts_with(client.read_to_end(), "HTTP/1.1 200 "));
+}
+
+TEST_CASE("a client of the Unix socket over all limits is told so") {
+  http_limits limits;
+  limits.local = 1;
+  limits.waiting = 0;
   http_fixture node{limits};
   raw_client first{node.socket_path()};
   first.send("GET /echo HTTP/1.1\r\n\r\n");

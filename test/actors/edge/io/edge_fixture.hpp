@@ -1,6 +1,6 @@
 #pragma once
 
-#include "actors/edge/http/http_client.hpp"
+#include "actors/edge/http/client/http_client.hpp"
 #include "actors/edge/http/http_server.hpp"
 #include "actors/edge/io/edge_error.hpp"
 #include "actors/edge/io/io_thread.hpp"

@@ -73,39 +73,57 @@ TEST_CASE("every part of an order is under its proof") {
   CHECK_FALSE(proves(shifted, token, proof));
 }
 
-TEST_CASE("a nonce can be redeemed once") {
+TEST_CASE("a nonce is good for one switch") {
   registration_challenges x;
   const auto nonce = x.issue(start);
   CHECK(nonce.size() == 64);
-  CHECK_FALSE(x.redeem("", start));
-  CHECK_FALSE(x.redeem(std::string(64, '0'), start));
-  CHECK(x.redeem(nonce, start));
-  CHECK_FALSE(x.redeem(nonce, start));
+  CHECK_FALSE(x.is_fresh("", start));
+  CHECK_FALSE(x.is_fresh(std::string(64, '0'), start));
+  CHECK_FALSE(x.is_fresh(std::string(64, 'x'), start));
+  CHECK(x.is_fresh(nonce, start));
+  x.spend(nonce, start);
+  CHECK_FALSE(x.is_fresh(nonce, start));
 }
 
 TEST_CASE("a nonce is good for its lifetime only") {
   registration_challenges x;
   const auto first = x.issue(start);
-  const auto second = x.issue(start + 1s);
   const auto third = x.issue(start + 2s);
   const auto end = start + limits::token::nonce_lifetime;
-  CHECK(x.redeem(second, end));
-  CHECK_FALSE(x.redeem(first, end));
-  CHECK(x.redeem(third, end + 2s - 1ns));
-  const auto fourth = x.issue(end);
-  CHECK_FALSE(x.redeem(fourth, end + limits::token::nonce_lifetime));
+  CHECK(x.is_fresh(first, end - 1ns));
+  CHECK_FALSE(x.is_fresh(first, end));
+  CHECK(x.is_fresh(third, end + 2s - 1ns));
+  // Nobody can make an old one young.
+  CHECK_FALSE(x.is_fresh(third.substr(0, 32) + first.substr(32), end));
 }
 
-TEST_CASE("when too many nonces are out, the oldest goes") {
+TEST_CASE("another node's nonce is none") {
+  const registration_challenges x;
+  registration_challenges y;
+  CHECK_FALSE(y.is_fresh(x.issue(start), start));
+}
+
+TEST_CASE("strangers who ask for nonces make no other one worthless") {
   registration_challenges x;
-  std::vector<std::string> nonces;
-  for (size_t i = 0; i <= limits::token::outstanding_nonces; ++i)
-    nonces.push_back(x.issue(start));
-  CHECK(std::set<std::string>{nonces.begin(), nonces.end()}.size()
-        == nonces.size());
-  CHECK_FALSE(x.redeem(nonces.front(), start));
-  for (size_t i = 1; i < nonces.size(); ++i)
-    CHECK(x.redeem(nonces[i], start));
+  const auto honest = x.issue(start);
+  std::set<std::string> nonces;
+  for (int i = 0; i < 1000; ++i)
+    nonces.insert(x.issue(start));
+  CHECK(nonces.size() == 1000);
+  CHECK(x.is_fresh(honest, start + 1s));
+}
+
+TEST_CASE("spent nonces are forgotten when they are too old anyway") {
+  registration_challenges x;
+  auto now = start;
+  for (size_t i = 0; i < limits::token::spent_nonces; ++i) {
+    const auto nonce = x.issue(now);
+    REQUIRE(x.is_fresh(nonce, now));
+    x.spend(nonce, now);
+  }
+  CHECK_FALSE(x.is_fresh(x.issue(now), now));
+  now += limits::token::nonce_lifetime;
+  CHECK(x.is_fresh(x.issue(now), now));
 }
 
 } // namespace roscell

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "actors/edge/engine/engine_client.hpp"
+#include "actors/edge/http/client/http_call.hpp"
 #include "actors/edge/io/io_core.hpp"
 #include "actors/edge/io/stream_socket.hpp"
 #include "actors/edge/io/unique_fd.hpp"
@@ -10,48 +10,60 @@
 #include <boost/beast/http/string_body.hpp>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
 namespace roscell {
 
-/// INTERNAL to this folder: one request to an engine and its answer. Io thread
-/// only.
-class engine_exchange final
-    : public io_component,
-      public std::enable_shared_from_this<engine_exchange> {
+/// INTERNAL to the edge: one call and its reply, from connecting to the end.
+/// Io thread only, but it may be made and let go on any.
+class http_exchange final : public io_component,
+                            public std::enable_shared_from_this<http_exchange> {
 public:
   using error = boost::system::error_code;
 
-  /// Without `on_bytes` the answer's body is kept, else it is passed on.
-  engine_exchange(std::shared_ptr<io_core> core, std::string socket,
-                  engine_request what, engine_stream_callbacks calls);
+  /// Without `on_bytes` the reply's body is kept, else it is passed on.
+  http_exchange(std::shared_ptr<io_core> core, http_call what,
+                http_callbacks calls);
+
+  /// The loop may end before it has begun with this: then it tells of it.
+  ~http_exchange() override;
 
   void start();
 
   /// Ends without a further callback.
   void cancel();
 
+  /// Ends with this outcome.
+  void finish(http_outcome outcome);
+
   void on_io_stop() override;
 
 private:
+  using parser =
+      boost::beast::http::response_parser<boost::beast::http::string_body>;
+
+  void limit_time();
   void connect();
   void on_connected(error ec);
+  bool open_file();
+  std::string head() const;
+  void expect_reply();
   void write_head();
   void write_file();
   void read();
   void on_read(error ec, size_t bytes);
   error parse(std::string_view bytes);
+  void on_broken(error ec);
   bool pass_on();
-  void finish(engine_answer answer);
-  void fail(const std::string& why);
+  bool is_stream() const;
+  void fail(http_failure::kind what, std::string reason = {});
   void close();
-  std::string head() const;
 
   std::shared_ptr<io_core> core_;
-  std::string path_;
-  engine_request what_;
-  engine_stream_callbacks calls_;
+  http_call what_;
+  http_callbacks calls_;
   stream_socket socket_;
   boost::asio::steady_timer timer_;
   unique_fd file_;
@@ -59,7 +71,7 @@ private:
   std::string outgoing_;
   std::string incoming_; ///< What is being read.
   std::string pending_;  ///< Read, but not parsed yet.
-  boost::beast::http::response_parser<boost::beast::http::string_body> parser_;
+  std::optional<parser> parser_;
   bool opened_ = false;
   bool over_ = false;
 };

@@ -1,4 +1,4 @@
-#include "actors/edge/http/http_exchange.hpp"
+#include "actors/edge/http/client/http_call.hpp"
 #include "actors/house/limits.hpp"
 #include "test/actors/edge/http/canned_server.hpp"
 
@@ -10,22 +10,23 @@ using answer = edge_result<http_reply>;
 
 http_call call_to(uint16_t port, std::string path = "/") {
   http_call result;
-  result.address = "127.0.0.1";
-  result.port = port;
-  result.path = std::move(path);
+  result.to.address = "127.0.0.1";
+  result.to.port = port;
+  result.target = std::move(path);
   return result;
 }
 
-answer ask(io_thread& io, http_call what) {
+answer ask(io_thread& io, const http_call& what) {
   inbox<answer> answers;
-  exchange_http(io, std::move(what),
-                [&](answer x) { answers.put(std::move(x)); });
+  call_http(io.core(), what, [&](http_outcome x) {
+    answers.put(to_edge_result(std::move(x), what));
+  });
   return answers.take();
 }
 
-edge_error refusal_of(http_call what) {
+edge_error refusal_of(const http_call& what) {
   io_thread io;
-  return expect_error(ask(io, std::move(what)));
+  return expect_error(ask(io, what));
 }
 
 /// A port on which nobody listens.
@@ -128,25 +129,27 @@ TEST_CASE("an exchange that cannot be is refused") {
     CHECK(refusal_of(call_to(1, path)).code == error_code::schema_violation);
   auto call = call_to(0);
   CHECK(refusal_of(call).code == error_code::schema_violation);
-  call.port = 1;
+  call.to.port = 1;
   for (const auto* address : {"", "localhost", "::1", "1.2.3"}) {
-    call.address = address;
+    call.to.address = address;
     CHECK(refusal_of(call).code == error_code::schema_violation);
   }
 }
 
 TEST_CASE("the end of the io thread ends an exchange, once") {
   const canned_server silent{"", false};
-  inbox<answer> answers;
-  const auto keep = [&](answer x) { answers.put(std::move(x)); };
+  inbox<http_failure::kind> answers;
+  const auto keep = [&](const http_outcome& x) {
+    answers.put(std::get<http_failure>(x).what);
+  };
   {
     io_thread io;
-    exchange_http(io, call_to(silent.port()), keep);
+    call_http(io.core(), call_to(silent.port()), keep);
     settle(io);
     io.stop();
-    CHECK(expect_error(answers.take()).code == error_code::unreachable);
-    exchange_http(io, call_to(silent.port()), keep);
-    CHECK(expect_error(answers.take()).code == error_code::unreachable);
+    CHECK(answers.take() == http_failure::kind::stopped);
+    call_http(io.core(), call_to(silent.port()), keep);
+    CHECK(answers.take() == http_failure::kind::stopped);
   }
   CHECK(answers.size() == 0);
 }
@@ -154,7 +157,7 @@ TEST_CASE("the end of the io thread ends an exchange, once") {
 TEST_CASE("an exchange whose callback throws does no harm") {
   http_fixture node;
   const auto call = call_to(node.server->port(), "/healthz");
-  exchange_http(node.io, call, [](const answer&) { throw 1; });
+  call_http(node.io.core(), call, [](const http_outcome&) { throw 1; });
   CHECK(node.log.take().find("threw") != std::string::npos);
   CHECK(expect(ask(node.io, call)).status == 200);
 }

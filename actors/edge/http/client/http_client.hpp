@@ -1,24 +1,15 @@
 #pragma once
 
-#include "actors/edge/http/http_types.hpp"
-#include "actors/edge/io/edge_error.hpp"
+#include "actors/edge/http/client/http_call.hpp"
 
 #include <chrono>
-#include <cstdint>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 
 namespace roscell {
-
-/// Which node a client speaks to.
-struct http_endpoint {
-  std::string socket_path; ///< Unix socket; if empty, `address` counts.
-  std::string address;     ///< IPv4 address or host name.
-  uint16_t port = 8420;
-  std::string token; ///< Bearer token for TCP; may be empty.
-};
 
 /// Stops an http_client that waits, from another thread or a signal handler.
 /// Stays cancelled.
@@ -42,8 +33,9 @@ private:
   int fd_;
 };
 
-/// A small client for the command line, which waits. Each request uses a
-/// connection of its own. Objects may be shared between threads.
+/// A small client for the command line, which waits: each request runs an
+/// event loop and a connection of its own. Objects may be shared between
+/// threads.
 class http_client {
 public:
   explicit http_client(http_endpoint to);
@@ -52,13 +44,15 @@ public:
     std::map<std::string, std::string> headers;
     /// For `request` from the first connection attempt to the last byte, for
     /// `follow` up to the beginning of the reply.
-    std::chrono::milliseconds timeout{30'000};
+    std::chrono::milliseconds timeout = limits::http::client_timeout;
     const http_cancel* cancel = nullptr;
+    /// The error where the server ends the connection before it has answered;
+    /// otherwise a general one.
+    std::optional<edge_error> when_cut_off;
   };
 
-  /// Errors: `unreachable` if nobody answers or the connection breaks,
-  /// `timeout`, `conflict` if it was cancelled, `schema_violation` for a path
-  /// that cannot be asked for. A status other than 200 is no error here.
+  /// Errors: as `describe_http_failure` says. A status other than 200 is no
+  /// error here.
   edge_result<http_reply> request(const std::string& method,
                                   const std::string& path,
                                   const std::string& body,
@@ -67,7 +61,7 @@ public:
   /// Asks by GET for a reply without an end, and calls `on_line` for each of
   /// its lines without the line feed, until it returns false, the reply
   /// ends, or the wait is cancelled. The body of the result is empty, but if
-  /// the status is not 200 it is the whole reply. Errors: as above; a stream
+  /// the server refused it is the whole reply. Errors: as above; a stream
   /// that breaks without a proper end is `unreachable`.
   edge_result<http_reply>
   follow(const std::string& path,
@@ -75,6 +69,10 @@ public:
          const options& how) const;
 
 private:
+  http_call call_to(const std::string& path, const options& how) const;
+  edge_result<http_reply> run(const http_call& what, const options& how,
+                              http_callbacks calls) const;
+
   http_endpoint to_;
 };
 

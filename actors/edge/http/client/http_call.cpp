@@ -1,0 +1,114 @@
+#include "actors/edge/http/client/http_call.hpp"
+
+#include "actors/edge/http/client/http_exchange.hpp"
+
+#include <system_error>
+#include <utility>
+
+namespace roscell {
+
+namespace {
+
+std::string text_of(int system_error) {
+  return std::generic_category().message(system_error);
+}
+
+} // namespace
+
+std::string http_endpoint::name() const {
+  return socket_path.empty() ? address + ":" + std::to_string(port)
+                             : "'" + socket_path + "'";
+}
+
+http_subscription::http_subscription(std::shared_ptr<io_core> core,
+                                     std::shared_ptr<http_exchange> exchange)
+    : core_(std::move(core)), exchange_(std::move(exchange)) {
+  // nop
+}
+
+http_subscription&
+http_subscription::operator=(http_subscription&& other) noexcept {
+  if (this != &other) {
+    cancel();
+    core_ = std::move(other.core_);
+    exchange_ = std::move(other.exchange_);
+  }
+  return *this;
+}
+
+http_subscription::~http_subscription() {
+  cancel();
+}
+
+void http_subscription::cancel() noexcept {
+  if (exchange_)
+    core_->post([exchange = std::move(exchange_)] { exchange->cancel(); });
+  exchange_ = nullptr;
+}
+
+void call_http(const std::shared_ptr<io_core>& core, http_call what,
+               std::function<void(http_outcome)> on_end) {
+  http_callbacks calls;
+  calls.on_end = std::move(on_end);
+  auto exchange =
+      std::make_shared<http_exchange>(core, std::move(what), std::move(calls));
+  core->post([exchange = std::move(exchange)] { exchange->start(); });
+}
+
+http_subscription subscribe_http(const std::shared_ptr<io_core>& core,
+                                 http_call what, http_callbacks calls) {
+  auto exchange =
+      std::make_shared<http_exchange>(core, std::move(what), std::move(calls));
+  core->post([exchange] { exchange->start(); });
+  return {core, std::move(exchange)};
+}
+
+edge_error describe_http_failure(const http_failure& why,
+                                 const http_call& what) {
+  const auto name = what.to.name();
+  switch (why.what) {
+  case http_failure::kind::bad_call:
+    return {error_code::schema_violation, why.reason, ""};
+  case http_failure::kind::no_connection:
+    return {error_code::unreachable,
+            "cannot connect to " + name + ": " + text_of(why.system_error),
+            "is the node running?"};
+  case http_failure::kind::no_file:
+    return {error_code::unreachable,
+            "cannot read '" + what.file.string()
+                + "': " + text_of(why.system_error),
+            ""};
+  case http_failure::kind::timeout:
+    return {error_code::timeout,
+            name + " did not answer within "
+                + std::to_string(what.timeout.count()) + " ms",
+            ""};
+  case http_failure::kind::cut_off:
+    return {error_code::unreachable,
+            name + " ended the connection before it had answered",
+            "was it stopped? ask again when it is back"};
+  case http_failure::kind::too_long:
+    return {error_code::unreachable,
+            "the reply of " + name + " is longer than "
+                + std::to_string(what.max_reply_bytes) + " bytes",
+            ""};
+  case http_failure::kind::stopped:
+    return {error_code::unreachable,
+            "the io thread stopped before " + name + " answered", ""};
+  case http_failure::kind::cancelled:
+    return {error_code::conflict, "cancelled", ""};
+  case http_failure::kind::broken:
+    break;
+  }
+  return {error_code::unreachable,
+          name + " gave no reply that can be read: " + why.reason, ""};
+}
+
+edge_result<http_reply> to_edge_result(http_outcome outcome,
+                                       const http_call& what) {
+  if (const auto* why = std::get_if<http_failure>(&outcome))
+    return describe_http_failure(*why, what);
+  return std::get<http_reply>(std::move(outcome));
+}
+
+} // namespace roscell

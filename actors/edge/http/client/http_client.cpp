@@ -1,0 +1,200 @@
+#include "actors/edge/http/client/http_client.hpp"
+
+#include "actors/edge/http/client/http_exchange.hpp"
+#include "actors/edge/io/line_splitter.hpp"
+
+#include <boost/asio/posix/stream_descriptor.hpp>
+
+#include <array>
+#include <cerrno>
+#include <exception>
+#include <memory>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+#include <arpa/inet.h>
+#include <fcntl.h>
+#include <netdb.h>
+#include <netinet/in.h>
+#include <sys/eventfd.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+namespace roscell {
+
+namespace {
+
+/// The IPv4 address of a host.
+edge_result<std::string> resolve(const http_endpoint& to) {
+  addrinfo hints{};
+  hints.ai_family = AF_INET;
+  hints.ai_socktype = SOCK_STREAM;
+  addrinfo* found = nullptr;
+  const int why = ::getaddrinfo(to.address.c_str(), nullptr, &hints, &found);
+  if (why != 0)
+    return edge_error{error_code::unreachable,
+                      "cannot reach " + to.name() + ": " + ::gai_strerror(why),
+                      "is the name right?"};
+  const std::unique_ptr<addrinfo, decltype(&::freeaddrinfo)> list{
+      found, &::freeaddrinfo};
+  const auto* address = reinterpret_cast<const sockaddr_in*>(list->ai_addr);
+  std::array<char, INET_ADDRSTRLEN> text{};
+  ::inet_ntop(AF_INET, &address->sin_addr, text.data(), text.size());
+  return std::string{text.data()};
+}
+
+/// Runs one call to its end on a loop of its own.
+class waiting_call {
+public:
+  explicit waiting_call(const http_client::options& how)
+      : core_(std::make_shared<io_core>(edge_log{})),
+        cancelled_(core_->context()) {
+    if (how.cancel != nullptr)
+      cancelled_.assign(::fcntl(how.cancel->fd(), F_DUPFD_CLOEXEC, 0));
+  }
+
+  http_outcome run(http_call what, http_callbacks calls) {
+    http_outcome result;
+    calls.on_end = [&](http_outcome outcome) {
+      result = std::move(outcome);
+      core_->stop();
+    };
+    auto exchange = std::make_shared<http_exchange>(core_, std::move(what),
+                                                    std::move(calls));
+    if (cancelled_.is_open())
+      cancelled_.async_wait(
+          boost::asio::posix::stream_descriptor::wait_read,
+          [exchange = std::weak_ptr{exchange}](boost::system::error_code ec) {
+            if (const auto x = exchange.lock(); x && !ec)
+              x->finish(http_failure{http_failure::kind::cancelled, {}, 0});
+          });
+    core_->post([exchange = std::move(exchange)] { exchange->start(); });
+    core_->run();
+    return result;
+  }
+
+private:
+  std::shared_ptr<io_core> core_;
+  boost::asio::posix::stream_descriptor cancelled_;
+};
+
+/// The lines of a stream, for a receiver that may throw.
+class line_reader {
+public:
+  explicit line_reader(const std::function<bool(std::string_view)>& on_line)
+      : lines_(limits::http::client_line_bytes, [this, &on_line](auto line) {
+          return pass_line(on_line, line);
+        }) {
+    // nop
+  }
+
+  bool take(std::string_view bytes) {
+    enough_ = !lines_.take(bytes);
+    return !enough_ && !lines_.too_long();
+  }
+
+  /// After the end of the stream.
+  std::optional<edge_error> finish() {
+    if (!thrown_ && !enough_ && lines_.too_long())
+      return edge_error{error_code::unreachable, "a line has no end", ""};
+    if (!enough_)
+      lines_.finish();
+    if (thrown_)
+      std::rethrow_exception(thrown_);
+    return std::nullopt;
+  }
+
+private:
+  bool pass_line(const std::function<bool(std::string_view)>& on_line,
+                 std::string_view line) {
+    try {
+      return on_line(line);
+    } catch (...) {
+      thrown_ = std::current_exception();
+      return false;
+    }
+  }
+
+  std::exception_ptr thrown_;
+  bool enough_ = false;
+  line_splitter lines_;
+};
+
+} // namespace
+
+http_cancel::http_cancel() : fd_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
+  if (fd_ < 0)
+    throw std::system_error(errno, std::generic_category(), "eventfd");
+}
+
+http_cancel::~http_cancel() {
+  ::close(fd_);
+}
+
+void http_cancel::cancel() const {
+  const uint64_t one = 1;
+  [[maybe_unused]] const auto written = ::write(fd_, &one, sizeof one);
+}
+
+http_client::http_client(http_endpoint to) : to_(std::move(to)) {
+  // nop
+}
+
+http_call http_client::call_to(const std::string& path,
+                               const options& how) const {
+  http_call result;
+  result.to = to_;
+  result.target = path;
+  result.headers = how.headers;
+  result.timeout = how.timeout;
+  result.max_reply_bytes = limits::http::client_reply_bytes;
+  return result;
+}
+
+edge_result<http_reply> http_client::run(const http_call& what,
+                                         const options& how,
+                                         http_callbacks calls) const {
+  auto call = what;
+  if (to_.socket_path.empty()) {
+    auto address = resolve(to_);
+    if (auto* why = std::get_if<edge_error>(&address))
+      return std::move(*why);
+    call.to.address = std::get<std::string>(std::move(address));
+  }
+  auto outcome = waiting_call{how}.run(std::move(call), std::move(calls));
+  const auto* why = std::get_if<http_failure>(&outcome);
+  if (why != nullptr && why->what == http_failure::kind::cut_off
+      && how.when_cut_off)
+    return *how.when_cut_off;
+  return to_edge_result(std::move(outcome), what);
+}
+
+edge_result<http_reply> http_client::request(const std::string& method,
+                                             const std::string& path,
+                                             const std::string& body,
+                                             const options& how) const {
+  auto what = call_to(path, how);
+  what.method = method;
+  what.body = body;
+  return run(what, how, {});
+}
+
+edge_result<http_reply>
+http_client::follow(const std::string& path,
+                    const std::function<bool(std::string_view line)>& on_line,
+                    const options& how) const {
+  auto what = call_to(path, how);
+  what.endless = true;
+  line_reader reader{on_line};
+  http_callbacks calls;
+  calls.on_bytes = [&](std::string_view bytes) { return reader.take(bytes); };
+  auto result = run(what, how, std::move(calls));
+  if (std::holds_alternative<edge_error>(result))
+    return result;
+  if (auto why = reader.finish())
+    return std::move(*why);
+  return result;
+}
+
+} // namespace roscell
