@@ -27,6 +27,18 @@ digest sign(const registration_order& order, std::string_view site_token) {
       .sign(site_token);
 }
 
+constexpr std::string_view standing_label = "roscell standing v1";
+
+digest sign(const standing_claim& claim, std::string_view site_token) {
+  return transcript{standing_label}
+      .add(claim.nonce)
+      .add(claim.node)
+      .add(claim.uuid)
+      .add(claim.epoch)
+      .add(claim.state)
+      .sign(site_token);
+}
+
 constexpr size_t nonce_digits = 64;
 
 using time_point = registration_challenges::time_point;
@@ -56,6 +68,15 @@ std::string prove(const registration_order& order,
 bool proves(const registration_order& order, std::string_view site_token,
             std::string_view proof) {
   return is_proof(proof, sign(order, site_token));
+}
+
+std::string prove(const standing_claim& claim, std::string_view site_token) {
+  return to_hex(sign(claim, site_token));
+}
+
+bool proves(const standing_claim& claim, std::string_view site_token,
+            std::string_view proof) {
+  return is_proof(proof, sign(claim, site_token));
 }
 
 registration_challenges::registration_challenges() : key_(random_bytes(32)) {
