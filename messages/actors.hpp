@@ -106,11 +106,13 @@ using container_supervisor_actor = introspected_actor::extend<
 
 /// The STATE STORE: the only actor that writes the node's database.
 using state_store_actor = introspected_actor::extend<
-    // Replies once the record is on disk. Errors: internal (disk full, ...);
-    // the disk then holds what it held before.
+    // Replies once the record is on disk, or waits for it. Errors: internal
+    // (disk full, ...); the disk then holds what it held before.
     caf::replies_to<store_record>::with<record_stored>,
     // The same for several at once.
-    caf::replies_to<store_records>::with<record_stored>>;
+    caf::replies_to<store_records>::with<record_stored>,
+    // INTERNAL: alarm number N is due.
+    caf::reacts_to<caf::tick_atom, uint64_t>>;
 
 /// The NODE AGENT: what a coordinator may ask of a node. The local node, a
 /// member behind a session and a test's fake all have this handle.

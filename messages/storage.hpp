@@ -7,21 +7,39 @@
 
 namespace roscell {
 
+/// The tables of a node's database. A record is the JSON of one struct:
+///
+/// | table | key | struct |
+/// |---|---|---|
+/// | identity | node, membership | node_identity, membership_record |
+/// | identity | incarnation | a number; coordinators |
+/// | instances | instance | instance_row |
+/// | tasks, members, transfers | see the coordinator's books | coordinators |
+///
+/// A field that is new in such a struct needs a default: records of before lack
+/// it. Reading them: actors/node/node_data.cpp. The file itself:
+/// actors/edge/disk/sqlite_store.cpp.
+
 /// Writes one record durably; an empty value removes it.
 struct store_record {
-  std::string table; ///< "instances", "tasks", "identity".
+  std::string table;
   std::string key;
   std::string value; ///< JSON text.
+  /// A disk that cannot be written is no reason to refuse: the record then
+  /// stays in memory and is written when there is room. For what a node must
+  /// be able to do even then: to belong to a cell, and to end instances.
+  bool may_wait = false;
 
   static constexpr auto fields() {
     return std::make_tuple(required("table", &store_record::table),
                            required("key", &store_record::key),
-                           required("value", &store_record::value));
+                           required("value", &store_record::value),
+                           optional("may_wait", &store_record::may_wait));
   }
 };
 
 /// Writes several records in one transaction: all of them or none. The last
-/// one of a key counts.
+/// one of a key counts. They wait only if all of them may.
 struct store_records {
   std::vector<store_record> records;
 

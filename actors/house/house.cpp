@@ -4,12 +4,21 @@
 
 namespace roscell {
 
+namespace {
+
+/// A path of the host or a word of a library need not be UTF-8.
+constexpr auto replace_bad_bytes = json::error_handler_t::replace;
+
+} // namespace
+
 void house::tell(std::string what, std::string subject,
                  const json& data) const {
   if (events)
     caf::anon_send(events,
                    record_event{std::move(what), std::move(subject),
-                                data.is_null() ? std::string{} : data.dump()});
+                                data.is_null() ? std::string{}
+                                               : data.dump(-1, ' ', false,
+                                                           replace_bad_bytes)});
 }
 
 } // namespace roscell

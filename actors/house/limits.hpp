@@ -64,6 +64,10 @@ namespace store {
 /// For one record of the coordinator. What waits for it has `local::answer`.
 constexpr seconds write{5};
 
+/// Records that wait in memory for room on the disk; who brings one more is
+/// refused. Some for each instance, and two for the node itself.
+constexpr size_t waiting = 1024;
+
 static_assert(write < local::answer);
 
 } // namespace store

@@ -290,6 +290,26 @@ void restore(self_pointer self) {
   trim_ended(self);
 }
 
+/// Nobody could ever end them otherwise.
+void end_strays(self_pointer self) {
+  auto& st = self->state;
+  for (const auto& instance : std::exchange(st.config.strays, {})) {
+    if (!is_instance_id(instance))
+      continue;
+    const auto context = st.config.context;
+    self->request(st.runtime, limits::instance::cleaning,
+                  remove_container{instance, {}})
+        .then(
+            [=](const container_removed&) {
+              context.tell("stray_ended", instance);
+            },
+            [=](const caf::error& why) {
+              context.tell("stray_removal_failed", instance,
+                           {{"reason", to_failure(why).message}});
+            });
+  }
+}
+
 } // namespace
 
 container_supervisor_actor::behavior_type
@@ -300,6 +320,7 @@ container_supervisor(self_pointer self,
       [self](const caf::down_msg& down) { on_down(self, down); });
   start_runtime(self);
   restore(self);
+  end_strays(self);
   return {
       [self](const state_query&) { return state_of(summary(self->state)); },
       [self](const instance_deployment& x) { return deploy(self, x.spec); },

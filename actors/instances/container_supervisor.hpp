@@ -24,6 +24,8 @@ struct container_supervisor_config {
   state_store_actor store;
   /// What the store knew when the node started.
   std::vector<instance_row> restored;
+  /// What an earlier run may have left and no record knows: it is ended.
+  std::vector<std::string> strays;
 };
 
 /// An instance as the supervisor sees it.

@@ -69,7 +69,7 @@ void clean_instance(self_pointer self, const std::string& instance) {
   };
   const auto drop_record = [=](const container_removed&) {
     self->request(self->state.config.store, limits::instance::disk,
-                  store_record{"instances", instance, {}})
+                  store_record{"instances", instance, {}, true})
         .then([=](const record_stored&) { on_gone(self, instance); }, on_error);
   };
   self->request(self->state.runtime, limits::instance::cleaning,

@@ -75,11 +75,19 @@ store_record record_of(const instance_row& row) {
 
 namespace {
 
+/// Of a program that is there already: it can be ended whether this is written
+/// or not.
+store_record later_record_of(const instance_row& row) {
+  auto result = record_of(row);
+  result.may_wait = true;
+  return result;
+}
+
 void finish(self_pointer self, instance_state last, const std::string& reason) {
   set_state(self, last, reason);
   // Before the report, after which the supervisor may remove the record.
   // Without a sender: nobody is left to read the answer.
-  caf::anon_send(self->state.config.store, record_of(self->state.row));
+  caf::anon_send(self->state.config.store, later_record_of(self->state.row));
   report(self);
   self->quit();
 }
@@ -132,7 +140,8 @@ void note(self_pointer self) {
   auto& st = self->state;
   const auto context = st.config.context;
   const auto instance = st.row.spec.instance;
-  self->request(st.config.store, limits::instance::disk, record_of(st.row))
+  self->request(st.config.store, limits::instance::disk,
+                later_record_of(st.row))
       .then([](const record_stored&) {},
             [=](const caf::error& error) {
               context.tell("store_failed", instance,

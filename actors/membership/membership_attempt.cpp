@@ -151,13 +151,14 @@ void open(self_pointer self, const node_identity& who) {
 }
 
 /// A registration must not be taken for an earlier one of this node, not even
-/// after a crash: the epoch is on disk before it is used.
+/// after a crash: the epoch is on disk before it is used. Where the disk is
+/// full it waits in memory: a node that nobody reaches is worse.
 void raise_epoch(self_pointer self) {
   auto& st = self->state;
   auto raised = st.config.identity;
   ++raised.epoch;
   self->request(st.parts.store, limits::local::part,
-                store_record{"identity", "node", json(raised).dump()})
+                store_record{"identity", "node", json(raised).dump(), true})
       .then(
           [self, raised, attempt = st.attempt](const record_stored&) {
             if (is_current(self, attempt, phase::opening))

@@ -119,7 +119,7 @@ membership_record record_of(const membership_status& st) {
 }
 
 store_record to_store(const membership_record& x) {
-  return {"identity", "membership", json(x).dump()};
+  return {"identity", "membership", json(x).dump(), true};
 }
 
 /// Writes the raised epoch; a released node also writes that it is released,
@@ -139,7 +139,7 @@ void write_down(self_pointer self, const switch_reply& reply) {
   };
   const bool release = st.switching->order.target.empty();
   self->request(st.parts.store, limits::local::part,
-                store_record{"identity", "node", json(raised).dump()})
+                store_record{"identity", "node", json(raised).dump(), true})
       .then(
           [self, done, undo, release](const record_stored&) {
             if (!release)

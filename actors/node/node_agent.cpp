@@ -12,6 +12,7 @@
 #include <chrono>
 #include <functional>
 #include <optional>
+#include <set>
 #include <utility>
 
 namespace roscell {
@@ -45,23 +46,15 @@ std::optional<int64_t> session_of(const instance_row& instance) {
 }
 
 /// An instance that the supervisor knows counts as such, whatever its state.
-void add_kept_room(self_pointer self,
-                   const std::vector<instance_row>& instances,
-                   resource_report& to) {
-  auto& kept = self->state.kept;
-  for (auto i = kept.begin(); i != kept.end();) {
-    const bool known =
-        std::any_of(instances.begin(), instances.end(),
-                    [&](const auto& x) { return x.spec.instance == i->first; });
-    if (i->second.until <= self->clock().now()) {
-      i = kept.erase(i);
-      continue;
-    }
-    if (!known) {
-      reserve(to.resources, i->second.spec.resources, i->second.spec.gpu);
-      to.reserved.push_back(i->first);
-    }
-    ++i;
+void add_kept_rooms(self_pointer self,
+                    const std::vector<instance_row>& instances,
+                    resource_report& to) {
+  std::set<std::string> known;
+  for (const auto& x : instances)
+    known.insert(x.spec.instance);
+  for (const auto& spec : self->state.kept.open(self->clock().now(), known)) {
+    reserve(to.resources, spec.resources, spec.gpu);
+    to.reserved.push_back(spec.instance);
   }
 }
 
@@ -79,7 +72,7 @@ resource_report complete(self_pointer self, node_resources resources,
     if (is_live(x.state))
       reserve(resources, x.spec.resources, x.spec.gpu);
   resource_report result{std::move(resources), {}};
-  add_kept_room(self, instances, result);
+  add_kept_rooms(self, instances, result);
   return result;
 }
 
@@ -123,27 +116,16 @@ std::optional<std::string> keep_room(self_pointer self, node_resources& node,
   const auto missing = shortages(node, spec.resources, spec.gpu);
   if (!missing.empty())
     return allocation::enumerated(missing);
+  if (auto why = self->state.kept.keep(spec, self->clock().now()))
+    return why;
   reserve(node, spec.resources, spec.gpu);
-  self->state.kept[spec.instance] = {
-      spec, self->clock().now() + limits::task::longest_reservation};
   return std::nullopt;
-}
-
-void give_up_room(self_pointer self, const std::string& task,
-                  const std::string& instance) {
-  auto& kept = self->state.kept;
-  for (auto i = kept.begin(); i != kept.end();)
-    if (i->second.spec.task == task
-        && (instance.empty() || i->first == instance))
-      i = kept.erase(i);
-    else
-      ++i;
 }
 
 /// What a task had before is given up, so that a repeated one counts once.
 caf::result<instances_reserved> keep(self_pointer self,
                                      const instance_reservation& wish) {
-  give_up_room(self, wish.task, "");
+  self->state.kept.give_up(wish.task, "");
   auto promise = self->make_response_promise<instances_reserved>();
   measure(self, [=](caf::expected<resource_report> now) mutable {
     if (!now) {
@@ -171,7 +153,7 @@ caf::result<instance_deployed> deploy(self_pointer self,
             promise.deliver(std::move(x));
           },
           [self, promise, wish](caf::error& why) mutable {
-            give_up_room(self, wish.spec.task, wish.spec.instance);
+            self->state.kept.give_up(wish.spec.task, wish.spec.instance);
             promise.deliver(std::move(why));
           });
   return promise;
@@ -192,7 +174,7 @@ node_agent_actor::behavior_type node_agent(self_pointer self,
       [self](const instance_reservation& x) { return keep(self, x); },
       [self](const instance_deployment& x) { return deploy(self, x); },
       [self](const instance_removal& x) {
-        give_up_room(self, x.task, x.instance);
+        self->state.kept.give_up(x.task, x.instance);
         return forward<instances_removed>(self, limits::task::agent_removal, x);
       },
       [self](const log_query& x) {

@@ -1,11 +1,9 @@
 #pragma once
 
 #include "actors/house/house.hpp"
+#include "actors/node/kept_rooms.hpp"
 #include "messages/messages.hpp"
 
-#include <caf/actor_clock.hpp>
-
-#include <chrono>
 #include <map>
 #include <string>
 #include <vector>
@@ -20,18 +18,12 @@ struct node_agent_config {
   resource_probe_actor probe;
 };
 
-/// Room that is kept for an instance which is not there yet.
-struct kept_room {
-  instance_spec spec;
-  caf::actor_clock::time_point until;
-};
-
 /// Answers for the local node what a coordinator asks of it.
 struct node_agent_state {
   static constexpr const char* name = "node-agent";
 
   node_agent_config config;
-  std::map<std::string, kept_room> kept; ///< By instance.
+  kept_rooms kept;
   uint64_t reports = 0;
 };
 

@@ -153,7 +153,7 @@ private:
 
   void start_supervision() {
     auto& config = parts_.config;
-    store_ = start<caf::detached>(state_store, data_.database);
+    store_ = start<caf::detached>(state_store, parts_.context, data_.database);
     container_supervisor_config supervision;
     supervision.context = parts_.context;
     supervision.node = config.name;
@@ -163,6 +163,7 @@ private:
                         data_.identity.uuid, *parts_.edges->io);
     supervision.store = store_;
     supervision.restored = data_.instances;
+    supervision.strays = data_.strays;
     parts_.services->supervisor = start(container_supervisor, supervision);
     resource_probe_config probing;
     probing.host.data_dir = config.data_dir.string();
@@ -280,6 +281,16 @@ private:
   state_store_actor store_;
 };
 
+/// What an operator should know of the data directory.
+void tell_of_data(const house& context, const node_data& data) {
+  if (!data.put_aside.empty())
+    context.tell("identity_renewed", data.identity.uuid,
+                 {{"put_aside", data.put_aside.filename().string()}});
+  for (const auto& x : data.unread)
+    context.tell("record_ignored", x.key,
+                 {{"table", x.table}, {"reason", x.why}});
+}
+
 } // namespace
 
 caf::expected<running_node> spawn_node(caf::actor_system& system,
@@ -304,6 +315,7 @@ caf::expected<running_node> spawn_node(caf::actor_system& system,
     caf::anon_send_exit(context.events, caf::exit_reason::user_shutdown);
     return edges.error();
   }
+  tell_of_data(context, *data);
   running_node result;
   result.events = context.events;
   result.actors = context.directory;

@@ -30,6 +30,8 @@ struct node_config {
   /// auto, process, docker[:SOCKET] or podman[:SOCKET].
   std::string runtime = "auto";
   std::filesystem::path data_dir;
+  /// Begin anew where a node has been before: what it knew is put aside.
+  bool new_identity = false;
   std::filesystem::path socket; ///< Unix socket; empty: data_dir/node.sock.
   std::vector<std::filesystem::path> skill_dirs;
   std::filesystem::path site_token_file; ///< Empty: loopback sessions only.

@@ -1,29 +1,34 @@
 #include "actors/node/node_data.hpp"
 
-#include "actors/edge/disk/small_file.hpp"
+#include "actors/edge/disk/put_aside.hpp"
 #include "actors/edge/io/crypto.hpp"
 #include "actors/house/edge_failure.hpp"
 #include "actors/house/limits.hpp"
+#include "actors/node/node_tokens.hpp"
 #include "messages/failure.hpp"
 #include "schemas/decode.hpp"
 
 #include <algorithm>
-#include <cctype>
-#include <cerrno>
-#include <cstring>
-#include <optional>
+#include <map>
+#include <system_error>
 #include <utility>
-
-#include <fcntl.h>
-#include <unistd.h>
 
 namespace roscell {
 
 namespace {
 
-using records = std::vector<sqlite_store::record>;
-
 namespace fs = std::filesystem;
+
+/// What a table holds, by key.
+using documents = std::map<std::string, json>;
+
+fs::path database_of(const node_config& config) {
+  return config.data_dir / "state.db";
+}
+
+fs::path token_of(const node_config& config) {
+  return config.data_dir / "token";
+}
 
 /// A random UUID, version 4 of RFC 4122.
 std::string make_uuid() {
@@ -36,121 +41,173 @@ std::string make_uuid() {
   return hex;
 }
 
-std::string trim(const std::string& text) {
-  const auto is_space = [](unsigned char c) { return std::isspace(c) != 0; };
-  const auto begin = std::find_if_not(text.begin(), text.end(), is_space);
-  const auto end =
-      std::find_if_not(text.rbegin(), text.rend(), is_space).base();
-  return begin < end ? std::string{begin, end} : std::string{};
+/// Every record is JSON that this program has written: what is none tells that
+/// the file has been damaged.
+caf::expected<documents> read_table(const node_config& config, node_data& data,
+                                    const std::string& table) {
+  auto loaded = data.database->load(table);
+  if (auto* why = std::get_if<edge_error>(&loaded))
+    return to_caf(*why);
+  documents result;
+  for (const auto& [key, value] :
+       std::get<std::vector<sqlite_store::record>>(loaded)) {
+    result[key] = json::parse(value, nullptr, false);
+    if (result[key].is_discarded())
+      return to_caf(damaged_store(database_of(config), "the record '" + key
+                                                           + "' of '" + table
+                                                           + "' is no JSON"));
+  }
+  return result;
 }
 
-/// Writes a new file that only its owner can read.
-caf::error write_secret(const fs::path& path, const std::string& text) {
-  const int fd =
-      ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
-  const auto size = static_cast<ssize_t>(text.size());
-  const bool written = fd >= 0 && ::write(fd, text.data(), text.size()) == size
-                       && ::fsync(fd) == 0;
-  const int problem = errno;
-  if (fd >= 0)
-    ::close(fd);
-  if (written)
-    return caf::none;
-  return fail(error_code::internal, "cannot write '" + path.string()
-                                        + "': " + std::strerror(problem));
-}
-
-caf::error load_token(node_data& data, const fs::path& dir) {
-  const auto path = dir / "token";
-  data.token_file = path.string();
-  if (!fs::exists(path))
-    if (auto why = write_secret(path, to_hex(random_bytes(32)) + "\n"))
-      return why;
-  data.token =
-      trim(read_small_file(path, limits::token::most_bytes).value_or(""));
-  if (data.token.empty())
-    return fail(error_code::internal,
-                "cannot read the token in '" + path.string() + "'", "",
-                "remove the file, and the node makes a new one");
-  return caf::none;
-}
-
-caf::error load_site_token(node_data& data, const fs::path& path) {
-  if (path.empty())
-    return caf::none;
-  const auto text = read_small_file(path, limits::token::most_bytes);
-  if (!text)
-    return fail(error_code::unauthorized,
-                "cannot read the site token in '" + path.string() + "'", "",
-                "give --site-token a file of at most 4096 bytes that this user "
-                "can read");
-  data.site_token = trim(*text);
-  if (data.site_token.size() < limits::token::least_site_bytes)
-    return fail(error_code::unauthorized,
-                "the site token in '" + path.string()
-                    + "' is shorter than 16 characters",
-                "", "make one: head -c 32 /dev/urandom | xxd -p -c 64");
-  return caf::none;
-}
-
-/// Reads what can be read of a table: a record of another version is not worth
-/// a node that does not start.
+/// What another version has written and this one does not understand is not
+/// worth a node that does not start, but it is told.
 template <class T>
-caf::error load_records(sqlite_store& database, const std::string& table,
-                        std::vector<T>& result) {
-  auto loaded = database.load(table);
-  if (auto* why = std::get_if<edge_error>(&loaded))
-    return to_caf(*why);
-  for (const auto& [key, value] : std::get<records>(loaded)) {
-    const auto document = json::parse(value, nullptr, false);
-    if (document.is_discarded())
-      continue;
-    auto decoded = decode<T>(document);
-    if (auto* x = std::get_if<T>(&decoded))
+std::optional<T> understand(node_data& data, const std::string& table,
+                            const std::string& key, const json& document) {
+  auto decoded = decode<T>(document);
+  if (auto* x = std::get_if<T>(&decoded))
+    return std::move(*x);
+  data.unread.push_back({table, key, std::get<failure>(decoded).message});
+  return std::nullopt;
+}
+
+template <class T>
+caf::error load_records(const node_config& config, node_data& data,
+                        const std::string& table, std::vector<T>& result) {
+  const auto found = read_table(config, data, table);
+  if (!found)
+    return found.error();
+  for (const auto& [key, document] : *found)
+    if (auto x = understand<T>(data, table, key, document))
       result.push_back(std::move(*x));
-  }
   return caf::none;
 }
 
-/// The document of that key, or null.
-json find_record(const records& table, const std::string& key) {
-  for (const auto& [name, value] : table)
-    if (name == key)
-      if (auto document = json::parse(value, nullptr, false);
-          !document.is_discarded())
-        return document;
-  return nullptr;
+/// A node that was here has left its token, which it makes after its identity.
+bool was_here(const node_config& config) {
+  std::error_code ignored;
+  return fs::exists(token_of(config), ignored);
 }
 
-caf::error load_identity(node_data& data, bool coordinator) {
-  auto& database = *data.database;
-  auto loaded = database.load("identity");
-  if (auto* why = std::get_if<edge_error>(&loaded))
+caf::error put_database_aside(const node_config& config, node_data& data) {
+  auto done = put_aside(database_of(config));
+  if (auto* why = std::get_if<edge_error>(&done))
     return to_caf(*why);
-  const auto& table = std::get<records>(loaded);
-  if (const auto known = find_record(table, "node"); !known.is_null()) {
-    auto decoded = decode<node_identity>(known);
-    if (auto* identity = std::get_if<node_identity>(&decoded))
-      data.identity = std::move(*identity);
-  }
-  if (const auto known = find_record(table, "membership"); !known.is_null()) {
-    auto decoded = decode<membership_record>(known);
-    if (auto* record = std::get_if<membership_record>(&decoded))
-      data.membership = std::move(*record);
-  }
-  if (data.identity.uuid.empty()) {
-    data.identity.uuid = make_uuid();
-    if (auto why = database.put("identity", "node", json(data.identity).dump()))
-      return to_caf(*why);
-  }
-  if (!coordinator)
+  data.put_aside = std::get<fs::path>(std::move(done));
+  return caf::none;
+}
+
+/// SQLite would take an empty file for a new one.
+caf::error refuse_emptied(const node_config& config) {
+  std::error_code problem;
+  if (fs::file_size(database_of(config), problem) != 0 || problem
+      || !was_here(config))
     return caf::none;
-  const auto known = find_record(table, "incarnation");
-  data.incarnation = known.is_number_integer() ? known.get<int64_t>() + 1 : 1;
-  if (auto why = database.put("identity", "incarnation",
-                              std::to_string(data.incarnation)))
+  return to_caf(damaged_store(database_of(config), "it is empty"));
+}
+
+caf::error open_database(const node_config& config, node_data& data) {
+  if (auto why = config.new_identity ? put_database_aside(config, data)
+                                     : refuse_emptied(config))
+    return why;
+  auto database = sqlite_store::open(database_of(config));
+  if (auto* why = std::get_if<edge_error>(&database))
+    return to_caf(*why);
+  data.database = std::make_shared<sqlite_store>(
+      std::get<sqlite_store>(std::move(database)));
+  return caf::none;
+}
+
+caf::error make_identity(node_data& data) {
+  data.identity.uuid = make_uuid();
+  if (auto why =
+          data.database->put("identity", "node", json(data.identity).dump()))
     return to_caf(*why);
   return caf::none;
+}
+
+/// `existed`: the database was there before this start.
+caf::error load_identity(const node_config& config, node_data& data,
+                         const documents& table, bool existed) {
+  const auto i = table.find("node");
+  if (i == table.end() && existed && was_here(config))
+    return to_caf(
+        damaged_store(database_of(config), "it does not say who the node is"));
+  if (i == table.end())
+    return make_identity(data);
+  auto known = understand<node_identity>(data, "identity", "node", i->second);
+  if (!known || known->uuid.empty())
+    return to_caf(
+        damaged_store(database_of(config), "it does not say who the node is"));
+  data.identity = std::move(*known);
+  return caf::none;
+}
+
+/// Of a coordinator: each start has a number of its own, written before it is
+/// used.
+caf::error raise_incarnation(node_data& data, const documents& table) {
+  const auto i = table.find("incarnation");
+  data.incarnation = i != table.end() && i->second.is_number_integer()
+                         ? i->second.get<int64_t>() + 1
+                         : 1;
+  if (auto why = data.database->put("identity", "incarnation",
+                                    std::to_string(data.incarnation)))
+    return to_caf(*why);
+  return caf::none;
+}
+
+caf::error load_self(const node_config& config, node_data& data, bool existed) {
+  const auto table = read_table(config, data, "identity");
+  if (!table)
+    return table.error();
+  if (auto why = load_identity(config, data, *table, existed))
+    return why;
+  if (const auto i = table->find("membership"); i != table->end())
+    data.membership = understand<membership_record>(data, "identity",
+                                                    "membership", i->second);
+  return config.coordinator ? raise_incarnation(data, *table) : caf::none;
+}
+
+caf::error load_tables(const node_config& config, node_data& data) {
+  if (auto why = load_records(config, data, "instances", data.instances))
+    return why;
+  if (auto why = load_records(config, data, "tasks", data.tasks))
+    return why;
+  if (auto why = load_records(config, data, "members", data.members))
+    return why;
+  return load_records(config, data, "transfers", data.transfers);
+}
+
+caf::error load_tokens(const node_config& config, node_data& data) {
+  data.token_file = token_of(config).string();
+  auto token = load_bearer_token(token_of(config));
+  if (!token)
+    return token.error();
+  data.token = std::move(*token);
+  if (config.site_token_file.empty())
+    return caf::none;
+  auto site = load_site_token(config.site_token_file);
+  if (!site)
+    return site.error();
+  data.site_token = std::move(*site);
+  return caf::none;
+}
+
+/// Folders of programs that an earlier run has started and that no record
+/// knows, since the record was lost.
+std::vector<std::string> find_strays(const fs::path& folder,
+                                     const std::vector<instance_row>& known) {
+  std::vector<std::string> result;
+  std::error_code problem;
+  for (fs::directory_iterator i{folder, problem}, end; !problem && i != end;
+       i.increment(problem)) {
+    const auto name = i->path().filename().string();
+    if (std::none_of(known.begin(), known.end(),
+                     [&](const auto& x) { return x.spec.instance == name; }))
+      result.push_back(name);
+  }
+  return result;
 }
 
 } // namespace
@@ -162,25 +219,18 @@ caf::expected<node_data> open_node_data(const node_config& config) {
     return to_caf(*why);
   data.lock = std::make_shared<directory_lock>(
       std::get<directory_lock>(std::move(lock)));
-  auto database = sqlite_store::open(config.data_dir / "state.db");
-  if (auto* why = std::get_if<edge_error>(&database))
-    return to_caf(*why);
-  data.database = std::make_shared<sqlite_store>(
-      std::get<sqlite_store>(std::move(database)));
-  if (auto why = load_identity(data, config.coordinator))
+  std::error_code ignored;
+  const bool existed =
+      !config.new_identity && fs::exists(database_of(config), ignored);
+  if (auto why = open_database(config, data))
     return why;
-  if (auto why = load_token(data, config.data_dir))
+  if (auto why = load_self(config, data, existed))
     return why;
-  if (auto why = load_site_token(data, config.site_token_file))
+  if (auto why = load_tables(config, data))
     return why;
-  if (auto why = load_records(*data.database, "instances", data.instances))
+  if (auto why = load_tokens(config, data))
     return why;
-  if (auto why = load_records(*data.database, "tasks", data.tasks))
-    return why;
-  if (auto why = load_records(*data.database, "members", data.members))
-    return why;
-  if (auto why = load_records(*data.database, "transfers", data.transfers))
-    return why;
+  data.strays = find_strays(config.data_dir / "instances", data.instances);
   return data;
 }
 

@@ -10,12 +10,20 @@
 
 #include <caf/expected.hpp>
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace roscell {
+
+/// A record that this version does not understand.
+struct unread_record {
+  std::string table;
+  std::string key;
+  std::string why;
+};
 
 /// What a node keeps in its data directory, as found at the start.
 struct node_data {
@@ -28,6 +36,9 @@ struct node_data {
   std::vector<transfer_row> transfers;         ///< The same; those left open.
   std::vector<instance_row> instances;
   std::vector<task_record> tasks;
+  std::vector<unread_record> unread; ///< They stay where they are.
+  std::vector<std::string> strays;   ///< Instances that no record knows.
+  std::filesystem::path put_aside;   ///< The former database; empty: none was.
   std::string token_file;
   std::string token;      ///< Bearer token for HTTP over TCP.
   std::string site_token; ///< Empty: none is installed.
@@ -35,7 +46,9 @@ struct node_data {
 
 /// Opens the data directory, making it and what belongs into it at the first
 /// start: a UUID, and the bearer token in a file that only its owner can read.
-/// Blocks on the disk.
+/// A node never begins anew by itself where it has been before: a database that
+/// cannot be trusted is an error, until `new_identity` puts it aside. Blocks on
+/// the disk.
 ///
 /// Errors: conflict (another node uses the directory), internal (no permission,
 /// disk full, damaged database), unauthorized (a bad site token file).

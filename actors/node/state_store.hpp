@@ -1,10 +1,15 @@
 #pragma once
 
 #include "actors/edge/disk/sqlite_store.hpp"
+#include "actors/house/alarm.hpp"
+#include "actors/house/backoff.hpp"
 #include "actors/house/house.hpp"
 #include "messages/messages.hpp"
 
+#include <map>
 #include <memory>
+#include <string>
+#include <utility>
 
 namespace roscell {
 
@@ -12,14 +17,19 @@ namespace roscell {
 struct state_store_state {
   static constexpr const char* name = "state-store";
 
+  house context;
   std::shared_ptr<sqlite_store> database;
+  /// What could not be written yet, by table and key; empty removes.
+  std::map<std::pair<std::string, std::string>, std::string> waiting;
+  backoff pause; ///< Until the next attempt.
+  alarm timer;
   uint64_t written = 0; ///< Records stored or removed.
   uint64_t refused = 0; ///< Records that could not be.
 };
 
-/// The STATE STORE. Messages: messages/storage.hpp.
+/// The STATE STORE. Messages, and what each table holds: messages/storage.hpp.
 state_store_actor::behavior_type
 state_store(state_store_actor::stateful_pointer<state_store_state> self,
-            std::shared_ptr<sqlite_store> database);
+            const house& context, std::shared_ptr<sqlite_store> database);
 
 } // namespace roscell

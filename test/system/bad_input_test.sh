@@ -255,3 +255,26 @@ test_if_one_step_fails_the_others_are_rolled_back() {
   expect "instances" "$(get head /v1/instances | jq '.instances | length')" 0
   still_up
 }
+
+test_a_damaged_state_is_refused_and_put_aside_when_told_so() {
+  local old instance child
+  start_alone
+  old=$(get head /v1/node | jq -r .identity.uuid)
+  echo_task gone | to head request > "$scratch/reply.json"
+  instance=$(jq -r '.instances[0].instance' "$scratch/reply.json")
+  child=$(cut -d' ' -f3 "$scratch/head/instances/$instance/pid")
+  stop_node head KILL
+  : > "$scratch/head/state.db"
+  timeout 20 "$ROSCELL" node --name head --data-dir "$scratch/head" --interface lo \
+    --port 0 --coordinator --discovery-port 0 2> "$scratch/stderr"
+  expect "exit code" $? 1
+  grep -q "state.db' is damaged" "$scratch/stderr" || fail "$(cat "$scratch/stderr")"
+  grep -q -- --new-identity "$scratch/stderr" || fail "$(cat "$scratch/stderr")"
+  kill -0 "$child" || fail "the program has ended with its node"
+  start_node head --coordinator --cell line --interface lo --new-identity
+  [[ -e $scratch/head/state.db.aside-1 ]] || fail "$(ls "$scratch/head")"
+  await head '.event == "stray_ended"' > /dev/null
+  timeout "$deadline_s" tail --pid="$child" -f /dev/null \
+    || fail "the program of before runs on"
+  [[ $(get head /v1/node | jq -r .identity.uuid) != "$old" ]] || fail "the same node"
+}

@@ -155,3 +155,25 @@ test_a_coordinator_that_deploys_ends_within_5_s_of_sigterm() {
   expect "what the client is told" \
     "$(jq -r .error.code "$scratch/reply.json")" unreachable
 }
+
+test_a_member_with_a_full_disk_comes_back_and_does_what_it_is_told() {
+  [[ $(id -u) -eq 0 ]] || skip "a file system of its own needs root"
+  mkdir "$scratch/arm"
+  mount -t tmpfs -o size=16m none "$scratch/arm" 2> /dev/null \
+    || skip "a file system cannot be mounted here"
+  trap 'clean_up; umount -l "$scratch/arm"' EXIT
+  start_cell arm
+  echo_task busy arm | to head request > "$scratch/reply.json"
+  stop_node arm KILL
+  await head '.event == "node_lost" and .subject == "arm"' > "$scratch/lost.json"
+  dd if=/dev/zero of="$scratch/arm/fill" bs=4k 2> /dev/null
+  start_node arm --interface lo --join "$server" --label place=arm
+  await_joined head arm "$(jq .sequence "$scratch/lost.json")"
+  await arm '.event == "store_failed"' > /dev/null
+  echo '{"type":"task_termination","task":"busy"}' | to head request \
+    > "$scratch/end.json"
+  expect "what is said" "$(jq -r .type "$scratch/end.json")" task_terminated
+  expect "its instances" "$(get arm /v1/instances | jq '.instances | length')" 0
+  rm "$scratch/arm/fill"
+  await arm '.event == "store_caught_up"' > /dev/null
+}

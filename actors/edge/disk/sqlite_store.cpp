@@ -13,8 +13,9 @@ namespace roscell {
 
 namespace {
 
-/// Raised when the layout changes in a way that older programs cannot read.
-constexpr int layout_version = 1;
+/// Raised when tables or records change in a way that older programs cannot
+/// read; these then refuse the file. Records of version 1 are read as they are.
+constexpr int layout_version = 2;
 
 /// Write-ahead log and one sync per commit: a record costs a page or two
 /// instead of the four writes and three syncs of a rollback journal. The lock
@@ -30,9 +31,11 @@ constexpr const char* settings = "PRAGMA locking_mode=EXCLUSIVE;"
                                  "PRAGMA temp_store=MEMORY;";
 
 constexpr const char* layout =
+    "BEGIN IMMEDIATE;"
     "CREATE TABLE IF NOT EXISTS records(tbl TEXT NOT NULL, key TEXT NOT NULL,"
     " value TEXT NOT NULL, PRIMARY KEY(tbl, key)) WITHOUT ROWID;"
-    "PRAGMA user_version=1;";
+    "PRAGMA user_version=2;"
+    "COMMIT;";
 
 struct statement_closer {
   void operator()(sqlite3_stmt* x) const {
@@ -59,9 +62,7 @@ edge_error meaning(int code, const std::string& file) {
             "stop that program, or choose another --data-dir"};
   case SQLITE_CORRUPT:
   case SQLITE_NOTADB:
-    return {error_code::internal, "'" + file + "' is damaged",
-            "restore a copy, or move it away: the node then forgets its "
-            "identity, tasks and instances"};
+    return damaged_store(file, {});
   case SQLITE_CANTOPEN:
   case SQLITE_READONLY:
   case SQLITE_PERM:
@@ -73,12 +74,6 @@ edge_error meaning(int code, const std::string& file) {
   default:
     return {error_code::internal, "'" + file + "' cannot be used", {}};
   }
-}
-
-/// SQLite takes only a full device for a lack of room; a quota and a limit of
-/// the process are some too.
-bool is_lack_of_room(int number) {
-  return number == EDQUOT || number == EFBIG || number == ENOSPC;
 }
 
 /// SQLite would let everybody read a file that it makes. Where this fails,
@@ -129,7 +124,8 @@ std::optional<edge_error> sqlite_store::prepare() {
   if (auto error =
           run("SELECT user_version, '' FROM pragma_user_version", {}, &rows))
     return error;
-  if (rows.size() == 1 && std::atoi(rows[0].first.c_str()) > layout_version)
+  const int version = rows.empty() ? 0 : std::atoi(rows[0].first.c_str());
+  if (version > layout_version)
     return edge_error{error_code::internal,
                       "'" + file_.string() + "' was made by a newer version",
                       "install that version, or choose another --data-dir"};
@@ -139,9 +135,13 @@ std::optional<edge_error> sqlite_store::prepare() {
     return error;
   if (rows.empty() || rows[0].first != "ok")
     return meaning(SQLITE_CORRUPT, file_.string());
-  if (!execute(layout))
-    return explain();
-  return std::nullopt;
+  if (version == layout_version || execute(layout))
+    return std::nullopt;
+  const auto why = explain();
+  const bool readable = version > 0 && lacks_room();
+  execute("ROLLBACK");
+  // A disk without room keeps nobody from reading what is there.
+  return readable ? std::nullopt : std::optional<edge_error>{why};
 }
 
 std::optional<edge_error>
@@ -224,18 +224,37 @@ void sqlite_store::count_written() {
                         std::memory_order_relaxed);
 }
 
+/// SQLite takes only a full device for a lack of room; a quota and a limit of
+/// the process are some too.
+bool sqlite_store::lacks_room() const {
+  const int code = sqlite3_errcode(db_.get()) & 0xff;
+  const int number = sqlite3_system_errno(db_.get());
+  return code == SQLITE_FULL
+         || ((code == SQLITE_IOERR || code == SQLITE_CANTOPEN)
+             && (number == EDQUOT || number == EFBIG || number == ENOSPC));
+}
+
 edge_error sqlite_store::explain() const {
   if (!db_)
     return meaning(SQLITE_NOMEM, file_.string());
-  const int number = sqlite3_system_errno(db_.get());
   const int code =
-      is_lack_of_room(number) ? SQLITE_FULL : sqlite3_errcode(db_.get()) & 0xff;
+      lacks_room() ? SQLITE_FULL : sqlite3_errcode(db_.get()) & 0xff;
   auto result = meaning(code, file_.string());
   result.message += std::string{" ("} + sqlite3_errmsg(db_.get());
-  if (number != 0)
+  if (const int number = sqlite3_system_errno(db_.get()); number != 0)
     result.message += std::string{", "} + std::strerror(number);
   result.message += ')';
   return result;
+}
+
+edge_error damaged_store(const std::filesystem::path& file,
+                         const std::string& how) {
+  return {error_code::internal,
+          "'" + file.string() + "' is damaged" + (how.empty() ? "" : ": ")
+              + how,
+          "restore a copy of it, or start the node once with --new-identity: "
+          "that puts the file aside, ends the instances of before, and begins "
+          "anew without the tasks"};
 }
 
 } // namespace roscell

@@ -28,9 +28,11 @@ public:
     std::optional<std::string> value;
   };
 
-  /// Opens or makes the file and checks it.
+  /// Opens or makes the file and checks it. One that is there is only read, so
+  /// that it can be opened where the disk is full; of an older version it is
+  /// carried over.
   /// Errors: conflict (another program holds it), internal (damaged, made by a
-  /// newer version, no permission, disk full).
+  /// newer version, no permission, no room to make it).
   static edge_result<sqlite_store> open(const std::filesystem::path& file);
 
   /// All records of a table, by key.
@@ -67,6 +69,7 @@ private:
                                 const std::vector<std::string>& values,
                                 std::vector<record>* rows = nullptr);
   std::optional<edge_error> apply(const change& x);
+  bool lacks_room() const; ///< That was why the last step failed.
   edge_error explain() const;
   void count_written();
 
@@ -76,5 +79,9 @@ private:
   std::shared_ptr<std::atomic<uint64_t>> written_ =
       std::make_shared<std::atomic<uint64_t>>(0);
 };
+
+/// What is said of a file that cannot be trusted, and what to do about it.
+edge_error damaged_store(const std::filesystem::path& file,
+                         const std::string& how);
 
 } // namespace roscell

@@ -179,6 +179,9 @@ state_store_actor fake_store(caf::actor_system& system,
                                      x.records.end());
               return either(script->error, record_stored{});
             },
+            [](caf::tick_atom, uint64_t) {
+              // Nothing waits here.
+            },
         };
       });
 }

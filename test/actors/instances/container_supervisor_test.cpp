@@ -445,3 +445,12 @@ TEST_CASE("an engine's trouble is told of every live instance, and its end") {
   CHECK(b.row("i").trouble.empty());
   CHECK(b.row("j").trouble.empty());
 }
+
+TEST_CASE("what an earlier run has left and no record knows is ended") {
+  bench b;
+  b.config.strays = {"t-a-1", "../not an instance"};
+  b.start();
+  REQUIRE(b.runtime->removed.size() == 1);
+  CHECK(b.runtime->removed[0].instance == "t-a-1");
+  CHECK(b.runtime->removed[0].container.empty());
+}

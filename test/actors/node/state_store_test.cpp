@@ -1,8 +1,12 @@
 #include "actors/node/state_store.hpp"
 
+#include "actors/house/limits.hpp"
 #include "messages/failure.hpp"
 #include "test/actors/fakes/supervision_fakes.hpp"
 
+#include <sys/resource.h>
+
+#include <csignal>
 #include <variant>
 
 using namespace roscell;
@@ -25,7 +29,8 @@ struct store_on_disk {
     REQUIRE(std::holds_alternative<sqlite_store>(opened));
     database = std::make_shared<sqlite_store>(
         std::move(std::get<sqlite_store>(opened)));
-    actor = roscell::spawn(time.system, time.context, state_store, database);
+    actor = roscell::spawn(time.system, time.context, state_store, time.context,
+                           database);
   }
 
   ~store_on_disk() {
@@ -49,6 +54,36 @@ struct store_on_disk {
   }
 };
 
+/// Lets this process write no byte to any file, as on a disk that is full.
+class full_disk {
+public:
+  full_disk() {
+    ::getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit none{0, before_.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &none);
+  }
+
+  ~full_disk() {
+    make_room();
+    std::signal(SIGXFSZ, handler_);
+  }
+
+  full_disk(const full_disk&) = delete;
+  full_disk& operator=(const full_disk&) = delete;
+
+  void make_room() {
+    ::setrlimit(RLIMIT_FSIZE, &before_);
+  }
+
+private:
+  rlimit before_{};
+  void (*handler_)(int) = std::signal(SIGXFSZ, SIG_IGN);
+};
+
+store_record patient(const std::string& key, const std::string& value) {
+  return {"tasks", key, value, true};
+}
+
 } // namespace
 
 TEST_CASE("the state store writes records and removes them when empty") {
@@ -70,4 +105,51 @@ TEST_CASE("no records are stored at once") {
   store_on_disk store;
   CHECK(store.tell(store_records{}));
   CHECK(store.tasks().empty());
+}
+
+TEST_CASE("what may not wait is refused while the disk is full") {
+  store_on_disk store;
+  full_disk disk;
+  const auto answer = store.tell(store_record{"tasks", "t", "1"});
+  REQUIRE_FALSE(answer);
+  CHECK(to_failure(answer.error()).message.find("no room is left")
+        != std::string::npos);
+  CHECK_FALSE(
+      store.tell(store_records{{patient("a", "1"), {"tasks", "b", "2"}}}));
+  disk.make_room();
+  store.time.advance(std::chrono::minutes{1});
+  CHECK(store.tasks().empty());
+}
+
+TEST_CASE("what may wait is written when there is room") {
+  store_on_disk store;
+  full_disk disk;
+  CHECK(store.tell(patient("a", "1")));
+  CHECK(store.tell(patient("a", "2")));
+  CHECK(store.tell(patient("b", "3")));
+  store.time.advance(std::chrono::minutes{1});
+  CHECK(store.tasks().empty());
+  disk.make_room();
+  store.time.advance(limits::retry::longest);
+  CHECK(store.tasks() == records{{"a", "2"}, {"b", "3"}});
+  CHECK_FALSE(store.time.scheduler.clock().has_pending_timeout());
+}
+
+TEST_CASE("the next record takes along what waits") {
+  store_on_disk store;
+  {
+    full_disk disk;
+    CHECK(store.tell(patient("a", "1")));
+    CHECK(store.tell(patient("b", "2")));
+  }
+  CHECK(store.tell(store_record{"tasks", "a", "3"}));
+  CHECK(store.tasks() == records{{"a", "3"}, {"b", "2"}});
+}
+
+TEST_CASE("not more than a bound of records waits") {
+  store_on_disk store;
+  full_disk disk;
+  for (size_t i = 0; i < limits::store::waiting; ++i)
+    CHECK(store.tell(patient(std::to_string(i), "1")));
+  CHECK_FALSE(store.tell(patient("one more", "1")));
 }

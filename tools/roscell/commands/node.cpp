@@ -136,6 +136,9 @@ void add_files(CLI::App& command, node_options& options) {
   command
       .add_option("--socket", config.socket, "Unix socket for local requests")
       ->option_text("PATH [DATA_DIR/node.sock]");
+  command.add_flag("--new-identity", config.new_identity,
+                   "Once: begin anew in a data directory that was used. What "
+                   "the node knew is put aside, and what it ran is ended");
   command
       .add_option("--log-bytes", options.log_bytes,
                   "Bound of the log that is kept of one instance")

@@ -162,10 +162,47 @@ TEST_CASE("a file of a newer version is not touched") {
     // Offset and size of the user version (SQLite file format, 1.3.15).
     std::fstream newer{file, std::ios::in | std::ios::out | std::ios::binary};
     newer.seekp(60);
-    newer << std::string{"\0\0\0\2", 4};
+    newer << std::string{"\0\0\0\3", 4};
   }
   CHECK(error_of(sqlite_store::open(file)).message.find("newer version")
         != std::string::npos);
+}
+
+TEST_CASE("a file of the version before is carried over") {
+  own_folder folder;
+  const auto file = folder.path() / "state.db";
+  {
+    auto store = value_of(sqlite_store::open(file));
+    CHECK_FALSE(store.put("tasks", "a", "1"));
+  }
+  {
+    std::fstream older{file, std::ios::in | std::ios::out | std::ios::binary};
+    older.seekp(60);
+    older << std::string{"\0\0\0\1", 4};
+  }
+  {
+    auto store = value_of(sqlite_store::open(file));
+    CHECK(load(store, "tasks") == records{{"a", "1"}});
+  }
+  std::fstream now{file, std::ios::in | std::ios::binary};
+  now.seekg(60);
+  std::string version(4, '?');
+  now.read(version.data(), 4);
+  CHECK(version == std::string{"\0\0\0\2", 4});
+}
+
+TEST_CASE("a file is opened and read although the disk is full") {
+  own_folder folder;
+  const auto file = folder.path() / "state.db";
+  {
+    auto store = value_of(sqlite_store::open(file));
+    CHECK_FALSE(store.put("tasks", "a", "1"));
+  }
+  const small_files limit{0};
+  auto store = value_of(sqlite_store::open(file));
+  CHECK(load(store, "tasks") == records{{"a", "1"}});
+  CHECK(store.put("tasks", "b", "2"));
+  CHECK(load(store, "tasks") == records{{"a", "1"}});
 }
 
 TEST_CASE("a folder that cannot be written is told of") {

@@ -1,0 +1,80 @@
+#include "actors/node/node_tokens.hpp"
+
+#include "actors/edge/disk/small_file.hpp"
+#include "actors/edge/io/crypto.hpp"
+#include "actors/house/limits.hpp"
+#include "messages/failure.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <cstring>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+namespace roscell {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string trim(const std::string& text) {
+  const auto is_space = [](unsigned char c) { return std::isspace(c) != 0; };
+  const auto begin = std::find_if_not(text.begin(), text.end(), is_space);
+  const auto end =
+      std::find_if_not(text.rbegin(), text.rend(), is_space).base();
+  return begin < end ? std::string{begin, end} : std::string{};
+}
+
+/// Writes a new file that only its owner can read.
+caf::error write_secret(const fs::path& path, const std::string& text) {
+  const int fd =
+      ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+  const auto size = static_cast<ssize_t>(text.size());
+  const bool written = fd >= 0 && ::write(fd, text.data(), text.size()) == size
+                       && ::fsync(fd) == 0;
+  const int problem = errno;
+  if (fd >= 0)
+    ::close(fd);
+  if (written)
+    return caf::none;
+  // Half a secret would be taken for one at the next start.
+  if (fd >= 0)
+    ::unlink(path.c_str());
+  return fail(error_code::internal, "cannot write '" + path.string()
+                                        + "': " + std::strerror(problem));
+}
+
+} // namespace
+
+caf::expected<std::string> load_bearer_token(const fs::path& file) {
+  if (!fs::exists(file))
+    if (auto why = write_secret(file, to_hex(random_bytes(32)) + "\n"))
+      return why;
+  auto token =
+      trim(read_small_file(file, limits::token::most_bytes).value_or(""));
+  if (token.empty())
+    return fail(error_code::internal,
+                "cannot read the token in '" + file.string() + "'", "",
+                "remove the file, and the node makes a new one");
+  return token;
+}
+
+caf::expected<std::string> load_site_token(const fs::path& file) {
+  const auto text = read_small_file(file, limits::token::most_bytes);
+  if (!text)
+    return fail(error_code::unauthorized,
+                "cannot read the site token in '" + file.string() + "'", "",
+                "give --site-token a file of at most 4096 bytes that this user "
+                "can read");
+  auto token = trim(*text);
+  if (token.size() < limits::token::least_site_bytes)
+    return fail(error_code::unauthorized,
+                "the site token in '" + file.string()
+                    + "' is shorter than 16 characters",
+                "", "make one: head -c 32 /dev/urandom | xxd -p -c 64");
+  return token;
+}
+
+} // namespace roscell

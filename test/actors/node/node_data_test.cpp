@@ -1,0 +1,138 @@
+#include "actors/node/node_data.hpp"
+
+#include "messages/failure.hpp"
+#include "test/actors/edge/process/supervision_fixture.hpp"
+
+namespace roscell::test {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A data directory and what a node finds in it.
+struct data_fixture {
+  own_folder folder;
+  node_config config;
+
+  data_fixture() {
+    config.data_dir = folder.path() / "data";
+  }
+
+  node_data open() {
+    auto result = open_node_data(config);
+    if (!result)
+      FAIL(to_failure(result.error()).message);
+    return std::move(*result);
+  }
+
+  failure refusal() {
+    const auto result = open_node_data(config);
+    return result ? failure{} : to_failure(result.error());
+  }
+
+  void put(const std::string& table, const std::string& key,
+           const std::string& value) {
+    auto store = value_of(sqlite_store::open(database()));
+    REQUIRE_FALSE(store.put(table, key, value));
+  }
+
+  fs::path database() const {
+    return config.data_dir / "state.db";
+  }
+
+  /// What the file is replaced by.
+  void overwrite(const std::string& text) const {
+    fs::remove(database().string() + "-wal");
+    std::ofstream{database(), std::ios::binary} << text;
+  }
+};
+
+bool says(const failure& why, const std::string& words) {
+  return why.message.find(words) != std::string::npos;
+}
+
+} // namespace
+
+TEST_CASE_METHOD(data_fixture, "A node is the same at its next start",
+                 "[node_data]") {
+  const auto first = open().identity.uuid;
+  CHECK(first.size() == 36);
+  CHECK(open().identity.uuid == first);
+}
+
+TEST_CASE_METHOD(data_fixture,
+                 "A damaged database never makes a new node by itself",
+                 "[node_data]") {
+  open();
+  SECTION("it is empty") {
+    overwrite("");
+  }
+  SECTION("it is no database") {
+    overwrite(std::string(10'000, 'x'));
+  }
+  SECTION("a record is no JSON") {
+    put("identity", "node", "{\"uuid\":");
+  }
+  SECTION("a record of another table is no JSON") {
+    put("tasks", "t", "gone");
+  }
+  SECTION("the identity is missing") {
+    auto store = value_of(sqlite_store::open(database()));
+    REQUIRE_FALSE(store.remove("identity", "node"));
+  }
+  SECTION("the identity is of no node") {
+    put("identity", "node", "[]");
+  }
+  const auto why = refusal();
+  CHECK(says(why, "is damaged"));
+  CHECK(why.hint.find("--new-identity") != std::string::npos);
+  CHECK(says(refusal(), "is damaged"));
+}
+
+TEST_CASE_METHOD(data_fixture, "A node begins anew when it is told to",
+                 "[node_data]") {
+  const auto before = open().identity.uuid;
+  SECTION("with a damaged database") {
+    overwrite("");
+  }
+  SECTION("with a sound one, of a copied directory") {}
+  config.new_identity = true;
+  const auto now = open();
+  CHECK(now.identity.uuid != before);
+  CHECK(now.put_aside == config.data_dir / "state.db.aside-1");
+  CHECK(fs::exists(now.put_aside));
+}
+
+TEST_CASE_METHOD(data_fixture,
+                 "A first start that was cut off is a first start again",
+                 "[node_data]") {
+  fs::create_directories(config.data_dir);
+  overwrite("");
+  CHECK(open().identity.uuid.size() == 36);
+}
+
+TEST_CASE_METHOD(data_fixture,
+                 "A record that is not understood is told and stays",
+                 "[node_data]") {
+  open();
+  put("tasks", "t", R"({"of":"another version"})");
+  const auto data = open();
+  CHECK(data.tasks.empty());
+  REQUIRE(data.unread.size() == 1);
+  CHECK(data.unread[0].table == "tasks");
+  CHECK(data.unread[0].key == "t");
+  CHECK(open().unread.size() == 1);
+}
+
+TEST_CASE_METHOD(data_fixture, "Programs that no record knows are found",
+                 "[node_data]") {
+  open();
+  instance_row known;
+  known.spec.instance = "t-a-1";
+  put("instances", "t-a-1", json(known).dump());
+  fs::create_directories(config.data_dir / "instances" / "t-a-1");
+  fs::create_directories(config.data_dir / "instances" / "t-b-2");
+  CHECK(open().strays == std::vector<std::string>{"t-b-2"});
+}
+
+} // namespace roscell::test
