@@ -6,7 +6,7 @@
 #include "actors/cell/state/transfer_end.hpp"
 #include "actors/cell/transfers/named_node.hpp"
 #include "actors/cell/transfers/transfer_start.hpp"
-#include "actors/house/session_timeouts.hpp"
+#include "actors/house/limits.hpp"
 #include "messages/failure.hpp"
 
 namespace roscell {
@@ -39,7 +39,7 @@ caf::result<Reply> forward_to_holder(self_pointer self,
                                      Request request) {
   auto promise = self->make_response_promise<Reply>();
   request.forwarded = true;
-  self->request(holder, transfer_timeout, request)
+  self->request(holder, limits::transfer::forwarded, request)
       .then([promise](Reply& x) mutable { promise.deliver(std::move(x)); },
             [promise](caf::error& why) mutable {
               promise.deliver(std::move(why));

@@ -1,5 +1,7 @@
 #include "actors/cell/books/place_book.hpp"
 
+#include "actors/house/limits.hpp"
+
 #include <algorithm>
 #include <utility>
 
@@ -7,8 +9,8 @@ namespace roscell {
 
 void place_book::promise(const std::string& node,
                          const std::string& coordinator, time_point now) {
-  by_node_[node] = {coordinator, now + place_span};
-  if (by_node_.size() <= max_places)
+  by_node_[node] = {coordinator, now + limits::cell::place};
+  if (by_node_.size() <= limits::cell::places)
     return;
   by_node_.erase(std::min_element(by_node_.begin(), by_node_.end(),
                                   [](const auto& x, const auto& y) {
@@ -49,9 +51,9 @@ void place_book::drop_overdue_places(time_point now) {
 bool place_book::await_arrival(const std::string& node,
                                std::function<void(const failure*)> done,
                                time_point now) {
-  if (arrivals_.size() >= max_waiting)
+  if (arrivals_.size() >= limits::cell::waiting)
     return false;
-  arrivals_.emplace(node, awaited_arrival{now + arrival_span, std::move(done)});
+  arrivals_.emplace(node, awaited_arrival{now + limits::cell::arrival, std::move(done)});
   return true;
 }
 
@@ -79,9 +81,9 @@ std::vector<awaited_arrival> place_book::take_overdue_arrivals(time_point now) {
 }
 
 bool place_book::await_sizes(std::function<void()> done, time_point now) {
-  if (sizes_.size() >= max_waiting)
+  if (sizes_.size() >= limits::cell::waiting)
     return false;
-  sizes_.push_back({now + sizes_span, std::move(done)});
+  sizes_.push_back({now + limits::cell::sizes, std::move(done)});
   return true;
 }
 

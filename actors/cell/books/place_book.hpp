@@ -32,20 +32,6 @@ class place_book {
 public:
   using time_point = std::chrono::steady_clock::time_point;
 
-  /// From the grant to the registration: a search for the discovery server and
-  /// a handshake, each with its own limit, fit in.
-  static constexpr std::chrono::seconds place_span{30};
-
-  /// From the node's word that it comes to its registration.
-  static constexpr std::chrono::seconds arrival_span{25};
-
-  /// Coordinators that were started together know each other's size after that.
-  static constexpr std::chrono::milliseconds sizes_span{1500};
-
-  /// The place of longest standing makes room; more do not wait.
-  static constexpr size_t max_places = 4096;
-  static constexpr size_t max_waiting = 1024;
-
   // -- places -----------------------------------------------------------------
 
   /// Counts at once. One that the node had elsewhere is given up.

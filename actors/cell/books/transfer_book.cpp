@@ -1,5 +1,7 @@
 #include "actors/cell/books/transfer_book.hpp"
 
+#include "actors/house/limits.hpp"
+
 #include <algorithm>
 #include <tuple>
 #include <utility>
@@ -102,7 +104,7 @@ transfer_row transfer_book::switching_row(const cell_transfer& x,
 void transfer_book::begin_switch(cell_transfer& x, const transfer_row& row,
                                  time_point now) {
   x.row = row;
-  x.deadline = now + arrival_span;
+  x.deadline = now + limits::transfer::arrival;
 }
 
 std::vector<std::string> transfer_book::overdue(time_point now) const {
@@ -148,10 +150,10 @@ std::vector<std::string> transfer_book::forget_oldest() {
     if (!is_open(x.row.state))
       ended.emplace_back(x.row.since_unix_ms, id);
   std::vector<std::string> result;
-  if (ended.size() <= ended_limit)
+  if (ended.size() <= limits::transfer::ended)
     return result;
   std::sort(ended.begin(), ended.end());
-  ended.resize(ended.size() - ended_limit);
+  ended.resize(ended.size() - limits::transfer::ended);
   for (const auto& [since, id] : ended) {
     transfers_.erase(id);
     result.push_back(id);

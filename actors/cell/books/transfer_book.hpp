@@ -44,13 +44,6 @@ class transfer_book {
 public:
   using time_point = std::chrono::steady_clock::time_point;
 
-  static constexpr size_t ended_limit = 100;
-
-  /// From the order to go to the news that the node has arrived: a search for
-  /// the discovery server, a handshake and a registration, and the way back if
-  /// one of them fails.
-  static constexpr std::chrono::seconds arrival_span{25};
-
   /// @param cell, incarnation make the ids unique.
   explicit transfer_book(std::string cell = {}, int64_t incarnation = 0);
 

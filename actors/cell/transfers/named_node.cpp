@@ -7,25 +7,18 @@ namespace roscell {
 
 namespace {
 
-/// A node of another cell, as that cell tells of it.
-struct claimed_node {
-  member_claim claim;
-  peer_actor holder;
-  std::string cell;
-};
-
 /// The nodes of that name in other cells, each once: of several claims of one
 /// node the one with the highest epoch is right.
-std::map<std::string, claimed_node>
+std::map<std::string, named_node>
 nodes_elsewhere(const cell_coordinator_state& st, const std::string& node) {
-  std::map<std::string, claimed_node> result;
+  std::map<std::string, named_node> result;
   st.peers.for_each_session([&](const std::string&, const peer_entry& peer) {
     for (const auto& [uuid, claim] : peer.members) {
       if (!peer.told || claim.name != node)
         continue;
       auto& known = result[uuid];
       if (!known.holder || known.claim.epoch < claim.epoch)
-        known = {claim, peer.actor, peer.standing.place.cell};
+        known = {peer.actor, claim, peer.standing.place.cell, {}};
     }
   });
   return result;
@@ -35,7 +28,7 @@ constexpr auto name_the_cell =
     "name its cell: \"cell\" in the request, `--cell` on the command line";
 
 failure in_several(const std::string& node,
-                   const std::map<std::string, claimed_node>& found) {
+                   const std::map<std::string, named_node>& found) {
   std::string cells;
   for (const auto& [uuid, x] : found)
     cells += (cells.empty() ? "'" : ", '") + x.cell + "'";
@@ -54,15 +47,17 @@ failure gone_from_here(const transfer_row& gone, const std::string& cell) {
 }
 
 /// A transferred node is followed to where it went; a released one is not.
-bool is_another(const transfer_row& gone, const claimed_node& found) {
+bool is_another(const transfer_row& gone, const named_node& found) {
   return gone.to.empty() || gone.uuid != found.claim.uuid;
 }
 
 named_node find_in_cell(const cell_coordinator_state& st,
                         const std::string& cell) {
   if (const auto* peer = st.peers.find_cell(cell))
-    return {peer->actor, {}};
+    return {peer->actor, {}, cell, {}};
   return {nullptr,
+          {},
+          {},
           {error_code::unknown_cell,
            "no coordinator of a cell '" + cell + "' is within reach", "/cell",
            "`roscell cells` lists them"}};
@@ -70,22 +65,25 @@ named_node find_in_cell(const cell_coordinator_state& st,
 
 } // namespace
 
+named_node find_elsewhere(const cell_coordinator_state& st,
+                          const std::string& node) {
+  const auto found = nodes_elsewhere(st, node);
+  if (found.size() > 1)
+    return {nullptr, {}, {}, in_several(node, found)};
+  return found.empty() ? named_node{} : found.begin()->second;
+}
+
 named_node find_named_node(const cell_coordinator_state& st,
                            const std::string& node, const std::string& cell) {
   if (!cell.empty() && cell != st.setup.cell)
     return find_in_cell(st, cell);
   if (!cell.empty() || st.registry.find_name(node))
     return {};
-  const auto found = nodes_elsewhere(st, node);
-  if (found.empty())
-    return {};
-  if (found.size() > 1)
-    return {nullptr, in_several(node, found)};
-  const auto& only = found.begin()->second;
+  auto found = find_elsewhere(st, node);
   const auto* gone = st.transfers.find_gone(node);
-  if (gone && is_another(*gone, only))
-    return {nullptr, gone_from_here(*gone, only.cell)};
-  return {only.holder, {}};
+  if (found.holder && gone && is_another(*gone, found))
+    return {nullptr, {}, {}, gone_from_here(*gone, found.cell)};
+  return found;
 }
 
 } // namespace roscell

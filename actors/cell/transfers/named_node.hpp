@@ -9,9 +9,15 @@ namespace roscell {
 
 /// Where a node is that was named to this coordinator.
 struct named_node {
-  peer_actor holder; ///< Invalid: here, as far as it is known.
-  failure why;       ///< If it cannot be told; else without a message.
+  peer_actor holder;  ///< Invalid: no other cell that is known has it.
+  member_claim claim; ///< Of the holder.
+  std::string cell;   ///< The same.
+  failure why;        ///< If it cannot be told; else without a message.
 };
+
+/// The one node of that name that other cells have.
+named_node find_elsewhere(const cell_coordinator_state& st,
+                          const std::string& node);
 
 /// Names are the asked cell's first. A node of another cell is meant if that
 /// cell is named too, or if it is the only one of the name and this cell has

@@ -3,6 +3,7 @@
 #include "actors/cell/cell_tasks.hpp"
 #include "actors/cell/state/transfer_end.hpp"
 #include "actors/cell/task_move.hpp"
+#include "actors/house/limits.hpp"
 #include "messages/failure.hpp"
 
 #include <utility>
@@ -13,9 +14,6 @@ namespace roscell {
 namespace {
 
 using self_pointer = coordinator_pointer;
-
-/// Longer than instances have to end.
-constexpr std::chrono::seconds termination_timeout{60};
 
 /// Ends the tasks one after the other, then goes on.
 void terminate_tasks(self_pointer self, const std::string& id,
@@ -30,7 +28,7 @@ void terminate_tasks(self_pointer self, const std::string& id,
   tasks.pop_back();
   // From here on nothing brings it back.
   x->terminated.push_back(task);
-  self->request(cell_coordinator_actor{self}, termination_timeout,
+  self->request(cell_coordinator_actor{self}, limits::transfer::termination,
                 task_termination{task})
       .then([=](const task_terminated&) {
         terminate_tasks(self, id, tasks, next);

@@ -4,7 +4,7 @@
 #include "actors/cell/state/coordinator_timer.hpp"
 #include "actors/cell/state/node_whereabouts.hpp"
 #include "actors/cell/state/transfer_end.hpp"
-#include "actors/house/session_timeouts.hpp"
+#include "actors/house/limits.hpp"
 #include "messages/failure.hpp"
 
 namespace roscell {
@@ -12,10 +12,6 @@ namespace roscell {
 namespace {
 
 using self_pointer = coordinator_pointer;
-
-/// How long the other coordinator keeps the place: what a transfer takes, and
-/// the time that instances need to end.
-constexpr std::chrono::minutes target_place_span{2};
 
 /// The departing row of an open transfer whose node has a session; null if that
 /// is not so any more.
@@ -91,7 +87,7 @@ void send_order(self_pointer self, const std::string& id,
                               "/target"});
   st.transfers.begin_switch(*x, row, self->clock().now());
   set_timer(self);
-  self->request(entry->member, switch_timeout, order)
+  self->request(entry->member, limits::membership::switching, order)
       .then([=](const switch_accepted&) { on_switch_accepted(self, id); },
             [=](const caf::error& why) {
               on_switch_failed(self, id, to_failure(why));
@@ -115,9 +111,9 @@ void reserve_target(self_pointer self, const std::string& id,
                              {error_code::unreachable,
                               "node or target cell have just gone", "/target"});
   const auto& who = entry->row.identity;
-  const std::chrono::milliseconds span{target_place_span};
+  const std::chrono::milliseconds span{limits::transfer::place};
   self->request(
-          peer->actor, peer_timeout,
+          peer->actor, limits::session::peer_answer,
           place_reservation{who.name, who.uuid, who.epoch, span.count()})
       .then([=](const place_reserved&) { next(); },
             [=](const caf::error& why) {

@@ -1,5 +1,7 @@
 #include "actors/cell/books/place_book.hpp"
 
+#include "actors/house/limits.hpp"
+
 #include <catch2/catch.hpp>
 
 namespace roscell::test {
@@ -58,10 +60,10 @@ TEST_CASE("A node has one place at a time", "[place_book]") {
 
 TEST_CASE("Strangers fill no more places than a bound", "[place_book]") {
   place_book book;
-  for (size_t i = 0; i <= place_book::max_places; ++i)
+  for (size_t i = 0; i <= limits::cell::places; ++i)
     book.promise("n" + std::to_string(i), "c-1",
                  start + std::chrono::milliseconds{i});
-  CHECK(book.size() == place_book::max_places);
+  CHECK(book.size() == limits::cell::places);
   CHECK(book.find("n0", start).empty());
   CHECK(book.find("n1", start) == "c-1");
 }
@@ -78,7 +80,7 @@ TEST_CASE("Who waits for a node hears of it once", "[place_book]") {
     x.done(nullptr);
   CHECK(calls == 2);
   CHECK(book.take_arrivals("arm").empty());
-  CHECK(book.next_deadline() == start + 1s + place_book::arrival_span);
+  CHECK(book.next_deadline() == start + 1s + limits::cell::arrival);
 }
 
 TEST_CASE("Nobody waits for a node for longer than 25 s", "[place_book]") {
@@ -95,10 +97,10 @@ TEST_CASE("Nobody waits for a node for longer than 25 s", "[place_book]") {
 TEST_CASE("No more wait for a node than a bound", "[place_book]") {
   place_book book;
   const auto call = [](const failure*) {};
-  for (size_t i = 0; i < place_book::max_waiting; ++i)
+  for (size_t i = 0; i < limits::cell::waiting; ++i)
     REQUIRE(book.await_arrival("arm", call, start));
   CHECK_FALSE(book.await_arrival("arm", call, start));
-  CHECK(book.take_arrivals("arm").size() == place_book::max_waiting);
+  CHECK(book.take_arrivals("arm").size() == limits::cell::waiting);
 }
 
 TEST_CASE("Who waits for sizes waits for a moment", "[place_book]") {
@@ -107,9 +109,9 @@ TEST_CASE("Who waits for sizes waits for a moment", "[place_book]") {
   const auto call = [&] { ++calls; };
   CHECK(book.await_sizes(call, start));
   CHECK(book.await_sizes(call, start + 1s));
-  CHECK(book.next_deadline() == start + place_book::sizes_span);
+  CHECK(book.next_deadline() == start + limits::cell::sizes);
   CHECK(book.take_overdue_who_await_sizes(start + 1s).empty());
-  CHECK(book.take_overdue_who_await_sizes(start + place_book::sizes_span).size()
+  CHECK(book.take_overdue_who_await_sizes(start + limits::cell::sizes).size()
         == 1);
   for (const auto& x : book.take_all_who_await_sizes())
     x.done();

@@ -1,5 +1,7 @@
 #include "actors/cell/books/transfer_book.hpp"
 
+#include "actors/house/limits.hpp"
+
 #include <catch2/catch.hpp>
 
 namespace roscell::test {
@@ -88,7 +90,7 @@ TEST_CASE_METHOD(open_transfer, "A node that was told to go has its time",
                  "[transfer_book]") {
   CHECK(book.next_deadline() == transfer_book::time_point::max());
   switch_at(start);
-  CHECK(book.next_deadline() == start + transfer_book::arrival_span);
+  CHECK(book.next_deadline() == start + limits::transfer::arrival);
   CHECK(book.overdue(start + 24s).empty());
   CHECK(book.overdue(start + 25s) == std::vector{id});
 }
