@@ -76,7 +76,7 @@ struct node_release {
   std::string node;
   instance_policy instances = instance_policy::refuse;
   bool forwarded = false; ///< By another coordinator; it goes no further.
-  std::string cell; ///< That the node is in; empty: not named.
+  std::string cell;       ///< That the node is in; empty: not named.
 
   static constexpr auto fields() {
     return std::make_tuple(required("node", &node_release::node),
@@ -111,7 +111,7 @@ struct node_transfer {
   std::string target; ///< Name of the cell.
   instance_policy instances = instance_policy::refuse;
   bool forwarded = false; ///< By another coordinator; it goes no further.
-  std::string cell; ///< That the node is in; empty: not named.
+  std::string cell;       ///< That the node is in; empty: not named.
 
   static constexpr auto fields() {
     return std::make_tuple(required("node", &node_transfer::node),

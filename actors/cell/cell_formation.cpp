@@ -113,9 +113,10 @@ bool settle_known(self_pointer self, const std::string& node,
     answer_on_arrival(self, row.identity.uuid, joined(node, ""), done);
     return true;
   case row_state::departing:
-    done(failed(node, {error_code::conflict, "node '" + node + "' is departing",
-                       "", "its transfer is '"
-                           + st.transfers.holder_of(row.identity.uuid) + "'"}));
+    done(failed(node,
+                {error_code::conflict, "node '" + node + "' is departing", "",
+                 "its transfer is '" + st.transfers.holder_of(row.identity.uuid)
+                     + "'"}));
     return true;
   default:
     return false;

@@ -16,8 +16,8 @@ namespace {
 using self_pointer = coordinator_pointer;
 
 node_transferred reply_of(const node_transfer&, const cell_transfer& x) {
-  return {x.row.node, x.row.from, x.row.to, x.row.transfer, x.terminated,
-          x.rescheduled};
+  return {x.row.node,     x.row.from,   x.row.to,
+          x.row.transfer, x.terminated, x.rescheduled};
 }
 
 node_released reply_of(const node_release&, const cell_transfer& x) {
@@ -50,22 +50,21 @@ caf::result<Reply> forward_to_holder(self_pointer self,
 template <class Reply, class Request>
 caf::result<Reply> let_go(self_pointer self, const Request& request) {
   if (!request.forwarded) {
-    const auto found =
-        find_named_node(self->state, request.node, request.cell);
+    const auto found = find_named_node(self->state, request.node, request.cell);
     if (!found.why.message.empty())
       return to_error(found.why);
     if (found.holder)
       return forward_to_holder<Reply>(self, found.holder, request);
   }
   auto promise = self->make_response_promise<Reply>();
-  start_transfer(self, wish_of(request),
-                 [promise, request](const cell_transfer& x,
-                                    const failure* why) mutable {
-                   if (why)
-                     promise.deliver(to_error(*why));
-                   else
-                     promise.deliver(reply_of(request, x));
-                 });
+  start_transfer(
+      self, wish_of(request),
+      [promise, request](const cell_transfer& x, const failure* why) mutable {
+        if (why)
+          promise.deliver(to_error(*why));
+        else
+          promise.deliver(reply_of(request, x));
+      });
   return promise;
 }
 

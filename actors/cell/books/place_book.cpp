@@ -53,7 +53,8 @@ bool place_book::await_arrival(const std::string& node,
                                time_point now) {
   if (arrivals_.size() >= limits::cell::waiting)
     return false;
-  arrivals_.emplace(node, awaited_arrival{now + limits::cell::arrival, std::move(done)});
+  arrivals_.emplace(
+      node, awaited_arrival{now + limits::cell::arrival, std::move(done)});
   return true;
 }
 

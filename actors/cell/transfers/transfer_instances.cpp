@@ -30,12 +30,13 @@ void terminate_tasks(self_pointer self, const std::string& id,
   x->terminated.push_back(task);
   self->request(cell_coordinator_actor{self}, limits::transfer::termination,
                 task_termination{task})
-      .then([=](const task_terminated&) {
-        terminate_tasks(self, id, tasks, next);
-      },
-            [=](const caf::error& why) {
-              call_off_transfer(self, id, to_failure(why));
-            });
+      .then(
+          [=](const task_terminated&) {
+            terminate_tasks(self, id, tasks, next);
+          },
+          [=](const caf::error& why) {
+            call_off_transfer(self, id, to_failure(why));
+          });
 }
 
 void reschedule_tasks(self_pointer self, const std::string& id,
@@ -73,8 +74,7 @@ void clear_instances(self_pointer self, const std::string& id,
   if (policy == instance_policy::terminate)
     return terminate_tasks(self, id, std::move(tasks), next);
   // What is being deployed cannot be moved before it runs.
-  after_deployments_on(self, node,
-                       [=] { reschedule_tasks(self, id, next); });
+  after_deployments_on(self, node, [=] { reschedule_tasks(self, id, next); });
 }
 
 } // namespace roscell

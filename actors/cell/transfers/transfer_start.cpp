@@ -117,8 +117,8 @@ void start_transfer(self_pointer self, const transfer_wish& wish,
     return refuse_transfer(done, *why);
   const auto uuid = st.registry.find_name(wish.node)->row.identity.uuid;
   end_unresolved(self, uuid);
-  const auto row = st.transfers.propose(wish.node, uuid, wish.target,
-                                        now_of(self).unix_ms);
+  const auto row =
+      st.transfers.propose(wish.node, uuid, wish.target, now_of(self).unix_ms);
   const auto id = row.transfer;
   st.transfers.find_proposed(id)->waiting.push_back(std::move(done));
   keep_records(

@@ -80,11 +80,10 @@ void send_order(self_pointer self, const std::string& id,
     return call_off_transfer(self, id, fell_silent(*x));
   const auto order = order_for(st, *x, *entry, origin);
   if (!x->row.to.empty() && order.target.empty())
-    return call_off_transfer(self, id,
-                             {error_code::unreachable,
-                              "the coordinator of cell '" + x->row.to
-                                  + "' fell silent",
-                              "/target"});
+    return call_off_transfer(
+        self, id,
+        {error_code::unreachable,
+         "the coordinator of cell '" + x->row.to + "' fell silent", "/target"});
   st.transfers.begin_switch(*x, row, self->clock().now());
   set_timer(self);
   self->request(entry->member, limits::membership::switching, order)
@@ -112,9 +111,8 @@ void reserve_target(self_pointer self, const std::string& id,
                               "node or target cell have just gone", "/target"});
   const auto& who = entry->row.identity;
   const std::chrono::milliseconds span{limits::transfer::place};
-  self->request(
-          peer->actor, limits::session::peer_answer,
-          place_reservation{who.name, who.uuid, who.epoch, span.count()})
+  self->request(peer->actor, limits::session::peer_answer,
+                place_reservation{who.name, who.uuid, who.epoch, span.count()})
       .then([=](const place_reserved&) { next(); },
             [=](const caf::error& why) {
               call_off_transfer(self, id, to_failure(why));
