@@ -76,11 +76,13 @@ struct node_release {
   std::string node;
   instance_policy instances = instance_policy::refuse;
   bool forwarded = false; ///< By another coordinator; it goes no further.
+  std::string cell;       ///< That the node is in; empty: not named.
 
   static constexpr auto fields() {
     return std::make_tuple(required("node", &node_release::node),
                            optional("instances", &node_release::instances),
-                           optional("forwarded", &node_release::forwarded));
+                           optional("forwarded", &node_release::forwarded),
+                           optional("cell", &node_release::cell));
   }
 };
 
@@ -109,12 +111,14 @@ struct node_transfer {
   std::string target; ///< Name of the cell.
   instance_policy instances = instance_policy::refuse;
   bool forwarded = false; ///< By another coordinator; it goes no further.
+  std::string cell;       ///< That the node is in; empty: not named.
 
   static constexpr auto fields() {
     return std::make_tuple(required("node", &node_transfer::node),
                            required("target", &node_transfer::target),
                            optional("instances", &node_transfer::instances),
-                           optional("forwarded", &node_transfer::forwarded));
+                           optional("forwarded", &node_transfer::forwarded),
+                           optional("cell", &node_transfer::cell));
   }
 };
 

@@ -1,8 +1,8 @@
 #include "actors/cell/cell_balance.hpp"
 
 #include "actors/cell/cell_places.hpp"
-#include "actors/cell/cell_transfers.hpp"
 #include "actors/cell/state/coordinator_timer.hpp"
+#include "actors/cell/transfers/transfer_start.hpp"
 #include "actors/house/limits.hpp"
 #include "messages/failure.hpp"
 
@@ -24,7 +24,8 @@ std::vector<cell_size> sizes_of(const cell_coordinator_state& st) {
   st.peers.for_each_session(
       [&](const std::string& uuid, const peer_entry& peer) {
         if (peer.told && peer.standing.rebalance)
-          result.push_back({uuid, peer.standing.place.cell, peer.size()});
+          result.push_back(
+              {uuid, peer.standing.place.cell, size_of(st, uuid, peer)});
       });
   return result;
 }
@@ -44,6 +45,8 @@ void on_surrendered(self_pointer self, bool moved) {
   --st.balancing;
   if (moved)
     arm_balance(self);
+  else
+    set_timer(self); // Something else may have armed it meanwhile.
 }
 
 void order_move(self_pointer self, const cell_move& move,
@@ -70,7 +73,7 @@ void order_move(self_pointer self, const cell_move& move,
 bool is_movable(const cell_coordinator_state& st, const registry_entry& x) {
   return x.row.state == row_state::active && x.member
          && x.origin == join_origin::discovered && x.row.instances.empty()
-         && st.tasks.wanted_on(x.row.identity.name).empty();
+         && st.tasks.bound_to(x.row.identity.name).empty();
 }
 
 std::vector<std::string> movable(self_pointer self, size_t count) {
@@ -117,7 +120,7 @@ void balance_if_due(self_pointer self) {
   if (self->clock().now() < st.balance_due || st.balancing > 0)
     return;
   st.balance_due = time_point::max();
-  if (!gives_places(self))
+  if (!gives_places(st))
     return;
   const auto cells = sizes_of(st);
   for (const auto& move : plan_moves(cells))

@@ -117,7 +117,7 @@ void on_session_admitted(self_pointer self, const session_admitted& fact) {
 void on_tick(self_pointer self, uint64_t number) {
   if (!self->state.timer.rings(number))
     return;
-  drop_overdue_places(self);
+  settle_overdue_places(self);
   settle_overdue_transfers(self);
   settle_overdue_arrivals(self);
   open_due_peers(self);

@@ -3,6 +3,7 @@
 #include "actors/cell/cell_places.hpp"
 #include "actors/cell/state/arrivals.hpp"
 #include "actors/cell/state/coordinator_publish.hpp"
+#include "actors/cell/transfers/named_node.hpp"
 #include "actors/house/limits.hpp"
 #include "messages/failure.hpp"
 
@@ -54,8 +55,7 @@ void bring_in_free(self_pointer self, const node_presence& who,
   if (!kept)
     return done(failed(who.name, to_failure(kept.error())));
   registration_switch order;
-  order.transfer = st.setup.cell + "-" + std::to_string(st.setup.incarnation)
-                   + "-" + std::to_string(++st.last_transfer);
+  order.transfer = st.transfers.new_id();
   order.node = who.name;
   order.uuid = who.uuid;
   order.epoch = who.epoch;
@@ -78,11 +78,15 @@ void bring_in_free(self_pointer self, const node_presence& who,
 }
 
 /// Has another coordinator transfer a member of its cell to this one.
-void bring_over(self_pointer self, const peer_entry& peer,
+void bring_over(self_pointer self, const peer_actor& holder,
                 const std::string& node, instance_policy policy,
                 const outcome_done& done) {
-  node_transfer order{node, self->state.setup.cell, policy, true};
-  self->request(peer.actor, limits::transfer::forwarded, order)
+  node_transfer order;
+  order.node = node;
+  order.target = self->state.setup.cell;
+  order.instances = policy;
+  order.forwarded = true;
+  self->request(holder, limits::transfer::forwarded, order)
       .then([done](const node_transferred& x) { done(joined(x.node, x.from)); },
             [node, done](const caf::error& why) {
               done(failed(node, to_failure(why)));
@@ -109,46 +113,80 @@ bool settle_known(self_pointer self, const std::string& node,
     answer_on_arrival(self, row.identity.uuid, joined(node, ""), done);
     return true;
   case row_state::departing:
-    done(failed(node, {error_code::conflict, "node '" + node + "' is departing",
-                       "", "its transfer is '" + entry->transfer + "'"}));
+    done(failed(node,
+                {error_code::conflict, "node '" + node + "' is departing", "",
+                 "its transfer is '" + st.transfers.holder_of(row.identity.uuid)
+                     + "'"}));
     return true;
   default:
     return false;
   }
 }
 
+/// A row of this cell whose node is away and does not say that it is free.
+failure is_away(const registry_row& row) {
+  return {error_code::unreachable,
+          "node '" + row.identity.name + "' is "
+              + std::string{to_word(row.state)},
+          "", "try again when it is back"};
+}
+
+failure coordinates(const std::string& node) {
+  return {error_code::conflict,
+          "'" + node
+              + "' coordinates a cell: a coordination node cannot leave its "
+                "cell"};
+}
+
+failure is_invisible(const std::string& node) {
+  return {error_code::unknown_node, "no node '" + node + "' is visible", "",
+          "start it, with --peer where multicast does not reach"};
+}
+
+failure is_ambiguous(const node_presence& who, const named_node& found) {
+  return {error_code::conflict,
+          "a node '" + who.name + "' at " + who.address
+              + " is in no cell, and cell '" + found.cell
+              + "' has another one of that name",
+          "", "give one of them another --name"};
+}
+
+/// Brings in a node that has no row here.
+void bring_in_stranger(self_pointer self, const std::string& node,
+                       instance_policy policy, const outcome_done& done) {
+  const auto& st = self->state;
+  const auto found = find_elsewhere(st, node);
+  const auto* who = st.free_nodes.find_name(node);
+  if (!found.why.message.empty())
+    return done(failed(node, found.why));
+  if (!found.holder && !who)
+    return done(failed(node, is_invisible(node)));
+  if (!found.holder)
+    return bring_in_free(self, node_presence{*who}, done);
+  if (who && who->uuid != found.claim.uuid)
+    return done(failed(node, is_ambiguous(*who, found)));
+  // A node that says itself that it is in no cell knows best, unless a cell has
+  // news that are newer.
+  if (who && who->epoch >= found.claim.epoch)
+    return bring_in_free(self, node_presence{*who}, done);
+  bring_over(self, found.holder, node, policy, done);
+}
+
 void bring_in(self_pointer self, const std::string& node,
               instance_policy policy, const outcome_done& done) {
-  auto& st = self->state;
+  const auto& st = self->state;
   if (settle_known(self, node, done))
     return;
   if (node == st.setup.self.name || st.peers.is_announced(node))
-    return done(failed(node, {error_code::conflict,
-                              "'" + node
-                                  + "' coordinates a cell: a coordination "
-                                    "node cannot leave its cell"}));
-  const auto* peer = st.peers.find_holder(node);
-  const auto* who = st.free_nodes.find_name(node);
-  // A node that says itself that it is in no cell knows best, unless a cell has
-  // news that are newer.
-  int64_t known = -1;
-  if (peer)
-    for (const auto& [uuid, claim] : peer->members)
-      if (claim.name == node)
-        known = claim.epoch;
-  if (who && who->epoch >= known)
-    return bring_in_free(self, node_presence{*who}, done);
-  if (peer)
-    return bring_over(self, *peer, node, policy, done);
+    return done(failed(node, coordinates(node)));
   const auto* entry = st.registry.find_name(node);
-  if (entry)
-    return done(failed(node, {error_code::unreachable,
-                              "node '" + node + "' is "
-                                  + std::string{to_word(entry->row.state)},
-                              "", "try again when it is back"}));
-  done(failed(node,
-              {error_code::unknown_node, "no node '" + node + "' is visible",
-               "", "start it, with --peer where multicast does not reach"}));
+  if (!entry)
+    return bring_in_stranger(self, node, policy, done);
+  const auto* who = st.free_nodes.find(entry->row.identity.uuid);
+  if (who)
+    bring_in_free(self, node_presence{*who}, done);
+  else
+    done(failed(node, is_away(entry->row)));
 }
 
 } // namespace

@@ -31,16 +31,14 @@ std::string smallest(const cell_coordinator_state& st,
   st.peers.for_each_session(
       [&](const std::string& uuid, const peer_entry& peer) {
         if (peer.told)
-          consider(uuid, peer.size());
+          consider(uuid, size_of(st, uuid, peer));
       });
   return result;
 }
 
-void remember(self_pointer self, const place_request& request,
-              const std::string& coordinator) {
-  self->state.places[request.uuid] = {coordinator, self->clock().now()
-                                                       + limits::cell::place};
-  set_timer(self);
+place_reservation reservation_for(const place_request& request) {
+  const std::chrono::milliseconds span{limits::cell::place};
+  return {request.name, request.uuid, request.epoch, span.count()};
 }
 
 void find_place(self_pointer self, const place_request& request,
@@ -49,45 +47,45 @@ void find_place(self_pointer self, const place_request& request,
 void place_here(self_pointer self, const place_request& request,
                 std::set<std::string> full, promise_type promise) {
   auto& st = self->state;
-  place_reservation wish{
-      request.name, request.uuid, request.epoch,
-      std::chrono::milliseconds{limits::cell::place}.count()};
-  auto kept = reserve_here(self, wish);
+  auto kept = reserve_here(self, reservation_for(request));
   if (!kept) {
     full.insert(st.setup.self.uuid);
     return find_place(self, request, std::move(full), std::move(promise));
   }
-  remember(self, request, st.setup.self.uuid);
+  st.places.promise(request.uuid, st.setup.self.uuid, self->clock().now());
   promise.deliver(place_granted{own_address(st.setup)});
+}
+
+void on_place_kept(self_pointer self, const std::string& uuid,
+                   const place_request& request, promise_type promise) {
+  auto& st = self->state;
+  const auto* holder = st.peers.find(uuid);
+  if (!holder) {
+    st.places.forget(request.uuid, uuid);
+    return promise.deliver(fail(error_code::unreachable,
+                                "the cell has just gone", "",
+                                "it is asked again by itself"));
+  }
+  promise.deliver(place_granted{holder->standing.place});
 }
 
 void place_at(self_pointer self, const std::string& uuid,
               const place_request& request, std::set<std::string> full,
               promise_type promise) {
-  auto& peer = *self->state.peers.find(uuid);
-  peer.promised.insert(request.uuid);
-  place_reservation wish{
-      request.name, request.uuid, request.epoch,
-      std::chrono::milliseconds{limits::cell::place}.count()};
-  self->request(peer.actor, limits::session::peer_answer, wish)
+  auto& st = self->state;
+  const auto* peer = st.peers.find(uuid);
+  st.places.promise(request.uuid, uuid, self->clock().now());
+  self->request(peer->actor, limits::session::peer_answer,
+                reservation_for(request))
       .then(
-          [self, uuid, request, promise](const place_reserved&) mutable {
-            auto& st = self->state;
-            auto* holder = st.peers.find(uuid);
-            if (!holder) {
-              promise.deliver(
-                  fail(error_code::unreachable, "the cell has just gone"));
-              return;
-            }
-            holder->forget_promise(request.uuid);
-            remember(self, request, uuid);
-            promise.deliver(place_granted{holder->standing.place});
+          [=](const place_reserved&) {
+            on_place_kept(self, uuid, request, promise);
           },
-          [self, uuid, request, full, promise](const caf::error&) mutable {
-            if (auto* holder = self->state.peers.find(uuid))
-              holder->forget_promise(request.uuid);
-            full.insert(uuid);
-            find_place(self, request, std::move(full), std::move(promise));
+          [=](const caf::error&) {
+            self->state.places.forget(request.uuid, uuid);
+            auto others = full;
+            others.insert(uuid);
+            find_place(self, request, std::move(others), promise);
           });
 }
 
@@ -108,10 +106,7 @@ void find_place(self_pointer self, const place_request& request,
 /// The place that the node has been given already, if its cell is still there.
 std::string known_place(self_pointer self, const std::string& node) {
   auto& st = self->state;
-  const auto i = st.places.find(node);
-  if (i == st.places.end() || i->second.until <= self->clock().now())
-    return {};
-  const auto& uuid = i->second.coordinator;
+  const auto uuid = st.places.find(node, self->clock().now());
   const auto* peer = st.peers.find(uuid);
   const bool there = uuid == st.setup.self.uuid || (peer && peer->told);
   return there ? uuid : std::string{};
@@ -128,31 +123,63 @@ const peer_entry* place_giver(const cell_coordinator_state& st) {
   return result;
 }
 
+void ask_place_giver(self_pointer self, const peer_entry& giver,
+                     const place_request& request, promise_type promise) {
+  self->request(giver.actor, limits::membership::place, request)
+      .then([promise](place_granted& x) mutable { promise.deliver(x); },
+            [promise](caf::error& why) mutable {
+              promise.deliver(std::move(why));
+            });
+}
+
+void grant_now(self_pointer self, const place_request& request,
+               promise_type promise) {
+  if (const auto* giver = place_giver(self->state))
+    return ask_place_giver(self, *giver, request, std::move(promise));
+  const auto known = known_place(self, request.uuid);
+  if (known.empty())
+    find_place(self, request, {}, std::move(promise));
+  else if (known == self->state.setup.self.uuid)
+    place_here(self, request, {}, std::move(promise));
+  else
+    place_at(self, known, request, {}, std::move(promise));
+}
+
 } // namespace
 
-bool gives_places(self_pointer self) {
-  return place_giver(self->state) == nullptr;
+bool gives_places(const cell_coordinator_state& st) {
+  return place_giver(st) == nullptr;
+}
+
+int64_t size_of(const cell_coordinator_state& st, const std::string& uuid,
+                const peer_entry& peer) {
+  return peer.standing.size
+         + st.places.count_at(uuid, [&](const std::string& node) {
+             return peer.members.count(node) > 0;
+           });
 }
 
 caf::result<place_granted> grant_place(self_pointer self,
                                        const place_request& request) {
+  auto& st = self->state;
+  const auto now = self->clock().now();
   auto promise = self->make_response_promise<place_granted>();
-  if (const auto* giver = place_giver(self->state)) {
-    self->request(giver->actor, limits::membership::place, request)
-        .then([promise](place_granted& x) mutable { promise.deliver(x); },
-              [promise](caf::error& why) mutable {
-                promise.deliver(std::move(why));
-              });
-    return promise;
-  }
-  const auto known = known_place(self, request.uuid);
-  if (known.empty())
-    find_place(self, request, {}, promise);
-  else if (known == self->state.setup.self.uuid)
-    place_here(self, request, {}, promise);
+  const bool waits =
+      st.peers.expects_standings(now)
+      && st.places.await_sizes([=] { grant_now(self, request, promise); }, now);
+  if (waits)
+    set_timer(self);
   else
-    place_at(self, known, request, {}, promise);
+    grant_now(self, request, promise);
   return promise;
+}
+
+void grant_awaited_places(self_pointer self) {
+  auto& st = self->state;
+  if (st.peers.expects_standings(self->clock().now()))
+    return;
+  for (const auto& x : st.places.take_all_who_await_sizes())
+    x.done();
 }
 
 caf::expected<place_reserved> reserve_here(self_pointer self,
@@ -181,11 +208,12 @@ caf::result<place_reserved> reserve_place(self_pointer self,
   return *kept;
 }
 
-void drop_overdue_places(self_pointer self) {
+void settle_overdue_places(self_pointer self) {
   auto& st = self->state;
   const auto now = self->clock().now();
-  for (auto i = st.places.begin(); i != st.places.end();)
-    i = i->second.until <= now ? st.places.erase(i) : std::next(i);
+  for (const auto& x : st.places.take_overdue_who_await_sizes(now))
+    x.done();
+  st.places.drop_overdue_places(now);
   const auto gone = st.registry.drop_overdue(now);
   if (gone.empty())
     return;

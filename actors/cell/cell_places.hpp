@@ -1,14 +1,16 @@
 #pragma once
 
-#include "actors/cell/cell_coordinator.hpp"
+#include "actors/cell/state/coordinator_state.hpp"
 
 /// How the CELL COORDINATOR gives out places, so that nodes that come at the
 /// same moment spread evenly. The one with the lowest UUID does it for all.
 namespace roscell {
 
 /// Whether this coordinator is the one that gives out places.
-bool gives_places(coordinator_pointer self);
+bool gives_places(const cell_coordinator_state& st);
 
+/// Answers when the sizes of the cells that have just appeared are known, or
+/// when that takes too long.
 caf::result<place_granted> grant_place(coordinator_pointer self,
                                        const place_request& request);
 
@@ -19,7 +21,15 @@ caf::result<place_reserved> reserve_place(coordinator_pointer self,
 caf::expected<place_reserved> reserve_here(coordinator_pointer self,
                                            const place_reservation& request);
 
-/// Drops the places that nobody has taken in time.
-void drop_overdue_places(coordinator_pointer self);
+/// Gives out the places that have waited for sizes which are known now.
+void grant_awaited_places(coordinator_pointer self);
+
+/// What counts when a place is given out in that cell, or cells are evened out.
+int64_t size_of(const cell_coordinator_state& st, const std::string& uuid,
+                const peer_entry& peer);
+
+/// Drops the places that nobody has taken in time, and gives out those that
+/// have waited for sizes for too long.
+void settle_overdue_places(coordinator_pointer self);
 
 } // namespace roscell

@@ -1,28 +1,10 @@
 #pragma once
 
-#include "actors/cell/cell_coordinator.hpp"
+#include "actors/cell/state/coordinator_state.hpp"
 
-#include <functional>
-#include <string>
-
-/// How the CELL COORDINATOR lets a member go: to another cell or to
-/// independence. The states are drawn in docs/protocols.md.
+/// What the CELL COORDINATOR does when it is asked to let a node go, to another
+/// cell or to independence. The states are drawn in docs/protocols.md.
 namespace roscell {
-
-struct transfer_wish {
-  std::string node;
-  std::string target; ///< Name of the cell; empty: independence.
-  instance_policy instances = instance_policy::refuse;
-  join_origin origin = join_origin::chosen;
-};
-
-/// Called once, with the failure if there is one.
-using transfer_done = std::function<void(const cell_transfer&, const failure*)>;
-
-/// Lets a node of this cell go. `done` hears of the outcome, or that it cannot
-/// be known in time.
-void start_transfer(coordinator_pointer self, const transfer_wish& wish,
-                    transfer_done done);
 
 caf::result<node_transferred> transfer_node(coordinator_pointer self,
                                             const node_transfer& request);

@@ -332,6 +332,14 @@ constexpr seconds invitation{12};
 constexpr seconds arrival{25};
 /// For a place that waits for an invited node.
 constexpr seconds invited_place{40};
+
+/// Until a coordinator that has just appeared has told its size; a node that
+/// asks for a place waits no longer for it.
+constexpr milliseconds sizes{1500};
+/// Places in other cells that are remembered, and those who wait for a node or
+/// for the sizes.
+constexpr size_t places = 4096;
+constexpr size_t waiting = 1024;
 /// After a change of the coordinators' sizes, until they are evened out.
 constexpr seconds settling{2};
 

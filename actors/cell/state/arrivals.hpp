@@ -2,7 +2,6 @@
 
 #include "actors/cell/state/coordinator_state.hpp"
 
-#include <chrono>
 #include <functional>
 #include <string>
 
@@ -20,7 +19,5 @@ void settle_arrivals(coordinator_pointer self, const std::string& uuid,
 
 /// Gives up waiting for nodes that are overdue.
 void settle_overdue_arrivals(coordinator_pointer self);
-std::chrono::steady_clock::time_point
-next_arrival_deadline(const cell_coordinator_state& st);
 
 } // namespace roscell

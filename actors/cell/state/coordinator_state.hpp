@@ -3,7 +3,9 @@
 #include "actors/cell/books/cell_registry.hpp"
 #include "actors/cell/books/free_node_book.hpp"
 #include "actors/cell/books/peer_book.hpp"
+#include "actors/cell/books/place_book.hpp"
 #include "actors/cell/books/task_table.hpp"
+#include "actors/cell/books/transfer_book.hpp"
 #include "actors/house/alarm.hpp"
 #include "actors/house/house.hpp"
 #include "actors/placement/search_guard.hpp"
@@ -62,29 +64,6 @@ struct awaited_deployments {
   std::function<void()> done;
 };
 
-/// A place that has been given out and not been taken yet.
-struct granted_place {
-  std::string coordinator; ///< UUID.
-  std::chrono::steady_clock::time_point until;
-};
-
-/// Somebody waits for a node to join. Called once.
-struct awaited_arrival {
-  std::chrono::steady_clock::time_point deadline;
-  std::function<void(const failure*)> done;
-};
-
-/// A transfer or a release; see docs/protocols.md.
-struct cell_transfer {
-  transfer_row row;
-  /// Of `switching`: then it is `unresolved` for whoever waits.
-  std::chrono::steady_clock::time_point deadline;
-  std::vector<std::string> terminated;
-  std::vector<std::string> rescheduled;
-  std::vector<std::function<void(const cell_transfer&, const failure*)>>
-      waiting;
-};
-
 /// Owns the cell registry and the tasks.
 struct cell_coordinator_state {
   static constexpr const char* name = "cell-coordinator";
@@ -100,11 +79,8 @@ struct cell_coordinator_state {
 
   peer_book peers;
   free_node_book free_nodes;
-  std::map<std::string, granted_place> places; ///< By UUID of the node.
-  std::map<std::string, cell_transfer> transfers;
-  uint64_t last_transfer = 0;
-  /// Who waits for a node to join, by UUID.
-  std::multimap<std::string, awaited_arrival> arrivals;
+  place_book places;
+  transfer_book transfers;
   /// When cells are to be looked at for evening out; max(): not at all.
   std::chrono::steady_clock::time_point balance_due =
       std::chrono::steady_clock::time_point::max();

@@ -1,6 +1,7 @@
 #include "actors/cell/state/node_whereabouts.hpp"
 
 #include "actors/cell/state/coordinator_publish.hpp"
+#include "actors/cell/state/coordinator_timer.hpp"
 #include "actors/cell/state/transfer_end.hpp"
 #include "messages/failure.hpp"
 
@@ -13,7 +14,6 @@ void on_node_elsewhere(coordinator_pointer self, const std::string& uuid,
   if (!entry || entry->row.identity.epoch > epoch)
     return;
   const auto name = entry->row.identity.name;
-  const auto transfer = entry->transfer;
   const auto member = entry->member;
   drop_row(self, uuid);
   if (member)
@@ -22,28 +22,54 @@ void on_node_elsewhere(coordinator_pointer self, const std::string& uuid,
                   {{"reason", cell.empty() ? "it is independent"
                                            : "it is in cell '" + cell + "'"},
                    {"size", st.registry.active_count()}});
-  const auto i = st.transfers.find(transfer);
-  if (i == st.transfers.end() || !is_open(i->second.row.state))
+  const auto* x = st.transfers.find_open_of(uuid);
+  if (!x)
     return;
-  auto& x = i->second;
-  if (x.row.to == cell)
-    return end_transfer(self, x, transfer_state::done, "", nullptr);
+  const auto id = x->row.transfer;
+  if (x->row.to == cell)
+    return end_transfer(self, id, transfer_state::done, "", nullptr);
   const failure why{error_code::conflict,
                     "node '" + name + "' went elsewhere meanwhile", "/node"};
-  end_transfer(self, x, transfer_state::returned, why.message, &why);
+  end_transfer(self, id, transfer_state::returned, why.message, &why);
 }
 
-void on_node_returned(coordinator_pointer self, const std::string& transfer) {
-  auto& st = self->state;
-  const auto i = st.transfers.find(transfer);
-  if (i == st.transfers.end() || !is_open(i->second.row.state))
+void on_node_returned(coordinator_pointer self, const std::string& uuid) {
+  const auto* x = self->state.transfers.find_open_of(uuid);
+  if (!x)
     return;
-  auto& x = i->second;
-  const failure why{error_code::unreachable,
-                    "node '" + x.row.node + "' could not register with cell '"
-                        + x.row.to + "' and has come back",
+  const auto id = x->row.transfer;
+  const auto name = "node '" + x->row.node + "'";
+  const failure why =
+      x->row.state == transfer_state::preparing
+          ? failure{error_code::unreachable,
+                    name
+                        + " lost its session before it was told to go, and "
+                          "has come back",
+                    "/node", "send the request again"}
+          : failure{error_code::unreachable,
+                    name + " could not register with cell '" + x->row.to
+                        + "' and has come back",
                     "/target", "see the events of the node"};
-  end_transfer(self, x, transfer_state::returned, why.message, &why);
+  end_transfer(self, id, transfer_state::returned, why.message, &why);
+}
+
+void on_departing_node_lost(coordinator_pointer self, registry_entry& entry,
+                            const std::string& reason) {
+  auto& st = self->state;
+  const auto& who = entry.row.identity;
+  entry.agent = nullptr;
+  entry.member = nullptr;
+  const auto* x = st.transfers.find_open_of(who.uuid);
+  // Where it turns up tells the rest, if it has been told to go.
+  if (x && x->row.state == transfer_state::switching)
+    return;
+  if (x && x->row.state == transfer_state::preparing)
+    return call_off_transfer(self, x->row.transfer,
+                             {error_code::unreachable,
+                              "node '" + who.name + "' fell silent", "/node"});
+  st.registry.deactivate(entry, row_state::lost, reason, now_of(self));
+  publish(self, {who.uuid});
+  arm_balance(self);
 }
 
 } // namespace roscell

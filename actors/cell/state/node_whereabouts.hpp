@@ -14,7 +14,11 @@ namespace roscell {
 void on_node_elsewhere(coordinator_pointer self, const std::string& uuid,
                        int64_t epoch, const std::string& cell);
 
-/// A fact: a node with a departing row has registered here again.
-void on_node_returned(coordinator_pointer self, const std::string& transfer);
+/// A fact: the node has registered here, maybe in the middle of a transfer.
+void on_node_returned(coordinator_pointer self, const std::string& uuid);
+
+/// A fact: a node with a departing row has no session any more.
+void on_departing_node_lost(coordinator_pointer self, registry_entry& entry,
+                            const std::string& reason);
 
 } // namespace roscell

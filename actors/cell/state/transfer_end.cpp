@@ -1,71 +1,70 @@
 #include "actors/cell/state/transfer_end.hpp"
 
+#include "actors/cell/state/coordinator_publish.hpp"
 #include "actors/cell/state/coordinator_store.hpp"
-#include "actors/house/limits.hpp"
-#include "actors/house/wall_clock.hpp"
-
-#include <utility>
+#include "actors/cell/state/coordinator_timer.hpp"
+#include "messages/failure.hpp"
 
 namespace roscell {
 
 namespace {
 
-void forget_oldest(cell_coordinator_state& st) {
-  while (st.transfers.size() > limits::transfer::ended) {
-    auto oldest = st.transfers.end();
-    for (auto i = st.transfers.begin(); i != st.transfers.end(); ++i)
-      if (!is_open(i->second.row.state)
-          && (oldest == st.transfers.end()
-              || i->second.row.since_unix_ms
-                     < oldest->second.row.since_unix_ms))
-        oldest = i;
-    if (oldest == st.transfers.end())
-      return;
-    st.transfers.erase(oldest);
-  }
+/// The failure as whoever asked hears it.
+failure with_losses(failure why, const cell_transfer& x) {
+  if (x.terminated.empty())
+    return why;
+  why.message += "; terminated for it:";
+  for (const auto& task : x.terminated)
+    why.message += " '" + task + "'";
+  return why;
+}
+
+void tell_end(coordinator_pointer self, const transfer_row& row) {
+  json data{{"transfer", row.transfer},
+            {"from", row.from},
+            {"to", row.to},
+            {"state", row.state}};
+  if (!row.reason.empty())
+    data["reason"] = row.reason;
+  self->state.context.tell("transfer_ended", row.node, data);
 }
 
 } // namespace
 
-bool is_open(transfer_state x) {
-  return x == transfer_state::preparing || x == transfer_state::switching
-         || x == transfer_state::unresolved;
-}
-
-void enter_state(cell_transfer& x, transfer_state state, std::string reason) {
-  x.row.state = state;
-  x.row.reason = std::move(reason);
-  x.row.since_unix_ms = unix_now_ms();
-}
-
-void store_transfer(coordinator_pointer self, const transfer_row& row) {
-  if (is_open(row.state))
-    record_fact(self, {"transfers", row.transfer, json(row).dump()});
-  else
-    record_fact(self, {"transfers", row.transfer, ""});
-}
-
-void tell_waiting(cell_transfer& x, const failure* why) {
-  for (const auto& done : std::exchange(x.waiting, {}))
-    done(x, why);
-}
-
-void end_transfer(coordinator_pointer self, cell_transfer& x,
+void end_transfer(coordinator_pointer self, const std::string& id,
                   transfer_state state, const std::string& reason,
                   const failure* why) {
+  auto& book = self->state.transfers;
+  const auto ended = book.end(id, state, reason, now_of(self).unix_ms);
+  if (!ended)
+    return;
+  record_fact(self, record_of(ended->row));
+  for (const auto& old : book.forget_oldest())
+    record_fact(self, {"transfers", old, ""});
+  tell_end(self, ended->row);
+  const auto told = why ? with_losses(*why, *ended) : failure{};
+  for (const auto& done : ended->waiting)
+    done(*ended, why ? &told : nullptr);
+}
+
+void call_off_transfer(coordinator_pointer self, const std::string& id,
+                       const failure& why) {
   auto& st = self->state;
-  enter_state(x, state, reason);
-  x.deadline = std::chrono::steady_clock::time_point::max();
-  store_transfer(self, x.row);
-  json data{{"transfer", x.row.transfer},
-            {"from", x.row.from},
-            {"to", x.row.to},
-            {"state", x.row.state}};
-  if (!reason.empty())
-    data["reason"] = reason;
-  st.context.tell("transfer_ended", x.row.node, data);
-  tell_waiting(x, why);
-  forget_oldest(st);
+  const auto* x = st.transfers.find_open(id);
+  if (!x)
+    return;
+  auto* entry = st.registry.find_uuid(x->row.uuid);
+  if (entry && entry->row.state == row_state::departing) {
+    if (entry->member)
+      st.registry.stay(*entry, now_of(self));
+    else
+      st.registry.deactivate(*entry, row_state::lost,
+                             "it fell silent while it was to leave",
+                             now_of(self));
+    publish(self, {entry->row.identity.uuid});
+    arm_balance(self);
+  }
+  end_transfer(self, id, transfer_state::returned, why.message, &why);
 }
 
 } // namespace roscell

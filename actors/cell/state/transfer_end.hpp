@@ -4,22 +4,17 @@
 
 #include <string>
 
-/// The states of a transfer, and how it ends.
+/// How a transfer ends. Each does nothing when it has ended already.
 namespace roscell {
 
-bool is_open(transfer_state x);
-
-void enter_state(cell_transfer& x, transfer_state state, std::string reason);
-
-/// Writes an open transfer down; removes one that has ended.
-void store_transfer(coordinator_pointer self, const transfer_row& row);
-
-/// Tells all who wait.
-void tell_waiting(cell_transfer& x, const failure* why);
-
-/// The transfer has come to its end, one way or the other.
-void end_transfer(coordinator_pointer self, cell_transfer& x,
+/// Writes the end down and tells all who wait. With a failure it is told that
+/// tasks have been terminated nevertheless.
+void end_transfer(coordinator_pointer self, const std::string& id,
                   transfer_state state, const std::string& reason,
                   const failure* why);
+
+/// The node stays a member: its row is active again, or lost if it is away.
+void call_off_transfer(coordinator_pointer self, const std::string& id,
+                       const failure& why);
 
 } // namespace roscell

@@ -25,6 +25,7 @@ struct form_options {
   std::string timeout = "16m";
   std::vector<std::string> nodes;
   std::string target;
+  std::string cell; ///< That the node is in.
 
   instance_policy policy() const {
     return json(instances).get<instance_policy>();
@@ -79,6 +80,7 @@ int transfer(const form_options& options) {
   node_transfer request;
   request.node = options.nodes.front();
   request.target = options.target;
+  request.cell = options.cell;
   request.instances = options.policy();
   show(options, message_json(request), transferred_view);
   return exit_done;
@@ -87,6 +89,7 @@ int transfer(const form_options& options) {
 int release(const form_options& options) {
   node_release request;
   request.node = options.nodes.front();
+  request.cell = options.cell;
   request.instances = options.policy();
   show(options, message_json(request), released_view);
   return exit_done;
@@ -97,6 +100,10 @@ void add_node_argument(CLI::App& command, form_options& options) {
   command.add_option("NODE", options.nodes.front(), "Name of the node")
       ->required()
       ->option_text(" ");
+  command
+      .add_option("--cell", options.cell,
+                  "The cell that the node is in, if not the asked one")
+      ->option_text("CELL");
 }
 
 CLI::App* add_form_command(CLI::App& app, const char* name,

@@ -1,0 +1,80 @@
+#include "actors/cell/transfers/transfer_instances.hpp"
+
+#include "actors/cell/cell_tasks.hpp"
+#include "actors/cell/state/transfer_end.hpp"
+#include "actors/cell/task_move.hpp"
+#include "actors/house/limits.hpp"
+#include "messages/failure.hpp"
+
+#include <utility>
+#include <vector>
+
+namespace roscell {
+
+namespace {
+
+using self_pointer = coordinator_pointer;
+
+/// Ends the tasks one after the other, then goes on.
+void terminate_tasks(self_pointer self, const std::string& id,
+                     std::vector<std::string> tasks,
+                     const std::function<void()>& next) {
+  auto* x = self->state.transfers.find_open(id);
+  if (!x)
+    return;
+  if (tasks.empty())
+    return next();
+  const auto task = tasks.back();
+  tasks.pop_back();
+  // From here on nothing brings it back.
+  x->terminated.push_back(task);
+  self->request(cell_coordinator_actor{self}, limits::transfer::termination,
+                task_termination{task})
+      .then(
+          [=](const task_terminated&) {
+            terminate_tasks(self, id, tasks, next);
+          },
+          [=](const caf::error& why) {
+            call_off_transfer(self, id, to_failure(why));
+          });
+}
+
+void reschedule_tasks(self_pointer self, const std::string& id,
+                      const std::function<void()>& next) {
+  auto& st = self->state;
+  const auto* x = st.transfers.find_open(id);
+  if (!x)
+    return;
+  const auto node = x->row.node;
+  const auto tasks = st.tasks.tasks_bound_to(node);
+  move_tasks(self, node, tasks, [=](const failure* why) {
+    auto* open = self->state.transfers.find_open(id);
+    if (!open)
+      return;
+    if (why)
+      return call_off_transfer(self, id, *why);
+    open->rescheduled = tasks;
+    next();
+  });
+}
+
+} // namespace
+
+void clear_instances(self_pointer self, const std::string& id,
+                     instance_policy policy,
+                     const std::function<void()>& next) {
+  auto& st = self->state;
+  const auto* x = st.transfers.find_open(id);
+  if (!x)
+    return;
+  const auto node = x->row.node;
+  auto tasks = st.tasks.tasks_bound_to(node);
+  if (tasks.empty() || policy == instance_policy::refuse)
+    return next();
+  if (policy == instance_policy::terminate)
+    return terminate_tasks(self, id, std::move(tasks), next);
+  // What is being deployed cannot be moved before it runs.
+  after_deployments_on(self, node, [=] { reschedule_tasks(self, id, next); });
+}
+
+} // namespace roscell

@@ -1,0 +1,130 @@
+#include "actors/cell/transfers/transfer_start.hpp"
+
+#include "actors/cell/state/coordinator_publish.hpp"
+#include "actors/cell/state/coordinator_store.hpp"
+#include "actors/cell/state/transfer_end.hpp"
+#include "actors/cell/transfers/transfer_instances.hpp"
+#include "actors/cell/transfers/transfer_switch.hpp"
+#include "messages/failure.hpp"
+
+#include <utility>
+
+namespace roscell {
+
+namespace {
+
+using self_pointer = coordinator_pointer;
+
+void refuse_transfer(const transfer_done& done, const failure& why) {
+  done(cell_transfer{}, &why);
+}
+
+void withdraw_transfer(self_pointer self, const std::string& id,
+                       const failure& why) {
+  for (const auto& done : self->state.transfers.withdraw(id))
+    refuse_transfer(done, why);
+}
+
+failure came_back(const std::string& node) {
+  return {error_code::conflict,
+          "node '" + node + "' came back, or went elsewhere, meanwhile",
+          "/node", "send the request again"};
+}
+
+/// The node is away and its row is let go. It comes back if it ever wants to:
+/// nobody can tell it.
+void drop_absent(self_pointer self, const std::string& id) {
+  auto& st = self->state;
+  const auto* x = st.transfers.find_open(id);
+  if (!x)
+    return;
+  const auto* entry = st.registry.find_uuid(x->row.uuid);
+  if (!entry || entry->member)
+    return call_off_transfer(self, id, came_back(x->row.node));
+  const auto name = x->row.node;
+  drop_row(self, x->row.uuid);
+  st.context.tell("node_left", name,
+                  {{"reason", "it was released while it was away"},
+                   {"size", st.registry.active_count()}});
+  end_transfer(self, id, transfer_state::done,
+               "the node was away and could not be told", nullptr);
+}
+
+/// Removes the record first: what cannot be written down is not done.
+void release_absent(self_pointer self, const std::string& id) {
+  const auto* x = self->state.transfers.find_open(id);
+  if (!x)
+    return;
+  keep_records(
+      self, {{"members", x->row.uuid, ""}},
+      [self, id] { drop_absent(self, id); },
+      [self, id](const failure& why) { call_off_transfer(self, id, why); });
+}
+
+void begin_departure(self_pointer self, const std::string& id,
+                     const transfer_wish& wish, registry_entry& entry) {
+  auto& st = self->state;
+  st.registry.depart(entry, now_of(self));
+  publish(self, {entry.row.identity.uuid});
+  st.context.tell("node_departing", wish.node,
+                  {{"transfer", id}, {"to", wish.target}});
+  reserve_target(self, id, [self, id, wish] {
+    clear_instances(self, id, wish.instances,
+                    [self, id, wish] { order_switch(self, id, wish.origin); });
+  });
+}
+
+/// The proposed transfer is kept. What spoke against it is asked once more: the
+/// store took its time.
+void on_transfer_kept(self_pointer self, const std::string& id,
+                      const transfer_wish& wish) {
+  auto& st = self->state;
+  st.transfers.open(id);
+  const auto* x = st.transfers.find_open(id);
+  if (!x)
+    return;
+  auto* entry = st.registry.find_uuid(x->row.uuid);
+  if (!entry)
+    return call_off_transfer(self, id, came_back(wish.node));
+  if (auto why = objection_to_instances(st, wish))
+    return call_off_transfer(self, id, *why);
+  if (entry->member && entry->row.state == row_state::active)
+    return begin_departure(self, id, wish, *entry);
+  if (entry->member || !wish.target.empty())
+    return call_off_transfer(self, id, came_back(wish.node));
+  clear_instances(self, id, wish.instances,
+                  [self, id] { release_absent(self, id); });
+}
+
+/// An earlier transfer of a node that is away is given up for a new one.
+void end_unresolved(self_pointer self, const std::string& uuid) {
+  const auto* x = self->state.transfers.find_open_of(uuid);
+  if (!x)
+    return;
+  const failure why{error_code::conflict,
+                    "node '" + x->row.node + "' was released while it was away",
+                    "/node"};
+  end_transfer(self, x->row.transfer, transfer_state::returned, why.message,
+               &why);
+}
+
+} // namespace
+
+void start_transfer(self_pointer self, const transfer_wish& wish,
+                    transfer_done done) {
+  auto& st = self->state;
+  if (auto why = objection_to(self, wish))
+    return refuse_transfer(done, *why);
+  const auto uuid = st.registry.find_name(wish.node)->row.identity.uuid;
+  end_unresolved(self, uuid);
+  const auto row =
+      st.transfers.propose(wish.node, uuid, wish.target, now_of(self).unix_ms);
+  const auto id = row.transfer;
+  st.transfers.find_proposed(id)->waiting.push_back(std::move(done));
+  keep_records(
+      self, {record_of(row)},
+      [self, id, wish] { on_transfer_kept(self, id, wish); },
+      [self, id](const failure& why) { withdraw_transfer(self, id, why); });
+}
+
+} // namespace roscell

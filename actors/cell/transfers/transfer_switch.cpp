@@ -1,0 +1,134 @@
+#include "actors/cell/transfers/transfer_switch.hpp"
+
+#include "actors/cell/state/coordinator_store.hpp"
+#include "actors/cell/state/coordinator_timer.hpp"
+#include "actors/cell/state/node_whereabouts.hpp"
+#include "actors/cell/state/transfer_end.hpp"
+#include "actors/house/limits.hpp"
+#include "messages/failure.hpp"
+
+namespace roscell {
+
+namespace {
+
+using self_pointer = coordinator_pointer;
+
+/// The departing row of an open transfer whose node has a session; null if that
+/// is not so any more.
+registry_entry* find_departing(self_pointer self, const cell_transfer& x) {
+  auto* entry = self->state.registry.find_uuid(x.row.uuid);
+  return entry && entry->row.state == row_state::departing && entry->member
+             ? entry
+             : nullptr;
+}
+
+failure fell_silent(const cell_transfer& x) {
+  return {error_code::unreachable, "node '" + x.row.node + "' fell silent",
+          "/node"};
+}
+
+/// What is asked of the node.
+registration_switch order_for(const cell_coordinator_state& st,
+                              const cell_transfer& x,
+                              const registry_entry& entry, join_origin origin) {
+  registration_switch result;
+  result.transfer = x.row.transfer;
+  result.node = x.row.node;
+  result.uuid = x.row.uuid;
+  result.epoch = entry.row.identity.epoch;
+  result.origin = origin;
+  if (const auto* peer = st.peers.find_cell(x.row.to))
+    result.target = {peer->standing.place};
+  return result;
+}
+
+void on_switch_accepted(self_pointer self, const std::string& id) {
+  const auto* x = self->state.transfers.find_open(id);
+  // A released node has written down that it is, so it will not come back.
+  if (x && x->row.to.empty())
+    on_node_elsewhere(self, x->row.uuid, INT64_MAX, "");
+}
+
+/// Nobody knows whether the node has heard that it shall go. Where it registers
+/// next tells, so it must not stay in a session that it may believe in.
+void ask_where_it_goes(self_pointer self, const cell_transfer& x) {
+  if (const auto* entry = find_departing(self, x))
+    self->send(entry->member,
+               close_session{"it is not known whether the node goes"});
+}
+
+void on_switch_failed(self_pointer self, const std::string& id,
+                      const failure& why) {
+  const auto* x = self->state.transfers.find_open(id);
+  if (!x)
+    return;
+  if (why.code == error_code::unreachable || why.code == error_code::timeout)
+    ask_where_it_goes(self, *x);
+  else
+    call_off_transfer(self, id, why);
+}
+
+/// The order may go out: it is on disk that the node may be anywhere.
+void send_order(self_pointer self, const std::string& id,
+                const transfer_row& row, join_origin origin) {
+  auto& st = self->state;
+  auto* x = st.transfers.find_open(id);
+  if (!x)
+    return;
+  const auto* entry = find_departing(self, *x);
+  if (!entry)
+    return call_off_transfer(self, id, fell_silent(*x));
+  const auto order = order_for(st, *x, *entry, origin);
+  if (!x->row.to.empty() && order.target.empty())
+    return call_off_transfer(
+        self, id,
+        {error_code::unreachable,
+         "the coordinator of cell '" + x->row.to + "' fell silent", "/target"});
+  st.transfers.begin_switch(*x, row, self->clock().now());
+  set_timer(self);
+  self->request(entry->member, limits::membership::switching, order)
+      .then([=](const switch_accepted&) { on_switch_accepted(self, id); },
+            [=](const caf::error& why) {
+              on_switch_failed(self, id, to_failure(why));
+            });
+}
+
+} // namespace
+
+void reserve_target(self_pointer self, const std::string& id,
+                    const std::function<void()>& next) {
+  auto& st = self->state;
+  const auto* x = st.transfers.find_open(id);
+  if (!x)
+    return;
+  if (x->row.to.empty())
+    return next();
+  const auto* entry = find_departing(self, *x);
+  const auto* peer = st.peers.find_cell(x->row.to);
+  if (!entry || !peer)
+    return call_off_transfer(self, id,
+                             {error_code::unreachable,
+                              "node or target cell have just gone", "/target"});
+  const auto& who = entry->row.identity;
+  const std::chrono::milliseconds span{limits::transfer::place};
+  self->request(peer->actor, limits::session::peer_answer,
+                place_reservation{who.name, who.uuid, who.epoch, span.count()})
+      .then([=](const place_reserved&) { next(); },
+            [=](const caf::error& why) {
+              call_off_transfer(self, id, to_failure(why));
+            });
+}
+
+void order_switch(self_pointer self, const std::string& id,
+                  join_origin origin) {
+  auto& book = self->state.transfers;
+  const auto* x = book.find_open(id);
+  if (!x)
+    return;
+  const auto row = book.switching_row(*x, now_of(self).unix_ms);
+  keep_records(
+      self, {record_of(row)}, [=] { send_order(self, id, row, origin); },
+      [=](const failure& why) { call_off_transfer(self, id, why); });
+}
+
+} // namespace roscell
