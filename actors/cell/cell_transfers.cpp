@@ -5,7 +5,7 @@
 #include "actors/cell/state/coordinator_timer.hpp"
 #include "actors/cell/state/node_whereabouts.hpp"
 #include "actors/cell/state/transfer_end.hpp"
-#include "actors/cell/task_move.hpp"
+#include "actors/cell/tasks/task_move.hpp"
 #include "actors/house/limits.hpp"
 #include "actors/house/wall_clock.hpp"
 #include "messages/failure.hpp"
@@ -133,15 +133,6 @@ void reserve_target(self_pointer self, const std::string& id,
       .then([next](const place_reserved&) { next(); }, calling_off(self, id));
 }
 
-std::vector<std::string> tasks_on(const cell_coordinator_state& st,
-                                  const std::string& node) {
-  std::vector<std::string> result;
-  for (const auto& spec : st.tasks.wanted_on(node))
-    if (std::find(result.begin(), result.end(), spec.task) == result.end())
-      result.push_back(spec.task);
-  return result;
-}
-
 /// Ends the tasks one after the other, then goes on.
 void terminate_tasks(self_pointer self, const std::string& id,
                      std::vector<std::string> tasks,
@@ -165,7 +156,7 @@ void clear_instances(self_pointer self, const std::string& id,
                      const std::function<void()>& next) {
   auto& st = self->state;
   const auto node = st.transfers.at(id).row.node;
-  auto tasks = tasks_on(st, node);
+  auto tasks = st.deployments.tasks_bound_to(node);
   if (tasks.empty() || policy == instance_policy::refuse)
     return next();
   if (policy == instance_policy::terminate)
@@ -211,7 +202,7 @@ std::optional<failure> objection(self_pointer self, const transfer_wish& wish,
                    "no coordinator of a cell '" + wish.target
                        + "' is within reach",
                    "/target", "`roscell cells` lists them"};
-  const auto specs = st.tasks.wanted_on(wish.node);
+  const auto specs = st.deployments.bound_to(wish.node);
   if (wish.instances == instance_policy::refuse && !specs.empty())
     return failure{error_code::conflict, name + " runs " + list(specs),
                    "/instances",

@@ -1,7 +1,9 @@
 #pragma once
 
 #include "actors/cell/books/cell_registry.hpp"
-#include "actors/cell/books/task_table.hpp"
+#include "actors/cell/books/deployment_book.hpp"
+#include "actors/cell/books/task_book.hpp"
+#include "actors/cell/tasks/task_desk.hpp"
 #include "actors/house/alarm.hpp"
 #include "actors/house/backoff.hpp"
 #include "actors/house/house.hpp"
@@ -47,19 +49,6 @@ struct coordinator_setup {
   bool rebalance = true;     ///< Cells are evened out.
   /// The scheduler's; may be empty in tests.
   std::shared_ptr<search_guard> searches;
-};
-
-/// A task request that waits for its turn to be placed.
-struct waiting_claim {
-  claim_task request;
-  caf::actor_addr owner;
-  caf::typed_response_promise<task_claimed> promise;
-};
-
-/// Somebody waits until nothing is being deployed to a node. Called once.
-struct awaited_deployments {
-  std::string node;
-  std::function<void()> done;
 };
 
 /// Another coordinator, as far as it is known.
@@ -125,11 +114,9 @@ struct cell_coordinator_state {
   house context;
   coordinator_setup setup;
   cell_registry registry;
-  task_table tasks;
-  /// The task whose turn it is: between its claim and its intent.
-  std::string turn;
-  std::deque<waiting_claim> waiting;
-  std::vector<awaited_deployments> deployments_awaited;
+  task_book tasks;
+  deployment_book deployments;
+  task_desk desk;
 
   /// By UUID: all coordinators and nodes in no cell that are visible.
   std::map<std::string, node_presence> presences;

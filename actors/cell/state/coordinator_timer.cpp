@@ -2,6 +2,7 @@
 
 #include "actors/cell/state/arrivals.hpp"
 #include "actors/cell/state/peer_attempts.hpp"
+#include "actors/cell/tasks/task_desk.hpp"
 #include "actors/house/limits.hpp"
 
 #include <algorithm>
@@ -24,9 +25,10 @@ time_point next_transfer_deadline(const cell_coordinator_state& st) {
 void set_timer(coordinator_pointer self) {
   auto& st = self->state;
   const auto balance = st.balancing > 0 ? time_point::max() : st.balance_due;
-  const auto when =
-      std::min({st.registry.next_overdue(), next_transfer_deadline(st),
-                next_arrival_deadline(st), next_peer_attempt(st), balance});
+  const auto when = std::min(
+      {st.registry.next_overdue(), next_transfer_deadline(st),
+       next_arrival_deadline(st), next_peer_attempt(st),
+       next_change_retry(st.desk), st.desk.removals.next_due(), balance});
   if (when != time_point::max())
     st.timer.set(self, when);
 }
