@@ -253,15 +253,17 @@ using cell_coordinator_actor = introspected_actor::extend<
     caf::replies_to<log_query>::with<log_excerpt>,
     caf::replies_to<skill_query>::with<skill_list>,
     // Waits while the same request is being deployed. The task is the sender's
-    // until it records an outcome or ends. Errors: task_exists, conflict.
+    // until all of it runs or the sender ends. Errors: task_exists, conflict.
     caf::replies_to<claim_task>::with<task_claimed>,
     caf::replies_to<collect_resources>::with<cell_resources>,
-    // Errors: conflict (a member has gone meanwhile).
-    caf::replies_to<find_agents>::with<agents_found>,
-    // Errors: conflict (a member has gone meanwhile).
+    // Replies once the store has kept it. Errors: conflict (a member has gone
+    // meanwhile), internal (the store cannot keep it).
     caf::replies_to<record_intent>::with<intent_recorded>,
-    caf::replies_to<record_outcome>::with<outcome_recorded>,
-    // Errors: unknown_task.
+    // The same; what cannot be kept is rolled back.
+    caf::replies_to<record_running>::with<task_accepted>,
+    // Replies once what was started is gone.
+    caf::replies_to<record_failure>::with<task_rolled_back>,
+    // Replies once the store has kept it. Errors: unknown_task, internal.
     caf::replies_to<task_termination>::with<task_terminated>,
     caf::reacts_to<presence_seen>, caf::reacts_to<presence_gone>,
     caf::reacts_to<peer_opened>, caf::reacts_to<peer_lost>,

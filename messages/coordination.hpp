@@ -104,37 +104,25 @@ struct peer_changed {
   }
 };
 
-/// Asks all active members for their resources.
+/// Asks what the cell has to place something on, of all active members.
 struct collect_resources {
   static constexpr auto fields() {
     return std::make_tuple();
   }
 };
 
-/// Asks who speaks for nodes.
-struct find_agents {
-  std::vector<std::string> nodes;
-
-  static constexpr auto fields() {
-    return std::make_tuple(required("nodes", &find_agents::nodes));
-  }
-};
-
-struct agents_found {
+/// All that a placement starts from.
+struct cell_resources {
   std::string cell;
+  std::vector<skill_row> skills;
+  std::vector<node_resources> nodes;    ///< In the order of their names.
   std::vector<node_agent_actor> agents; ///< One of each node.
 
   static constexpr auto fields() {
-    return std::make_tuple(required("cell", &agents_found::cell),
-                           required("agents", &agents_found::agents));
-  }
-};
-
-struct cell_resources {
-  std::vector<node_resources> nodes; ///< In the order of their names.
-
-  static constexpr auto fields() {
-    return std::make_tuple(required("nodes", &cell_resources::nodes));
+    return std::make_tuple(required("cell", &cell_resources::cell),
+                           required("skills", &cell_resources::skills),
+                           required("nodes", &cell_resources::nodes),
+                           required("agents", &cell_resources::agents));
   }
 };
 
@@ -173,17 +161,15 @@ struct allocate_task {
 /// Holds the resources of an allocation from now on.
 struct record_intent {
   std::string task;
-  std::string request; ///< JSON of the task request, to compare bodies.
   std::vector<instance_spec> specs;
   std::vector<std::string> nodes; ///< Node of each spec.
-  std::string accepted;           ///< JSON of the reply once all steps run.
+  task_accepted decision;         ///< Why so; without the instances.
 
   static constexpr auto fields() {
     return std::make_tuple(required("task", &record_intent::task),
-                           required("request", &record_intent::request),
                            required("specs", &record_intent::specs),
                            required("nodes", &record_intent::nodes),
-                           required("accepted", &record_intent::accepted));
+                           required("decision", &record_intent::decision));
   }
 };
 
@@ -197,20 +183,27 @@ struct intent_recorded {
   }
 };
 
-/// How a deployment ended. A failed one is rolled back before the reply.
-struct record_outcome {
+/// All steps of a deployment run.
+struct record_running {
   std::string task;
-  bool running = false;
-  std::string reason; ///< Why not.
 
   static constexpr auto fields() {
-    return std::make_tuple(required("task", &record_outcome::task),
-                           required("running", &record_outcome::running),
-                           required("reason", &record_outcome::reason));
+    return std::make_tuple(required("task", &record_running::task));
   }
 };
 
-struct outcome_recorded {
+/// A step of a deployment has not come up.
+struct record_failure {
+  std::string task;
+  std::string reason;
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("task", &record_failure::task),
+                           required("reason", &record_failure::reason));
+  }
+};
+
+struct task_rolled_back {
   static constexpr auto fields() {
     return std::make_tuple();
   }
@@ -229,11 +222,14 @@ struct claim_task {
 };
 
 struct task_claimed {
-  /// JSON of the first reply when the same request has been done already.
-  std::string accepted;
+  bool known = false;     ///< The same request has been done already.
+  task_accepted accepted; ///< Then its reply.
+  cell_resources cell;    ///< Else what the task may be placed on.
 
   static constexpr auto fields() {
-    return std::make_tuple(required("accepted", &task_claimed::accepted));
+    return std::make_tuple(required("known", &task_claimed::known),
+                           required("accepted", &task_claimed::accepted),
+                           required("cell", &task_claimed::cell));
   }
 };
 
@@ -260,12 +256,10 @@ struct request_routed {
   }
 };
 
-/// A request that has passed its schema.
+/// Begins the work on the request that the pipeline was made for.
 struct process_request {
-  std::string text;
-
   static constexpr auto fields() {
-    return std::make_tuple(required("text", &process_request::text));
+    return std::make_tuple();
   }
 };
 

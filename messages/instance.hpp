@@ -98,6 +98,9 @@ struct instance_row {
   int exit_code = -1;
   std::string reason;   ///< Why it failed or stopped, one sentence.
   std::string log_tail; ///< Last lines of the log of a failed instance.
+  /// Since when nobody knows whether `state` still holds, because the node is
+  /// away; 0: it is known.
+  int64_t unknown_since_unix_ms = 0;
 
   static constexpr auto fields() {
     return std::make_tuple(
@@ -111,7 +114,9 @@ struct instance_row {
         optional("image", &instance_row::image),
         nullable("exit_code", &instance_row::exit_code),
         optional("reason", &instance_row::reason),
-        optional("log_tail", &instance_row::log_tail));
+        optional("log_tail", &instance_row::log_tail),
+        optional("unknown_since_unix_ms",
+                 &instance_row::unknown_since_unix_ms));
   }
 };
 

@@ -101,11 +101,18 @@ struct task_terminated {
   }
 };
 
-enum class task_state { deploying, running, degraded, terminating };
+enum class task_state {
+  deploying,
+  running,
+  degraded, ///< Something of it does not run, or nobody knows.
+  terminating,
+  finished, ///< Every step has ended with 0.
+  failed,   ///< Every step has ended, not all with 0.
+};
 
 constexpr auto enum_words(task_state) {
-  return std::array<std::string_view, 4>{"deploying", "running", "degraded",
-                                         "terminating"};
+  return std::array<std::string_view, 6>{"deploying",   "running",  "degraded",
+                                         "terminating", "finished", "failed"};
 }
 
 /// What is known of one task.

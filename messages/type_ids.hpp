@@ -19,6 +19,7 @@
   X(task_terminated)                                                           \
   X(task_query)                                                                \
   X(task_description)                                                          \
+  X(task_accepted)                                                             \
   X(task_plan)                                                                 \
   X(cell_query)                                                                \
   X(cell_description)                                                          \
@@ -89,7 +90,7 @@
   X(stop_instance)                                                             \
   X(listen_to_instances)                                                       \
   X(store_record)                                                              \
-  X(store_records)                                                              \
+  X(store_records)                                                             \
   X(record_stored)                                                             \
   X(measure_host)                                                              \
   X(host_measured)                                                             \
@@ -125,14 +126,13 @@
   X(peer_told)                                                                 \
   X(peer_changed)                                                              \
   X(collect_resources)                                                         \
-  X(find_agents)                                                               \
-  X(agents_found)                                                              \
   X(cell_resources)                                                            \
   X(allocate_task)                                                             \
   X(record_intent)                                                             \
   X(intent_recorded)                                                           \
-  X(record_outcome)                                                            \
-  X(outcome_recorded)                                                          \
+  X(record_running)                                                            \
+  X(record_failure)                                                            \
+  X(task_rolled_back)                                                          \
   X(claim_task)                                                                \
   X(task_claimed)                                                              \
   X(route_request)                                                             \

@@ -3,6 +3,7 @@
 #include "actors/cell/cell_places.hpp"
 #include "actors/cell/state/coordinator_timer.hpp"
 #include "actors/cell/transfers/transfer_start.hpp"
+#include "actors/cell/tasks/cell_instances.hpp"
 #include "actors/house/limits.hpp"
 #include "messages/failure.hpp"
 
@@ -72,8 +73,8 @@ void order_move(self_pointer self, const cell_move& move,
 /// Whether a member may be moved without asking anybody.
 bool is_movable(const cell_coordinator_state& st, const registry_entry& x) {
   return x.row.state == row_state::active && x.member
-         && x.origin == join_origin::discovered && x.row.instances.empty()
-         && st.tasks.bound_to(x.row.identity.name).empty();
+         && x.origin == join_origin::discovered
+         && !has_instances(st, x.row.identity.name);
 }
 
 std::vector<std::string> movable(self_pointer self, size_t count) {

@@ -6,10 +6,16 @@
 #include "actors/cell/cell_peers.hpp"
 #include "actors/cell/cell_places.hpp"
 #include "actors/cell/cell_presences.hpp"
-#include "actors/cell/cell_tasks.hpp"
 #include "actors/cell/cell_transfers.hpp"
 #include "actors/cell/state/arrivals.hpp"
 #include "actors/cell/state/coordinator_timer.hpp"
+#include "actors/cell/tasks/cell_instances.hpp"
+#include "actors/cell/tasks/cell_resources.hpp"
+#include "actors/cell/tasks/cell_tasks.hpp"
+#include "actors/cell/tasks/task_changes.hpp"
+#include "actors/cell/tasks/task_endings.hpp"
+#include "actors/cell/tasks/task_removals.hpp"
+#include "actors/cell/tasks/task_views.hpp"
 #include "actors/house/limits.hpp"
 #include "messages/failure.hpp"
 
@@ -21,59 +27,19 @@ namespace {
 
 using self_pointer = coordinator_pointer;
 
-caf::error unknown(const std::string& what, const std::string& id) {
-  return fail(error_code::unknown_task, "no " + what + " '" + id + "' is known",
-              "/" + what, "`roscell " + what + "s` lists them");
-}
-
-std::vector<task_row> describe_all_tasks(self_pointer self) {
-  std::vector<task_row> result;
-  for (const auto& [task, entry] : self->state.tasks.entries())
-    if (entry.intent)
-      result.push_back(describe_task(self, entry.record));
-  return result;
-}
-
 cell_description describe(self_pointer self) {
   const auto& st = self->state;
-  return {st.setup.cell,
-          st.setup.self.name,
-          st.setup.self.address,
-          st.setup.discovery_server,
-          st.setup.incarnation,
-          st.registry.rows(),
-          describe_all_tasks(self),
-          self->state.free_nodes.rows()};
+  return {st.setup.cell,          st.setup.self.name,
+          st.setup.self.address,  st.setup.discovery_server,
+          st.setup.incarnation,   describe_nodes(st),
+          describe_all_tasks(st), st.free_nodes.rows()};
 }
 
-caf::result<task_description> answer(self_pointer self,
-                                     const task_query& query) {
-  if (query.task.empty())
-    return task_description{describe_all_tasks(self)};
-  const auto* entry = self->state.tasks.find(query.task);
-  if (!entry || !entry->intent)
-    return unknown("task", query.task);
-  return task_description{{describe_task(self, entry->record)}};
-}
-
-caf::result<instance_description> answer(self_pointer self,
-                                         const instance_query& query) {
-  instance_description result;
-  for (const auto& row : self->state.registry.rows())
-    for (const auto& x : row.instances)
-      if ((query.instance.empty() || x.spec.instance == query.instance)
-          && (query.task.empty() || x.spec.task == query.task))
-        result.instances.push_back(x);
-  if (!query.instance.empty() && result.instances.empty())
-    return unknown("instance", query.instance);
-  return result;
-}
-
-caf::result<log_excerpt> answer(self_pointer self, const log_query& query) {
+caf::result<log_excerpt> fetch_log(self_pointer self, const log_query& query) {
   auto& registry = self->state.registry;
-  const auto* instance = registry.find_instance(query.instance);
+  const auto instance = self->state.deployments.find_row(query.instance);
   if (!instance)
-    return unknown("instance", query.instance);
+    return unknown_thing("instance", query.instance);
   const auto* entry = registry.find_name(instance->node);
   if (!entry || !entry->agent)
     return fail(error_code::unreachable,
@@ -94,16 +60,11 @@ caf::result<log_excerpt> answer(self_pointer self, const log_query& query) {
 
 json summary(self_pointer self) {
   const auto& st = self->state;
-  return {{"cell", st.setup.cell},
-          {"incarnation", st.setup.incarnation},
-          {"nodes", st.registry.rows()},
-          {"tasks", describe_all_tasks(self)},
-          {"turn", st.turn},
-          {"waiting", st.waiting.size()},
-          {"cells", list_cells(self->state)},
-          {"free", self->state.free_nodes.rows()},
-          {"places", st.places.size()},
-          {"transfers", st.transfers.size()},
+  return {{"cell", st.setup.cell},       {"incarnation", st.setup.incarnation},
+          {"nodes", describe_nodes(st)}, {"tasks", describe_all_tasks(st)},
+          {"turn", st.desk.turn},        {"waiting", st.desk.waiting.size()},
+          {"cells", list_cells(st)},     {"free", st.free_nodes.rows()},
+          {"places", st.places.size()},  {"transfers", st.transfers.size()},
           {"balancing", st.balancing}};
 }
 
@@ -122,6 +83,8 @@ void on_tick(self_pointer self, uint64_t number) {
   settle_overdue_arrivals(self);
   open_due_peers(self);
   ask_due_proofs(self);
+  retry_due_changes(self);
+  ask_overdue_removals(self);
   balance_if_due(self);
   set_timer(self);
 }
@@ -157,18 +120,20 @@ cell_coordinator(self_pointer self, const house& context,
       [self](const cell_list_query&) {
         return cell_list{list_cells(self->state)};
       },
-      [self](const task_query& x) { return answer(self, x); },
-      [self](const instance_query& x) { return answer(self, x); },
-      [self](const log_query& x) { return answer(self, x); },
+      [self](const task_query& x) { return describe_tasks(self->state, x); },
+      [self](const instance_query& x) {
+        return describe_instances(self->state, x);
+      },
+      [self](const log_query& x) { return fetch_log(self, x); },
       [self](const skill_query& x) {
         return skill_list{self->state.registry.skills(x.operation)};
       },
-      [self](const claim_task& x) { return claim_turn(self, x); },
-      [self](const collect_resources&) { return collect_cell_resources(self); },
-      [self](const find_agents& x) { return answer_agents(self, x); },
-      [self](const record_intent& x) { return hold_resources(self, x); },
-      [self](const record_outcome& x) { return settle_task(self, x); },
-      [self](const task_termination& x) { return terminate(self, x); },
+      [self](const claim_task& x) { return claim_task_turn(self, x); },
+      [self](const collect_resources&) { return answer_resources(self); },
+      [self](const record_intent& x) { return hold_placement(self, x); },
+      [self](const record_running& x) { return accept_task(self, x); },
+      [self](const record_failure& x) { return undo_deployment(self, x); },
+      [self](const task_termination& x) { return terminate_task(self, x); },
       [self](const presence_seen& x) { on_presence_seen(self, x.who); },
       [self](const presence_gone& x) { on_presence_gone(self, x.who); },
       [self](const peer_opened& x) { on_peer_opened(self, x); },

@@ -8,10 +8,6 @@ namespace roscell {
 /// Gives the coordination node its own row.
 void add_own_row(coordinator_pointer self);
 
-/// Keeps, stops and starts instances on the coordination node itself as a
-/// registration does for other nodes. Called once the tasks are restored.
-void reconcile_own_node(coordinator_pointer self);
-
 /// Asks what this node offers, so that the registry shows it from the start.
 void measure_own_node(coordinator_pointer self);
 
@@ -28,12 +24,5 @@ void restore_members(coordinator_pointer self);
 
 /// A member has ended. One that could not say so is lost.
 void on_member_down(coordinator_pointer self, const caf::actor_addr& gone);
-
-void on_instance_changed(coordinator_pointer self,
-                         const instance_changed& fact);
-
-/// Asks every active node for its resources, and takes off what deploying tasks
-/// hold that the nodes do not know of yet.
-caf::result<cell_resources> collect_cell_resources(coordinator_pointer self);
 
 } // namespace roscell

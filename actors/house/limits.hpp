@@ -104,6 +104,12 @@ namespace instance {
 constexpr size_t most = 256;
 /// Ended ones whose rows and logs stay until their task is removed.
 constexpr size_t most_ended = 32;
+
+/// Rows that a coordinator remembers of what one node has told.
+constexpr size_t told = 1024;
+
+static_assert(most + most_ended < told);
+
 /// An actor that dies more often than this will not do better next time.
 constexpr int most_deaths = 5;
 /// For one record on a slow disk, and for reading the end of a log.
@@ -372,13 +378,36 @@ constexpr minutes deployment_answer{13};
 constexpr milliseconds agent_removal{48'000};
 constexpr milliseconds removal{52'000};
 constexpr milliseconds removal_answer{55'000};
-constexpr seconds termination{60};
+
+/// A termination whose record cannot be removed for so long is answered with
+/// the trouble; the removal goes on.
+constexpr seconds unwritten{15};
+constexpr seconds termination{80};
+
 /// For the others of a deployment that failed to be removed.
 constexpr seconds rollback{60};
-/// For a task's turn while another one is placed.
-constexpr seconds turn{60};
-/// Ended tasks that are remembered, to answer a repeated termination.
-constexpr size_t ended = 100;
+
+/// For a task's turn, or for the first reply to the same request: whoever asks
+/// gives up before that.
+constexpr minutes claim{16};
+
+/// Claims that wait for their turn, and repetitions of one request that wait
+/// for its first reply.
+constexpr size_t waiting = 256;
+constexpr size_t same_requests = 64;
+
+/// Tasks at a time, whatever their state.
+constexpr size_t most = 1000;
+
+/// Tasks whose steps have all ended that are kept; the oldest go.
+constexpr size_t settled = 100;
+
+/// Terminated tasks that are remembered, to answer a repeated termination.
+constexpr size_t terminated = 100;
+
+/// Instances of all nodes that were not removed in time and are asked for
+/// again; beyond it a node hears of it at its next registration.
+constexpr size_t overdue_removals = 1000;
 
 static_assert(allocation_budget < search && offline_allocation_budget < search);
 static_assert(local::part < reservation);
@@ -389,7 +418,8 @@ static_assert(agent_deployment < deployment - session::margin);
 static_assert(deployment < deployment_answer);
 static_assert(instance::removal < agent_removal);
 static_assert(agent_removal < removal - session::margin);
-static_assert(removal < removal_answer && removal_answer < termination);
+static_assert(removal < removal_answer);
+static_assert(removal_answer + unwritten + store::write < termination);
 static_assert(removal_answer < rollback);
 
 } // namespace task
@@ -427,6 +457,7 @@ constexpr size_t remembered = 256;
 constexpr size_t remembered_bytes = 4 * mib;
 
 static_assert(task::deployment_answer < handler && handler < router);
+static_assert(handler < task::claim);
 static_assert(transfer::answer < handler);
 
 } // namespace request

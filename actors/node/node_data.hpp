@@ -1,7 +1,7 @@
 #pragma once
 
 #include "actors/cell/books/cell_registry.hpp"
-#include "actors/cell/books/task_table.hpp"
+#include "actors/cell/books/task_book.hpp"
 #include "actors/edge/disk/directory_lock.hpp"
 #include "actors/edge/disk/sqlite_store.hpp"
 #include "actors/node/node_config.hpp"

@@ -11,10 +11,9 @@ namespace {
 caf::result<request_processed>
 process(pipeline_pointer self, const request_runner& run,
         const std::shared_ptr<const node_services>& services,
-        const process_request& request) {
+        const json& document) {
   // Who has asked is the router; without it nobody waits for the outcome.
   self->monitor(self->current_sender());
-  const auto document = json::parse(request.text);
   self->state.request = document.at("type").get<std::string>();
   auto promise = self->make_response_promise<request_processed>();
   auto finish = [self, services,
@@ -38,7 +37,8 @@ process(pipeline_pointer self, const request_runner& run,
 
 handler_pipeline_actor::behavior_type
 handler_pipeline(pipeline_pointer self, const request_runner& run,
-                 const std::shared_ptr<const node_services>& services) {
+                 const std::shared_ptr<const node_services>& services,
+                 const std::shared_ptr<const json>& document) {
   self->set_down_handler(
       [self](const caf::down_msg& down) { self->quit(down.reason); });
   return {
@@ -46,8 +46,8 @@ handler_pipeline(pipeline_pointer self, const request_runner& run,
         return state_of({{"request", self->state.request},
                          {"handler", self->state.handler}});
       },
-      [self, run, services](const process_request& request) {
-        return process(self, run, services, request);
+      [self, run, services, document](const process_request&) {
+        return process(self, run, services, *document);
       },
   };
 }

@@ -99,15 +99,15 @@ void on_pipeline_down(self_pointer self, const caf::down_msg& down) {
 
 /// Gives each request a pipeline of its own.
 void dispatch(self_pointer self, const request_runner& run,
-              const std::string& id, std::string text, promise_type promise) {
+              const std::string& id, json document, promise_type promise) {
   const auto& services = self->state.services;
   auto worker =
-      spawn(self->system(), services->context, handler_pipeline, run, services);
+      spawn(self->system(), services->context, handler_pipeline, run, services,
+            std::make_shared<const json>(std::move(document)));
   const auto address = worker.address();
   self->state.running[address] = {id, worker, std::move(promise)};
   self->monitor(worker);
-  self->request(worker, limits::request::handler,
-                process_request{std::move(text)})
+  self->request(worker, limits::request::handler, process_request{})
       .then(
           [self, address](request_processed& done) {
             settle(self, address, [&] {
@@ -156,7 +156,7 @@ caf::result<request_routed> route(self_pointer self,
   auto parsed = parse_document(request.text);
   if (auto* why = std::get_if<failure>(&parsed))
     return refusal(self, *why);
-  const auto& document = std::get<json>(parsed);
+  auto& document = std::get<json>(parsed);
   if (auto why = validate_message(document, {message_kind::request}))
     return refusal(self, *why);
   const auto type = document.at("type").get<std::string>();
@@ -169,16 +169,16 @@ caf::result<request_routed> route(self_pointer self,
     return refusal(
         self, unknown_type(type, static_cast<bool>(st.services->coordinator)));
   const auto id = document.value("request_id", "");
-  auto body = document.dump();
   auto promise = self->make_response_promise<request_routed>();
   if (!id.empty()) {
+    const auto body = document.dump();
     if (recall(self, id, body, promise))
       return promise;
     st.remembered[id].body = body;
     st.remembered_bytes += body.size();
     st.remembered_order.push_back(id);
   }
-  dispatch(self, *run, id, std::move(body), promise);
+  dispatch(self, *run, id, std::move(document), promise);
   return promise;
 }
 

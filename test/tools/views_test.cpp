@@ -126,6 +126,17 @@ TEST_CASE("a task's row counts the steps that run", "[tools]") {
            "t     degraded   5s      1/2  arm-1,arm-2\n");
 }
 
+TEST_CASE("a lost node's instance is not shown as running", "[tools]") {
+  auto lost = sample_instance();
+  lost.unknown_since_unix_ms = 1000;
+  const task_description tasks{
+      {{"t", task_state::degraded, 1000, {sample_instance(), lost}}}};
+  CHECK(has(tasks_view(tasks, at(6000)), "1/2, 1 unknown since 5s  arm-1\n"));
+  const auto text = instances_view({{lost}}, at(6000));
+  CHECK(has(text, "  unknown     5s  "));
+  CHECK(has(text, "  its node is away; it was running\n"));
+}
+
 TEST_CASE("an instance's id is the first column", "[tools]") {
   // The bash completion takes it from there.
   const auto text = instances_view({{sample_instance()}}, at(2000));

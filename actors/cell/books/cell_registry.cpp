@@ -127,39 +127,6 @@ void cell_registry::erase(const std::string& uuid) {
     settle_owner(row.mapped().row.identity.name);
 }
 
-void cell_registry::update_instance(const instance_row& instance) {
-  auto* entry = find_name(instance.node);
-  if (!entry)
-    return;
-  auto& known = entry->row.instances;
-  auto i = std::find_if(known.begin(), known.end(), [&](const auto& x) {
-    return x.spec.instance == instance.spec.instance;
-  });
-  if (i == known.end())
-    known.push_back(instance);
-  else
-    *i = instance;
-}
-
-void cell_registry::erase_instance(const std::string& instance) {
-  for (auto& [uuid, entry] : by_uuid_) {
-    auto& known = entry.row.instances;
-    known.erase(std::remove_if(
-                    known.begin(), known.end(),
-                    [&](const auto& x) { return x.spec.instance == instance; }),
-                known.end());
-  }
-}
-
-const instance_row*
-cell_registry::find_instance(const std::string& instance) const {
-  for (const auto& [uuid, entry] : by_uuid_)
-    for (const auto& x : entry.row.instances)
-      if (x.spec.instance == instance)
-        return &x;
-  return nullptr;
-}
-
 std::vector<registry_row> cell_registry::rows() const {
   std::vector<registry_row> result;
   for (const auto& [uuid, entry] : by_uuid_)

@@ -122,14 +122,8 @@ public:
                   const registry_time& now);
   void erase(const std::string& uuid);
 
-  /// Brings one instance's row up to date.
-  void update_instance(const instance_row& instance);
-  void erase_instance(const std::string& instance);
-
-  /// The row of an instance, wherever it is; null if unknown.
-  const instance_row* find_instance(const std::string& instance) const;
-
-  /// Rows in the order of the nodes' names.
+  /// Rows in the order of the nodes' names, without instances: what is deployed
+  /// where stands in the deployment book.
   std::vector<registry_row> rows() const;
   size_t active_count() const;
 

@@ -26,6 +26,7 @@ void drop_row(coordinator_pointer self, const std::string& uuid) {
     return;
   if (entry->row.state != row_state::reserved)
     record_fact(self, {"members", uuid, ""});
+  st.deployments.forget_node(entry->row.identity.name);
   st.registry.erase(uuid);
   publish(self, {}, {uuid});
 }

@@ -4,8 +4,10 @@
 #include "actors/cell/books/free_node_book.hpp"
 #include "actors/cell/books/peer_book.hpp"
 #include "actors/cell/books/place_book.hpp"
-#include "actors/cell/books/task_table.hpp"
 #include "actors/cell/books/transfer_book.hpp"
+#include "actors/cell/books/deployment_book.hpp"
+#include "actors/cell/books/task_book.hpp"
+#include "actors/cell/tasks/task_desk.hpp"
 #include "actors/house/alarm.hpp"
 #include "actors/house/house.hpp"
 #include "actors/placement/search_guard.hpp"
@@ -51,19 +53,6 @@ struct coordinator_setup {
   std::shared_ptr<search_guard> searches;
 };
 
-/// A task request that waits for its turn to be placed.
-struct waiting_claim {
-  claim_task request;
-  caf::actor_addr owner;
-  caf::typed_response_promise<task_claimed> promise;
-};
-
-/// Somebody waits until nothing is being deployed to a node. Called once.
-struct awaited_deployments {
-  std::string node;
-  std::function<void()> done;
-};
-
 /// Owns the cell registry and the tasks.
 struct cell_coordinator_state {
   static constexpr const char* name = "cell-coordinator";
@@ -71,11 +60,9 @@ struct cell_coordinator_state {
   house context;
   coordinator_setup setup;
   cell_registry registry;
-  task_table tasks;
-  /// The task whose turn it is: between its claim and its intent.
-  std::string turn;
-  std::deque<waiting_claim> waiting;
-  std::vector<awaited_deployments> deployments_awaited;
+  task_book tasks;
+  deployment_book deployments;
+  task_desk desk;
 
   peer_book peers;
   free_node_book free_nodes;

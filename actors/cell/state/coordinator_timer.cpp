@@ -1,6 +1,7 @@
 #include "actors/cell/state/coordinator_timer.hpp"
 
 #include "actors/cell/state/doubts.hpp"
+#include "actors/cell/tasks/task_desk.hpp"
 #include "actors/house/limits.hpp"
 
 #include <algorithm>
@@ -13,9 +14,10 @@ void set_timer(coordinator_pointer self) {
   const auto balance = st.balancing > 0 ? time_point::max() : st.balance_due;
   const auto next_peer =
       st.setup.connector ? st.peers.next_due() : time_point::max();
-  const auto when =
-      std::min({st.registry.next_overdue(), st.transfers.next_deadline(),
-                st.places.next_deadline(), next_peer, next_proof(st), balance});
+  const auto when = std::min(
+      {st.registry.next_overdue(), st.transfers.next_deadline(),
+       st.places.next_deadline(), next_peer, next_proof(st),
+       next_change_retry(st.desk), st.desk.removals.next_due(), balance});
   if (when != time_point::max())
     st.timer.set(self, when);
 }

@@ -65,7 +65,7 @@ std::optional<failure> objection_to(coordinator_pointer self,
 
 std::optional<failure> objection_to_instances(const cell_coordinator_state& st,
                                               const transfer_wish& wish) {
-  const auto specs = st.tasks.bound_to(wish.node);
+  const auto specs = st.deployments.bound_to(wish.node);
   if (wish.instances != instance_policy::refuse || specs.empty())
     return std::nullopt;
   return failure{error_code::conflict,

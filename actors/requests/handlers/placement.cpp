@@ -15,13 +15,13 @@ namespace {
 /// as long as the requests that hold it.
 class placing : public std::enable_shared_from_this<placing> {
 public:
-  placing(const request_context& context, resourced_task task,
+  placing(const request_context& context, resolved_task task,
           outcome<reserved_task> done)
       : context_(context), task_(std::move(task)), done_(std::move(done)) {}
 
   void search() {
     allocate_task question{
-        task_.request.task, task_.steps, task_.nodes, held_.refused, {}};
+        task_.request.task, task_.steps, task_.cell.nodes, held_.refused, {}};
     ask<task_plan>(context_.services->scheduler, limits::task::search,
                    std::move(question),
                    [](placing& self, task_plan& plan) { self.adopt(plan); });
@@ -52,23 +52,26 @@ private:
   void adopt(task_plan& plan) {
     held_.task = {task_.request, task_.steps, std::move(plan)};
     held_.specs = make_specs(held_.task);
-    find_agents question;
-    for (const auto& x : held_.task.plan.allocations)
-      question.nodes.push_back(x.node);
-    ask<agents_found>(
-        context_.services->coordinator, limits::local::answer,
-        std::move(question),
-        [](placing& self, agents_found& found) { self.reserve(found); });
+    reserve();
+  }
+
+  /// Who speaks for a node of the plan.
+  const node_agent_actor& agent_of(const std::string& node) const {
+    const auto& nodes = task_.cell.nodes;
+    const auto found =
+        std::find_if(nodes.begin(), nodes.end(),
+                     [&](const auto& x) { return x.name == node; });
+    return task_.cell.agents[static_cast<size_t>(found - nodes.begin())];
   }
 
   /// One request per node, all at once.
-  void reserve(agents_found& found) {
-    held_.agents = std::move(found.agents);
+  void reserve() {
     wishes_.clear();
     for (size_t i = 0; i < held_.specs.size(); ++i) {
-      held_.specs[i].cell = found.cell;
-      auto& wish = wishes_[held_.task.plan.allocations[i].node];
-      wish.agent = held_.agents[i];
+      held_.specs[i].cell = task_.cell.cell;
+      const auto& node = held_.task.plan.allocations[i].node;
+      auto& wish = wishes_[node];
+      wish.agent = agent_of(node);
       wish.message.task = task_.request.task;
       wish.message.specs.push_back(held_.specs[i]);
     }
@@ -132,7 +135,7 @@ private:
       self->ask<cell_resources>(self->context_.services->coordinator,
                                 limits::local::answer, collect_resources{},
                                 [](placing& x, cell_resources& cell) {
-                                  x.task_.nodes = std::move(cell.nodes);
+                                  x.task_.cell = std::move(cell);
                                   x.search();
                                 });
     };
@@ -173,7 +176,7 @@ private:
   };
 
   request_context context_;
-  resourced_task task_;
+  resolved_task task_;
   outcome<reserved_task> done_;
   reserved_task held_;
   std::map<std::string, wish> wishes_; ///< By node.
@@ -184,7 +187,7 @@ private:
 
 } // namespace
 
-void place_with_room(const request_context& context, resourced_task task,
+void place_with_room(const request_context& context, resolved_task task,
                      outcome<reserved_task> done) {
   std::make_shared<placing>(context, std::move(task), std::move(done))
       ->search();

@@ -63,14 +63,12 @@ void add_cell_commands(request_registry& registry) {
 void add_task_pipelines(request_registry& registry) {
   registry.add(start_with("claim_task", claim)
                    .then("resolve_skills", resolve_skills)
-                   .then("collect_resources", collect)
                    .then("reserve", place_with_room)
                    .then("record_intent", record_plan)
                    .then("deploy", deploy)
                    .then("record_outcome", record_result));
-  registry.add(start_with("adopt_plan_query", adopt_plan_query)
+  registry.add(start_with("collect_resources", adopt_plan_query)
                    .then("resolve_skills", resolve_skills)
-                   .then("collect_resources", collect)
                    .then("allocate", place)
                    .then("present_plan", present_plan));
 }

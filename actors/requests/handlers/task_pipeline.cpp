@@ -24,8 +24,8 @@ bool has_node(const std::vector<node_resources>& nodes,
 
 /// Takes nodes away and adds others, with every skill, in the order of names.
 std::optional<failure> think_otherwise(const what_if& other,
-                                       resourced_task& known) {
-  auto& nodes = known.nodes;
+                                       resolved_task& known) {
+  auto& nodes = known.cell.nodes;
   for (size_t i = 0; i < other.without.size(); ++i) {
     if (!has_node(nodes, other.without[i]))
       return failure{error_code::unknown_node,
@@ -57,59 +57,47 @@ std::optional<failure> think_otherwise(const what_if& other,
 void claim(const request_context& context, task_request request,
            outcome<claimed_task> done) {
   claim_task wish{request.task, text_of(request)};
-  ask<task_claimed>(context, context.services->coordinator, limits::task::turn,
+  // Without the coordinator nobody wants what is deployed.
+  context.self->monitor(context.services->coordinator);
+  ask<task_claimed>(context, context.services->coordinator, limits::task::claim,
                     std::move(wish), done,
-                    [done, request](const task_claimed& claimed) {
-                      if (claimed.accepted.empty())
-                        done.deliver({request, {}});
+                    [done, request](task_claimed claimed) {
+                      if (claimed.known)
+                        done.conclude(message_json(claimed.accepted));
                       else
-                        done.conclude(json::parse(claimed.accepted));
+                        done.deliver({request, std::move(claimed.cell), {}});
                     });
 }
 
-void adopt_plan_query(const request_context&, task_plan_query query,
+void adopt_plan_query(const request_context& context, task_plan_query query,
                       outcome<claimed_task> done) {
-  done.deliver({{std::move(query.task), std::move(query.pipeline)},
-                {std::move(query.without), std::move(query.with),
-                 std::move(query.why)}});
-}
-
-void resolve_skills(const request_context& context, claimed_task task,
-                    outcome<resolved_task> done) {
-  ask<skill_list>(
-      context, context.services->coordinator, limits::local::answer,
-      skill_query{}, done,
-      [done, task = std::move(task)](const skill_list& known) {
-        auto steps = resolve_steps(task.request.pipeline, known.skills);
-        if (auto* why = std::get_if<failure>(&steps))
-          done.fail(std::move(*why));
-        else
-          done.deliver({task.request,
-                        std::get<std::vector<resolved_step>>(std::move(steps)),
-                        task.other});
-      });
-}
-
-void collect(const request_context& context, resolved_task task,
-             outcome<resourced_task> done) {
   ask<cell_resources>(context, context.services->coordinator,
                       limits::local::answer, collect_resources{}, done,
-                      [done, task = std::move(task)](cell_resources cell) {
-                        resourced_task known{task.request, task.steps,
-                                             std::move(cell.nodes),
-                                             task.other.why};
-                        if (auto why = think_otherwise(task.other, known))
-                          done.fail(std::move(*why));
-                        else
-                          done.deliver(std::move(known));
+                      [done, query](cell_resources cell) {
+                        done.deliver({{query.task, query.pipeline},
+                                      std::move(cell),
+                                      {query.without, query.with, query.why}});
                       });
 }
 
-void place(const request_context& context, resourced_task task,
+void resolve_skills(const request_context&, claimed_task task,
+                    outcome<resolved_task> done) {
+  auto steps = resolve_steps(task.request.pipeline, task.cell.skills);
+  if (auto* why = std::get_if<failure>(&steps))
+    return done.fail(std::move(*why));
+  resolved_task known{std::move(task.request),
+                      std::get<std::vector<resolved_step>>(std::move(steps)),
+                      std::move(task.cell), task.other.why};
+  if (auto why = think_otherwise(task.other, known))
+    return done.fail(std::move(*why));
+  done.deliver(std::move(known));
+}
+
+void place(const request_context& context, resolved_task task,
            outcome<allocated_task> done) {
   allocate_task question{task.request.task,
                          task.steps,
-                         std::move(task.nodes),
+                         std::move(task.cell.nodes),
                          {},
                          std::move(task.why)};
   ask<task_plan>(context, context.services->scheduler, limits::task::search,
@@ -128,28 +116,28 @@ void present_plan(const request_context&, allocated_task task,
 void record_plan(const request_context& context, reserved_task held,
                  outcome<intended_task> done) {
   const auto& task = held.task;
-  const auto& specs = held.specs;
-  task_accepted reply{task.request.task,
-                      task.plan.optimal,
-                      task.plan.score,
-                      task.plan.allocations,
-                      {},
-                      held.refused};
-  record_intent intent{task.request.task, text_of(task.request), specs, {}, ""};
-  for (size_t i = 0; i < specs.size(); ++i) {
-    const auto& node = task.plan.allocations[i].node;
-    intent.nodes.push_back(node);
-    reply.instances.push_back({specs[i].step, specs[i].instance, node});
-  }
-  intent.accepted = message_json(reply).dump();
+  record_intent intent{task.request.task,
+                       std::move(held.specs),
+                       {},
+                       {task.request.task,
+                        task.plan.optimal,
+                        task.plan.score,
+                        task.plan.allocations,
+                        {},
+                        std::move(held.refused)}};
+  for (const auto& x : task.plan.allocations)
+    intent.nodes.push_back(x.node);
   context.home().tell(
       "allocation_chosen", task.request.task,
       {{"score", task.plan.score}, {"allocations", task.plan.allocations}});
-  ask<intent_recorded>(
-      context, context.services->coordinator, limits::local::answer,
-      std::move(intent), done, [done, reply](intent_recorded known) {
-        done.deliver({reply, std::move(known.specs), std::move(known.agents)});
-      });
+  intended_task next{task.request.task, {}, intent.nodes, {}};
+  ask<intent_recorded>(context, context.services->coordinator,
+                       limits::task::rollback, std::move(intent), done,
+                       [done, next](intent_recorded known) mutable {
+                         next.specs = std::move(known.specs);
+                         next.agents = std::move(known.agents);
+                         done.deliver(std::move(next));
+                       });
 }
 
 namespace {
@@ -157,20 +145,20 @@ namespace {
 /// Counts down the steps of one deployment. The first failure decides: the
 /// others are not waited for, since all of them are rolled back.
 struct deployment_tally {
-  task_accepted reply;
+  std::string task;
   size_t open = 0;
   outcome<deployed_task> done;
 
   void add_success() {
     if (open > 0 && --open == 0)
-      done.deliver({reply, std::nullopt});
+      done.deliver({task, std::nullopt});
   }
 
   void add_failure(failure why) {
     if (open == 0)
       return;
     open = 0;
-    done.deliver({reply, std::move(why)});
+    done.deliver({task, std::move(why)});
   }
 };
 
@@ -187,35 +175,42 @@ failure step_failure(const instance_spec& spec, const std::string& node,
 void deploy(const request_context& context, intended_task task,
             outcome<deployed_task> done) {
   auto tally = std::make_shared<deployment_tally>(
-      deployment_tally{task.reply, task.specs.size(), done});
+      deployment_tally{task.task, task.specs.size(), done});
   for (size_t i = 0; i < task.specs.size(); ++i) {
     const auto& spec = task.specs[i];
-    const auto& node = task.reply.instances[i].node;
     context.self
         ->request(task.agents[i], limits::task::deployment_answer,
                   instance_deployment{spec})
         .then([tally](const instance_deployed&) { tally->add_success(); },
-              [tally, spec, node, i](const caf::error& why) {
+              [tally, spec, node = task.nodes[i], i](const caf::error& why) {
                 tally->add_failure(step_failure(spec, node, why, i));
               });
   }
 }
 
+namespace {
+
+void record_success(const request_context& context, const std::string& task,
+                    const outcome<task_accepted>& done) {
+  ask<task_accepted>(
+      context, context.services->coordinator, limits::task::rollback,
+      record_running{task}, done,
+      [done](task_accepted reply) { done.deliver(std::move(reply)); });
+}
+
+} // namespace
+
 void record_result(const request_context& context, deployed_task task,
                    outcome<task_accepted> done) {
-  const bool running = !task.problem;
-  record_outcome fact{task.reply.task, running,
-                      running ? "" : task.problem->message};
-  ask<outcome_recorded>(
+  if (!task.problem)
+    return record_success(context, task.task, done);
+  auto why = *task.problem;
+  record_failure fact{task.task, why.message};
+  why.hint = "the other steps were rolled back; " + why.hint;
+  ask<task_rolled_back>(
       context, context.services->coordinator, limits::task::rollback,
       std::move(fact), done,
-      [done, task = std::move(task), running](const outcome_recorded&) {
-        if (running)
-          return done.deliver(task.reply);
-        auto why = *task.problem;
-        why.hint = "the other steps were rolled back; " + why.hint;
-        done.fail(std::move(why));
-      });
+      [done, why](const task_rolled_back&) { done.fail(why); });
 }
 
 } // namespace roscell

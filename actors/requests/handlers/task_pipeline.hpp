@@ -19,19 +19,14 @@ struct what_if {
 /// A request whose turn it is.
 struct claimed_task {
   task_request request;
+  cell_resources cell;
   what_if other;
 };
 
 struct resolved_task {
   task_request request;
   std::vector<resolved_step> steps;
-  what_if other;
-};
-
-struct resourced_task {
-  task_request request;
-  std::vector<resolved_step> steps;
-  std::vector<node_resources> nodes;
+  cell_resources cell;
   std::string why;
 };
 
@@ -45,35 +40,35 @@ struct allocated_task {
 struct reserved_task {
   allocated_task task;
   std::vector<instance_spec> specs;
-  std::vector<node_agent_actor> agents; ///< One per spec.
   std::vector<excluded_candidate> refused;
 };
 
 /// What will be deployed where; the resources are held.
 struct intended_task {
-  task_accepted reply;
+  std::string task;
   std::vector<instance_spec> specs;
-  std::vector<node_agent_actor> agents; ///< One per spec.
+  std::vector<std::string> nodes;       ///< Node of each spec.
+  std::vector<node_agent_actor> agents; ///< The same.
 };
 
 /// How the deployment of the steps went.
 struct deployed_task {
-  task_accepted reply;
+  std::string task;
   std::optional<failure> problem; ///< Of the first step that did not come up.
 };
 
 /// Waits for the turn. The same request again ends here with the first reply.
 void claim(const request_context&, task_request, outcome<claimed_task>);
+/// A plan takes no turn: it holds nothing.
 void adopt_plan_query(const request_context&, task_plan_query,
                       outcome<claimed_task>);
 void resolve_skills(const request_context&, claimed_task,
                     outcome<resolved_task>);
-void collect(const request_context&, resolved_task, outcome<resourced_task>);
-void place(const request_context&, resourced_task, outcome<allocated_task>);
+void place(const request_context&, resolved_task, outcome<allocated_task>);
 void present_plan(const request_context&, allocated_task, outcome<task_plan>);
 /// Allocates, and has the members keep room; where one refuses, again without
 /// what it refused. In placement.cpp.
-void place_with_room(const request_context&, resourced_task,
+void place_with_room(const request_context&, resolved_task,
                      outcome<reserved_task>);
 void record_plan(const request_context&, reserved_task, outcome<intended_task>);
 /// Starts all steps at once and waits until all run or one has failed.

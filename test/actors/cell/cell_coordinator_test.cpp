@@ -206,7 +206,7 @@ TEST_CASE_METHOD(paper_cell,
   broken.state = instance_state::failed;
   broken.exit_code = 3;
   broken.reason = "it exited with code 3";
-  caf::anon_send(coordinator, instance_changed{broken});
+  arm.tell(broken);
   time.settle();
   CHECK(state_of_task(*this, "t") == "degraded");
   const auto shown =
@@ -214,22 +214,28 @@ TEST_CASE_METHOD(paper_cell,
   CHECK(shown.at("instances")[0].at("exit_code") == 3);
   REQUIRE(count("instance_changed") >= 1);
   CHECK(facts.back().data.at("reason") == "it exited with code 3");
-  caf::anon_send(coordinator, instance_changed{arm.running.begin()->second});
-  time.settle();
-  CHECK(state_of_task(*this, "t") == "running");
+}
+
+TEST_CASE_METHOD(paper_cell, "A task is degraded while a node of it is away",
+                 "[cell_coordinator]") {
+  auto& arm = add("arm");
+  request(echo_task("t", {echo_step("s0", 1, "arm")}));
   lose(arm);
   CHECK(state_of_task(*this, "t") == "degraded");
+  ++arm.identity.epoch;
+  REQUIRE(enter(arm));
+  CHECK(state_of_task(*this, "t") == "running");
 }
 
 TEST_CASE_METHOD(paper_cell, "An ended instance that no task wants is dropped",
                  "[cell_coordinator]") {
   auto& arm = add("arm");
   auto row_on_arm = row_of(some_spec("x", "gone"), "arm");
-  caf::anon_send(coordinator, instance_changed{row_on_arm});
+  arm.tell(row_on_arm);
   time.settle();
   CHECK(row("arm").instances.size() == 1);
   row_on_arm.state = instance_state::stopped;
-  caf::anon_send(coordinator, instance_changed{row_on_arm});
+  arm.tell(row_on_arm);
   time.settle();
   CHECK(row("arm").instances.empty());
   CHECK(arm.removals.empty());
@@ -284,8 +290,7 @@ TEST_CASE("A restarted coordinator takes its running tasks up again",
   const auto second = cell.enter(leg);
   REQUIRE(second);
   CHECK(verdict_of(*second, "t-on-leg") == "start");
-  caf::anon_send(cell.coordinator,
-                 instance_changed{row_of(some_spec("t-on-leg", "t"), "leg")});
+  leg.tell(row_of(some_spec("t-on-leg", "t"), "leg"));
   cell.time.settle();
   CHECK(state_of_task(cell, "t") == "running");
   CHECK(error_of(cell.request(echo_task("t", {echo_step("s0", 1)})))

@@ -38,7 +38,7 @@ void on_deployment(caf::event_based_actor* self, fake_agent* x,
   // It is known from the beginning, as with a real supervisor.
   auto row = row_of(spec, x->identity.name, instance_state::starting);
   x->running[spec.instance] = row;
-  caf::anon_send(x->coordinator, instance_changed{row});
+  x->tell(row);
   x->starting.emplace_back(promise, spec);
 }
 
@@ -87,6 +87,7 @@ caf::behavior agent(caf::event_based_actor* self, fake_agent* x) {
                            false};
       },
       [=](const close_session& wish) { x->closed.push_back(wish.reason); },
+      [=](const registration_switch&) { return switch_accepted{}; },
       [=](caf::tick_atom) {
         for (const auto& work : std::exchange(x->todo, {}))
           work();
@@ -140,11 +141,15 @@ caf::behavior keeper(paper_cell* cell) {
 
 // -- a node ------------------------------------------------------------------
 
+void fake_agent::tell(const instance_row& row) {
+  caf::send_as(actor, coordinator, instance_changed{row});
+}
+
 void fake_agent::bring_up(caf::response_promise promise,
                           const instance_spec& spec) {
   const auto row = row_of(spec, identity.name);
   running[spec.instance] = row;
-  caf::anon_send(coordinator, instance_changed{row});
+  tell(row);
   promise.deliver(instance_deployed{row});
 }
 
@@ -160,7 +165,7 @@ void fake_agent::take_down(caf::response_promise promise,
     }
     reply.instances.push_back(i->first);
     row.state = instance_state::stopped;
-    caf::anon_send(coordinator, instance_changed{row});
+    tell(row);
     i = running.erase(i);
   }
   for (auto& [waiting, spec] : std::exchange(starting, {}))
@@ -270,6 +275,7 @@ coordinator_setup paper_cell::setup(const std::vector<task_record>& tasks,
   result.environment = {{"ROS_DOMAIN_ID", "7"}};
   result.store = caf::actor_cast<state_store_actor>(store);
   result.searches = searches;
+  result.scheduler = planner;
   result.tasks = tasks;
   for (const auto& row : on_base)
     base.running[row.spec.instance] = row;

@@ -50,6 +50,9 @@ struct fake_agent {
   std::vector<caf::response_promise> unanswered;
   std::vector<std::function<void()>> todo; ///< For the actor itself.
 
+  /// Tells the coordinator of an instance, as this node.
+  void tell(const instance_row& row);
+
   void bring_up(caf::response_promise promise, const instance_spec& spec);
   void take_down(caf::response_promise promise, const instance_removal& what);
 

@@ -33,18 +33,19 @@ struct handler_fixture {
   }
 
   handler_pipeline_actor start(const request_registry& registry,
-                               const std::string& type = "task_query") {
+                               const json& document) {
     return spawn(time.system, services->context, handler_pipeline,
-                 *registry.find(type),
-                 std::shared_ptr<const node_services>(services));
+                 *registry.find(document.at("type").get<std::string>()),
+                 std::shared_ptr<const node_services>(services),
+                 std::make_shared<const json>(document));
   }
 
   /// Runs `task_query` for a task through the registry's chain.
   caf::expected<request_processed> run(const request_registry& registry,
                                        const std::string& task) {
     const json request{{"type", "task_query"}, {"task", task}};
-    auto reply = time.ask<request_processed>(start(registry),
-                                             process_request{request.dump()});
+    auto reply = time.ask<request_processed>(start(registry, request),
+                                             process_request{});
     time.settle();
     REQUIRE(*reply);
     return **reply;
@@ -128,9 +129,8 @@ TEST_CASE_METHOD(handler_fixture, "A pipeline ends with its request",
 TEST_CASE_METHOD(handler_fixture,
                  "A document that its struct cannot hold is refused",
                  "[handler_pipeline]") {
-  auto worker = start(chain());
-  auto reply = time.ask<request_processed>(
-      worker, process_request{R"({"type":"task_query","task":5})"});
+  auto worker = start(chain(), {{"type", "task_query"}, {"task", 5}});
+  auto reply = time.ask<request_processed>(worker, process_request{});
   time.settle();
   REQUIRE(*reply);
   REQUIRE_FALSE(**reply);
@@ -150,9 +150,8 @@ TEST_CASE_METHOD(handler_fixture,
                    .then(
                        "wait", +[](const request_context&, second_output,
                                    outcome<task_description>) {}));
-  const auto worker = start(registry);
-  auto reply = time.ask<request_processed>(
-      worker, process_request{R"({"type":"task_query"})"});
+  const auto worker = start(registry, {{"type", "task_query"}});
+  auto reply = time.ask<request_processed>(worker, process_request{});
   auto state = time.ask<actor_state>(worker, state_query{});
   time.settle();
   CHECK_FALSE(*reply);

@@ -129,12 +129,17 @@ TEST_CASE_METHOD(
     "[placement]") {
   right.has.cpu.used = 4;
   left.tells_reserved = true;
-  // The intent of the first one is held, but not deployed yet.
+  // The second one asks when the intent of the first one is held, but not
+  // deployed yet.
   slow_disk = true;
-  post(echo_task("t0", {echo_step("s0", 2)}));
+  const auto first = post(echo_task("t0", {echo_step("s0", 2)}));
   const auto second = post(echo_task("t1", {echo_step("s0", 2)}));
+  slow_disk = false;
+  finish_writes();
+  time.settle();
   CHECK(left.reservations.size() == 2);
-  CHECK_FALSE(*second);
+  CHECK(reply_of(first).at("type") == "task_accepted");
+  CHECK(reply_of(second).at("type") == "task_accepted");
   CHECK(error_of(request(echo_task("t2", {echo_step("s0", 1)})))
         == "no_feasible_allocation");
 }

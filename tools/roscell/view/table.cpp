@@ -54,10 +54,10 @@ private:
 
 std::string state_colour(const std::string& word) {
   static constexpr std::string_view good[] = {
-      "running", "active", "member",         "deployed",
-      "optimal", "joined", "already_member", "done"};
-  static constexpr std::string_view bad[] = {"failed", "lost", "orphaned",
-                                             "degraded", "returned"};
+      "running", "active",         "member", "deployed", "optimal",
+      "joined",  "already_member", "done",   "finished"};
+  static constexpr std::string_view bad[] = {"failed",   "lost",     "orphaned",
+                                             "degraded", "returned", "unknown"};
   static constexpr std::string_view moving[] = {
       "pending",   "building",  "starting",  "stopping",    "joining",
       "switching", "deploying", "reserved",  "terminating", "departing",

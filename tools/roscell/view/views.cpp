@@ -36,12 +36,51 @@ std::string or_nothing(const table& t, const char* what,
                         : t.render(style.text);
 }
 
-/// What stands behind an instance's state: why it ended, why that is not known
-/// at present, or what it says.
+/// What stands behind an instance's state: why it is not known at present, why
+/// it ended, or what it says.
 std::string remark(const instance_row& row) {
+  if (row.unknown_since_unix_ms != 0)
+    return "its node is away; it was " + to_string(row.state);
   if (!row.reason.empty())
     return row.reason;
   return row.trouble.empty() ? row.status : row.trouble;
+}
+
+bool is_unknown(const instance_row& row) {
+  return row.unknown_since_unix_ms != 0;
+}
+
+/// What a node that is away runs is not known, whatever it ran before.
+std::string state_text(const instance_row& row) {
+  return is_unknown(row) ? "unknown" : to_string(row.state);
+}
+
+std::string since_text(const instance_row& row, const view_style& style) {
+  return format_since(is_unknown(row) ? row.unknown_since_unix_ms
+                                      : row.since_unix_ms,
+                      style.now_unix_ms);
+}
+
+/// How many of a task's instances run, and since when some are not known.
+std::string running_text(const std::vector<instance_row>& rows,
+                         const view_style& style) {
+  size_t running = 0;
+  int64_t unknown = 0;
+  int64_t since = 0;
+  for (const auto& row : rows) {
+    if (!is_unknown(row)) {
+      running += row.state == instance_state::running ? 1 : 0;
+      continue;
+    }
+    ++unknown;
+    since = since == 0 ? row.unknown_since_unix_ms
+                       : std::min(since, row.unknown_since_unix_ms);
+  }
+  auto result = std::to_string(running) + "/" + std::to_string(rows.size());
+  if (unknown > 0)
+    result += ", " + std::to_string(unknown) + " unknown since "
+              + format_since(since, style.now_unix_ms);
+  return result;
 }
 
 std::string exit_text(int code) {
@@ -138,15 +177,9 @@ std::string tasks_view(const task_description& tasks, const view_style& style) {
     std::set<std::string> nodes;
     for (const auto& i : row.instances)
       nodes.insert(i.node);
-    const auto running = std::count_if(
-        row.instances.begin(), row.instances.end(), [](const instance_row& i) {
-          return i.state == instance_state::running;
-        });
-    t.rows.push_back(
-        {row.task, to_string(row.state),
-         format_since(row.submitted_unix_ms, style.now_unix_ms),
-         std::to_string(running) + "/" + std::to_string(row.instances.size()),
-         listed(nodes)});
+    t.rows.push_back({row.task, to_string(row.state),
+                      format_since(row.submitted_unix_ms, style.now_unix_ms),
+                      running_text(row.instances, style), listed(nodes)});
   }
   return or_nothing(t, "tasks", style);
 }
@@ -165,8 +198,7 @@ std::string instances_view(const instance_description& instances,
           {}};
   for (const auto& row : instances.instances)
     t.rows.push_back({row.spec.instance, row.spec.task, row.spec.step, row.node,
-                      to_string(row.state),
-                      format_since(row.since_unix_ms, style.now_unix_ms),
+                      state_text(row), since_text(row, style),
                       row.spec.model + "/" + row.spec.deployment,
                       exit_text(row.exit_code), remark(row)});
   return or_nothing(t, "instances", style);

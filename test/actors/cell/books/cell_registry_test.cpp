@@ -24,15 +24,6 @@ registry_entry node(const std::string& name, const std::string& uuid,
   return result;
 }
 
-instance_row instance(const std::string& id, const std::string& on,
-                      instance_state state = instance_state::running) {
-  instance_row result;
-  result.spec.instance = id;
-  result.node = on;
-  result.state = state;
-  return result;
-}
-
 installed_skill skill(const std::string& hash, const std::string& operation) {
   installed_skill result;
   result.hash = hash;
@@ -221,22 +212,6 @@ TEST_CASE("Only active rows are counted and have an agent", "[cell_registry]") {
   CHECK(visited == 1);
   // In the order of names, whatever their UUIDs.
   CHECK(registry.rows()[0].identity.name == "a");
-}
-
-TEST_CASE("Instances are updated on their node and found anywhere",
-          "[cell_registry]") {
-  cell_registry registry;
-  registry.activate(node("a", "u1"), at(0ms));
-  registry.activate(node("b", "u2"), at(0ms));
-  registry.update_instance(instance("i1", "b", instance_state::starting));
-  registry.update_instance(instance("i1", "b"));
-  registry.update_instance(instance("i2", "nowhere"));
-  REQUIRE(registry.find_instance("i1"));
-  CHECK(registry.find_instance("i1")->state == instance_state::running);
-  CHECK(registry.find_name("b")->row.instances.size() == 1);
-  CHECK(registry.find_instance("i2") == nullptr);
-  registry.erase_instance("i1");
-  CHECK(registry.find_instance("i1") == nullptr);
 }
 
 TEST_CASE("Skills of the same content are one row, of active nodes only",

@@ -1,0 +1,174 @@
+#include "actors/cell/books/deployment_book.hpp"
+
+#include "actors/house/limits.hpp"
+#include "messages/codec/instantiate.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace roscell {
+
+ROSCELL_CODEC(instance_end)
+
+void deployment_book::place(const std::string& task,
+                            std::vector<deployment> steps) {
+  by_task_[task] = std::move(steps);
+}
+
+void deployment_book::forget_task(const std::string& task) {
+  for (const auto& x : of_task(task))
+    forget_told(x.node, x.spec.instance);
+  by_task_.erase(task);
+}
+
+const std::vector<deployment>&
+deployment_book::of_task(const std::string& task) const {
+  static const std::vector<deployment> none;
+  const auto i = by_task_.find(task);
+  return i == by_task_.end() ? none : i->second;
+}
+
+const deployment* deployment_book::find(const std::string& instance) const {
+  for (const auto& [task, steps] : by_task_)
+    for (const auto& x : steps)
+      if (x.spec.instance == instance)
+        return &x;
+  return nullptr;
+}
+
+const deployment* deployment_book::find(const std::string& instance,
+                                        const std::string& node) const {
+  const auto* known = find(instance);
+  return known && known->node == node ? known : nullptr;
+}
+
+std::vector<instance_spec>
+deployment_book::bound_to(const std::string& node) const {
+  std::vector<instance_spec> result;
+  for (const auto& [task, steps] : by_task_)
+    for (const auto& x : steps)
+      if (x.node == node && !x.end)
+        result.push_back(x.spec);
+  return result;
+}
+
+std::vector<std::string>
+deployment_book::tasks_bound_to(const std::string& node) const {
+  std::vector<std::string> result;
+  for (const auto& spec : bound_to(node))
+    if (result.empty() || result.back() != spec.task)
+      result.push_back(spec.task);
+  return result;
+}
+
+std::vector<instance_spec>
+deployment_book::untold_on(const std::string& node) const {
+  auto result = bound_to(node);
+  result.erase(
+      std::remove_if(result.begin(), result.end(),
+                     [&](const auto& x) { return told(node, x.instance); }),
+      result.end());
+  return result;
+}
+
+bool deployment_book::tell(const std::string& node, instance_row row) {
+  auto& rows = told_[node];
+  const auto id = row.spec.instance;
+  if (rows.count(id) == 0 && rows.size() >= limits::instance::told)
+    return false;
+  row.node = node;
+  rows[id] = std::move(row);
+  return true;
+}
+
+void deployment_book::tell_all(const std::string& node,
+                               const std::vector<instance_row>& rows) {
+  told_.erase(node);
+  for (const auto& row : rows)
+    tell(node, row);
+}
+
+void deployment_book::forget_told(const std::string& node,
+                                  const std::string& instance) {
+  const auto rows = told_.find(node);
+  if (rows == told_.end())
+    return;
+  rows->second.erase(instance);
+  if (rows->second.empty())
+    told_.erase(rows);
+}
+
+void deployment_book::forget_node(const std::string& node) {
+  told_.erase(node);
+}
+
+const instance_row* deployment_book::told(const std::string& node,
+                                          const std::string& instance) const {
+  const auto rows = told_.find(node);
+  if (rows == told_.end())
+    return nullptr;
+  const auto row = rows->second.find(instance);
+  return row == rows->second.end() ? nullptr : &row->second;
+}
+
+std::vector<instance_row>
+deployment_book::rows_on(const std::string& node) const {
+  std::vector<instance_row> result;
+  if (const auto rows = told_.find(node); rows != told_.end())
+    for (const auto& [id, row] : rows->second)
+      result.push_back(row);
+  return result;
+}
+
+std::vector<instance_row> deployment_book::known_on(const std::string& node,
+                                                    bool untold) const {
+  std::vector<instance_row> result;
+  for (const auto& [task, steps] : by_task_)
+    for (const auto& x : steps)
+      if (x.node == node && (untold || x.end || told(node, x.spec.instance)))
+        result.push_back(row_of(x));
+  for (auto& row : rows_on(node))
+    if (!find(row.spec.instance, node))
+      result.push_back(std::move(row));
+  return result;
+}
+
+instance_row deployment_book::row_of(const deployment& x) const {
+  instance_row result;
+  if (const auto* known = told(x.node, x.spec.instance))
+    result = *known;
+  // A node keeps little of what ended long ago; the placement knows it all.
+  result.spec = x.spec;
+  result.node = x.node;
+  if (x.end) {
+    result.state = x.end->state;
+    result.exit_code = x.end->exit_code;
+    result.reason = x.end->reason;
+    result.since_unix_ms = x.end->unix_ms;
+  }
+  return result;
+}
+
+std::vector<instance_end>
+deployment_book::untaken_ends(const std::string& task) const {
+  std::vector<instance_end> result;
+  for (const auto& x : of_task(task)) {
+    const auto* row = told(x.node, x.spec.instance);
+    if (row && !x.end && !is_live(row->state))
+      result.push_back({x.spec.instance, row->state, row->exit_code,
+                        row->reason, row->since_unix_ms});
+  }
+  return result;
+}
+
+std::optional<instance_row>
+deployment_book::find_row(const std::string& instance) const {
+  if (const auto* placed = find(instance))
+    return row_of(*placed);
+  for (const auto& [node, rows] : told_)
+    if (const auto i = rows.find(instance); i != rows.end())
+      return i->second;
+  return std::nullopt;
+}
+
+} // namespace roscell

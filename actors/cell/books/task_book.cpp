@@ -1,0 +1,279 @@
+#include "actors/cell/books/task_book.hpp"
+
+#include "messages/codec/instantiate.hpp"
+#include "schemas/decode.hpp"
+
+#include <algorithm>
+#include <utility>
+#include <variant>
+
+namespace roscell {
+
+ROSCELL_CODEC(task_record)
+
+namespace {
+
+bool has(const std::vector<std::string>& list, const std::string& wanted) {
+  return std::find(list.begin(), list.end(), wanted) != list.end();
+}
+
+const instance_end* find_end(const task_record& record,
+                             const std::string& instance) {
+  for (const auto& x : record.ends)
+    if (x.instance == instance)
+      return &x;
+  return nullptr;
+}
+
+/// A record of another version may lack parts of it.
+task_accepted decision_in(const std::string& task, const std::string& text) {
+  task_accepted result;
+  result.task = task;
+  const auto document = json::parse(text, nullptr, false);
+  if (document.is_discarded())
+    return result;
+  auto decoded = decode<task_accepted>(document);
+  if (auto* decision = std::get_if<task_accepted>(&decoded))
+    result = std::move(*decision);
+  return result;
+}
+
+/// Where instances are is written down once, so it is left out here.
+std::string decision_text(task_accepted decision) {
+  decision.instances.clear();
+  return message_json(decision).dump();
+}
+
+void add_instance(task_record& record, const replacement& x) {
+  record.specs.push_back(x.spec);
+  record.nodes.push_back(x.place.node);
+}
+
+/// The state of a running task, from the ends of its steps.
+task_state state_after(const task_record& record) {
+  bool failed = false;
+  for (const auto& spec : record.specs) {
+    const auto* end = find_end(record, spec.instance);
+    if (!end)
+      return task_state::running;
+    failed =
+        failed || end->state != instance_state::stopped || end->exit_code != 0;
+  }
+  return failed ? task_state::failed : task_state::finished;
+}
+
+} // namespace
+
+// -- the book ---------------------------------------------------------------
+
+const task_entry* task_book::find(const std::string& task) const {
+  const auto i = entries_.find(task);
+  return i == entries_.end() ? nullptr : &i->second;
+}
+
+claim_standing task_book::standing_of(const std::string& task,
+                                      const std::string& request) const {
+  const auto* entry = find(task);
+  if (!entry)
+    return claim_standing::unknown;
+  if (entry->request != request)
+    return claim_standing::other_body;
+  if (entry->ending)
+    return claim_standing::ending;
+  return entry->state == task_state::deploying ? claim_standing::deploying
+                                               : claim_standing::accepted;
+}
+
+void task_book::begin(const std::string& task, const std::string& request,
+                      int64_t now_unix_ms) {
+  entries_[task] = {request, "", task_state::deploying, now_unix_ms, false};
+}
+
+bool task_book::begin_ending(const std::string& task) {
+  const auto i = entries_.find(task);
+  return i != entries_.end() && !std::exchange(i->second.ending, true);
+}
+
+void task_book::apply(const task_record& record) {
+  auto& entry = entries_[record.task];
+  entry.request = record.request;
+  entry.accepted = record.accepted;
+  entry.state = record.state;
+  entry.submitted_unix_ms = record.submitted_unix_ms;
+}
+
+void task_book::forget(const std::string& task) {
+  entries_.erase(task);
+}
+
+bool task_book::is_deploying(const std::string& task) const {
+  const auto* entry = find(task);
+  return entry && !entry->ending && entry->state == task_state::deploying;
+}
+
+bool task_book::is_running(const std::string& task) const {
+  const auto* entry = find(task);
+  return entry && !entry->ending && entry->state == task_state::running;
+}
+
+bool task_book::is_kept(const std::string& task) const {
+  const auto* entry = find(task);
+  return entry && !entry->ending;
+}
+
+std::vector<std::string> task_book::superfluous() const {
+  std::vector<std::pair<int64_t, std::string>> settled;
+  for (const auto& [task, entry] : entries_)
+    if (is_settled(entry.state) && !entry.ending)
+      settled.emplace_back(entry.submitted_unix_ms, task);
+  std::sort(settled.begin(), settled.end());
+  std::vector<std::string> result;
+  for (size_t i = 0; i + limits::task::settled < settled.size(); ++i)
+    result.push_back(settled[i].second);
+  return result;
+}
+
+void task_book::remember_terminated(const task_terminated& reply) {
+  terminated_.erase(
+      std::remove_if(terminated_.begin(), terminated_.end(),
+                     [&](const auto& x) { return x.task == reply.task; }),
+      terminated_.end());
+  terminated_.push_back(reply);
+  if (terminated_.size() > limits::task::terminated)
+    terminated_.pop_front();
+}
+
+const task_terminated*
+task_book::find_terminated(const std::string& task) const {
+  for (const auto& x : terminated_)
+    if (x.task == task)
+      return &x;
+  return nullptr;
+}
+
+// -- proposals --------------------------------------------------------------
+
+task_record record_of(const std::string& task, const task_entry& entry,
+                      const deployment_book& deployments) {
+  task_record result{task, entry.request, entry.accepted, entry.state,
+                     entry.submitted_unix_ms};
+  for (const auto& x : deployments.of_task(task)) {
+    result.specs.push_back(x.spec);
+    result.nodes.push_back(x.node);
+    if (x.end)
+      result.ends.push_back(*x.end);
+    if (x.tentative)
+      result.tentative.push_back(x.spec.instance);
+  }
+  return result;
+}
+
+std::vector<deployment> deployments_in(const task_record& record) {
+  std::vector<deployment> result;
+  for (size_t i = 0; i < record.specs.size() && i < record.nodes.size(); ++i) {
+    deployment x{record.specs[i], record.nodes[i], std::nullopt,
+                 has(record.tentative, record.specs[i].instance)};
+    if (const auto* end = find_end(record, x.spec.instance))
+      x.end = *end;
+    result.push_back(std::move(x));
+  }
+  return result;
+}
+
+task_record with_placement(task_record record, const task_accepted& decision,
+                           std::vector<instance_spec> specs,
+                           std::vector<std::string> nodes) {
+  record.accepted = decision_text(decision);
+  record.specs = std::move(specs);
+  record.nodes = std::move(nodes);
+  return record;
+}
+
+task_record with_state(task_record record, task_state state) {
+  record.state = state;
+  return record;
+}
+
+task_record with_ends(task_record record,
+                      const std::vector<instance_end>& ends) {
+  for (const auto& x : ends)
+    if (!find_end(record, x.instance))
+      record.ends.push_back(x);
+  if (record.state == task_state::running)
+    record.state = state_after(record);
+  return record;
+}
+
+task_record with_tentative(task_record record,
+                           const std::vector<replacement>& moved) {
+  for (const auto& x : moved) {
+    add_instance(record, x);
+    record.tentative.push_back(x.spec.instance);
+  }
+  return record;
+}
+
+task_record with_replaced(task_record record,
+                          const std::vector<replacement>& moved) {
+  auto decision = decision_in(record.task, record.accepted);
+  for (const auto& x : moved) {
+    record = without(std::move(record), {x.spec.instance});
+    if (find_end(record, x.old_instance))
+      continue;
+    for (size_t i = 0; i < record.specs.size(); ++i)
+      if (record.specs[i].instance == x.old_instance) {
+        record.specs[i] = x.spec;
+        record.nodes[i] = x.place.node;
+      }
+    for (auto& allocation : decision.allocations)
+      if (allocation.step == x.spec.step)
+        allocation = x.place;
+  }
+  record.accepted = decision_text(std::move(decision));
+  return record;
+}
+
+task_record without(task_record record,
+                    const std::vector<std::string>& instances) {
+  for (size_t i = record.specs.size(); i-- > 0;)
+    if (has(instances, record.specs[i].instance)) {
+      record.specs.erase(record.specs.begin() + static_cast<ptrdiff_t>(i));
+      record.nodes.erase(record.nodes.begin() + static_cast<ptrdiff_t>(i));
+    }
+  auto& tentative = record.tentative;
+  tentative.erase(
+      std::remove_if(tentative.begin(), tentative.end(),
+                     [&](const auto& x) { return has(instances, x); }),
+      tentative.end());
+  auto& ends = record.ends;
+  ends.erase(
+      std::remove_if(ends.begin(), ends.end(),
+                     [&](const auto& x) { return has(instances, x.instance); }),
+      ends.end());
+  return record;
+}
+
+std::optional<task_record> restored(task_record record) {
+  if (record.state == task_state::deploying
+      || record.state == task_state::terminating)
+    return std::nullopt;
+  const auto tentative = record.tentative;
+  return without(std::move(record), tentative);
+}
+
+task_accepted reply_of(const std::string& task, const task_entry& entry,
+                       const deployment_book& deployments) {
+  auto result = decision_in(task, entry.accepted);
+  result.instances.clear();
+  for (const auto& x : deployments.of_task(task)) {
+    if (x.tentative)
+      continue;
+    result.instances.push_back({x.spec.step, x.spec.instance, x.node});
+    for (auto& allocation : result.allocations)
+      if (allocation.step == x.spec.step)
+        allocation.node = x.node;
+  }
+  return result;
+}
+
+} // namespace roscell

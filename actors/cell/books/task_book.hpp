@@ -1,0 +1,167 @@
+#pragma once
+
+#include "actors/cell/books/deployment_book.hpp"
+#include "actors/house/limits.hpp"
+#include "messages/allocation_report.hpp"
+#include "messages/failure.hpp"
+#include "messages/task.hpp"
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace roscell {
+
+/// What of a task outlives the coordinator's process: its entry in the task
+/// book and what it has in the deployment book, together.
+struct task_record {
+  std::string task;
+  std::string request;  ///< JSON of the task request, to compare bodies.
+  std::string accepted; ///< JSON of the reply once all steps run.
+  task_state state = task_state::deploying;
+  int64_t submitted_unix_ms = 0;
+  std::vector<instance_spec> specs;
+  std::vector<std::string> nodes;     ///< Node of each spec.
+  std::vector<instance_end> ends;     ///< Of those that have ended.
+  std::vector<std::string> tentative; ///< Instances of a move that goes on.
+
+  static constexpr auto fields() {
+    return std::make_tuple(
+        required("task", &task_record::task),
+        required("request", &task_record::request),
+        required("accepted", &task_record::accepted),
+        required("state", &task_record::state),
+        required("submitted_unix_ms", &task_record::submitted_unix_ms),
+        required("specs", &task_record::specs),
+        required("nodes", &task_record::nodes),
+        optional("ends", &task_record::ends),
+        optional("tentative", &task_record::tentative));
+  }
+};
+
+/// What the book knows of a task besides what it has deployed.
+struct task_entry {
+  std::string request;
+  std::string accepted; ///< Without its instances; empty until placed.
+  task_state state = task_state::deploying; ///< As it is stored.
+  int64_t submitted_unix_ms = 0;
+  bool ending = false; ///< Its instances are being removed.
+};
+
+/// How a claim stands to what the book knows.
+enum class claim_standing {
+  unknown,    ///< It may take its turn.
+  other_body, ///< Another request has that id.
+  ending,     ///< The task is being terminated.
+  deploying,  ///< The same request is being deployed.
+  accepted,   ///< The same request has been done.
+};
+
+/// The coordinator's tasks. Pure. What changes of a task is proposed as a
+/// record first and applied when the store has kept it.
+class task_book {
+public:
+  const task_entry* find(const std::string& task) const;
+
+  claim_standing standing_of(const std::string& task,
+                             const std::string& request) const;
+
+  bool is_full() const {
+    return entries_.size() >= limits::task::most;
+  }
+
+  /// A task begins to be deployed. Nothing of it is durable yet.
+  void begin(const std::string& task, const std::string& request,
+             int64_t now_unix_ms);
+
+  /// Its instances are being removed from now on. False if they were already.
+  bool begin_ending(const std::string& task);
+
+  /// The store has kept this.
+  void apply(const task_record& record);
+
+  /// The store has removed it, or never had it.
+  void forget(const std::string& task);
+
+  // -- is it still so? ------------------------------------------------------
+
+  bool is_deploying(const std::string& task) const;
+  bool is_running(const std::string& task) const;
+
+  /// Whether nodes keep its instances.
+  bool is_kept(const std::string& task) const;
+
+  /// Settled tasks beyond the limit, the oldest first.
+  std::vector<std::string> superfluous() const;
+
+  void remember_terminated(const task_terminated& reply);
+  const task_terminated* find_terminated(const std::string& task) const;
+
+  const std::map<std::string, task_entry>& entries() const {
+    return entries_;
+  }
+
+private:
+  std::map<std::string, task_entry> entries_;
+  std::deque<task_terminated> terminated_;
+};
+
+/// True for a task whose steps have all ended.
+constexpr bool is_settled(task_state x) {
+  return x == task_state::finished || x == task_state::failed;
+}
+
+// -- proposals --------------------------------------------------------------
+
+/// A task as it stands in both books.
+task_record record_of(const std::string& task, const task_entry& entry,
+                      const deployment_book& deployments);
+
+/// What the record says is deployed where.
+std::vector<deployment> deployments_in(const task_record& record);
+
+/// With what was placed, from a task that had nothing placed.
+task_record with_placement(task_record record, const task_accepted& decision,
+                           std::vector<instance_spec> specs,
+                           std::vector<std::string> nodes);
+
+task_record with_state(task_record record, task_state state);
+
+/// With ends of instances. The state follows when it was the last one.
+task_record with_ends(task_record record,
+                      const std::vector<instance_end>& ends);
+
+/// An instance and the one whose place it takes.
+struct replacement {
+  std::string old_instance;
+  instance_spec spec;
+  step_allocation place;
+};
+
+/// With new instances beside the old ones.
+task_record with_tentative(task_record record,
+                           const std::vector<replacement>& moved);
+
+/// With new instances instead of the old ones, but for those that have done
+/// their work meanwhile.
+task_record with_replaced(task_record record,
+                          const std::vector<replacement>& moved);
+
+/// Without these instances.
+task_record without(task_record record,
+                    const std::vector<std::string>& instances);
+
+/// As a restarted coordinator takes it up: without what was tentative. None for
+/// a task that was being deployed or ended: nodes stop its instances when they
+/// register.
+std::optional<task_record> restored(task_record record);
+
+/// The reply to the request, with its instances where they are now.
+task_accepted reply_of(const std::string& task, const task_entry& entry,
+                       const deployment_book& deployments);
+
+} // namespace roscell

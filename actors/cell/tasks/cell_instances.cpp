@@ -1,0 +1,171 @@
+#include "actors/cell/tasks/cell_instances.hpp"
+
+#include "actors/cell/tasks/task_endings.hpp"
+#include "actors/house/limits.hpp"
+#include "messages/failure.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <set>
+#include <utility>
+
+namespace roscell {
+
+namespace {
+
+using self_pointer = coordinator_pointer;
+
+/// Whether a task wants the node to keep it.
+bool is_wanted(const cell_coordinator_state& st, const std::string& instance,
+               const std::string& node) {
+  const auto* placed = st.deployments.find(instance, node);
+  return placed && st.tasks.is_kept(placed->spec.task);
+}
+
+/// What running tasks want on a node, without what has ended.
+std::vector<instance_spec> to_be_run_on(const cell_coordinator_state& st,
+                                        const std::string& node) {
+  std::vector<instance_spec> result;
+  for (const auto& [task, entry] : st.tasks.entries()) {
+    if (!st.tasks.is_running(task))
+      continue;
+    for (const auto& x : st.deployments.of_task(task))
+      if (x.node == node && !x.end && !x.tentative)
+        result.push_back(x.spec);
+  }
+  return result;
+}
+
+/// Keep, stop or start: what shall become of the instances of a node, given
+/// what it runs and what the tasks want of it.
+std::vector<instance_verdict> reconcile(const cell_coordinator_state& st,
+                                        const node_registration& node) {
+  std::vector<instance_verdict> result;
+  std::set<std::string> known;
+  for (const auto& x : node.instances) {
+    const auto& id = x.spec.instance;
+    const bool wanted = is_wanted(st, id, node.identity.name);
+    known.insert(id);
+    result.push_back({id, wanted ? verdict::keep : verdict::stop, {}});
+  }
+  for (const auto& spec : to_be_run_on(st, node.identity.name))
+    if (known.count(spec.instance) == 0)
+      result.push_back({spec.instance, verdict::start, {spec}});
+  return result;
+}
+
+/// Carries out a verdict on the coordination node itself. How it went is told
+/// by the instance's own changes.
+void apply_here(self_pointer self, const node_registration& own,
+                const instance_verdict& x) {
+  const auto ignore = [](const caf::error&) {};
+  const auto& agent = self->state.setup.agent;
+  if (x.what == verdict::start)
+    self->request(agent, limits::task::deployment_answer,
+                  instance_deployment{x.spec.front()})
+        .then([](const instance_deployed&) {}, ignore);
+  if (x.what != verdict::stop)
+    return;
+  for (const auto& known : own.instances)
+    if (known.spec.instance == x.instance)
+      self->request(agent, limits::task::removal_answer,
+                    instance_removal{known.spec.task, x.instance})
+          .then([](const instances_removed&) {}, ignore);
+}
+
+/// The node that speaks: a member speaks for its own only.
+std::optional<std::string> node_of_sender(self_pointer self) {
+  auto& st = self->state;
+  const auto sender = self->current_sender();
+  if (!sender)
+    return std::nullopt;
+  if (st.setup.supervisor && st.setup.supervisor == sender)
+    return st.setup.self.name;
+  std::optional<std::string> result;
+  st.registry.for_each([&](registry_entry& entry) {
+    if (entry.member && entry.member == sender)
+      result = entry.row.identity.name;
+  });
+  return result;
+}
+
+void tell_change(self_pointer self, const instance_row& x,
+                 const std::string& node) {
+  json data{{"task", x.spec.task},
+            {"step", x.spec.step},
+            {"node", node},
+            {"state", to_word(x.state)}};
+  if (!x.reason.empty())
+    data["reason"] = x.reason;
+  if (x.exit_code >= 0)
+    data["exit_code"] = x.exit_code;
+  self->state.context.tell("instance_changed", x.spec.instance, data);
+}
+
+} // namespace
+
+void reconcile_own_node(self_pointer self) {
+  const auto& st = self->state;
+  if (!st.setup.supervisor)
+    return;
+  self->request(st.setup.supervisor, limits::resource::collection,
+                instance_query{})
+      .then(
+          [self](instance_description& known) {
+            node_registration own;
+            own.identity = self->state.setup.self;
+            own.instances = std::move(known.instances);
+            for (const auto& x : take_up_instances(self, own))
+              apply_here(self, own, x);
+          },
+          [self](const caf::error& why) {
+            self->state.context.tell("reconciliation_failed",
+                                     self->state.setup.self.name,
+                                     {{"reason", to_failure(why).message}});
+          });
+}
+
+std::vector<instance_verdict> take_up_instances(self_pointer self,
+                                                const node_registration& node) {
+  auto& st = self->state;
+  const auto& name = node.identity.name;
+  auto verdicts = reconcile(st, node);
+  st.deployments.forget_node(name);
+  std::set<std::string> tasks;
+  for (const auto& x : node.instances) {
+    if (!is_wanted(st, x.spec.instance, name))
+      continue;
+    st.deployments.tell(name, x);
+    tasks.insert(x.spec.task);
+  }
+  // It has just been told what to stop.
+  st.desk.removals.forget_node(name);
+  for (const auto& task : tasks)
+    record_ends(self, task);
+  return verdicts;
+}
+
+void on_instance_changed(self_pointer self, const instance_changed& fact) {
+  auto& st = self->state;
+  const auto& x = fact.instance;
+  const auto& id = x.spec.instance;
+  const auto node = node_of_sender(self);
+  if (!node)
+    return;
+  if (is_wanted(st, id, *node) || is_live(x.state))
+    st.deployments.tell(*node, x);
+  else
+    st.deployments.forget_told(*node, id);
+  tell_change(self, x, *node);
+  if (const auto* placed = st.deployments.find(id, *node))
+    record_ends(self, std::string{placed->spec.task});
+}
+
+bool has_instances(const cell_coordinator_state& st, const std::string& node) {
+  const auto rows = st.deployments.rows_on(node);
+  return !st.deployments.bound_to(node).empty()
+         || std::any_of(rows.begin(), rows.end(),
+                        [](const auto& x) { return is_live(x.state); });
+}
+
+} // namespace roscell

@@ -1,0 +1,261 @@
+#include "actors/cell/tasks/cell_tasks.hpp"
+
+#include "actors/cell/state/coordinator_store.hpp"
+#include "actors/cell/tasks/cell_resources.hpp"
+#include "actors/cell/tasks/task_changes.hpp"
+#include "actors/cell/tasks/task_endings.hpp"
+#include "actors/cell/tasks/task_turns.hpp"
+#include "actors/house/limits.hpp"
+#include "actors/house/wall_clock.hpp"
+#include "messages/failure.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+#include <variant>
+
+namespace roscell {
+
+namespace {
+
+using self_pointer = coordinator_pointer;
+using claim_promise = caf::typed_response_promise<task_claimed>;
+
+task_claimed known_reply(const cell_coordinator_state& st,
+                         const std::string& task) {
+  return {true, reply_of(task, *st.tasks.find(task), st.deployments), {}};
+}
+
+caf::error refuse_crowd(const std::string& what) {
+  return fail(error_code::conflict, what, "/task",
+              "send it again when some are done");
+}
+
+/// Answers a claim whose task is known. True if that settles it.
+bool answer_known(self_pointer self, const claim_task& request,
+                  claim_promise promise) {
+  auto& st = self->state;
+  const auto& task = request.task;
+  switch (st.tasks.standing_of(task, request.request)) {
+  case claim_standing::unknown:
+    return false;
+  case claim_standing::other_body:
+    promise.deliver(fail(
+        error_code::task_exists, "task '" + task + "' exists with another body",
+        "/task", "choose another task id, or terminate this one"));
+    break;
+  case claim_standing::ending:
+    promise.deliver(fail(error_code::conflict,
+                         "task '" + task + "' is being terminated", "/task",
+                         "send it again once it has ended"));
+    break;
+  case claim_standing::accepted:
+    promise.deliver(known_reply(st, task));
+    break;
+  case claim_standing::deploying: {
+    auto& waiting = st.desk.waiters[task].same_requests;
+    if (waiting.size() >= limits::task::same_requests)
+      promise.deliver(refuse_crowd("too many wait for task '" + task + "'"));
+    else
+      waiting.push_back(std::move(promise));
+  }
+  }
+  return true;
+}
+
+/// The task is the claimant's; it is told what it can be placed on.
+void grant_turn(self_pointer self, const claim_task& request,
+                const caf::actor_addr& owner, uint64_t turn,
+                claim_promise promise) {
+  auto& st = self->state;
+  st.tasks.begin(request.task, request.request, unix_now_ms());
+  auto& waiters = st.desk.waiters[request.task];
+  waiters.owner = owner;
+  waiters.turn = turn;
+  collect_resources_of_cell(self, [self, task = request.task, turn,
+                                   promise](cell_resources&& found) mutable {
+    auto& desk = self->state.desk;
+    if (self->state.tasks.is_deploying(task) && desk.waiters[task].turn == turn)
+      promise.deliver(task_claimed{false, {}, std::move(found)});
+    else
+      promise.deliver(terminated_meanwhile(task));
+  });
+}
+
+caf::error node_left(const std::string& node) {
+  return fail(error_code::conflict,
+              "node '" + node + "' left while the task was being placed",
+              "/pipeline", "send the request again");
+}
+
+/// The agents of nodes that are active, or the first one that is not.
+std::variant<std::vector<node_agent_actor>, std::string>
+find_agents(const cell_coordinator_state& st,
+            const std::vector<std::string>& nodes) {
+  std::vector<node_agent_actor> result;
+  for (const auto& node : nodes) {
+    const auto* member = st.registry.find_name(node);
+    if (!member || member->row.state != row_state::active)
+      return node;
+    result.push_back(member->agent);
+  }
+  return result;
+}
+
+/// A task that cannot be written down is not started, or does not stay.
+caf::error not_written_down(const std::string& task, const failure& why) {
+  return fail(why.code,
+              "task '" + task + "' cannot be written down: " + why.message,
+              "/task",
+              "make room on the disk of the coordination node and send the "
+              "request again; nothing of it runs");
+}
+
+/// Answers an intent or the word that all runs, when the store did not keep it.
+template <class Reply>
+void refuse_unwritten(self_pointer self, const std::string& task,
+                      const failure& why, const std::vector<std::string>& nodes,
+                      caf::typed_response_promise<Reply> promise) {
+  if (!self->state.tasks.is_deploying(task)) {
+    promise.deliver(terminated_meanwhile(task));
+    return;
+  }
+  roll_back(self, task, "it cannot be written down: " + why.message, nodes,
+            [promise, task, why]() mutable {
+              promise.deliver(not_written_down(task, why));
+            });
+}
+
+void on_accepted(self_pointer self, const std::string& task,
+                 caf::typed_response_promise<task_accepted> promise) {
+  auto& st = self->state;
+  if (!st.tasks.is_kept(task)) {
+    promise.deliver(terminated_meanwhile(task));
+    return;
+  }
+  auto& waiters = st.desk.waiters[task];
+  waiters.owner = nullptr;
+  promise.deliver(reply_of(task, *st.tasks.find(task), st.deployments));
+  for (auto& other : std::exchange(waiters.same_requests, {}))
+    other.deliver(known_reply(st, task));
+  st.context.tell("task_accepted", task,
+                  {{"instances", st.deployments.of_task(task).size()}});
+  record_ends(self, task);
+  settle_ended(self, task);
+  settle_awaited_deployments(self);
+}
+
+} // namespace
+
+void complete_spec(const cell_coordinator_state& st, instance_spec& spec) {
+  spec.cell = st.setup.cell;
+  // No skill may choose another cell's discovery server.
+  for (const auto& [name, value] : st.setup.environment)
+    spec.environment[name] = value;
+}
+
+void restore_tasks(self_pointer self) {
+  auto& st = self->state;
+  for (const auto& stored : st.setup.tasks) {
+    const auto record = restored(stored);
+    if (!record) {
+      record_fact(self, {"tasks", stored.task, ""});
+      continue;
+    }
+    st.tasks.apply(*record);
+    st.deployments.place(record->task, deployments_in(*record));
+  }
+}
+
+caf::result<task_claimed> claim_task_turn(self_pointer self,
+                                          const claim_task& request) {
+  auto& st = self->state;
+  // The promise takes the message's sender, so it is looked at before.
+  const auto sender = self->current_sender();
+  const auto owner = caf::actor_cast<caf::actor_addr>(sender);
+  if (sender)
+    self->monitor(sender);
+  auto promise = self->make_response_promise<task_claimed>();
+  if (answer_known(self, request, promise))
+    return promise;
+  if (st.tasks.is_full() || st.desk.waiting.size() >= limits::task::waiting) {
+    promise.deliver(refuse_crowd("the cell has too many tasks"));
+    return promise;
+  }
+  take_turn(self, owner, [self, request, owner, promise](uint64_t turn) {
+    if (answer_known(self, request, promise))
+      end_turn(self, turn);
+    else
+      grant_turn(self, request, owner, turn, promise);
+  });
+  return promise;
+}
+
+caf::result<intent_recorded> hold_placement(self_pointer self,
+                                            const record_intent& intent) {
+  auto& st = self->state;
+  const auto& task = intent.task;
+  if (!st.tasks.is_deploying(task))
+    return terminated_meanwhile(task);
+  auto found = find_agents(st, intent.nodes);
+  if (const auto* gone = std::get_if<std::string>(&found))
+    return node_left(*gone);
+  intent_recorded reply{
+      intent.specs, std::get<std::vector<node_agent_actor>>(std::move(found))};
+  for (auto& spec : reply.specs)
+    complete_spec(st, spec);
+  auto promise = self->make_response_promise<intent_recorded>();
+  pending_change change;
+  change.still = &task_book::is_deploying;
+  change.make = [intent, specs = reply.specs](task_record record) {
+    return with_placement(std::move(record), intent.decision, specs,
+                          intent.nodes);
+  };
+  change.done = [self, intent, reply, promise](const failure* why) mutable {
+    if (why)
+      return refuse_unwritten(self, intent.task, *why, intent.nodes, promise);
+    end_turn(self, self->state.desk.waiters[intent.task].turn);
+    promise.deliver(std::move(reply));
+  };
+  change_task(self, task, std::move(change));
+  return promise;
+}
+
+caf::result<task_accepted> accept_task(self_pointer self,
+                                       const record_running& fact) {
+  auto promise = self->make_response_promise<task_accepted>();
+  pending_change change;
+  change.still = &task_book::is_deploying;
+  change.make = [self, task = fact.task](task_record record) {
+    return with_ends(with_state(std::move(record), task_state::running),
+                     self->state.deployments.untaken_ends(task));
+  };
+  change.done = [self, task = fact.task, promise](const failure* why) {
+    if (why)
+      refuse_unwritten(self, task, *why, {}, promise);
+    else
+      on_accepted(self, task, promise);
+  };
+  change_task(self, fact.task, std::move(change));
+  return promise;
+}
+
+caf::result<task_rolled_back> undo_deployment(self_pointer self,
+                                              const record_failure& fact) {
+  // A task that was terminated meanwhile has been settled already.
+  if (!self->state.tasks.is_deploying(fact.task))
+    return task_rolled_back{};
+  auto promise = self->make_response_promise<task_rolled_back>();
+  roll_back(self, fact.task, fact.reason, {},
+            [promise]() mutable { promise.deliver(task_rolled_back{}); });
+  return promise;
+}
+
+void on_pipeline_down(self_pointer self, const caf::actor_addr& gone) {
+  leave_line(self, gone);
+  for (const auto& [task, waiters] : self->state.desk.waiters)
+    if (waiters.owner && waiters.owner == gone)
+      return on_owner_gone(self, std::string{task});
+}
+
+} // namespace roscell

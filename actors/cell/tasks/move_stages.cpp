@@ -1,0 +1,171 @@
+#include "actors/cell/tasks/move_stages.hpp"
+
+#include "actors/cell/tasks/task_changes.hpp"
+#include "actors/cell/tasks/task_endings.hpp"
+#include "actors/cell/tasks/task_removals.hpp"
+#include "actors/cell/tasks/task_turns.hpp"
+#include "actors/house/limits.hpp"
+#include "messages/failure.hpp"
+
+#include <map>
+#include <utility>
+
+namespace roscell {
+
+namespace {
+
+using self_pointer = coordinator_pointer;
+
+std::map<std::string, std::vector<replacement>> by_task(const task_move& move) {
+  std::map<std::string, std::vector<replacement>> result;
+  for (const auto& x : move.steps)
+    result[x.task].push_back(x.change);
+  return result;
+}
+
+void tell_moved(self_pointer self, const task_move& move, const moved_step& x) {
+  self->state.context.tell("instance_moved", x.change.spec.instance,
+                           {{"task", x.task},
+                            {"from", move.node},
+                            {"to", x.change.place.node},
+                            {"replaces", x.change.old_instance}});
+}
+
+/// Where the new one has taken the old one's place the old one goes, else the
+/// new one: its task was terminated, or the old one has done its work.
+void complete_move(self_pointer self, const move_ptr& move) {
+  move->open = move->steps.size();
+  const auto steps = move->steps;
+  for (const auto& x : steps) {
+    const auto& added = x.change.spec.instance;
+    const auto* placed = self->state.deployments.find(added);
+    const bool moved = placed && !placed->tentative;
+    if (moved)
+      tell_moved(self, *move, x);
+    record_ends(self, x.task);
+    remove_instance(
+        self,
+        moved ? overdue_removal{move->node, x.task, x.change.old_instance}
+              : overdue_removal{x.change.place.node, x.task, added},
+        [move] {
+          if (--move->open == 0)
+            move->done(nullptr);
+        });
+  }
+}
+
+void forget_new(self_pointer self, const move_ptr& move) {
+  for (const auto& [task, changes] : by_task(*move)) {
+    std::vector<std::string> added;
+    for (const auto& x : changes)
+      added.push_back(x.spec.instance);
+    if (!self->state.deployments.find(added.front()))
+      continue;
+    pending_change change;
+    change.still = &task_book::is_kept;
+    change.insistent = true;
+    change.make = [added](task_record record) {
+      return without(std::move(record), added);
+    };
+    change.done = [self, task = task](const failure*) {
+      record_ends(self, task);
+    };
+    change_task(self, task, std::move(change));
+  }
+}
+
+/// Writes a change of each task, then goes on.
+void change_tasks(self_pointer self, const move_ptr& move,
+                  task_record (*make)(task_record,
+                                      const std::vector<replacement>&),
+                  move_stage next) {
+  const auto changes = by_task(*move);
+  move->open = changes.size();
+  for (const auto& [task, moved] : changes) {
+    pending_change change;
+    change.still = &task_book::is_running;
+    change.make = [make, moved = moved](task_record record) {
+      return make(std::move(record), moved);
+    };
+    change.done = [self, move, next, task = task](const failure* why) {
+      // A task that was terminated meanwhile takes all of its instances along.
+      if (why && self->state.tasks.is_running(task))
+        add_problem(move, *why);
+      end_part(self, move, next, undo_move);
+    };
+    change_task(self, task, std::move(change));
+  }
+}
+
+void replace_old(self_pointer self, const move_ptr& move) {
+  change_tasks(self, move, with_replaced, complete_move);
+}
+
+void deploy_step(self_pointer self, const move_ptr& move, const moved_step& x) {
+  const auto& node = x.change.place.node;
+  auto end_with = [self, move, node, task = x.task,
+                   step = x.step.step.id](failure why) {
+    why.message = "step '" + step + "' on '" + node + "': " + why.message;
+    // What was terminated meanwhile need not come up.
+    if (self->state.tasks.is_running(task))
+      add_problem(move, std::move(why));
+    end_part(self, move, replace_old, undo_move);
+  };
+  // Nor is it started.
+  if (!self->state.deployments.find(x.change.spec.instance, node)
+      || !self->state.tasks.is_running(x.task))
+    return end_part(self, move, replace_old, undo_move);
+  const auto* entry = self->state.registry.find_name(node);
+  if (!entry || !entry->agent)
+    return end_with({error_code::conflict, "the node left meanwhile"});
+  self->request(entry->agent, limits::task::deployment,
+                instance_deployment{x.change.spec})
+      .then(
+          [self, move](const instance_deployed&) {
+            end_part(self, move, replace_old, undo_move);
+          },
+          [end_with](const caf::error& why) { end_with(to_failure(why)); });
+}
+
+/// The room is held in the books from here on, so the turn is over.
+void deploy_steps(self_pointer self, const move_ptr& move) {
+  end_turn(self, std::exchange(move->turn, 0));
+  move->open = move->steps.size();
+  const auto steps = move->steps;
+  for (const auto& x : steps)
+    deploy_step(self, move, x);
+}
+
+} // namespace
+
+void fail_move(self_pointer self, const move_ptr& move, const failure& why) {
+  end_turn(self, move->turn);
+  move->done(&why);
+}
+
+void end_part(self_pointer self, const move_ptr& move, move_stage next,
+              move_stage otherwise) {
+  if (--move->open > 0)
+    return;
+  (move->problem ? otherwise : next)(self, move);
+}
+
+void add_problem(const move_ptr& move, failure why) {
+  if (!move->problem)
+    move->problem = std::move(why);
+}
+
+/// Nothing has changed, but that room may have been kept for nothing.
+void undo_move(self_pointer self, const move_ptr& move) {
+  for (const auto& x : move->steps)
+    remove_instance(self, {x.change.place.node, x.task, x.change.spec.instance},
+                    [] {});
+  forget_new(self, move);
+  fail_move(self, move, *move->problem);
+}
+
+void hold_steps(self_pointer self, const move_ptr& move) {
+  change_tasks(self, move, with_tentative, deploy_steps);
+}
+
+} // namespace roscell

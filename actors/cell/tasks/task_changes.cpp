@@ -1,0 +1,116 @@
+#include "actors/cell/tasks/task_changes.hpp"
+
+#include "actors/cell/state/coordinator_store.hpp"
+#include "actors/cell/state/coordinator_timer.hpp"
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace roscell {
+
+namespace {
+
+using self_pointer = coordinator_pointer;
+using time_point = std::chrono::steady_clock::time_point;
+
+void write_next_change(self_pointer self, const std::string& task);
+
+/// The first change is over, one way or the other.
+void end_change(self_pointer self, const std::string& task,
+                const failure* why) {
+  auto& line = self->state.desk.lines.at(task);
+  line.writing = false;
+  line.pause.reset();
+  const auto change = std::move(line.changes.front());
+  line.changes.pop_front();
+  if (change.done)
+    change.done(why);
+  write_next_change(self, task);
+}
+
+void on_change_kept(self_pointer self, const std::string& task,
+                    const std::optional<task_record>& record) {
+  auto& st = self->state;
+  if (record) {
+    st.tasks.apply(*record);
+    st.deployments.place(task, deployments_in(*record));
+  } else {
+    st.tasks.forget(task);
+    st.deployments.forget_task(task);
+  }
+  end_change(self, task, nullptr);
+}
+
+void on_change_not_kept(self_pointer self, const std::string& task,
+                        const failure& why) {
+  auto& line = self->state.desk.lines.at(task);
+  const auto& change = line.changes.front();
+  if (!change.insistent)
+    return end_change(self, task, &why);
+  line.writing = false;
+  line.retry = self->clock().now() + line.pause.next();
+  set_timer(self);
+  if (change.on_trouble)
+    change.on_trouble(why);
+}
+
+void write_change(self_pointer self, const std::string& task,
+                  const std::optional<task_record>& record) {
+  keep_records(
+      self, {{"tasks", task, record ? json(*record).dump() : std::string{}}},
+      [self, task, record] { on_change_kept(self, task, record); },
+      [self, task](const failure& why) {
+        on_change_not_kept(self, task, why);
+      });
+}
+
+/// A change that does not apply any more is not written.
+void write_next_change(self_pointer self, const std::string& task) {
+  auto& st = self->state;
+  const auto i = st.desk.lines.find(task);
+  if (i == st.desk.lines.end() || i->second.writing)
+    return;
+  auto& line = i->second;
+  line.retry = time_point::max();
+  if (line.changes.empty()) {
+    st.desk.lines.erase(i);
+    return;
+  }
+  line.writing = true;
+  const auto& change = line.changes.front();
+  if (!change.make)
+    return write_change(self, task, std::nullopt);
+  const auto* entry = st.tasks.find(task);
+  if (!entry || (change.still && !(st.tasks.*change.still)(task))) {
+    const failure why{error_code::conflict,
+                      "task '" + task + "' was terminated meanwhile", "/task"};
+    return end_change(self, task, &why);
+  }
+  write_change(self, task,
+               change.make(record_of(task, *entry, st.deployments)));
+}
+
+} // namespace
+
+void change_task(self_pointer self, const std::string& task,
+                 pending_change change) {
+  self->state.desk.lines[task].changes.push_back(std::move(change));
+  write_next_change(self, task);
+}
+
+void retry_change(self_pointer self, const std::string& task) {
+  write_next_change(self, task);
+}
+
+void retry_due_changes(self_pointer self) {
+  std::vector<std::string> due;
+  for (const auto& [task, line] : self->state.desk.lines)
+    if (line.retry <= self->clock().now())
+      due.push_back(task);
+  for (const auto& task : due)
+    write_next_change(self, task);
+}
+
+} // namespace roscell

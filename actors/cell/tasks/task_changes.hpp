@@ -1,0 +1,21 @@
+#pragma once
+
+#include "actors/cell/state/coordinator_state.hpp"
+
+#include <string>
+
+/// How what changes of a task gets on disk: one change of a task after the
+/// other, and the books show it when the store has kept it.
+namespace roscell {
+
+/// Writes a change once those before it are done.
+void change_task(coordinator_pointer self, const std::string& task,
+                 pending_change change);
+
+/// Tries the first change of a task again at once, if it waits for that.
+void retry_change(coordinator_pointer self, const std::string& task);
+
+/// Tries again what the store did not keep.
+void retry_due_changes(coordinator_pointer self);
+
+} // namespace roscell

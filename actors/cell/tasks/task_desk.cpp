@@ -1,0 +1,14 @@
+#include "actors/cell/tasks/task_desk.hpp"
+
+#include <algorithm>
+
+namespace roscell {
+
+std::chrono::steady_clock::time_point next_change_retry(const task_desk& desk) {
+  auto result = std::chrono::steady_clock::time_point::max();
+  for (const auto& [task, line] : desk.lines)
+    result = std::min(result, line.retry);
+  return result;
+}
+
+} // namespace roscell

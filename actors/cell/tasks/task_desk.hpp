@@ -1,0 +1,80 @@
+#pragma once
+
+#include "actors/cell/books/removal_book.hpp"
+#include "actors/cell/books/task_book.hpp"
+#include "actors/house/backoff.hpp"
+#include "messages/coordination.hpp"
+
+#include <caf/actor_addr.hpp>
+#include <caf/typed_response_promise.hpp>
+
+#include <chrono>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace roscell {
+
+/// Somebody who waits for the turn to place something.
+struct turn_wish {
+  uint64_t number = 0;
+  caf::actor_addr owner; ///< Null: the coordinator itself.
+  std::function<void()> begin;
+};
+
+/// Who works on a task, and who waits for what becomes of it.
+struct task_waiters {
+  caf::actor_addr owner; ///< The pipeline that deploys it.
+  uint64_t turn = 0;     ///< That it was given.
+  std::vector<caf::typed_response_promise<task_claimed>> same_requests;
+  std::vector<caf::typed_response_promise<task_terminated>> terminations;
+};
+
+/// A change of a task's record that is to be written.
+struct pending_change {
+  /// Whether it still applies; asked when its turn has come. Null: always.
+  bool (task_book::*still)(const std::string&) const = nullptr;
+  /// From the record as it is to the one that shall be; empty: it is removed.
+  std::function<task_record(task_record)> make;
+  /// Tried until the store has kept it.
+  bool insistent = false;
+  /// Null: the store has kept it, and the books show it.
+  std::function<void(const failure*)> done;
+  /// Told of every try that failed, of one that is tried again.
+  std::function<void(const failure&)> on_trouble;
+};
+
+/// Changes of one task, one after the other.
+struct change_line {
+  std::deque<pending_change> changes; ///< The first is being written.
+  bool writing = false;
+  backoff pause;
+  /// When the first one is tried again.
+  std::chrono::steady_clock::time_point retry =
+      std::chrono::steady_clock::time_point::max();
+};
+
+/// Somebody waits until nothing is being deployed to a node. Called once.
+struct awaited_deployments {
+  std::string node;
+  std::function<void()> done;
+};
+
+/// What of the coordinator's work on tasks goes on at present.
+struct task_desk {
+  uint64_t last_turn = 0;
+  uint64_t turn = 0; ///< Of who is placing; 0: nobody.
+  std::deque<turn_wish> waiting;
+  std::map<std::string, task_waiters> waiters; ///< By task.
+  std::map<std::string, change_line> lines;    ///< The same.
+  removal_book removals;
+  std::vector<awaited_deployments> deployments_awaited;
+};
+
+/// When a change is to be tried again; time_point::max(): none waits for that.
+std::chrono::steady_clock::time_point next_change_retry(const task_desk& desk);
+
+} // namespace roscell

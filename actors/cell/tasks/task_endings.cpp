@@ -1,0 +1,252 @@
+#include "actors/cell/tasks/task_endings.hpp"
+
+#include "actors/cell/tasks/task_changes.hpp"
+#include "actors/cell/tasks/task_removals.hpp"
+#include "actors/cell/tasks/task_turns.hpp"
+#include "actors/house/limits.hpp"
+#include "messages/failure.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace roscell {
+
+namespace {
+
+using self_pointer = coordinator_pointer;
+
+/// Whether a task that is not running yet, or is being rolled back, has
+/// something on the node.
+bool is_deploying_on(const cell_coordinator_state& st,
+                     const std::string& node) {
+  const auto tasks = st.deployments.tasks_bound_to(node);
+  return std::any_of(tasks.begin(), tasks.end(), [&](const auto& task) {
+    const auto* entry = st.tasks.find(task);
+    return entry && entry->state == task_state::deploying;
+  });
+}
+
+/// Ends that are still to be written are taken up with those before them.
+bool has_waiting_ends(const cell_coordinator_state& st,
+                      const std::string& task) {
+  const auto line = st.desk.lines.find(task);
+  return line != st.desk.lines.end()
+         && std::any_of(line->second.changes.begin(),
+                        line->second.changes.end(),
+                        [](const auto& x) { return x.insistent && x.make; });
+}
+
+/// A task and what nodes have told of it are gone from the books.
+task_waiters take_waiters(self_pointer self, const std::string& task) {
+  auto& waiters = self->state.desk.waiters;
+  auto result = std::move(waiters[task]);
+  waiters.erase(task);
+  settle_awaited_deployments(self);
+  return result;
+}
+
+void tell_terminated(self_pointer self, const task_terminated& reply) {
+  auto& st = self->state;
+  auto gone = take_waiters(self, reply.task);
+  st.tasks.remember_terminated(reply);
+  st.context.tell(
+      "task_terminated", reply.task,
+      {{"instances", reply.instances}, {"pending_nodes", reply.pending_nodes}});
+  for (auto& promise : gone.terminations)
+    promise.deliver(reply);
+  for (auto& promise : gone.same_requests)
+    promise.deliver(terminated_meanwhile(reply.task));
+}
+
+/// Whoever waits for a termination hears that it is not on disk, and may ask
+/// again. The instances are gone.
+void refuse_waiting_terminations(self_pointer self, const std::string& task,
+                                 const failure& why) {
+  auto& waiting = self->state.desk.waiters[task].terminations;
+  for (auto& promise : std::exchange(waiting, {}))
+    promise.deliver(fail(
+        why.code,
+        "the instances of task '" + task
+            + "' are gone, but that cannot be written down: " + why.message,
+        "/task",
+        "make room on the disk of the coordination node; it is tried "
+        "again until then, and a restart before would start the task"));
+}
+
+/// Answers when the store has removed the record.
+void remove_record(self_pointer self, const task_terminated& reply) {
+  pending_change change;
+  change.insistent = true;
+  change.done = [self, reply](const failure*) { tell_terminated(self, reply); };
+  change.on_trouble = [self, task = reply.task,
+                       since = self->clock().now()](const failure& why) {
+    if (self->clock().now() - since >= limits::task::unwritten)
+      refuse_waiting_terminations(self, task, why);
+  };
+  change_task(self, reply.task, std::move(change));
+}
+
+/// Removes the instances of a task that no pipeline works on any more.
+void finish_termination(self_pointer self, const std::string& task) {
+  const auto& st = self->state;
+  task_terminated reply{task, {}, {}};
+  for (const auto& x : st.deployments.of_task(task))
+    reply.instances.push_back(x.spec.instance);
+  remove_everywhere(self, task, {}, [self, reply](const auto& away) mutable {
+    reply.pending_nodes = away;
+    remove_record(self, reply);
+  });
+}
+
+void tell_rolled_back(self_pointer self, const std::string& task,
+                      const std::string& reason) {
+  auto gone = take_waiters(self, task);
+  for (auto& promise : gone.same_requests)
+    promise.deliver(fail(error_code::engine_failed,
+                         "the first request for this task failed: " + reason,
+                         "/task", "send it again"));
+  for (auto& promise : gone.terminations)
+    promise.deliver(task_terminated{task, {}, {}});
+  self->state.context.tell("task_failed", task, {{"reason", reason}});
+  end_turn(self, gone.turn);
+}
+
+/// Writes down that a task is being ended. Without it a restart would take the
+/// task up again, which the removal of the record says better and later.
+void record_ending(self_pointer self, const std::string& task) {
+  pending_change change;
+  change.make = [](task_record record) {
+    return with_state(std::move(record), task_state::terminating);
+  };
+  change_task(self, task, std::move(change));
+}
+
+/// Ends a task that has no pipeline and that nobody waits for.
+void end_task(self_pointer self, const std::string& task) {
+  if (!self->state.tasks.begin_ending(task))
+    return;
+  record_ending(self, task);
+  finish_termination(self, task);
+}
+
+} // namespace
+
+caf::error terminated_meanwhile(const std::string& task) {
+  return fail(error_code::conflict,
+              "task '" + task + "' was terminated meanwhile", "/task");
+}
+
+caf::result<task_terminated> terminate_task(self_pointer self,
+                                            const task_termination& request) {
+  auto& st = self->state;
+  const auto& task = request.task;
+  if (!st.tasks.find(task)) {
+    if (const auto* ended = st.tasks.find_terminated(task))
+      return *ended;
+    return fail(error_code::unknown_task, "no task '" + task + "' is known",
+                "/task", "`roscell tasks` lists them");
+  }
+  auto promise = self->make_response_promise<task_terminated>();
+  auto& waiters = st.desk.waiters[task];
+  waiters.terminations.push_back(promise);
+  if (!st.tasks.begin_ending(task)) {
+    retry_change(self, task);
+    return promise;
+  }
+  const auto owner = waiters.owner;
+  end_turn(self, waiters.turn);
+  record_ending(self, task);
+  // Nothing that the pipeline sends may reach a node after the removal, so the
+  // pipeline ends first.
+  if (owner)
+    self->send_exit(owner, terminated_meanwhile(task));
+  else
+    finish_termination(self, task);
+  return promise;
+}
+
+void roll_back(self_pointer self, const std::string& task,
+               const std::string& reason,
+               const std::vector<std::string>& also_on,
+               const std::function<void()>& done) {
+  auto& st = self->state;
+  st.tasks.begin_ending(task);
+  st.desk.waiters[task].owner = nullptr;
+  remove_everywhere(self, task, also_on,
+                    [self, task, reason, done](const auto&) {
+                      pending_change change;
+                      // A record that stays is that of a task which was being
+                      // deployed: the next start drops it.
+                      change.done = [self, task, reason, done](const failure*) {
+                        self->state.tasks.forget(task);
+                        self->state.deployments.forget_task(task);
+                        tell_rolled_back(self, task, reason);
+                        done();
+                      };
+                      change_task(self, task, std::move(change));
+                    });
+}
+
+void on_owner_gone(self_pointer self, const std::string& task) {
+  auto& st = self->state;
+  st.desk.waiters[task].owner = nullptr;
+  if (st.tasks.is_deploying(task))
+    roll_back(self, task, "the request that deployed it has ended", {}, [] {});
+  else
+    finish_termination(self, task);
+}
+
+void record_ends(self_pointer self, const std::string& task) {
+  auto& st = self->state;
+  if (!st.tasks.is_running(task) || st.deployments.untaken_ends(task).empty()
+      || has_waiting_ends(st, task))
+    return;
+  pending_change change;
+  change.still = &task_book::is_running;
+  change.insistent = true;
+  change.make = [self, task](task_record record) {
+    return with_ends(std::move(record),
+                     self->state.deployments.untaken_ends(task));
+  };
+  change.done = [self, task](const failure* why) {
+    if (why)
+      return;
+    record_ends(self, task);
+    settle_ended(self, task);
+  };
+  change_task(self, task, std::move(change));
+}
+
+void settle_ended(self_pointer self, const std::string& task) {
+  auto& st = self->state;
+  const auto* entry = st.tasks.find(task);
+  if (!entry || entry->ending || !is_settled(entry->state))
+    return;
+  json data = json::object();
+  for (const auto& x : st.deployments.of_task(task))
+    if (x.end && x.end->exit_code != 0)
+      data["reason"] = "step '" + x.spec.step + "': " + x.end->reason;
+  st.context.tell(entry->state == task_state::finished ? "task_finished"
+                                                       : "task_failed",
+                  task, data);
+  for (const auto& old : st.tasks.superfluous())
+    end_task(self, old);
+}
+
+void after_deployments_on(self_pointer self, const std::string& node,
+                          std::function<void()> done) {
+  self->state.desk.deployments_awaited.push_back({node, std::move(done)});
+  settle_awaited_deployments(self);
+}
+
+void settle_awaited_deployments(self_pointer self) {
+  auto& st = self->state;
+  auto waiting = std::exchange(st.desk.deployments_awaited, {});
+  for (auto& x : waiting)
+    if (is_deploying_on(st, x.node))
+      st.desk.deployments_awaited.push_back(std::move(x));
+    else
+      x.done();
+}
+
+} // namespace roscell

@@ -1,0 +1,101 @@
+#include "actors/cell/tasks/task_views.hpp"
+
+#include "messages/failure.hpp"
+
+#include <string>
+#include <utility>
+
+namespace roscell {
+
+namespace {
+
+/// What a node that is away runs is not known: it runs on as it was, it has
+/// ended, or the machine is off.
+instance_row shown(const cell_coordinator_state& st, instance_row row) {
+  const auto* node = st.registry.find_name(row.node);
+  if (is_live(row.state) && (!node || !node->agent))
+    row.unknown_since_unix_ms =
+        node ? node->row.since_unix_ms : row.since_unix_ms;
+  return row;
+}
+
+/// What of a running task is to be worried about: all but what runs, and what
+/// has done its work.
+bool is_healthy(const instance_row& row) {
+  return (row.state == instance_state::running
+          && row.unknown_since_unix_ms == 0)
+         || (row.state == instance_state::stopped && row.exit_code == 0);
+}
+
+task_row describe_task(const cell_coordinator_state& st,
+                       const std::string& task, const task_entry& entry) {
+  task_row result{task,
+                  entry.ending ? task_state::terminating : entry.state,
+                  entry.submitted_unix_ms,
+                  {}};
+  for (const auto& x : st.deployments.of_task(task)) {
+    auto row = shown(st, st.deployments.row_of(x));
+    if (result.state == task_state::running && !is_healthy(row))
+      result.state = task_state::degraded;
+    result.instances.push_back(std::move(row));
+  }
+  return result;
+}
+
+/// Before it is placed a task has nothing to be shown.
+bool is_shown(const task_entry& entry) {
+  return !entry.accepted.empty();
+}
+
+} // namespace
+
+caf::error unknown_thing(const std::string& what, const std::string& id) {
+  return fail(error_code::unknown_task, "no " + what + " '" + id + "' is known",
+              "/" + what, "`roscell " + what + "s` lists them");
+}
+
+std::vector<task_row> describe_all_tasks(const cell_coordinator_state& st) {
+  std::vector<task_row> result;
+  for (const auto& [task, entry] : st.tasks.entries())
+    if (is_shown(entry))
+      result.push_back(describe_task(st, task, entry));
+  return result;
+}
+
+caf::result<task_description> describe_tasks(const cell_coordinator_state& st,
+                                             const task_query& query) {
+  if (query.task.empty())
+    return task_description{describe_all_tasks(st)};
+  const auto* entry = st.tasks.find(query.task);
+  if (!entry || !is_shown(*entry))
+    return unknown_thing("task", query.task);
+  return task_description{{describe_task(st, query.task, *entry)}};
+}
+
+std::vector<registry_row> describe_nodes(const cell_coordinator_state& st) {
+  auto result = st.registry.rows();
+  for (auto& node : result) {
+    const auto& name = node.identity.name;
+    const auto* entry = st.registry.find_name(name);
+    const bool away = !entry || !entry->agent;
+    for (auto& row : st.deployments.known_on(name, away))
+      node.instances.push_back(shown(st, std::move(row)));
+  }
+  return result;
+}
+
+caf::result<instance_description>
+describe_instances(const cell_coordinator_state& st,
+                   const instance_query& query) {
+  instance_description result;
+  for (auto& node : describe_nodes(st))
+    for (auto& x : node.instances)
+      if ((query.instance.empty() || x.spec.instance == query.instance)
+          && (query.task.empty() || x.spec.task == query.task))
+        result.instances.push_back(std::move(x));
+  if (!query.instance.empty() && result.instances.empty())
+    return unknown_thing("instance", query.instance);
+  return result;
+}
+
+} // namespace roscell

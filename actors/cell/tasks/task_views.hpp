@@ -1,0 +1,26 @@
+#pragma once
+
+#include "actors/cell/state/coordinator_state.hpp"
+
+#include <vector>
+
+/// How the CELL COORDINATOR shows tasks and instances.
+namespace roscell {
+
+std::vector<task_row> describe_all_tasks(const cell_coordinator_state& st);
+
+/// Errors: unknown_task.
+caf::result<task_description> describe_tasks(const cell_coordinator_state& st,
+                                             const task_query& query);
+
+/// Errors: unknown_task.
+caf::result<instance_description>
+describe_instances(const cell_coordinator_state& st,
+                   const instance_query& query);
+
+/// The registry's rows, each with what its node has told of instances.
+std::vector<registry_row> describe_nodes(const cell_coordinator_state& st);
+
+caf::error unknown_thing(const std::string& what, const std::string& id);
+
+} // namespace roscell

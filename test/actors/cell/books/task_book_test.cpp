@@ -1,0 +1,261 @@
+#include "actors/cell/books/task_book.hpp"
+
+#include <catch2/catch.hpp>
+
+namespace roscell::test {
+
+namespace {
+
+task_accepted decision_of(const std::string& task,
+                          const std::vector<std::string>& nodes) {
+  task_accepted result;
+  result.task = task;
+  for (size_t i = 0; i < nodes.size(); ++i) {
+    step_allocation x;
+    x.step = "s" + std::to_string(i);
+    x.node = nodes[i];
+    result.allocations.push_back(x);
+  }
+  return result;
+}
+
+instance_spec spec_of(const std::string& task, const std::string& step,
+                      const std::string& instance) {
+  instance_spec result;
+  result.task = task;
+  result.step = step;
+  result.instance = instance;
+  result.parameters = "{}";
+  return result;
+}
+
+/// A task that was placed on these nodes.
+task_record record(const std::string& task, task_state state,
+                   const std::vector<std::string>& nodes) {
+  std::vector<instance_spec> specs;
+  for (size_t i = 0; i < nodes.size(); ++i) {
+    const auto number = std::to_string(i);
+    specs.push_back(spec_of(task, "s" + number, task + "-" + number));
+  }
+  task_record result;
+  result.task = task;
+  result.request = "{}";
+  result.state = state;
+  return with_placement(result, decision_of(task, nodes), specs, nodes);
+}
+
+instance_end end_of(const std::string& instance, int code) {
+  return {instance,
+          code == 0 ? instance_state::stopped : instance_state::failed, code,
+          "", 7};
+}
+
+replacement moved(const task_record& from, size_t step,
+                  const std::string& node) {
+  replacement result;
+  result.old_instance = from.specs[step].instance;
+  result.spec = from.specs[step];
+  result.spec.instance += "-new";
+  result.place.step = from.specs[step].step;
+  result.place.node = node;
+  return result;
+}
+
+struct both_books {
+  task_book tasks;
+  deployment_book deployments;
+
+  void apply(const task_record& x) {
+    tasks.apply(x);
+    deployments.place(x.task, deployments_in(x));
+  }
+
+  task_accepted reply(const std::string& task) const {
+    return reply_of(task, *tasks.find(task), deployments);
+  }
+};
+
+} // namespace
+
+TEST_CASE("A claim is granted once, and only for the same body",
+          "[task_book]") {
+  task_book tasks;
+  CHECK(tasks.standing_of("t", "{}") == claim_standing::unknown);
+  tasks.begin("t", "{}", 5);
+  CHECK(tasks.standing_of("t", "{}") == claim_standing::deploying);
+  CHECK(tasks.standing_of("t", "[]") == claim_standing::other_body);
+  tasks.apply(record("t", task_state::running, {"a"}));
+  CHECK(tasks.standing_of("t", "{}") == claim_standing::accepted);
+  CHECK(tasks.begin_ending("t"));
+  CHECK_FALSE(tasks.begin_ending("t"));
+  CHECK(tasks.standing_of("t", "{}") == claim_standing::ending);
+  tasks.forget("t");
+  CHECK(tasks.standing_of("t", "{}") == claim_standing::unknown);
+}
+
+TEST_CASE("A task is what the store has kept of it", "[task_book]") {
+  task_book tasks;
+  tasks.begin("t", "{}", 5);
+  CHECK(tasks.is_deploying("t"));
+  CHECK_FALSE(tasks.is_running("t"));
+  tasks.apply(record("t", task_state::running, {"a"}));
+  CHECK(tasks.is_running("t"));
+  CHECK(tasks.is_kept("t"));
+  tasks.begin_ending("t");
+  CHECK_FALSE(tasks.is_running("t"));
+  CHECK_FALSE(tasks.is_kept("t"));
+}
+
+TEST_CASE("A task is finished when every step has ended with 0",
+          "[task_book]") {
+  auto x = record("t", task_state::running, {"a", "b"});
+  x = with_ends(x, {end_of("t-0", 0)});
+  CHECK(x.state == task_state::running);
+  x = with_ends(x, {end_of("t-0", 0), end_of("t-1", 0)});
+  CHECK(x.ends.size() == 2);
+  CHECK(x.state == task_state::finished);
+}
+
+TEST_CASE("A task has failed when every step has ended, not all with 0",
+          "[task_book]") {
+  auto x = record("t", task_state::running, {"a", "b"});
+  x = with_ends(x, {end_of("t-0", 3)});
+  CHECK(x.state == task_state::running);
+  CHECK(with_ends(x, {end_of("t-1", 0)}).state == task_state::failed);
+}
+
+TEST_CASE("An end of a task that is deploying does not make it run",
+          "[task_book]") {
+  const auto x = record("t", task_state::deploying, {"a"});
+  CHECK(with_ends(x, {end_of("t-0", 0)}).state == task_state::deploying);
+}
+
+TEST_CASE("A record says what both books know", "[task_book]") {
+  both_books books;
+  auto x = record("t", task_state::running, {"a", "b"});
+  x = with_ends(x, {end_of("t-1", 0)});
+  books.apply(x);
+  const auto again = record_of("t", *books.tasks.find("t"), books.deployments);
+  CHECK(json(again) == json(x));
+  CHECK(json(again).get<task_record>() == again);
+}
+
+TEST_CASE("The reply says where instances are now", "[task_book]") {
+  both_books books;
+  const auto x = record("t", task_state::running, {"a", "b"});
+  books.apply(x);
+  CHECK(books.reply("t").instances.at(1).node == "b");
+  books.apply(
+      with_replaced(with_tentative(x, {moved(x, 1, "c")}), {moved(x, 1, "c")}));
+  const auto reply = books.reply("t");
+  REQUIRE(reply.instances.size() == 2);
+  CHECK(reply.instances[1].node == "c");
+  CHECK(reply.instances[1].instance == "t-1-new");
+  CHECK(reply.allocations.at(1).node == "c");
+  CHECK(reply.instances[0].node == "a");
+}
+
+TEST_CASE("What moves is in its old place until the new one runs",
+          "[task_book]") {
+  both_books books;
+  const auto x = record("t", task_state::running, {"a"});
+  const auto moving = with_tentative(x, {moved(x, 0, "c")});
+  books.apply(moving);
+  CHECK(books.deployments.of_task("t").size() == 2);
+  CHECK(books.reply("t").instances.at(0).node == "a");
+  CHECK(books.deployments.bound_to("c").size() == 1);
+  books.apply(without(moving, {"t-0-new"}));
+  CHECK(books.deployments.of_task("t").size() == 1);
+  CHECK(books.deployments.bound_to("c").empty());
+}
+
+TEST_CASE("What ended while it was to move is not run again", "[task_book]") {
+  const auto x = record("t", task_state::running, {"a"});
+  auto moving = with_tentative(x, {moved(x, 0, "c")});
+  moving = with_ends(moving, {end_of("t-0", 0)});
+  const auto after = with_replaced(moving, {moved(x, 0, "c")});
+  REQUIRE(after.specs.size() == 1);
+  CHECK(after.specs[0].instance == "t-0");
+  CHECK(after.ends.size() == 1);
+}
+
+TEST_CASE("A restart takes up what ran, without moves that went on",
+          "[task_book]") {
+  CHECK_FALSE(restored(record("t", task_state::deploying, {"a"})));
+  CHECK_FALSE(restored(record("t", task_state::terminating, {"a"})));
+  CHECK(restored(record("t", task_state::finished, {"a"})));
+  const auto x = record("t", task_state::running, {"a"});
+  const auto again = restored(with_tentative(x, {moved(x, 0, "c")}));
+  REQUIRE(again);
+  CHECK(again->specs.size() == 1);
+  CHECK(again->tentative.empty());
+}
+
+TEST_CASE("A record of the version before is read", "[task_book]") {
+  const auto x = record("t", task_state::running, {"a"});
+  auto old = json(x);
+  old.erase("ends");
+  old.erase("tentative");
+  auto accepted = json::parse(x.accepted);
+  accepted["instances"] = {
+      {{"step", "s0"}, {"instance", "elsewhere"}, {"node", "z"}}};
+  old["accepted"] = accepted.dump();
+  both_books books;
+  books.apply(old.get<task_record>());
+  REQUIRE(books.reply("t").instances.size() == 1);
+  CHECK(books.reply("t").instances[0].node == "a");
+}
+
+TEST_CASE("A reply that cannot be read is answered by what is known",
+          "[task_book]") {
+  both_books books;
+  auto x = record("t", task_state::running, {"a"});
+  x.accepted = "{ broken";
+  books.apply(x);
+  CHECK(books.reply("t").task == "t");
+  CHECK(books.reply("t").instances.size() == 1);
+}
+
+TEST_CASE("The newest settled tasks are kept", "[task_book]") {
+  task_book tasks;
+  for (int i = 0; i < 105; ++i) {
+    auto x = record("t" + std::to_string(1000 + i), task_state::finished, {});
+    x.submitted_unix_ms = i;
+    tasks.apply(x);
+  }
+  tasks.apply(record("running", task_state::running, {}));
+  const auto old = tasks.superfluous();
+  REQUIRE(old.size() == 5);
+  CHECK(old.front() == "t1000");
+  CHECK(old.back() == "t1004");
+}
+
+TEST_CASE("Tasks are bounded", "[task_book]") {
+  task_book tasks;
+  for (size_t i = 0; i < limits::task::most; ++i) {
+    CHECK_FALSE(tasks.is_full());
+    tasks.begin("t" + std::to_string(i), "{}", 0);
+  }
+  CHECK(tasks.is_full());
+}
+
+TEST_CASE("The newest 100 terminated tasks are remembered", "[task_book]") {
+  task_book tasks;
+  for (int i = 0; i < 150; ++i)
+    tasks.remember_terminated({"t" + std::to_string(i), {}, {}});
+  CHECK(tasks.find_terminated("t50"));
+  CHECK(tasks.find_terminated("t149"));
+  CHECK_FALSE(tasks.find_terminated("t49"));
+}
+
+TEST_CASE("A task that was terminated twice is remembered by its last end",
+          "[task_book]") {
+  task_book tasks;
+  tasks.remember_terminated({"t", {"t-1"}, {}});
+  tasks.remember_terminated({"t", {"t-2"}, {}});
+  REQUIRE(tasks.find_terminated("t"));
+  CHECK(tasks.find_terminated("t")->instances
+        == std::vector<std::string>{"t-2"});
+}
+
+} // namespace roscell::test
