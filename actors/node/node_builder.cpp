@@ -175,7 +175,8 @@ private:
     parts_.agent =
         start(node_agent,
               node_agent_config{config.name, config.labels, config.devices,
-                                parts_.services->supervisor, probe});
+                                parts_.services->supervisor, probe,
+                                config.cpu_floor});
   }
 
   void start_coordination() {

@@ -1,7 +1,7 @@
 #include "actors/placement/task_allocation.hpp"
 
 #include "actors/house/limits.hpp"
-#include "actors/placement/search/allocation.hpp"
+#include "actors/placement/search/cpu_floor.hpp"
 #include "actors/placement/search/report/alternative.hpp"
 #include "actors/placement/search/report/use.hpp"
 #include "actors/placement/skill_resolution.hpp"
@@ -26,7 +26,8 @@ allocation::node convert(const node_resources& x) {
                           convert(x.disk_mib),
                           {},
                           x.labels,
-                          x.devices};
+                          x.devices,
+                          x.cpu_compressible};
   for (const auto& gpu : x.gpus)
     result.gpus.push_back({gpu.index, convert(gpu.memory_mib)});
   return result;
@@ -67,7 +68,7 @@ void add_exclusion(const allocate_task& asked, const excluded_candidate& x,
   to.excluded.push_back(
       {step, position(asked.nodes, x.node, by_name),
        position(asked.steps[step].model.deployments, x.deployment, by_name),
-       x.gpu, x.reason});
+       x.gpu, x.reason, x.cpu_floor});
 }
 
 allocation::problem convert(const allocate_task& asked) {
@@ -168,6 +169,10 @@ private:
   double alpha_;
 };
 
+constexpr const char* busy_cores =
+    "other programs keep the cores busy: what they use counts up to each "
+    "node's --cpu-floor only";
+
 std::vector<resource_use> uses_in(const allocate_task& asked,
                                   const allocation::problem& problem,
                                   const allocation::result& found) {
@@ -226,13 +231,17 @@ allocate(const allocate_task& asked, std::chrono::milliseconds budget,
   limits.budget = budget;
   limits.cancelled = cancelled;
   const auto problem = convert(asked);
-  const auto found = allocation::allocate(problem, limits);
-  if (!found.has_allocation())
-    return refusal(asked, found);
-  auto plan = plan_writer{asked, found, problem.alpha}.plan();
-  plan.use = uses_in(asked, problem, found);
+  const auto made = allocation::allocate_with_floor(problem, limits);
+  if (!made.found.has_allocation())
+    return refusal(asked, made.found);
+  auto plan = plan_writer{asked, made.found, problem.alpha}.plan();
+  if ((plan.cpu_floor = made.cpu_floor))
+    plan.warnings.emplace_back(busy_cores);
+  // As it is, however the CPU was read.
+  plan.use = uses_in(asked, problem, made.found);
   if (!asked.why.empty())
-    plan.alternatives = {alternative_to(asked, problem, found, why, limits)};
+    plan.alternatives = {
+        alternative_to(asked, made.read, made.found, why, limits)};
   return plan;
 }
 
@@ -249,12 +258,15 @@ std::variant<task_plan, failure> allocate_offline(const plan_document& document,
       resolve_steps(document.request.pipeline, skills, "/request/pipeline");
   if (auto* problem = std::get_if<failure>(&steps))
     return std::move(*problem);
-  return allocate({document.request.task,
-                   std::get<std::vector<resolved_step>>(std::move(steps)),
-                   document.nodes,
-                   {},
-                   why},
-                  limits::task::offline_allocation_budget);
+  allocate_task asked{document.request.task,
+                      std::get<std::vector<resolved_step>>(std::move(steps)),
+                      document.nodes,
+                      {},
+                      why};
+  // The numbers on paper are meant as they stand.
+  for (auto& node : asked.nodes)
+    node.cpu_compressible = 0;
+  return allocate(asked, limits::task::offline_allocation_budget);
 }
 
 } // namespace roscell

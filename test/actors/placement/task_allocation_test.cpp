@@ -170,6 +170,30 @@ TEST_CASE("A node without the skill is rejected for that",
   CHECK(found.rejected[0].node == "a");
 }
 
+TEST_CASE("A cell whose cores are busy is read with the floor, and says so",
+          "[task_allocation]") {
+  auto text = two_nodes();
+  text["request"]["pipeline"].erase(1);
+  text["nodes"][0]["cpu"]["used"] = 4;
+  text["nodes"][0]["cpu_compressible"] = 1;
+  const auto document = std::get<plan_document>(decode<plan_document>(text));
+  resolved_step step;
+  step.step = document.request.pipeline[0];
+  step.model = document.skills[0].models[0];
+  step.nodes = {"a", "g"};
+  const auto result = allocate({"t", {step}, document.nodes});
+  REQUIRE(std::holds_alternative<task_plan>(result));
+  const auto reply = message_json(std::get<task_plan>(result));
+  CHECK_FALSE(validate_message(reply));
+  CHECK(reply.at("cpu_floor") == true);
+  CHECK(reply.at("warnings").size() == 1);
+  // What is used stays what it is.
+  CHECK(reply.at("use").at(0).at("before") == 4);
+  CHECK(reply.at("use").at(0).at("after") == 5);
+  // On paper the numbers are meant as they stand.
+  CHECK(refusal(text).code == error_code::no_feasible_allocation);
+}
+
 TEST_CASE("Without any node nothing can be placed", "[task_allocation]") {
   auto document = two_nodes();
   document["nodes"] = json::array();
