@@ -54,6 +54,7 @@ struct step_allocation {
   resource_fractions fractions;
   double variance = 0;
   double bonus = 0;
+  std::string build; ///< Hash of the skill's build; empty on paper.
 
   static constexpr auto fields() {
     return std::make_tuple(required("step", &step_allocation::step),
@@ -62,7 +63,8 @@ struct step_allocation {
                            nullable("gpu", &step_allocation::gpu),
                            required("fractions", &step_allocation::fractions),
                            required("variance", &step_allocation::variance),
-                           required("bonus", &step_allocation::bonus));
+                           required("bonus", &step_allocation::bonus),
+                           optional("build", &step_allocation::build));
   }
 };
 

@@ -19,6 +19,7 @@ struct prepare_image {
   std::string operation; ///< Names the image.
   std::string skill_dir; ///< Absolute path of the skill folder.
   std::string skill;     ///< Its content hash.
+  std::string look;      ///< How it looked when it was hashed.
   std::vector<std::string> entry_point;
   std::string base_image; ///< Ignored by the process runtime.
 
@@ -27,6 +28,7 @@ struct prepare_image {
                            required("operation", &prepare_image::operation),
                            required("skill_dir", &prepare_image::skill_dir),
                            required("skill", &prepare_image::skill),
+                           optional("look", &prepare_image::look),
                            required("entry_point", &prepare_image::entry_point),
                            required("base_image", &prepare_image::base_image));
   }

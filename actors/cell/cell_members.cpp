@@ -192,6 +192,7 @@ void add_own_row(self_pointer self) {
   own.row.role = node_role::coordinator;
   own.row.resources.name = st.setup.self.name;
   own.skills = st.setup.skills;
+  own.refused_skills = st.setup.refused_skills;
   own.agent = st.setup.agent;
   st.registry.activate(std::move(own), now_of(self));
 }
@@ -267,6 +268,7 @@ caf::result<node_registered> register_member(self_pointer self,
   entry.row.resources.name = node.identity.name;
   entry.row.instances = kept_rows(st, node);
   entry.skills = node.skills;
+  entry.refused_skills = node.refused_skills;
   entry.agent = request.member;
   entry.member = request.member;
   entry.origin = node.origin;

@@ -594,6 +594,11 @@ constexpr size_t path_bytes = 512;
 /// Errors of one descriptor that are told.
 constexpr size_t errors = 20;
 
+/// Folders that are no skills of which the rest of the cell is told, and the
+/// bytes of each text about them.
+constexpr size_t told_problems = 32;
+constexpr size_t told_text_bytes = kib;
+
 } // namespace skill
 
 /// Discovery by DDS. DDS leases decide nothing.

@@ -60,6 +60,7 @@ node_registration registration_of(const membership_status& st) {
   result.resources = *st.resources;
   result.resources.name = st.config.identity.name;
   result.skills = st.config.skills;
+  result.refused_skills = st.config.refused_skills;
   result.instances = *st.instances;
   result.origin = st.origin;
   if (st.switching)

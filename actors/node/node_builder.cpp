@@ -151,6 +151,7 @@ private:
         std::make_shared<skill_catalogue>(skill_catalogue::scan(dirs));
     catalogue->tell_problems(parts_.context);
     parts_.skills = catalogue->skills();
+    parts_.refused_skills = catalogue->told_problems();
     catalogue_ = std::move(catalogue);
   }
 
@@ -187,6 +188,7 @@ private:
     setup.incarnation = data_.incarnation;
     setup.self = parts_.identity;
     setup.skills = parts_.skills;
+    setup.refused_skills = parts_.refused_skills;
     setup.agent = parts_.agent;
     setup.supervisor = parts_.services->supervisor;
     setup.store = store_;
@@ -238,6 +240,7 @@ private:
     membership_config result;
     result.identity = parts_.identity;
     result.skills = parts_.skills;
+    result.refused_skills = parts_.refused_skills;
     result.restored = data_.membership;
     result.configured = config.wait ? "wait" : config.join;
     result.site_token = data_.site_token;

@@ -84,22 +84,6 @@ std::map<std::string, std::string> basic_environment() {
           {"LANG", variable("LANG", "C.UTF-8")}};
 }
 
-edge_result<fs::path> find_program(const prepare_image& wish) {
-  if (wish.entry_point.empty())
-    return failed("the skill in", wish.skill_dir, "names no program");
-  const auto path = fs::path{wish.skill_dir} / wish.entry_point[0];
-  std::error_code error;
-  if (!fs::is_regular_file(path, error))
-    return failed("the skill's program is missing:", path,
-                  error ? error.message() : "it is no file",
-                  "build the skill, or correct \"entry_point\" in "
-                      + (fs::path{wish.skill_dir} / "skill.json").string());
-  if (::access(path.c_str(), X_OK) != 0)
-    return failed("the skill's program cannot be run:", path,
-                  std::strerror(errno), "chmod +x " + path.string());
-  return path;
-}
-
 edge_result<process_instance> launch(const process_runtime_config& config,
                                      const start_container& wish) {
   const auto dir = config.instances_dir / wish.instance;

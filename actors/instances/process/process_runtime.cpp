@@ -4,6 +4,8 @@
 #include "actors/house/limits.hpp"
 #include "actors/instances/instance_id.hpp"
 #include "actors/instances/process/process_logs.hpp"
+#include "actors/instances/skill_folder.hpp"
+#include "actors/instances/skill_program.hpp"
 #include "messages/failure.hpp"
 
 #include <caf/result.hpp>
@@ -72,8 +74,11 @@ bool is_outdated(const running_process& x, const std::string& container) {
 }
 
 caf::result<image_prepared> prepare(const prepare_image& wish) {
-  const auto found = find_program(wish);
+  const auto found = find_program(wish.skill_dir, wish.entry_point);
   if (const auto* error = std::get_if<edge_error>(&found))
+    return to_caf(*error);
+  const auto same = check_build(wish);
+  if (const auto* error = std::get_if<edge_error>(&same))
     return to_caf(*error);
   return image_prepared{wish.skill_dir};
 }

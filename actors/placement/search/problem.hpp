@@ -57,6 +57,10 @@ struct deployment {
   /// Devices and labels which the node must have.
   std::vector<std::string> devices;
   label_map labels;
+  /// Names of the nodes that can run the step in this way; empty: all that have
+  /// the skill. On others that have it, this is no candidate and needs no
+  /// reason: they have another way.
+  std::set<std::string> only_on;
 };
 
 /// One step of the request. The deployments are those of its model, narrowed

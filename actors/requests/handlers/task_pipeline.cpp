@@ -44,8 +44,9 @@ std::optional<failure> think_otherwise(const what_if& other,
                      "/with/" + std::to_string(i) + "/name",
                      "give it another name, or think the other one away"};
     nodes.push_back(other.with[i]);
+    // It has the newest build of each skill.
     for (auto& step : known.steps)
-      step.nodes.push_back(other.with[i].name);
+      step.builds.front().nodes.push_back(other.with[i].name);
   }
   std::sort(nodes.begin(), nodes.end(),
             [](const auto& x, const auto& y) { return x.name < y.name; });
