@@ -169,14 +169,16 @@ struct allocate_task {
   std::vector<resolved_step> steps;
   std::vector<node_resources> nodes;
   std::vector<excluded_candidate> excluded;
-  std::string why; ///< A step whose best alternative is asked for.
+  std::string why;    ///< A step whose best alternative is asked for.
+  bool trial = false; ///< Nothing will come of it but the plan.
 
   static constexpr auto fields() {
     return std::make_tuple(required("task", &allocate_task::task),
                            required("steps", &allocate_task::steps),
                            required("nodes", &allocate_task::nodes),
                            required("excluded", &allocate_task::excluded),
-                           required("why", &allocate_task::why));
+                           required("why", &allocate_task::why),
+                           required("trial", &allocate_task::trial));
   }
 };
 

@@ -73,6 +73,8 @@
   X(adopt_container)                                                           \
   X(container_adopted)                                                         \
   X(container_exited)                                                          \
+  X(hear_container)                                                            \
+  X(ends_acknowledged)                                                         \
   X(instance_notified)                                                         \
   X(program_ended)                                                             \
   X(log_grown)                                                                 \
@@ -87,7 +89,7 @@
   X(stop_instance)                                                             \
   X(listen_to_instances)                                                       \
   X(store_record)                                                              \
-  X(store_records)                                                              \
+  X(store_records)                                                             \
   X(record_stored)                                                             \
   X(measure_host)                                                              \
   X(host_measured)                                                             \

@@ -110,6 +110,11 @@ constexpr size_t most = 256;
 /// Ended ones whose rows and logs stay until their task is removed.
 constexpr size_t most_ended = 32;
 
+/// Rows of older ones that stay until the coordinator keeps that they have
+/// ended, or their task is removed: it must not take them for lost and start
+/// them again. They are part of a registration, which is one frame.
+constexpr size_t most_unacknowledged_bytes = 256 * kib;
+
 /// An actor that dies more often than this will not do better next time.
 constexpr int most_deaths = 5;
 
@@ -149,9 +154,22 @@ constexpr seconds cleaning{15};
 /// All of it.
 constexpr seconds removal = stop_grace + stop + cleaning + disk;
 
-/// Silence after which a running skill is taken for hung. Skills say that they
-/// are alive twice in this time, so one lost word does no harm.
+/// Silence after which a running skill is taken for hung.
 constexpr seconds watchdog{10};
+
+/// What skills are told of it. They say that they are alive twice in this time,
+/// so after a lost word the next one still comes before they are judged.
+constexpr seconds told_watchdog{8};
+
+/// An alarm that comes later than this tells of a pause of our own process.
+constexpr seconds pause_tolerance{2};
+
+/// For the first word of a skill after such a pause.
+constexpr seconds pause_grace{5};
+
+/// For the runtime to read a socket. One that does not answer in time says
+/// nothing of the skill, and is asked again.
+constexpr seconds hearing{10};
 
 /// Most of the log's end that goes along with a failure.
 constexpr size_t log_tail_bytes = 8 * kib;
@@ -167,6 +185,7 @@ constexpr milliseconds words_pause{20};
 constexpr seconds shim{5};
 
 static_assert(shim < start);
+static_assert(told_watchdog < watchdog && told_watchdog / 2 < pause_grace);
 static_assert(3 * force_interval < stop);
 static_assert(force < stop);
 
@@ -275,6 +294,7 @@ constexpr milliseconds peer_answer{3000};
 static_assert(handshake < open);
 static_assert(pending_calls <= known_calls);
 static_assert(kept_answer_bytes < frame_bytes);
+static_assert(2 * instance::most_unacknowledged_bytes < frame_bytes);
 static_assert(margin < peer_answer);
 
 } // namespace session

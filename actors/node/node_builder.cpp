@@ -13,6 +13,7 @@
 #include "actors/node/resource_probe.hpp"
 #include "actors/node/state_store.hpp"
 #include "actors/placement/scheduler.hpp"
+#include "actors/placement/searcher.hpp"
 #include "actors/requests/handlers/registry.hpp"
 #include "actors/requests/request_router.hpp"
 #include "actors/requests/rest.hpp"
@@ -202,7 +203,7 @@ private:
         {"ROS_DISCOVERY_SERVER", std::string(parts_.edges->server_id, ';')
                                      + parts_.edges->discovery_server}};
     setup.searches = std::make_shared<search_guard>();
-    setup.scheduler = start<caf::detached>(scheduler, setup.searches);
+    setup.scheduler = start_scheduler(setup.searches);
     setup.discovery = start_discovery();
     setup.connector = start_connector();
     setup.registration = start(
@@ -217,6 +218,14 @@ private:
         system_, parts_.context, *parts_.edges,
         {config.name, parts_.identity.uuid, config.cell, data_.incarnation},
         data_.site_token, coordinator);
+  }
+
+  scheduler_actor start_scheduler(std::shared_ptr<search_guard> guard) {
+    auto make = [&system = system_, context = parts_.context](
+                    auto searches, const scheduler_actor& owner) {
+      return spawn<caf::detached>(system, context, searcher, searches, owner);
+    };
+    return start(scheduler, scheduler_config{std::move(guard), make});
   }
 
   discovery_actor start_discovery() {

@@ -37,7 +37,7 @@ child_watch watch(self_pointer self, const std::string& instance,
   child_watch::callbacks calls;
   calls.on_notification = [listener, instance](const notification& n) {
     caf::anon_send(listener, instance_notified{instance, n.ready, n.alive,
-                                               n.stopping, n.status});
+                                               n.stopping, n.status, false});
   };
   calls.on_end = [target, instance, container = x.container] {
     caf::anon_send(target, program_ended{instance, container});
@@ -113,6 +113,20 @@ caf::result<container_adopted> adopt(self_pointer self,
     return container_adopted{false, wish.container, -1};
   const auto& x = std::get<running_process*>(found)->process;
   return container_adopted{x.runs(), x.container, x.exit_code};
+}
+
+/// By the io thread, like all words of the instance, so that none overtakes
+/// another.
+void hear(self_pointer self, const std::string& instance) {
+  const auto& st = self->state;
+  const auto tell = [listener = st.listener, instance](const notification& n) {
+    caf::anon_send(listener, instance_notified{instance, n.ready, n.alive,
+                                               n.stopping, n.status, true});
+  };
+  const auto i = st.processes.find(instance);
+  if (i == st.processes.end() || !i->second.process.runs())
+    return tell({});
+  hear_notifications(st.config.io, i->second.process.notify_socket, tell);
 }
 
 void signal(const running_process& x, int number) {
@@ -280,6 +294,7 @@ process_runtime(self_pointer self, const process_runtime_config& config,
       [self](const stop_container& x) { return stop(self, x); },
       [self](const remove_container& x) { return remove(self, x); },
       [self](const adopt_container& x) { return adopt(self, x); },
+      [self](const hear_container& x) { hear(self, x.instance); },
       [self](const log_query& x) { return read_log(self, x); },
       [self](const program_ended& x) { on_end(self, x); },
       [self](const log_grown& x) { serve_followers(self, x.instance); },

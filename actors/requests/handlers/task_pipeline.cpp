@@ -108,11 +108,9 @@ void collect(const request_context& context, resolved_task task,
 
 void place(const request_context& context, resourced_task task,
            outcome<allocated_task> done) {
-  allocate_task question{task.request.task,
-                         task.steps,
-                         std::move(task.nodes),
-                         {},
-                         std::move(task.why)};
+  allocate_task question{task.request.task,     task.steps,
+                         std::move(task.nodes), {},
+                         std::move(task.why),   true};
   ask<task_plan>(context, context.services->scheduler, limits::task::search,
                  std::move(question), done,
                  [done, request = std::move(task.request),
