@@ -44,6 +44,7 @@ using runtime_actor = introspected_actor::extend<
     caf::replies_to<stop_container>::with<container_stopped>,
     caf::replies_to<remove_container>::with<container_removed>,
     caf::replies_to<adopt_container>::with<container_adopted>,
+    caf::reacts_to<hear_container>,
     // Errors: unknown_task (no log of that instance), conflict (too many
     // wait for more).
     caf::replies_to<log_query>::with<log_excerpt>>;
@@ -99,8 +100,9 @@ using container_supervisor_actor = introspected_actor::extend<
     // Errors: unknown_task (no such instance).
     caf::replies_to<instance_query>::with<instance_description>,
     caf::replies_to<log_query>::with<log_excerpt>,
-    caf::reacts_to<listen_to_instances>, caf::reacts_to<container_exited>,
-    caf::reacts_to<instance_notified>, caf::reacts_to<runtime_troubled>,
+    caf::reacts_to<listen_to_instances>, caf::reacts_to<ends_acknowledged>,
+    caf::reacts_to<container_exited>, caf::reacts_to<instance_notified>,
+    caf::reacts_to<runtime_troubled>,
     // INTERNAL: from a skill instance.
     caf::reacts_to<instance_changed>>;
 

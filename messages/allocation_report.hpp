@@ -54,6 +54,7 @@ struct step_allocation {
   resource_fractions fractions;
   double variance = 0;
   double bonus = 0;
+  std::string build; ///< Hash of the skill's build; empty on paper.
 
   static constexpr auto fields() {
     return std::make_tuple(required("step", &step_allocation::step),
@@ -62,7 +63,8 @@ struct step_allocation {
                            nullable("gpu", &step_allocation::gpu),
                            required("fractions", &step_allocation::fractions),
                            required("variance", &step_allocation::variance),
-                           required("bonus", &step_allocation::bonus));
+                           required("bonus", &step_allocation::bonus),
+                           optional("build", &step_allocation::build));
   }
 };
 
@@ -108,6 +110,8 @@ struct excluded_candidate {
   std::string deployment;
   int gpu = -1; ///< Negative: none.
   std::string reason;
+  /// How the CPU was read when the node refused it.
+  bool cpu_floor = false;
 
   static constexpr auto fields() {
     return std::make_tuple(
@@ -115,7 +119,8 @@ struct excluded_candidate {
         required("node", &excluded_candidate::node),
         required("deployment", &excluded_candidate::deployment),
         nullable("gpu", &excluded_candidate::gpu),
-        required("reason", &excluded_candidate::reason));
+        required("reason", &excluded_candidate::reason),
+        optional("cpu_floor", &excluded_candidate::cpu_floor));
   }
 };
 
@@ -168,6 +173,9 @@ struct task_plan {
   int64_t states = 0; ///< Explored by the search.
   std::vector<resource_use> use;
   std::vector<step_alternative> alternatives; ///< Of the step asked about.
+  /// A strict reading of the CPU has no allocation: what other programs use
+  /// was counted up to each node's floor.
+  bool cpu_floor = false;
 
   static constexpr auto fields() {
     return std::make_tuple(required("task", &task_plan::task),
@@ -178,7 +186,8 @@ struct task_plan {
                            optional("warnings", &task_plan::warnings),
                            optional("states", &task_plan::states),
                            optional("use", &task_plan::use),
-                           optional("alternatives", &task_plan::alternatives));
+                           optional("alternatives", &task_plan::alternatives),
+                           optional("cpu_floor", &task_plan::cpu_floor));
   }
 };
 

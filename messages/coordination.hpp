@@ -126,18 +126,28 @@ struct cell_resources {
   }
 };
 
-/// A step of a task request with the skill that it names.
+/// A build that can do a step.
+struct skill_build {
+  std::string hash;
+  implementation_model model;     ///< Only the deployments to choose from.
+  std::vector<std::string> nodes; ///< Those on which it is the candidate.
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("hash", &skill_build::hash),
+                           required("model", &skill_build::model),
+                           required("nodes", &skill_build::nodes));
+  }
+};
+
+/// A step of a task request with the builds that can do it, the newest first.
+/// On each node one of them is the candidate.
 struct resolved_step {
   task_step step;
-  installed_skill skill;
-  implementation_model model;     ///< Only the deployments to choose from.
-  std::vector<std::string> nodes; ///< Those that have the skill.
+  std::vector<skill_build> builds;
 
   static constexpr auto fields() {
     return std::make_tuple(required("step", &resolved_step::step),
-                           required("skill", &resolved_step::skill),
-                           required("model", &resolved_step::model),
-                           required("nodes", &resolved_step::nodes));
+                           required("builds", &resolved_step::builds));
   }
 };
 
@@ -147,14 +157,16 @@ struct allocate_task {
   std::vector<resolved_step> steps;
   std::vector<node_resources> nodes;
   std::vector<excluded_candidate> excluded;
-  std::string why; ///< A step whose best alternative is asked for.
+  std::string why;    ///< A step whose best alternative is asked for.
+  bool trial = false; ///< Nothing will come of it but the plan.
 
   static constexpr auto fields() {
     return std::make_tuple(required("task", &allocate_task::task),
                            required("steps", &allocate_task::steps),
                            required("nodes", &allocate_task::nodes),
                            required("excluded", &allocate_task::excluded),
-                           required("why", &allocate_task::why));
+                           required("why", &allocate_task::why),
+                           required("trial", &allocate_task::trial));
   }
 };
 

@@ -73,6 +73,8 @@ struct container_removed;
 struct adopt_container;
 struct container_adopted;
 struct container_exited;
+struct hear_container;
+struct ends_acknowledged;
 struct instance_notified;
 struct program_ended;
 struct log_grown;

@@ -82,6 +82,7 @@ struct node_description {
   std::vector<instance_row> instances;
   std::vector<actor_row> actors;
   int64_t stored_bytes = 0; ///< Written to the database since the start.
+  std::vector<skill_problem> refused_skills; ///< The first of them.
 
   static constexpr auto fields() {
     return std::make_tuple(
@@ -97,7 +98,8 @@ struct node_description {
         required("skills", &node_description::skills),
         required("instances", &node_description::instances),
         optional("actors", &node_description::actors),
-        optional("stored_bytes", &node_description::stored_bytes));
+        optional("stored_bytes", &node_description::stored_bytes),
+        optional("refused_skills", &node_description::refused_skills));
   }
 };
 

@@ -14,10 +14,15 @@ struct instance_reservation {
   static constexpr const char* type = "instance_reservation";
   std::string task;
   std::vector<instance_spec> specs;
+  /// They were placed with the floored reading of the CPU, so the node reads
+  /// its own in the same way.
+  bool cpu_floor = false;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("task", &instance_reservation::task),
-                           required("specs", &instance_reservation::specs));
+    return std::make_tuple(
+        required("task", &instance_reservation::task),
+        required("specs", &instance_reservation::specs),
+        optional("cpu_floor", &instance_reservation::cpu_floor));
   }
 };
 

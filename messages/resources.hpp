@@ -44,6 +44,9 @@ struct node_resources {
   std::vector<gpu_resources> gpus;
   std::map<std::string, std::string> labels;
   std::vector<std::string> devices; ///< Absolute paths below /dev.
+  /// Cores of `cpu.used` that programs outside our instances would share with
+  /// a new process. 0 where nothing may be counted on.
+  double cpu_compressible = 0;
 
   static constexpr auto fields() {
     return std::make_tuple(
@@ -55,7 +58,8 @@ struct node_resources {
         required("disk_mib", &node_resources::disk_mib),
         required("gpus", &node_resources::gpus),
         required("labels", &node_resources::labels),
-        required("devices", &node_resources::devices));
+        required("devices", &node_resources::devices),
+        optional("cpu_compressible", &node_resources::cpu_compressible));
   }
 };
 

@@ -19,6 +19,7 @@ struct prepare_image {
   std::string operation; ///< Names the image.
   std::string skill_dir; ///< Absolute path of the skill folder.
   std::string skill;     ///< Its content hash.
+  std::string look;      ///< How it looked when it was hashed.
   std::vector<std::string> entry_point;
   std::string base_image; ///< Ignored by the process runtime.
 
@@ -27,6 +28,7 @@ struct prepare_image {
                            required("operation", &prepare_image::operation),
                            required("skill_dir", &prepare_image::skill_dir),
                            required("skill", &prepare_image::skill),
+                           optional("look", &prepare_image::look),
                            required("entry_point", &prepare_image::entry_point),
                            required("base_image", &prepare_image::base_image));
   }
@@ -143,6 +145,16 @@ struct container_adopted {
   }
 };
 
+/// Reads what waits at the NOTIFY_SOCKET of an instance. It is told as
+/// `instance_notified` with `heard`, after all that has been read before.
+struct hear_container {
+  std::string instance;
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("instance", &hear_container::instance));
+  }
+};
+
 /// A fact: the container's program has ended, asked or not.
 struct container_exited {
   std::string instance;
@@ -163,13 +175,15 @@ struct instance_notified {
   bool alive = false;    ///< WATCHDOG=1
   bool stopping = false; ///< STOPPING=1
   std::string status;    ///< STATUS=..., may be empty.
+  bool heard = false;    ///< Answers `hear_container`; may say nothing else.
 
   static constexpr auto fields() {
     return std::make_tuple(required("instance", &instance_notified::instance),
                            required("ready", &instance_notified::ready),
                            required("alive", &instance_notified::alive),
                            required("stopping", &instance_notified::stopping),
-                           required("status", &instance_notified::status));
+                           required("status", &instance_notified::status),
+                           required("heard", &instance_notified::heard));
   }
 };
 
@@ -217,6 +231,16 @@ struct stop_instance {
 
   static constexpr auto fields() {
     return std::make_tuple(required("reason", &stop_instance::reason));
+  }
+};
+
+/// The coordinator keeps that these have ended, so the node may forget them.
+struct ends_acknowledged {
+  std::vector<std::string> instances;
+
+  static constexpr auto fields() {
+    return std::make_tuple(
+        required("instances", &ends_acknowledged::instances));
   }
 };
 

@@ -56,6 +56,7 @@ struct node_registration {
   std::vector<instance_row> instances;
   join_origin origin = join_origin::given;
   std::string transfer; ///< The one that brings the node here, if any.
+  std::vector<skill_problem> refused_skills; ///< The first of them.
 
   static constexpr auto fields() {
     return std::make_tuple(
@@ -65,7 +66,8 @@ struct node_registration {
         required("skills", &node_registration::skills),
         required("instances", &node_registration::instances),
         optional("origin", &node_registration::origin),
-        optional("transfer", &node_registration::transfer));
+        optional("transfer", &node_registration::transfer),
+        optional("refused_skills", &node_registration::refused_skills));
   }
 };
 

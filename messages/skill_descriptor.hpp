@@ -62,7 +62,8 @@ struct implementation_model {
 /// JSON form: schemas/skill_descriptor.schema.json.
 struct skill_descriptor {
   std::string operation;
-  std::string engine; ///< "primitive".
+  std::string version; ///< Raised by the author; empty: see installed_skill.
+  std::string engine;  ///< "primitive".
   std::vector<std::string>
       entry_point; ///< Program below the folder, arguments.
   port_description input;
@@ -72,6 +73,7 @@ struct skill_descriptor {
   static constexpr auto fields() {
     return std::make_tuple(
         required("operation", &skill_descriptor::operation),
+        optional("version", &skill_descriptor::version),
         required("engine", &skill_descriptor::engine),
         required("entry_point", &skill_descriptor::entry_point),
         required("input", &skill_descriptor::input),

@@ -14,6 +14,9 @@ struct task_step {
   std::string operation;
   std::string model;
   std::string deployment; ///< Empty: any deployment option of the model.
+  /// The first digits of a build's hash; empty: on each node the one that was
+  /// added last.
+  std::string build;
   std::vector<io_endpoint> input;
   std::vector<io_endpoint> output;
   std::string parameters; ///< JSON object that overrides the model's.
@@ -24,6 +27,7 @@ struct task_step {
                            required("operation", &task_step::operation),
                            required("model", &task_step::model),
                            optional("deployment", &task_step::deployment),
+                           optional("build", &task_step::build),
                            one_or_many("input", &task_step::input),
                            one_or_many("output", &task_step::output),
                            raw_json("parameters", &task_step::parameters),

@@ -76,6 +76,8 @@
   X(adopt_container)                                                           \
   X(container_adopted)                                                         \
   X(container_exited)                                                          \
+  X(hear_container)                                                            \
+  X(ends_acknowledged)                                                         \
   X(instance_notified)                                                         \
   X(program_ended)                                                             \
   X(log_grown)                                                                 \

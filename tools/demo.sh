@@ -86,11 +86,12 @@ start() {
   shift
   mkfifo "$dir/$name.ready"
   # In a session of its own: Ctrl-C is for this script, which ends its nodes.
-  # In a public domain of its own: two demos do not see each other.
+  # In a public domain of its own: two demos do not see each other. With half of
+  # the cores to count on, it also runs beside a compiler that takes them all.
   setsid "$bin/roscell" node --name "$name" --interface lo --port 0 \
     --public-domain "$public_domain" \
     --discovery-port 0 --data-dir "$dir/$name" --skills build/release/skills \
-    --capacity cpu=2,memory_mib=2048,disk_mib=4096 --runtime "$runtime" \
+    --capacity cpu=2,memory_mib=2048,disk_mib=4096 --cpu-floor 0.5 --runtime "$runtime" \
     --ready-fd 5 "$@" 5> "$dir/$name.ready" 2> "$dir/$name.log" &
   nodes+=($!)
   read -r -t 20 _ < "$dir/$name.ready" || { cat "$dir/$name.log"; exit 1; }

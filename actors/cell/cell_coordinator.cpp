@@ -126,7 +126,9 @@ cell_coordinator(self_pointer self, const house& context,
       },
       [self](const log_query& x) { return fetch_log(self, x); },
       [self](const skill_query& x) {
-        return skill_list{self->state.registry.skills(x.operation)};
+        const auto& registry = self->state.registry;
+        return skill_list{registry.skills(x.operation),
+                          registry.refused_skills()};
       },
       [self](const claim_task& x) { return claim_task_turn(self, x); },
       [self](const collect_resources&) { return answer_resources(self); },

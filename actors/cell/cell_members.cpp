@@ -35,6 +35,7 @@ registry_entry entry_of(const register_node& request) {
   result.row.resources = node.resources;
   result.row.resources.name = node.identity.name;
   result.skills = node.skills;
+  result.refused_skills = node.refused_skills;
   result.agent = request.member;
   result.member = request.member;
   result.origin = node.origin;
@@ -95,6 +96,7 @@ void add_own_row(self_pointer self) {
   own.row.role = node_role::coordinator;
   own.row.resources.name = st.setup.self.name;
   own.skills = st.setup.skills;
+  own.refused_skills = st.setup.refused_skills;
   own.agent = st.setup.agent;
   st.registry.activate(std::move(own), now_of(self));
 }

@@ -109,6 +109,10 @@ constexpr size_t most_ended = 32;
 constexpr size_t told = 1024;
 
 static_assert(most + most_ended < told);
+/// Rows of older ones that stay until the coordinator keeps that they have
+/// ended, or their task is removed: it must not take them for lost and start
+/// them again. They are part of a registration, which is one frame.
+constexpr size_t most_unacknowledged_bytes = 256 * kib;
 
 /// An actor that dies more often than this will not do better next time.
 constexpr int most_deaths = 5;
@@ -136,9 +140,24 @@ constexpr seconds stop{15};
 constexpr seconds cleaning{15};
 /// All of it.
 constexpr seconds removal = stop_grace + stop + cleaning + disk;
-/// Silence after which a running skill is taken for hung. Skills say that they
-/// are alive twice in this time, so one lost word does no harm.
+
+/// Silence after which a running skill is taken for hung.
 constexpr seconds watchdog{10};
+
+/// What skills are told of it. They say that they are alive twice in this time,
+/// so after a lost word the next one still comes before they are judged.
+constexpr seconds told_watchdog{8};
+
+/// An alarm that comes later than this tells of a pause of our own process.
+constexpr seconds pause_tolerance{2};
+
+/// For the first word of a skill after such a pause.
+constexpr seconds pause_grace{5};
+
+/// For the runtime to read a socket. One that does not answer in time says
+/// nothing of the skill, and is asked again.
+constexpr seconds hearing{10};
+
 /// Most of the log's end that goes along with a failure.
 constexpr size_t log_tail_bytes = 8 * kib;
 /// Most of what is said of why it ended.
@@ -150,6 +169,7 @@ constexpr milliseconds words_pause{20};
 constexpr seconds shim{5};
 
 static_assert(shim < start);
+static_assert(told_watchdog < watchdog && told_watchdog / 2 < pause_grace);
 static_assert(3 * force_interval < stop);
 static_assert(force < stop);
 
@@ -236,6 +256,7 @@ constexpr milliseconds peer_answer{3000};
 static_assert(handshake < open);
 static_assert(pending_calls <= known_calls);
 static_assert(kept_answer_bytes < frame_bytes);
+static_assert(2 * instance::most_unacknowledged_bytes < frame_bytes);
 static_assert(margin < peer_answer);
 
 } // namespace session
@@ -591,6 +612,11 @@ constexpr size_t descriptor_bytes = mib;
 constexpr size_t path_bytes = 512;
 /// Errors of one descriptor that are told.
 constexpr size_t errors = 20;
+
+/// Folders that are no skills of which the rest of the cell is told, and the
+/// bytes of each text about them.
+constexpr size_t told_problems = 32;
+constexpr size_t told_text_bytes = kib;
 
 } // namespace skill
 

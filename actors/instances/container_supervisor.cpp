@@ -330,6 +330,9 @@ container_supervisor(self_pointer self,
       [self](const listen_to_instances& x) {
         self->state.listener = x.listener;
       },
+      [self](const ends_acknowledged& x) {
+        acknowledge_ends(self, x.instances);
+      },
       [self](const container_exited& x) { on_exited(self, x); },
       [self](const instance_notified& x) { on_notified(self, x); },
       [self](const runtime_troubled& x) { on_troubled(self, x.message); },

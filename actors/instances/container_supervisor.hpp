@@ -34,8 +34,10 @@ struct supervised_instance {
   skill_instance_actor actor; ///< Null once the instance has ended.
   std::vector<caf::typed_response_promise<instance_deployed>> deployers;
   bool removing = false;
-  bool cleaning = false; ///< What it left is being removed.
-  int deaths = 0;        ///< Of its actor, since it ran last.
+  bool cleaning = false;     ///< What it left is being removed.
+  bool acknowledged = false; ///< The coordinator keeps that it has ended.
+  bool log_dropped = false;  ///< What it left is gone, or is going.
+  int deaths = 0;            ///< Of its actor, since it ran last.
 };
 
 /// A removal that waits for its instances to be gone.

@@ -32,7 +32,7 @@ instance_environment(const instance_spec& spec,
       {"ROSCELL_OUTPUTS", text_of(spec.output)},
       {"ROSCELL_PARAMETERS", spec.parameters.empty() ? "{}" : spec.parameters},
       {"WATCHDOG_USEC",
-       std::to_string(microseconds{limits::instance::watchdog}.count())},
+       std::to_string(microseconds{limits::instance::told_watchdog}.count())},
   };
   for (const auto& [name, value] : contract)
     result[name] = value;

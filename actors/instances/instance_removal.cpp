@@ -77,17 +77,72 @@ void clean_instance(self_pointer self, const std::string& instance) {
       .then(drop_record, on_error);
 }
 
-void trim_ended(self_pointer self) {
+namespace {
+
+/// Ended instances by their ends, the newest first.
+std::vector<std::string> ended_instances(self_pointer self) {
   std::vector<std::pair<int64_t, std::string>> ended;
   for (const auto& [instance, x] : self->state.instances)
     if (!is_live(x.row.state) && !x.removing)
       ended.emplace_back(x.row.since_unix_ms, instance);
-  if (ended.size() <= limits::instance::most_ended)
+  std::sort(ended.rbegin(), ended.rend());
+  std::vector<std::string> result;
+  for (auto& x : ended)
+    result.push_back(std::move(x.second));
+  return result;
+}
+
+/// Removes an ended instance's log; its row stays.
+void drop_log(self_pointer self, const std::string& instance,
+              supervised_instance& x) {
+  if (std::exchange(x.log_dropped, true))
     return;
-  std::sort(ended.begin(), ended.end());
-  ended.resize(ended.size() - limits::instance::most_ended);
-  for (const auto& x : ended)
-    clean_instance(self, x.second);
+  x.row.log_tail.clear();
+  // One that cannot be removed is tried again with its row.
+  self->request(self->state.runtime, limits::instance::cleaning,
+                remove_container{instance, x.row.container})
+      .then([](const container_removed&) {}, [](const caf::error&) {});
+}
+
+/// About what a row takes in a registration.
+size_t bytes_of(const instance_row& row) {
+  constexpr auto rest = limits::kib;
+  size_t result = rest + row.spec.parameters.size() + row.reason.size();
+  for (const auto& [name, value] : row.spec.environment)
+    result += name.size() + value.size();
+  for (const auto* ends : {&row.spec.input, &row.spec.output})
+    for (const auto& x : *ends)
+      result += x.endpoint.size();
+  return result;
+}
+
+} // namespace
+
+void trim_ended(self_pointer self) {
+  size_t kept = 0;
+  size_t bytes = 0;
+  for (const auto& instance : ended_instances(self)) {
+    if (++kept <= limits::instance::most_ended)
+      continue;
+    auto& x = self->state.instances.at(instance);
+    if (!x.acknowledged) {
+      bytes += bytes_of(x.row);
+      if (bytes <= limits::instance::most_unacknowledged_bytes) {
+        drop_log(self, instance, x);
+        continue;
+      }
+    }
+    clean_instance(self, instance);
+  }
+}
+
+void acknowledge_ends(self_pointer self,
+                      const std::vector<std::string>& instances) {
+  for (const auto& instance : instances)
+    if (auto* x = find_instance(self, instance);
+        x != nullptr && !is_live(x->row.state))
+      x->acknowledged = true;
+  trim_ended(self);
 }
 
 caf::result<instances_removed> remove_instances(self_pointer self,

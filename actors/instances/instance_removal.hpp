@@ -20,8 +20,13 @@ supervised_instance* find_instance(container_supervisor_pointer self,
 void clean_instance(container_supervisor_pointer self,
                     const std::string& instance);
 
-/// Keeps the newest rows of ended instances only.
+/// Keeps the newest rows of ended instances only, of older ones those that the
+/// coordinator does not know to have ended, without what they left.
 void trim_ended(container_supervisor_pointer self);
+
+/// The coordinator keeps that these have ended.
+void acknowledge_ends(container_supervisor_pointer self,
+                      const std::vector<std::string>& instances);
 
 /// Ends one instance or all of a task, and replies when they are gone.
 caf::result<instances_removed>

@@ -22,6 +22,9 @@ namespace {
 
 constexpr const char* descriptor_name = "skill.json";
 
+/// Where a build leaves the version of its sources.
+constexpr const char* version_name = "skill.version";
+
 /// The descriptor, or what is wrong with it.
 std::variant<skill_descriptor, std::vector<schema_error>>
 read_descriptor(const std::string& text) {
@@ -39,10 +42,34 @@ read_descriptor(const std::string& text) {
   }
 }
 
+std::string sentence(const edge_error& why) {
+  return why.hint.empty() ? why.message : why.message + " (" + why.hint + ")";
+}
+
+/// A version as schemas/common.schema.json has it.
+bool is_version(const std::string& text) {
+  constexpr size_t max_bytes = 64;
+  return !text.empty() && text.size() <= max_bytes
+         && std::all_of(text.begin(), text.end(),
+                        [](char c) { return c >= '!' && c <= '~'; });
+}
+
+std::string version_of(const fs::path& folder, const installed_skill& skill) {
+  constexpr size_t max_file_bytes = 256;
+  if (!skill.descriptor.version.empty())
+    return skill.descriptor.version;
+  auto text = read_small_file(folder / version_name, max_file_bytes)
+                  .value_or(std::string{});
+  text.erase(std::min(text.find('\n'), text.size()));
+  return is_version(text) ? text : skill.hash;
+}
+
 } // namespace
 
-skill_catalogue skill_catalogue::scan(const std::vector<fs::path>& dirs) {
+skill_catalogue skill_catalogue::scan(const std::vector<fs::path>& dirs,
+                                      const std::string& host) {
   skill_catalogue result;
+  result.host_ = host;
   for (const auto& x : dirs)
     result.scan_directory(x);
   return result;
@@ -88,14 +115,33 @@ void skill_catalogue::add_folder(const fs::path& folder) {
       blame(file, (*errors)[i].expected, (*errors)[i].pointer);
     return;
   }
+  add_build(path, std::get<skill_descriptor>(std::move(descriptor)));
+}
+
+void skill_catalogue::add_build(const fs::path& path,
+                                skill_descriptor descriptor) {
+  const auto program = find_program(path, descriptor.entry_point);
+  if (const auto* why = std::get_if<edge_error>(&program))
+    return blame(path / descriptor_name, sentence(*why), "/entry_point/0");
+  const auto made_for = architecture_of_program(std::get<fs::path>(program));
+  if (!runs_on(made_for, host_))
+    return blame(path,
+                 "is built for " + made_for + ", and this node is " + host_);
+  // Looked at first: what is edited while it is hashed looks otherwise later.
+  const auto look = look_at_folder(path);
   const auto hash = hash_folder(path);
-  if (const auto* why = std::get_if<edge_error>(&hash))
-    return blame(path, why->message);
-  const auto& digits = std::get<std::string>(hash);
+  for (const auto* why :
+       {std::get_if<edge_error>(&look), std::get_if<edge_error>(&hash)})
+    if (why != nullptr)
+      return blame(path, why->message);
+  installed_skill skill{std::get<std::string>(hash), std::move(descriptor)};
+  skill.version = version_of(path, skill);
+  if (!made_for.empty())
+    skill.architectures = {made_for};
+  skill.added_unix_ms = std::get<folder_look>(look).changed_unix_ms;
   // Of two equal folders the first is as good as the other.
-  skills_.emplace(
-      digits,
-      skill_folder{path, {digits, std::get<skill_descriptor>(descriptor)}});
+  skills_.emplace(skill.hash,
+                  skill_folder{path, std::get<folder_look>(look).state, skill});
 }
 
 void skill_catalogue::blame(const fs::path& path, const std::string& message,
@@ -114,6 +160,17 @@ std::vector<installed_skill> skill_catalogue::skills() const {
   std::vector<installed_skill> result;
   for (const auto& [hash, x] : skills_)
     result.push_back(x.skill);
+  return result;
+}
+
+std::vector<skill_problem> skill_catalogue::told_problems() const {
+  std::vector<skill_problem> result;
+  for (size_t i = 0; i < std::min(problems_.size(), limits::skill::told_problems); ++i) {
+    auto x = problems_[i];
+    for (auto* text : {&x.path, &x.where, &x.message})
+      *text = valid_utf8(text->substr(0, limits::skill::told_text_bytes));
+    result.push_back(std::move(x));
+  }
   return result;
 }
 

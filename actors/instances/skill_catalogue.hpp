@@ -1,6 +1,7 @@
 #pragma once
 
 #include "actors/house/house.hpp"
+#include "actors/instances/skill_program.hpp"
 #include "messages/skill.hpp"
 
 #include <filesystem>
@@ -14,14 +15,8 @@ namespace roscell {
 /// A skill that this node can run.
 struct skill_folder {
   std::filesystem::path path; ///< Absolute, without links.
+  std::string look;           ///< When it was hashed: see folder_look.
   installed_skill skill;
-};
-
-/// Why a folder below a skill directory is no skill.
-struct skill_problem {
-  std::string path;    ///< File or folder it is about.
-  std::string where;   ///< JSON pointer into that file, may be empty.
-  std::string message; ///< What is wrong, one sentence.
 };
 
 /// The skills of a node, by content hash. Filled once and then only read, so
@@ -29,8 +24,10 @@ struct skill_problem {
 class skill_catalogue {
 public:
   /// Reads every sub-folder with a `skill.json`. A bad one is left out, and
-  /// the others stay. Blocks on the disk: not for a scheduled actor.
-  static skill_catalogue scan(const std::vector<std::filesystem::path>& dirs);
+  /// the others stay: one without its program, or with a program for another
+  /// machine than `host`, too. Blocks on the disk: not for a scheduled actor.
+  static skill_catalogue scan(const std::vector<std::filesystem::path>& dirs,
+                              const std::string& host = own_architecture());
 
   /// Null if there is none with that hash.
   const skill_folder* find(const std::string& hash) const;
@@ -42,15 +39,21 @@ public:
     return problems_;
   }
 
+  /// The first of them, short enough for a message.
+  std::vector<skill_problem> told_problems() const;
+
   /// Records a fact for every problem.
   void tell_problems(const house& context) const;
 
 private:
   void scan_directory(const std::filesystem::path& directory);
   void add_folder(const std::filesystem::path& folder);
+  void add_build(const std::filesystem::path& path,
+                 skill_descriptor descriptor);
   void blame(const std::filesystem::path& path, const std::string& message,
              std::string where = {});
 
+  std::string host_;
   std::map<std::string, skill_folder> skills_;
   std::vector<skill_problem> problems_;
 };

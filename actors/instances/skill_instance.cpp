@@ -33,20 +33,6 @@ void on_stop(self_pointer self, const std::string& reason) {
     take_down(self, instance_state::stopped, reason);
 }
 
-void on_notified(self_pointer self, const instance_notified& x) {
-  auto& st = self->state;
-  if (st.concluding)
-    return;
-  if (x.ready && st.row.state == instance_state::starting) {
-    st.ready = true;
-    // Else the runtime's answer is still on its way.
-    if (!st.row.container.empty())
-      return on_running(self);
-  }
-  if (x.alive && st.row.state == instance_state::running)
-    limit(self, limits::instance::watchdog);
-}
-
 void on_exited(self_pointer self, const container_exited& x) {
   auto& st = self->state;
   if (st.concluding || x.container != st.row.container)
@@ -62,13 +48,23 @@ void on_exited(self_pointer self, const container_exited& x) {
              "it ended " + exit_words(x.exit_code) + " before it was ready");
 }
 
-void on_alarm(self_pointer self) {
+/// The deadline has passed. Nobody is judged before what waits at its socket
+/// has been read: where this process was stopped or starved, words lie there.
+void listen_before_judging(self_pointer self) {
+  auto& st = self->state;
+  st.listening = true;
+  self->send(st.config.runtime, hear_container{st.row.spec.instance});
+  limit(self, limits::instance::hearing);
+}
+
+/// Nothing was to be heard.
+void judge(self_pointer self) {
   using std::to_string;
   auto& st = self->state;
-  if (!st.deadline)
-    return;
-  if (self->clock().now() < *st.deadline)
-    return st.timer.set(self, *st.deadline);
+  st.listening = false;
+  // Where we were stopped the program may have been, too.
+  if (st.was_away && !std::exchange(st.excused, true))
+    return limit(self, limits::instance::pause_grace);
   if (st.row.state == instance_state::running)
     // What hangs does not listen, so force comes at once.
     take_down(self, instance_state::failed,
@@ -79,6 +75,40 @@ void on_alarm(self_pointer self) {
     take_down(self, instance_state::failed,
               "it was not ready within "
                   + to_string(limits::instance::ready.count()) + " s");
+}
+
+void on_alarm(self_pointer self) {
+  auto& st = self->state;
+  if (!st.deadline)
+    return;
+  const auto now = self->clock().now();
+  if (now < *st.deadline)
+    return st.timer.set(self, *st.deadline);
+  st.was_away =
+      st.was_away || now - *st.deadline > limits::instance::pause_tolerance;
+  listen_before_judging(self);
+}
+
+void on_sign_of_life(self_pointer self) {
+  auto& st = self->state;
+  st.listening = st.was_away = st.excused = false;
+  limit(self, limits::instance::watchdog);
+}
+
+void on_notified(self_pointer self, const instance_notified& x) {
+  auto& st = self->state;
+  if (st.concluding)
+    return;
+  if (x.ready && st.row.state == instance_state::starting) {
+    st.ready = true;
+    // Else the runtime's answer is still on its way.
+    if (!st.row.container.empty())
+      return on_running(self);
+  }
+  if (x.alive && st.row.state == instance_state::running)
+    on_sign_of_life(self);
+  if (x.heard && st.listening)
+    judge(self);
 }
 
 json describe(const skill_instance_state& st) {

@@ -35,6 +35,16 @@ struct skill_instance_state {
   /// READY=1 came before the runtime's answer.
   bool ready = false;
 
+  /// Its deadline has passed, and the last words are being heard.
+  bool listening = false;
+
+  /// The deadline was noticed late: this process, or the whole host, was
+  /// stopped, and maybe the program, too.
+  bool was_away = false;
+
+  /// It has been given time for that since its last word.
+  bool excused = false;
+
   /// It has ended, and only the end of its log is waited for.
   bool concluding = false;
 

@@ -62,8 +62,8 @@ void build(self_pointer self) {
   ask<image_prepared>(
       self, st.config.runtime, limits::instance::build,
       prepare_image{st.row.spec.instance, st.row.spec.operation,
-                    folder->path.string(), folder->skill.hash, command,
-                    option->base_image},
+                    folder->path.string(), folder->skill.hash, folder->look,
+                    command, option->base_image},
       [=, chosen = *option](const image_prepared& x) {
         on_built(self, x.image, command, chosen);
       },

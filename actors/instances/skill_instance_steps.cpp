@@ -47,6 +47,7 @@ void set_state(self_pointer self, instance_state next,
   auto& st = self->state;
   ++st.phase;
   st.deadline.reset();
+  st.listening = st.was_away = st.excused = false;
   st.row.state = next;
   st.row.since_unix_ms = unix_now_ms();
   // It may quote a path, which may have any bytes.

@@ -34,6 +34,7 @@ struct membership_parts {
 struct membership_config {
   node_identity identity; ///< With the epoch that was stored last.
   std::vector<installed_skill> skills;
+  std::vector<skill_problem> refused_skills;
   /// As an earlier run has stored it. One of a cell is taken up at once.
   std::optional<membership_record> restored;
   std::string configured; ///< How the node is started now; see the record.

@@ -27,6 +27,18 @@ auto give_up(self_pointer self) {
 
 // -- registering -------------------------------------------------------------
 
+/// The coordinator has answered to what it was told, so what had ended then
+/// need not be told again.
+void acknowledge_ends(self_pointer self) {
+  const auto& st = self->state;
+  ends_acknowledged fact;
+  for (const auto& row : *st.instances)
+    if (!is_live(row.state))
+      fact.instances.push_back(row.spec.instance);
+  if (!fact.instances.empty())
+    self->send(st.parts.supervisor, std::move(fact));
+}
+
 void on_registered(self_pointer self, const node_registered& reply) {
   auto& st = self->state;
   if (reply.incarnation != st.opened->incarnation)
@@ -48,6 +60,7 @@ void on_registered(self_pointer self, const node_registered& reply) {
         {"coordinator", st.coordinator},
         {"incarnation", st.incarnation},
         {"epoch", st.config.identity.epoch}});
+  acknowledge_ends(self);
   apply(self, reply.verdicts);
   for (const auto& [instance, fact] : std::exchange(st.unsent, {}))
     notify(self, fact);
@@ -70,6 +83,7 @@ node_registration registration_of(const membership_status& st) {
   result.resources = *st.resources;
   result.resources.name = st.config.identity.name;
   result.skills = st.config.skills;
+  result.refused_skills = st.config.refused_skills;
   result.instances = *st.instances;
   result.origin = st.origin;
   if (st.switching)

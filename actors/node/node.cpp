@@ -39,6 +39,7 @@ node_description first_draft(self_pointer self, const node_query& query) {
   result.runtime = parts.config.runtime;
   result.started_unix_ms = self->state.started_unix_ms;
   result.skills = parts.skills;
+  result.refused_skills = parts.refused_skills;
   result.stored_bytes = static_cast<int64_t>(parts.database->bytes_written());
   if (query.actors)
     result.actors = parts.context.directory->rows();

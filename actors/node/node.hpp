@@ -24,6 +24,7 @@ struct node_parts {
   node_agent_actor agent;
   std::vector<installed_skill> skills;
   request_router_actor router;
+  std::vector<skill_problem> refused_skills;
   std::vector<caf::actor> children; ///< In the order of their start.
 };
 

@@ -68,6 +68,9 @@ resource_report complete(self_pointer self, node_resources resources,
     if (std::find(resources.devices.begin(), resources.devices.end(), device)
         == resources.devices.end())
       resources.devices.push_back(device);
+  // Before our instances count: reservations are never floored.
+  resources.cpu_compressible =
+      compressible_cpu(resources.cpu, config.cpu_floor);
   for (const auto& x : instances)
     if (is_live(x.state))
       reserve(resources, x.spec.resources, x.spec.gpu);
@@ -133,6 +136,8 @@ caf::result<instances_reserved> keep(self_pointer self,
       return;
     }
     instances_reserved reply;
+    if (wish.cpu_floor)
+      read_with_cpu_floor(now->resources);
     for (const auto& spec : wish.specs)
       if (auto why = keep_room(self, now->resources, spec))
         reply.refused.push_back({spec.instance, *why});

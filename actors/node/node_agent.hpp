@@ -16,6 +16,8 @@ struct node_agent_config {
   std::vector<std::string> devices; ///< Offered besides those found.
   container_supervisor_actor supervisor;
   resource_probe_actor probe;
+  /// Part of the cores that a new process gets beside busy programs.
+  double cpu_floor = 0;
 };
 
 /// Answers for the local node what a coordinator asks of it.

@@ -14,6 +14,7 @@
 #include "actors/node/resource_probe.hpp"
 #include "actors/node/state_store.hpp"
 #include "actors/placement/scheduler.hpp"
+#include "actors/placement/searcher.hpp"
 #include "actors/requests/handlers/registry.hpp"
 #include "actors/requests/request_router.hpp"
 #include "actors/requests/rest.hpp"
@@ -148,6 +149,7 @@ private:
         std::make_shared<skill_catalogue>(skill_catalogue::scan(dirs));
     catalogue->tell_problems(parts_.context);
     parts_.skills = catalogue->skills();
+    parts_.refused_skills = catalogue->told_problems();
     catalogue_ = std::move(catalogue);
   }
 
@@ -173,7 +175,8 @@ private:
     parts_.agent =
         start(node_agent,
               node_agent_config{config.name, config.labels, config.devices,
-                                parts_.services->supervisor, probe});
+                                parts_.services->supervisor, probe,
+                                config.cpu_floor});
   }
 
   void start_coordination() {
@@ -184,6 +187,7 @@ private:
     setup.incarnation = data_.incarnation;
     setup.self = parts_.identity;
     setup.skills = parts_.skills;
+    setup.refused_skills = parts_.refused_skills;
     setup.agent = parts_.agent;
     setup.supervisor = parts_.services->supervisor;
     setup.store = store_;
@@ -197,7 +201,7 @@ private:
         {"ROS_DISCOVERY_SERVER", std::string(parts_.edges->server_id, ';')
                                      + parts_.edges->discovery_server}};
     setup.searches = std::make_shared<search_guard>();
-    setup.scheduler = start<caf::detached>(scheduler, setup.searches);
+    setup.scheduler = start_scheduler(setup.searches);
     setup.discovery = start_discovery();
     setup.connector = start_connector();
     setup.registration = start(
@@ -212,6 +216,14 @@ private:
         system_, parts_.context, *parts_.edges,
         {config.name, parts_.identity.uuid, config.cell, data_.incarnation},
         data_.site_token, coordinator);
+  }
+
+  scheduler_actor start_scheduler(std::shared_ptr<search_guard> guard) {
+    auto make = [&system = system_, context = parts_.context](
+                    auto searches, const scheduler_actor& owner) {
+      return spawn<caf::detached>(system, context, searcher, searches, owner);
+    };
+    return start(scheduler, scheduler_config{std::move(guard), make});
   }
 
   discovery_actor start_discovery() {
@@ -235,6 +247,7 @@ private:
     membership_config result;
     result.identity = parts_.identity;
     result.skills = parts_.skills;
+    result.refused_skills = parts_.refused_skills;
     result.restored = data_.membership;
     result.configured = config.wait ? "wait" : config.join;
     result.site_token = data_.site_token;

@@ -37,6 +37,9 @@ struct node_config {
   std::filesystem::path site_token_file; ///< Empty: loopback sessions only.
   std::filesystem::path shim; ///< roscell-instance-shim; empty: beside us.
   std::string capacity;       ///< "cpu=2,memory_mib=2048"; empty: all.
+  /// Part of its cores on which the node counts however busy other programs
+  /// keep them; 0: none.
+  double cpu_floor = 0.25;
   std::map<std::string, std::string> labels;
   std::vector<std::string> devices; ///< Offered besides those found.
   uint64_t log_bytes = 1024 * 1024; ///< Bound of one instance's log.

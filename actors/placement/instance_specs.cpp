@@ -17,9 +17,16 @@ std::string random_suffix() {
   return text;
 }
 
-const deployment_option& chosen_option(const resolved_step& step,
+/// The build that a step was placed with.
+const skill_build& chosen_build(const resolved_step& step,
+                                const step_allocation& placed) {
+  return *std::find_if(step.builds.begin(), step.builds.end(),
+                       [&](const auto& x) { return x.hash == placed.build; });
+}
+
+const deployment_option& chosen_option(const implementation_model& model,
                                        const std::string& name) {
-  const auto& options = step.model.deployments;
+  const auto& options = model.deployments;
   return *std::find_if(options.begin(), options.end(),
                        [&](const auto& x) { return x.name == name; });
 }
@@ -39,7 +46,8 @@ std::vector<instance_spec> make_specs(const allocated_task& task) {
   for (size_t i = 0; i < task.steps.size(); ++i) {
     const auto& x = task.steps[i];
     const auto& placed = task.plan.allocations[i];
-    const auto& option = chosen_option(x, placed.deployment);
+    const auto& build = chosen_build(x, placed);
+    const auto& option = chosen_option(build.model, placed.deployment);
     instance_spec spec;
     spec.instance = task.request.task + "-" + x.step.id + "-" + random_suffix();
     spec.task = task.request.task;
@@ -47,11 +55,12 @@ std::vector<instance_spec> make_specs(const allocated_task& task) {
     spec.operation = x.step.operation;
     spec.model = x.step.model;
     spec.deployment = option.name;
-    spec.skill = x.skill.hash;
+    spec.skill = build.hash;
     spec.gpu = placed.gpu;
     spec.input = x.step.input;
     spec.output = x.step.output;
-    spec.parameters = merge_parameters(x.model.parameters, x.step.parameters);
+    spec.parameters =
+        merge_parameters(build.model.parameters, x.step.parameters);
     spec.environment = option.environment;
     spec.resources = option.resources;
     result.push_back(std::move(spec));

@@ -4,6 +4,7 @@
 #include "actors/placement/search/report/reasons.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace roscell {
 
@@ -23,6 +24,17 @@ const gpu_resources* find_gpu(const node_resources& node, int index) {
 }
 
 } // namespace
+
+double compressible_cpu(const amount& of_others, double floor) {
+  if (floor <= 0)
+    return 0;
+  return std::max(0.0, of_others.used - of_others.capacity * (1 - floor));
+}
+
+void read_with_cpu_floor(node_resources& node) {
+  node.cpu.used =
+      std::max(0.0, node.cpu.used - std::exchange(node.cpu_compressible, 0));
+}
 
 void reserve(node_resources& node, const resource_request& request, int gpu) {
   node.cpu.used += request.cpu;

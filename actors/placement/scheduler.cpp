@@ -1,12 +1,7 @@
 #include "actors/placement/scheduler.hpp"
 
-#include "actors/house/limits.hpp"
-#include "actors/placement/task_allocation.hpp"
-#include "messages/failure.hpp"
-
-#include <set>
-#include <string>
-#include <utility>
+#include <caf/actor_cast.hpp>
+#include <caf/result.hpp>
 
 namespace roscell {
 
@@ -14,40 +9,45 @@ namespace {
 
 using self_pointer = scheduler_actor::stateful_pointer<scheduler_state>;
 
-caf::result<task_plan> answer(self_pointer self, const allocate_task& asked) {
-  auto& guard = *self->state.guard;
-  std::set<std::string> nodes;
-  for (const auto& node : asked.nodes)
-    nodes.insert(node.name);
-  guard.begin(std::move(nodes));
-  auto outcome = allocate(asked, limits::task::allocation_budget,
-                          [&guard] { return guard.must_stop(); });
-  if (const auto gone = guard.end(); !gone.empty()) {
-    ++self->state.interrupted;
-    return fail(error_code::conflict,
-                "node '" + gone + "' left while the task was being placed",
-                "/pipeline", "send the request again");
+/// The searcher for live tasks or for plan queries. Nobody waits with a task's
+/// turn for a plan, so no node that leaves ends the search for one.
+const scheduler_actor& searcher_for(self_pointer self, bool trial) {
+  auto& st = self->state;
+  auto& result = trial ? st.trial : st.live;
+  if (!result) {
+    result = st.config.make_searcher(
+        trial ? std::make_shared<search_guard>() : st.config.guard,
+        caf::actor_cast<scheduler_actor>(self));
+    self->monitor(result);
   }
-  if (auto* problem = std::get_if<failure>(&outcome)) {
-    ++self->state.refusals;
-    return to_error(*problem);
-  }
-  ++self->state.plans;
-  return std::get<task_plan>(std::move(outcome));
+  return result;
+}
+
+caf::result<task_plan> hand_on(self_pointer self, const allocate_task& asked) {
+  ++(asked.trial ? self->state.trials : self->state.questions);
+  return self->delegate(searcher_for(self, asked.trial), asked);
+}
+
+void on_searcher_down(self_pointer self, const caf::down_msg& down) {
+  auto& st = self->state;
+  for (auto* x : {&st.live, &st.trial})
+    if (*x && x->address() == down.source)
+      *x = nullptr;
 }
 
 } // namespace
 
 scheduler_actor::behavior_type scheduler(self_pointer self,
-                                         std::shared_ptr<search_guard> guard) {
-  self->state.guard = std::move(guard);
+                                         const scheduler_config& config) {
+  self->state.config = config;
+  self->set_down_handler(
+      [self](const caf::down_msg& down) { on_searcher_down(self, down); });
   return {
       [self](const state_query&) {
-        return state_of({{"plans", self->state.plans},
-                         {"refusals", self->state.refusals},
-                         {"interrupted", self->state.interrupted}});
+        return state_of({{"questions", self->state.questions},
+                         {"trials", self->state.trials}});
       },
-      [self](const allocate_task& asked) { return answer(self, asked); },
+      [self](const allocate_task& asked) { return hand_on(self, asked); },
   };
 }
 

@@ -1,6 +1,7 @@
 #include "actors/placement/skill_resolution.hpp"
 
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -29,36 +30,41 @@ const implementation_model* find_model(const skill_descriptor& descriptor,
   return nullptr;
 }
 
-/// The skill of a step, and where its other parts are looked up.
+int64_t added_on(const skill_row& row, size_t node) {
+  return node < row.added_unix_ms.size() ? row.added_unix_ms[node] : 0;
+}
+
+int64_t last_added(const skill_row& row) {
+  const auto& xs = row.added_unix_ms;
+  return xs.empty() ? 0 : *std::max_element(xs.begin(), xs.end());
+}
+
+/// A build that may do the step, and what of it does so.
+struct fitting_build {
+  const skill_row* row;
+  implementation_model model;
+};
+
+/// Leaves only the builds that can do a step, rule by rule. Where a rule
+/// leaves none, it says why.
 class step_resolver {
 public:
   step_resolver(const task_step& step, const std::vector<skill_row>& skills,
                 std::string pointer)
       : step_(step), pointer_(std::move(pointer)) {
-    for (const auto& row : skills)
-      if (row.skill.descriptor.operation == step.operation)
-        candidates_.push_back(&row);
-    if (candidates_.empty())
-      refuse(error_code::unknown_operation, "/operation",
-             "no skill of this cell does '" + step.operation + "'",
-             "the operations are: " + names_of(skills, [](const skill_row& x) {
-               return x.skill.descriptor.operation;
-             }));
+    keep_operation(skills);
   }
 
   std::variant<resolved_step, failure> resolve() {
-    if (!problem_)
-      choose_row();
-    if (!problem_)
-      choose_deployments();
-    if (!problem_)
-      check_ports("/input", step_.input, result_.skill.descriptor.input);
-    if (!problem_)
-      check_ports("/output", step_.output, result_.skill.descriptor.output);
+    for (auto rule :
+         {&step_resolver::keep_build, &step_resolver::keep_model,
+          &step_resolver::keep_deployment, &step_resolver::keep_ports}) {
+      if (!problem_)
+        (this->*rule)();
+    }
     if (problem_)
       return *problem_;
-    result_.step = step_;
-    return std::move(result_);
+    return resolved_step{step_, builds()};
   }
 
 private:
@@ -68,46 +74,102 @@ private:
         failure{code, std::move(message), pointer_ + place, std::move(hint)};
   }
 
-  void choose_row() {
-    const skill_row* best = nullptr;
-    for (const auto* row : candidates_)
-      if (find_model(row->skill.descriptor, step_.model)
-          && (!best || row->nodes.size() > best->nodes.size()))
-        best = row;
-    if (!best) {
-      std::vector<implementation_model> models;
-      for (const auto* row : candidates_)
-        models.insert(models.end(), row->skill.descriptor.models.begin(),
-                      row->skill.descriptor.models.end());
+  template <class Predicate>
+  void keep_if(Predicate fits) {
+    candidates_.erase(
+        std::remove_if(candidates_.begin(), candidates_.end(),
+                       [&](fitting_build& x) { return !fits(x); }),
+        candidates_.end());
+  }
+
+  void keep_operation(const std::vector<skill_row>& skills) {
+    for (const auto& row : skills)
+      if (row.skill.descriptor.operation == step_.operation)
+        candidates_.push_back({&row, {}});
+    std::stable_sort(candidates_.begin(), candidates_.end(),
+                     [](const auto& x, const auto& y) {
+                       return last_added(*x.row) > last_added(*y.row);
+                     });
+    if (candidates_.empty())
+      refuse(error_code::unknown_operation, "/operation",
+             "no skill of this cell does '" + step_.operation + "'",
+             "the operations are: " + names_of(skills, [](const skill_row& x) {
+               return x.skill.descriptor.operation;
+             }));
+  }
+
+  void keep_build() {
+    constexpr size_t shown_digits = 12;
+    const auto known = names_of(candidates_, [](const fitting_build& x) {
+      return x.row->skill.hash.substr(0, shown_digits);
+    });
+    keep_if([&](const fitting_build& x) {
+      return x.row->skill.hash.compare(0, step_.build.size(), step_.build) == 0;
+    });
+    if (candidates_.empty())
+      refuse(error_code::unknown_operation, "/build",
+             "no node of this cell has a build '" + step_.build + "' of '"
+                 + step_.operation + "'",
+             "its builds are: " + known);
+  }
+
+  void keep_model() {
+    std::vector<implementation_model> models;
+    for (const auto& x : candidates_)
+      models.insert(models.end(), x.row->skill.descriptor.models.begin(),
+                    x.row->skill.descriptor.models.end());
+    keep_if([&](fitting_build& x) {
+      const auto* model = find_model(x.row->skill.descriptor, step_.model);
+      if (model != nullptr)
+        x.model = *model;
+      return model != nullptr;
+    });
+    if (candidates_.empty())
       refuse(error_code::unknown_model, "/model",
              "'" + step_.operation + "' has no model '" + step_.model + "'",
              "its models are: "
                  + names_of(models, [](const implementation_model& x) {
                      return x.name;
                    }));
-      return;
-    }
-    result_.skill = best->skill;
-    result_.nodes = best->nodes;
-    result_.model = *find_model(best->skill.descriptor, step_.model);
   }
 
-  void choose_deployments() {
+  void keep_deployment() {
     if (step_.deployment.empty())
       return;
-    auto& options = result_.model.deployments;
-    const auto known =
-        names_of(options, [](const deployment_option& x) { return x.name; });
-    options.erase(std::remove_if(options.begin(), options.end(),
-                                 [&](const auto& x) {
-                                   return x.name != step_.deployment;
-                                 }),
-                  options.end());
-    if (options.empty())
+    std::vector<deployment_option> known;
+    keep_if([&](fitting_build& x) {
+      auto& options = x.model.deployments;
+      known.insert(known.end(), options.begin(), options.end());
+      options.erase(std::remove_if(options.begin(), options.end(),
+                                   [&](const auto& option) {
+                                     return option.name != step_.deployment;
+                                   }),
+                    options.end());
+      return !options.empty();
+    });
+    if (candidates_.empty())
       refuse(error_code::unknown_deployment, "/deployment",
              "model '" + step_.model + "' has no deployment option '"
                  + step_.deployment + "'",
-             "its deployment options are: " + known);
+             "its deployment options are: "
+                 + names_of(known,
+                            [](const deployment_option& x) { return x.name; }));
+  }
+
+  /// What the newest build does not take is said where none takes it.
+  void keep_ports() {
+    std::optional<failure> first;
+    keep_if([&](const fitting_build& x) {
+      const auto& descriptor = x.row->skill.descriptor;
+      check_ports("/input", step_.input, descriptor.input);
+      if (!problem_)
+        check_ports("/output", step_.output, descriptor.output);
+      if (!first)
+        first = problem_;
+      return !std::exchange(problem_, std::nullopt);
+    });
+    if (candidates_.empty())
+      problem_ = first;
   }
 
   void check_ports(const std::string& place,
@@ -136,11 +198,36 @@ private:
                + names_of(known, [](const std::string& x) { return x; }));
   }
 
+  /// The node of each build on which no newer one is left.
+  std::vector<skill_build> builds() {
+    std::map<std::string, std::pair<int64_t, size_t>> newest; // by node
+    for (size_t i = 0; i < candidates_.size(); ++i) {
+      const auto& row = *candidates_[i].row;
+      for (size_t n = 0; n < row.nodes.size(); ++n) {
+        const auto added = added_on(row, n);
+        const auto [known, is_first] =
+            newest.try_emplace(row.nodes[n], added, i);
+        if (!is_first && added > known->second.first)
+          known->second = {added, i};
+      }
+    }
+    std::vector<skill_build> result;
+    for (auto& x : candidates_)
+      result.push_back({x.row->skill.hash, std::move(x.model), {}});
+    for (const auto& [node, choice] : newest)
+      result[choice.second].nodes.push_back(node);
+    if (!newest.empty())
+      result.erase(
+          std::remove_if(result.begin(), result.end(),
+                         [](const auto& x) { return x.nodes.empty(); }),
+          result.end());
+    return result;
+  }
+
   const task_step& step_;
   std::string pointer_;
-  std::vector<const skill_row*> candidates_;
+  std::vector<fitting_build> candidates_; ///< The newest first.
   std::optional<failure> problem_;
-  resolved_step result_;
 };
 
 } // namespace

@@ -8,13 +8,15 @@
 
 namespace roscell {
 
-/// Finds for each step the skill, the model and the deployments to choose from.
-/// Where nodes have different versions of a skill, the one that most nodes have
-/// is taken. `where` of an error points below `pointer`, the JSON pointer of
-/// the pipeline.
+/// Finds for each step the builds that can do it, with their deployments to
+/// choose from. On each node the candidate is, of the builds that fit the step,
+/// the one that was added last, so builds for other architectures and other
+/// versions do not keep each other from being chosen. `where` of an error
+/// points below `pointer`, the JSON pointer of the pipeline.
 ///
-/// Errors: unknown_operation, unknown_model, unknown_deployment, and
-/// schema_violation for a protocol or data type that the skill does not take.
+/// Errors: unknown_operation (also where no build has the digits that the step
+/// names), unknown_model, unknown_deployment, and schema_violation for a
+/// protocol or data type that the skill does not take.
 std::variant<std::vector<resolved_step>, failure>
 resolve_steps(const std::vector<task_step>& pipeline,
               const std::vector<skill_row>& skills,

@@ -1,10 +1,11 @@
 #include "actors/placement/task_allocation.hpp"
 
 #include "actors/house/limits.hpp"
-#include "actors/placement/search/allocation.hpp"
+#include "actors/placement/search/cpu_floor.hpp"
 #include "actors/placement/search/report/alternative.hpp"
 #include "actors/placement/search/report/use.hpp"
 #include "actors/placement/skill_resolution.hpp"
+#include "actors/placement/step_ways.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -26,23 +27,11 @@ allocation::node convert(const node_resources& x) {
                           convert(x.disk_mib),
                           {},
                           x.labels,
-                          x.devices};
+                          x.devices,
+                          x.cpu_compressible};
   for (const auto& gpu : x.gpus)
     result.gpus.push_back({gpu.index, convert(gpu.memory_mib)});
   return result;
-}
-
-allocation::deployment convert(const deployment_option& x) {
-  const auto& r = x.resources;
-  return {x.name,
-          x.architectures,
-          r.cpu,
-          r.memory_mib,
-          r.disk_mib,
-          r.needs_gpu(),
-          r.needs_gpu() ? r.gpu_memory_mib : 0,
-          x.devices,
-          x.labels};
 }
 
 /// Position of what a name is of; the size of the list if of none.
@@ -58,40 +47,41 @@ size_t step_position(const allocate_task& asked, const std::string& id) {
   return position(asked.steps, id, [](const auto& x) { return x.step.id; });
 }
 
-void add_exclusion(const allocate_task& asked, const excluded_candidate& x,
-                   allocation::problem& to) {
+std::vector<step_ways> ways_of(const allocate_task& asked) {
+  return {asked.steps.begin(), asked.steps.end()};
+}
+
+void add_exclusion(const allocate_task& asked,
+                   const std::vector<step_ways>& ways,
+                   const excluded_candidate& x, allocation::problem& to) {
   auto by_name = [](const auto& y) { return y.name; };
   const auto step = step_position(asked, x.step);
   if (step == asked.steps.size())
     return;
-  to.excluded.push_back(
-      {step, position(asked.nodes, x.node, by_name),
-       position(asked.steps[step].model.deployments, x.deployment, by_name),
-       x.gpu, x.reason});
+  to.excluded.push_back({step, position(asked.nodes, x.node, by_name),
+                         ways[step].find(x.deployment, x.node), x.gpu, x.reason,
+                         x.cpu_floor});
 }
 
-allocation::problem convert(const allocate_task& asked) {
+allocation::problem convert(const allocate_task& asked,
+                            const std::vector<step_ways>& ways) {
   allocation::problem result;
   for (const auto& node : asked.nodes)
     result.nodes.push_back(convert(node));
-  for (const auto& x : asked.steps) {
-    allocation::step step{
-        x.step.id, {}, x.step.labels, {x.nodes.begin(), x.nodes.end()}};
-    for (const auto& option : x.model.deployments)
-      step.deployments.push_back(convert(option));
-    result.steps.push_back(std::move(step));
-  }
+  for (const auto& x : ways)
+    result.steps.push_back(x.to_search());
   for (const auto& x : asked.excluded)
-    add_exclusion(asked, x, result);
+    add_exclusion(asked, ways, x, result);
   return result;
 }
 
 /// Puts names where the search speaks of positions.
 class plan_writer {
 public:
-  plan_writer(const allocate_task& asked, const allocation::result& found,
+  plan_writer(const allocate_task& asked, const std::vector<step_ways>& ways,
+              const allocation::result& found,
               double alpha = allocation::problem{}.alpha)
-      : asked_(asked), found_(found), alpha_(alpha) {}
+      : asked_(asked), ways_(ways), found_(found), alpha_(alpha) {}
 
   task_plan plan() const {
     task_plan result;
@@ -125,7 +115,7 @@ public:
     for (const auto& x : found_.rejected) {
       rejected_candidate row{step(x.step).step.id,
                              asked_.nodes[x.node].name,
-                             deployment(x.step, x.deployment),
+                             ways_[x.step].name(x.deployment),
                              {},
                              {},
                              x.gpu};
@@ -138,7 +128,9 @@ public:
         row.causes.push_back({allocation::to_string(reason.kind), reason.needed,
                               std::max(0.0, reason.free), reason.short_by});
       }
-      result.push_back(std::move(row));
+      // A node without the skill lacks each way of it that has this name.
+      if (std::find(result.begin(), result.end(), row) == result.end())
+        result.push_back(std::move(row));
     }
     return result;
   }
@@ -148,25 +140,29 @@ private:
     return asked_.steps[i];
   }
 
-  std::string deployment(size_t step_index, size_t i) const {
-    return step(step_index).model.deployments[i].name;
-  }
-
   step_allocation describe(const allocation::placement& x) const {
+    const auto& ways = ways_[x.step];
+    const auto& node = asked_.nodes[x.node].name;
     return {step(x.step).step.id,
-            asked_.nodes[x.node].name,
-            deployment(x.step, x.deployment),
+            node,
+            ways.name(x.deployment),
             x.gpu,
             {x.shares.cpu, x.shares.memory, x.shares.disk,
              x.shares.gpu_memory.value_or(-1)},
             x.variance,
-            x.bonus};
+            x.bonus,
+            ways.build(x.deployment, node)};
   }
 
   const allocate_task& asked_;
+  const std::vector<step_ways>& ways_;
   const allocation::result& found_;
   double alpha_;
 };
+
+constexpr const char* busy_cores =
+    "other programs keep the cores busy: what they use counts up to each "
+    "node's --cpu-floor only";
 
 std::vector<resource_use> uses_in(const allocate_task& asked,
                                   const allocation::problem& problem,
@@ -179,11 +175,12 @@ std::vector<resource_use> uses_in(const allocate_task& asked,
 }
 
 step_alternative alternative_to(const allocate_task& asked,
+                                const std::vector<step_ways>& ways,
                                 const allocation::problem& problem,
                                 const allocation::result& chosen, size_t step,
                                 const allocation::limits& limits) {
   const auto other = allocation::alternative(problem, chosen, step, limits);
-  const plan_writer writer{asked, other, problem.alpha};
+  const plan_writer writer{asked, ways, other, problem.alpha};
   step_alternative result;
   result.step = asked.steps[step].step.id;
   result.optimal = other.optimal() && chosen.optimal();
@@ -197,7 +194,8 @@ step_alternative alternative_to(const allocate_task& asked,
   return result;
 }
 
-failure refusal(const allocate_task& asked, const allocation::result& found) {
+failure refusal(const allocate_task& asked, const std::vector<step_ways>& ways,
+                const allocation::result& found) {
   using allocation::outcome;
   if (found.what == outcome::invalid)
     return {error_code::schema_violation, found.message, "",
@@ -208,7 +206,7 @@ failure refusal(const allocate_task& asked, const allocation::result& found) {
   failure result{error_code::no_feasible_allocation, found.message, "/pipeline",
                  "`rejected` says for each candidate what is in the way"};
   result.details =
-      json{{"rejected", plan_writer{asked, found}.rejected()}}.dump();
+      json{{"rejected", plan_writer{asked, ways, found}.rejected()}}.dump();
   return result;
 }
 
@@ -225,14 +223,19 @@ allocate(const allocate_task& asked, std::chrono::milliseconds budget,
   allocation::limits limits;
   limits.budget = budget;
   limits.cancelled = cancelled;
-  const auto problem = convert(asked);
-  const auto found = allocation::allocate(problem, limits);
-  if (!found.has_allocation())
-    return refusal(asked, found);
-  auto plan = plan_writer{asked, found, problem.alpha}.plan();
-  plan.use = uses_in(asked, problem, found);
+  const auto ways = ways_of(asked);
+  const auto problem = convert(asked, ways);
+  const auto made = allocation::allocate_with_floor(problem, limits);
+  if (!made.found.has_allocation())
+    return refusal(asked, ways, made.found);
+  auto plan = plan_writer{asked, ways, made.found, problem.alpha}.plan();
+  if ((plan.cpu_floor = made.cpu_floor))
+    plan.warnings.emplace_back(busy_cores);
+  // As it is, however the CPU was read.
+  plan.use = uses_in(asked, problem, made.found);
   if (!asked.why.empty())
-    plan.alternatives = {alternative_to(asked, problem, found, why, limits)};
+    plan.alternatives = {
+        alternative_to(asked, ways, made.read, made.found, why, limits)};
   return plan;
 }
 
@@ -240,7 +243,8 @@ std::variant<task_plan, failure> allocate_offline(const plan_document& document,
                                                   const std::string& why) {
   std::vector<skill_row> skills;
   for (const auto& descriptor : document.skills) {
-    skill_row row{{"", descriptor}, {}};
+    skill_row row;
+    row.skill.descriptor = descriptor;
     for (const auto& node : document.nodes)
       row.nodes.push_back(node.name);
     skills.push_back(std::move(row));
@@ -249,12 +253,15 @@ std::variant<task_plan, failure> allocate_offline(const plan_document& document,
       resolve_steps(document.request.pipeline, skills, "/request/pipeline");
   if (auto* problem = std::get_if<failure>(&steps))
     return std::move(*problem);
-  return allocate({document.request.task,
-                   std::get<std::vector<resolved_step>>(std::move(steps)),
-                   document.nodes,
-                   {},
-                   why},
-                  limits::task::offline_allocation_budget);
+  allocate_task asked{document.request.task,
+                      std::get<std::vector<resolved_step>>(std::move(steps)),
+                      document.nodes,
+                      {},
+                      why};
+  // The numbers on paper are meant as they stand.
+  for (auto& node : asked.nodes)
+    node.cpu_compressible = 0;
+  return allocate(asked, limits::task::offline_allocation_budget);
 }
 
 } // namespace roscell

@@ -32,6 +32,7 @@ constexpr std::pair<std::string_view, std::string_view> forms[] = {
     {"gone", "00000000-0000-4000-8000-00000000000N"},
     {"registration_challenge.state", "joining"},
     {"kind", "memory"},
+    {"build", "H"},
 };
 
 std::string_view form_of(std::string_view type, std::string_view field) {

@@ -108,6 +108,8 @@ std::vector<trial> part_trials() {
       try_part<implementation_model>("implementation_model"),
       try_part<installed_skill>("installed_skill"),
       try_part<skill_row>("skill_row"),
+      try_part<skill_problem>("skill_problem"),
+      try_part<refused_skill>("refused_skill"),
       try_part<task_step>("task_step"),
       try_part<placed_instance>("placed_instance"),
       try_part<task_row>("task_row"),

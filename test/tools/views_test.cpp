@@ -180,6 +180,29 @@ TEST_CASE("a skill has a row for each deployment option", "[tools]") {
   CHECK(has(text, "512  0123456789ab"));
 }
 
+TEST_CASE("builds are told apart, and what is refused is shown", "[tools]") {
+  skill_list list;
+  for (const auto* hash : {"0123456789abcdef", "fedcba9876543210"}) {
+    skill_row row;
+    row.skill.hash = hash;
+    row.skill.version = "1.2";
+    row.skill.descriptor.operation = "see";
+    row.skill.descriptor.models = {{"tag", "", {deployment_option{}}}};
+    row.nodes = {"a"};
+    row.added_unix_ms = {list.skills.empty() ? 1 : 2};
+    list.skills.push_back(row);
+  }
+  list.skills[1].skill.architectures = {"arm64"};
+  list.refused = {{"b", {"/skills/x/skill.json", "/entry_point/0", "gone"}}};
+  const auto text = skills_view(list, at(0));
+  CHECK(has(text, "see        1.2      any "));
+  CHECK(has(text, "see        1.2      arm64 "));
+  CHECK(has(text, "0123456789ab  a*\n"));
+  CHECK(has(text, "fedcba987654  a\n"));
+  CHECK(has(text, "* has a newer build"));
+  CHECK(has(text, "refused on b: /skills/x/skill.json /entry_point/0: gone\n"));
+}
+
 TEST_CASE("a status shows the node, its resources and instances", "[tools]") {
   node_description node;
   node.identity = {"arm-1", "u", 1, "10.0.0.1:8420"};

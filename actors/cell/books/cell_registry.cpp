@@ -160,25 +160,47 @@ std::vector<member_claim> cell_registry::claims() const {
   return result;
 }
 
+namespace {
+
+/// Adds a node's build to the row of that build.
+void add_build(std::map<std::string, skill_row>& by_hash,
+               const installed_skill& skill, const std::string& node) {
+  auto& row = by_hash[skill.hash];
+  row.skill = skill;
+  row.skill.added_unix_ms = 0; // Each node has its own.
+  const auto at = std::lower_bound(row.nodes.begin(), row.nodes.end(), node);
+  row.added_unix_ms.insert(row.added_unix_ms.begin() + (at - row.nodes.begin()),
+                           skill.added_unix_ms);
+  row.nodes.insert(at, node);
+}
+
+} // namespace
+
 std::vector<skill_row>
 cell_registry::skills(const std::string& operation) const {
   std::map<std::string, skill_row> by_hash;
   for (const auto& [uuid, entry] : by_uuid_) {
     if (entry.row.state != row_state::active)
       continue;
-    for (const auto& skill : entry.skills) {
-      if (!operation.empty() && skill.descriptor.operation != operation)
-        continue;
-      auto& row = by_hash[skill.hash];
-      row.skill = skill;
-      row.nodes.push_back(entry.row.identity.name);
-    }
+    for (const auto& skill : entry.skills)
+      if (operation.empty() || skill.descriptor.operation == operation)
+        add_build(by_hash, skill, entry.row.identity.name);
   }
   std::vector<skill_row> result;
-  for (auto& [hash, row] : by_hash) {
-    std::sort(row.nodes.begin(), row.nodes.end());
+  for (auto& [hash, row] : by_hash)
     result.push_back(std::move(row));
-  }
+  return result;
+}
+
+std::vector<refused_skill> cell_registry::refused_skills() const {
+  std::vector<refused_skill> result;
+  for (const auto& [uuid, entry] : by_uuid_)
+    if (entry.row.state == row_state::active)
+      for (const auto& problem : entry.refused_skills)
+        result.push_back({entry.row.identity.name, problem});
+  std::stable_sort(
+      result.begin(), result.end(),
+      [](const auto& x, const auto& y) { return x.node < y.node; });
   return result;
 }
 

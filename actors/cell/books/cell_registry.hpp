@@ -23,6 +23,7 @@ struct registry_time {
 struct registry_entry {
   registry_row row;
   std::vector<installed_skill> skills;
+  std::vector<skill_problem> refused_skills;
   node_agent_actor agent; ///< Invalid unless the row is active.
   member_actor member;    ///< Invalid for the coordinator's own node.
   std::chrono::steady_clock::time_point inactive_since;
@@ -133,8 +134,11 @@ public:
   /// What other coordinators are told of the rows.
   std::vector<member_claim> claims() const;
 
-  /// Skills of the active nodes, the same content together.
+  /// Builds of the active nodes, the same content together.
   std::vector<skill_row> skills(const std::string& operation) const;
+
+  /// What active nodes have refused to take for skills, by node.
+  std::vector<refused_skill> refused_skills() const;
 
   void for_each(const std::function<void(registry_entry&)>& visit);
   void for_each_active(const std::function<void(registry_entry&)>& visit);

@@ -32,6 +32,7 @@ struct coordinator_setup {
   int64_t incarnation = 0;
   node_identity self; ///< Of the coordination node itself.
   std::vector<installed_skill> skills;
+  std::vector<skill_problem> refused_skills;
   node_agent_actor agent; ///< Of the coordination node itself.
   /// Runs what an earlier run of the node has left; may be invalid in tests.
   container_supervisor_actor supervisor;

@@ -28,7 +28,7 @@ void terminate_tasks(self_pointer self, const std::string& id,
   tasks.pop_back();
   // From here on nothing brings it back.
   x->terminated.push_back(task);
-  self->request(cell_coordinator_actor{self}, limits::transfer::termination,
+  self->request(cell_coordinator_actor{self}, limits::task::termination,
                 task_termination{task})
       .then(
           [=](const task_terminated&) {
@@ -46,7 +46,7 @@ void reschedule_tasks(self_pointer self, const std::string& id,
   if (!x)
     return;
   const auto node = x->row.node;
-  const auto tasks = st.tasks.tasks_bound_to(node);
+  const auto tasks = st.deployments.tasks_bound_to(node);
   move_tasks(self, node, tasks, [=](const failure* why) {
     auto* open = self->state.transfers.find_open(id);
     if (!open)
@@ -68,7 +68,7 @@ void clear_instances(self_pointer self, const std::string& id,
   if (!x)
     return;
   const auto node = x->row.node;
-  auto tasks = st.tasks.tasks_bound_to(node);
+  auto tasks = st.deployments.tasks_bound_to(node);
   if (tasks.empty() || policy == instance_policy::refuse)
     return next();
   if (policy == instance_policy::terminate)

@@ -140,7 +140,39 @@ void add_file(sha256& sum, const fs::path& path, uint64_t& bytes_left) {
   sum.add(content.hex());
 }
 
+void add_look(sha256& sum, const fs::path& folder, const fs::path& name,
+              folder_look& look) {
+  struct stat info {};
+  if (::lstat((folder / name).c_str(), &info) != 0)
+    unreadable(folder / name, std::strerror(errno));
+  sum.add(name.string());
+  for (const auto number :
+       {static_cast<int64_t>(info.st_dev), static_cast<int64_t>(info.st_ino),
+        static_cast<int64_t>(info.st_size),
+        static_cast<int64_t>(info.st_ctim.tv_sec),
+        static_cast<int64_t>(info.st_ctim.tv_nsec)})
+    sum.add(std::to_string(number));
+  look.changed_unix_ms =
+      std::max(look.changed_unix_ms,
+               static_cast<int64_t>(info.st_ctim.tv_sec) * 1000
+                   + static_cast<int64_t>(info.st_ctim.tv_nsec) / 1'000'000);
+}
+
 } // namespace
+
+edge_result<folder_look> look_at_folder(const fs::path& folder,
+                                        const folder_limits& limits) {
+  try {
+    sha256 sum;
+    folder_look result;
+    for (const auto& name : list(folder, limits))
+      add_look(sum, folder, name, result);
+    result.state = sum.hex();
+    return result;
+  } catch (const hash_failure& failure) {
+    return failure.why;
+  }
+}
 
 edge_result<std::string> hash_folder(const fs::path& folder,
                                      const folder_limits& limits) {

@@ -25,4 +25,18 @@ struct folder_limits {
 edge_result<std::string> hash_folder(const std::filesystem::path& folder,
                                      const folder_limits& limits = {});
 
+/// How a folder looks without reading its files.
+struct folder_look {
+  /// Differs once a file has been added, removed, replaced or written.
+  std::string state;
+  int64_t changed_unix_ms = 0; ///< When one of its files last changed.
+};
+
+/// Looks at names, numbers, sizes and times of change (ctime, which no program
+/// can set back) of the files that `hash_folder` would read.
+///
+/// Errors: as `hash_folder`.
+edge_result<folder_look> look_at_folder(const std::filesystem::path& folder,
+                                        const folder_limits& limits = {});
+
 } // namespace roscell

@@ -1,5 +1,6 @@
 #include "actors/edge/process/child_watch.hpp"
 
+#include "actors/edge/io/io_core.hpp"
 #include "actors/edge/process/notify_socket.hpp"
 #include "actors/house/limits.hpp"
 
@@ -29,6 +30,14 @@ fd_watch watch_notifications(const std::shared_ptr<io_core>& core,
             return true;
           },
           limits::instance::words_pause};
+}
+
+void hear_notifications(const std::shared_ptr<io_core>& core,
+                        const shared_fd& notify_socket,
+                        listener on_notification) {
+  core->post([notify_socket, call = std::move(on_notification)] {
+    call(receive_notifications(notify_socket->get()));
+  });
 }
 
 child_watch::child_watch(const std::shared_ptr<io_core>& core, shared_fd pidfd,

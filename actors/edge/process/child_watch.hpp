@@ -15,6 +15,12 @@ watch_notifications(const std::shared_ptr<io_core>& core,
                     const shared_fd& notify_socket,
                     std::function<void(const notification&)> on_notification);
 
+/// Reads what waits at a NOTIFY_SOCKET and calls, also where nothing does, on
+/// the io thread: after every call that a watch has made before.
+void hear_notifications(
+    const std::shared_ptr<io_core>& core, const shared_fd& notify_socket,
+    std::function<void(const notification&)> on_notification);
+
 /// Sees the end of a program at once, and hears what it says on its
 /// NOTIFY_SOCKET. Both come as calls on the io thread, the end last.
 class child_watch {

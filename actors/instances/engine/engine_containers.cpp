@@ -50,10 +50,23 @@ caf::error open_words(self_pointer self, const std::string& instance,
   x.words = watch_notifications(
       self->state.config.io, x.notify_socket,
       [listener = self->state.listener, instance](const notification& n) {
-        caf::anon_send(listener, instance_notified{instance, n.ready, n.alive,
-                                                   n.stopping, n.status});
+        caf::anon_send(listener,
+                       instance_notified{instance, n.ready, n.alive, n.stopping,
+                                         n.status, false});
       });
   return {};
+}
+
+void hear(self_pointer self, const std::string& instance) {
+  const auto& st = self->state;
+  const auto tell = [listener = st.listener, instance](const notification& n) {
+    caf::anon_send(listener, instance_notified{instance, n.ready, n.alive,
+                                               n.stopping, n.status, true});
+  };
+  const auto* x = find_container(self, instance);
+  if (x == nullptr || !x->notify_socket)
+    return tell({});
+  hear_notifications(st.config.io, x->notify_socket, tell);
 }
 
 void forget(self_pointer self, const std::string& instance) {
@@ -127,7 +140,7 @@ void on_container_ended(self_pointer self, const std::string& instance,
   if (words.ready || words.stopping || !words.status.empty())
     self->send(st.listener,
                instance_notified{instance, words.ready, words.alive,
-                                 words.stopping, words.status});
+                                 words.stopping, words.status, false});
   self->send(st.listener, container_exited{instance, id, exit_code});
   forget(self, instance);
 }

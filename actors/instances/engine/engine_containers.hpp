@@ -26,6 +26,9 @@ std::filesystem::path notify_dir(engine_runtime_pointer self,
 caf::error open_words(engine_runtime_pointer self, const std::string& instance,
                       engine_container& x);
 
+/// Has the listener told what waits at its NOTIFY_SOCKET.
+void hear(engine_runtime_pointer self, const std::string& instance);
+
 /// It runs, and everybody may know.
 void settle(engine_runtime_pointer self, const std::string& instance,
             const std::string& id);

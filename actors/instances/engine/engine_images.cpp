@@ -188,7 +188,7 @@ void tell_step(self_pointer self, image_work& work) {
   st.config.context.tell("image_building", work.image, {{"step", step}});
   for (const auto& x : work.waiters)
     self->send(st.listener,
-               instance_notified{x.instance, false, false, false, step});
+               instance_notified{x.instance, false, false, false, step, false});
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 #include "actors/instances/engine/engine_runtime.hpp"
 
 #include "actors/edge/engine/build_context.hpp"
+#include "actors/instances/engine/engine_containers.hpp"
 #include "actors/instances/engine/engine_parts.hpp"
 
 #include <utility>
@@ -69,6 +70,7 @@ engine_runtime(self_pointer self, const engine_runtime_config& config,
       [self](const stop_container& x) { return stop(self, x); },
       [self](const remove_container& x) { return remove(self, x); },
       [self](const adopt_container& x) { return adopt(self, x); },
+      [self](const hear_container& x) { hear(self, x.instance); },
       [self](const log_query& x) { return read_log(self, x); },
       [self](const engine_answered& x) { on_answered(self, x); },
       [self](const engine_streamed& x) { on_streamed(self, x); },

@@ -2,7 +2,8 @@
 
 #include "actors/house/edge_failure.hpp"
 #include "actors/instances/engine/dockerfile.hpp"
-#include "actors/instances/process/process_instance.hpp"
+#include "actors/instances/skill_folder.hpp"
+#include "actors/instances/skill_program.hpp"
 #include "messages/failure.hpp"
 
 #include <caf/result.hpp>
@@ -17,7 +18,7 @@ namespace {
 using self_pointer = image_packer_actor::stateful_pointer<image_packer_state>;
 
 caf::result<image_planned> plan(self_pointer self, const prepare_image& wish) {
-  const auto program = find_program(wish);
+  const auto program = find_program(wish.skill_dir, wish.entry_point);
   if (const auto* error = std::get_if<edge_error>(&program))
     return to_caf(*error);
   auto libraries =
@@ -31,6 +32,7 @@ caf::result<image_planned> plan(self_pointer self, const prepare_image& wish) {
   content.dockerfile = dockerfile_of(recipe);
   content.skill_dir = wish.skill_dir;
   content.libraries = std::move(recipe.libraries);
+  self->state.wish = wish;
   return image_planned{image_name(wish.operation, content.dockerfile),
                        content.dockerfile};
 }
@@ -42,7 +44,15 @@ caf::result<image_packed> pack(self_pointer self) {
   const auto file = write_build_context(st.content, st.work_dir);
   if (const auto* error = std::get_if<edge_error>(&file))
     return to_caf(*error);
-  return image_packed{std::get<std::filesystem::path>(file).string()};
+  const auto& packed = std::get<std::filesystem::path>(file);
+  // Afterwards: an edit in the middle of it is seen, too.
+  const auto same = check_build(st.wish);
+  if (const auto* error = std::get_if<edge_error>(&same)) {
+    std::error_code ignored;
+    std::filesystem::remove(packed, ignored);
+    return to_caf(*error);
+  }
+  return image_packed{packed.string()};
 }
 
 } // namespace

@@ -16,6 +16,7 @@ struct image_packer_state {
 
   std::filesystem::path work_dir;
   image_content content; ///< Of the image that was planned last.
+  prepare_image wish;    ///< For which it was planned.
 };
 
 /// The IMAGE PACKER. Messages: messages/engine.hpp. Ends with its owner.

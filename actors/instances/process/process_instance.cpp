@@ -1,5 +1,6 @@
 #include "actors/instances/process/process_instance.hpp"
 
+#include "actors/edge/process/marked_processes.hpp"
 #include "actors/edge/process/notify_socket.hpp"
 #include "actors/edge/process/process_spawner.hpp"
 #include "actors/house/limits.hpp"
@@ -20,6 +21,9 @@ namespace roscell {
 namespace fs = std::filesystem;
 
 namespace {
+
+/// Says whose a program is, for the whole host and all nodes on it.
+constexpr const char* folder_variable = "ROSCELL_INSTANCE_DIR";
 
 edge_error failed(const std::string& what, const fs::path& path,
                   const std::string& why, std::string hint = {}) {
@@ -57,18 +61,22 @@ program shim_for(const process_runtime_config& config, const fs::path& dir,
                           wish.command.end());
   result.environment = wish.environment;
   result.environment["NOTIFY_SOCKET"] = notify_path(dir).string();
+  result.environment[folder_variable] = dir.string();
   // Does not replace what was given.
   result.environment.insert(config.environment.begin(),
                             config.environment.end());
   return result;
 }
 
-/// A shim that was killed has left no record. Without one, readers of the log
-/// would wait for more.
-void record_unknown_exit(const fs::path& dir) {
+/// A shim that was killed has left no record, and maybe programs: its command
+/// dies with it, but not what the command has started in sessions of their own.
+/// Without a record, readers of the log would wait for more.
+void clear_up_after_killed_shim(const fs::path& dir) {
   std::error_code error;
-  if (fs::is_directory(dir, error) && !fs::exists(dir / "exit", error))
-    std::ofstream{dir / "exit"} << R"({"code":null,"signal":null})" << '\n';
+  if (!fs::is_directory(dir, error) || fs::exists(dir / "exit", error))
+    return;
+  kill_marked_processes(folder_variable, dir.string());
+  std::ofstream{dir / "exit"} << R"({"code":null,"signal":null})" << '\n';
 }
 
 std::string variable(const char* name, const char* otherwise) {
@@ -84,22 +92,6 @@ std::map<std::string, std::string> basic_environment() {
           {"LANG", variable("LANG", "C.UTF-8")}};
 }
 
-edge_result<fs::path> find_program(const prepare_image& wish) {
-  if (wish.entry_point.empty())
-    return failed("the skill in", wish.skill_dir, "names no program");
-  const auto path = fs::path{wish.skill_dir} / wish.entry_point[0];
-  std::error_code error;
-  if (!fs::is_regular_file(path, error))
-    return failed("the skill's program is missing:", path,
-                  error ? error.message() : "it is no file",
-                  "build the skill, or correct \"entry_point\" in "
-                      + (fs::path{wish.skill_dir} / "skill.json").string());
-  if (::access(path.c_str(), X_OK) != 0)
-    return failed("the skill's program cannot be run:", path,
-                  std::strerror(errno), "chmod +x " + path.string());
-  return path;
-}
-
 edge_result<process_instance> launch(const process_runtime_config& config,
                                      const start_container& wish) {
   const auto dir = config.instances_dir / wish.instance;
@@ -109,7 +101,7 @@ edge_result<process_instance> launch(const process_runtime_config& config,
   auto started =
       spawn_program(shim_for(config, dir, wish), limits::instance::shim);
   if (auto* error = std::get_if<edge_error>(&started)) {
-    record_unknown_exit(dir);
+    clear_up_after_killed_shim(dir);
     return *error;
   }
   auto& child = std::get<spawned_program>(started);
@@ -134,7 +126,7 @@ edge_result<process_instance> take_over(const process_runtime_config& config,
   if (!pidfd || has_ended(pidfd.get())) {
     if (pidfd)
       reap(pidfd.get());
-    record_unknown_exit(dir);
+    clear_up_after_killed_shim(dir);
     result.exit_code = read_exit_record(dir).value_or(-1);
     return result;
   }
@@ -150,7 +142,7 @@ void conclude(const process_runtime_config& config, const std::string& instance,
               process_instance& x) {
   const auto dir = config.instances_dir / instance;
   const auto shim_code = reap(x.pidfd->get()).value_or(0);
-  record_unknown_exit(dir);
+  clear_up_after_killed_shim(dir);
   // A shim that did its work ends with 0, whatever became of its command.
   x.exit_code = read_exit_record(dir).value_or(shim_code != 0 ? shim_code : -1);
   x.pidfd = nullptr;

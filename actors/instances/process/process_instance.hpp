@@ -39,9 +39,6 @@ struct process_instance {
   }
 };
 
-/// The skill's program, if it can be run. Errors: engine_failed.
-edge_result<std::filesystem::path> find_program(const prepare_image& wish);
-
 /// Starts the program in a fresh folder. Errors: engine_failed.
 edge_result<process_instance> launch(const process_runtime_config& config,
                                      const start_container& wish);

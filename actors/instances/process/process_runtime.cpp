@@ -5,6 +5,8 @@
 #include "actors/house/limits.hpp"
 #include "actors/instances/instance_id.hpp"
 #include "actors/instances/process/process_logs.hpp"
+#include "actors/instances/skill_folder.hpp"
+#include "actors/instances/skill_program.hpp"
 #include "messages/failure.hpp"
 
 #include <caf/result.hpp>
@@ -32,7 +34,7 @@ child_watch watch(self_pointer self, const std::string& instance,
   child_watch::callbacks calls;
   calls.on_notification = [listener, instance](const notification& n) {
     caf::anon_send(listener, instance_notified{instance, n.ready, n.alive,
-                                               n.stopping, n.status});
+                                               n.stopping, n.status, false});
   };
   calls.on_end = [target, instance, container = x.container] {
     caf::anon_send(target, program_ended{instance, container});
@@ -69,8 +71,11 @@ bool is_outdated(const running_process& x, const std::string& container) {
 }
 
 caf::result<image_prepared> prepare(const prepare_image& wish) {
-  const auto found = find_program(wish);
+  const auto found = find_program(wish.skill_dir, wish.entry_point);
   if (const auto* error = std::get_if<edge_error>(&found))
+    return to_caf(*error);
+  const auto same = check_build(wish);
+  if (const auto* error = std::get_if<edge_error>(&same))
     return to_caf(*error);
   return image_prepared{wish.skill_dir};
 }
@@ -105,6 +110,20 @@ caf::result<container_adopted> adopt(self_pointer self,
     return container_adopted{false, wish.container, -1};
   const auto& x = std::get<running_process*>(found)->process;
   return container_adopted{x.runs(), x.container, x.exit_code};
+}
+
+/// By the io thread, like all words of the instance, so that none overtakes
+/// another.
+void hear(self_pointer self, const std::string& instance) {
+  const auto& st = self->state;
+  const auto tell = [listener = st.listener, instance](const notification& n) {
+    caf::anon_send(listener, instance_notified{instance, n.ready, n.alive,
+                                               n.stopping, n.status, true});
+  };
+  const auto i = st.processes.find(instance);
+  if (i == st.processes.end() || !i->second.process.runs())
+    return tell({});
+  hear_notifications(st.config.io, i->second.process.notify_socket, tell);
 }
 
 void signal(const running_process& x, int number) {
@@ -272,6 +291,7 @@ process_runtime(self_pointer self, const process_runtime_config& config,
       [self](const stop_container& x) { return stop(self, x); },
       [self](const remove_container& x) { return remove(self, x); },
       [self](const adopt_container& x) { return adopt(self, x); },
+      [self](const hear_container& x) { hear(self, x.instance); },
       [self](const log_query& x) { return read_log(self, x); },
       [self](const program_ended& x) { on_end(self, x); },
       [self](const log_grown& x) { serve_followers(self, x.instance); },

@@ -50,12 +50,21 @@ private:
     const auto& ways = asked_.steps[step].deployments;
     auto order = gpus_in_order(asked_.nodes[v]);
     for (std::uint32_t d = 0; d < ways.size(); ++d) {
+      if (has_another_way(step, v, ways[d]))
+        continue;
       if (!ways[d].needs_gpu || order.empty())
         try_one(step, {v, d, -1}, usable);
       else
         for (auto slot : order)
           try_one(step, {v, d, slot}, usable);
     }
+  }
+
+  bool has_another_way(std::size_t step, std::uint32_t v,
+                       const deployment& way) const {
+    const auto& name = asked_.nodes[v].name;
+    return !way.only_on.empty() && way.only_on.count(name) == 0
+           && asked_.steps[step].nodes_with_skill.count(name) > 0;
   }
 
   void try_one(std::size_t step, const candidate& choice,

@@ -38,6 +38,9 @@ struct node {
   std::vector<gpu> gpus;
   label_map labels;
   std::vector<std::string> devices;
+  /// Cores in use that their users would share with a new process. Part of
+  /// `cpu.used`; only `allocate_with_floor` reads it.
+  double cpu_compressible = 0;
 };
 
 /// One deployment option of a step's implementation model.
@@ -54,6 +57,10 @@ struct deployment {
   /// Devices and labels which the node must have.
   std::vector<std::string> devices;
   label_map labels;
+  /// Names of the nodes that can run the step in this way; empty: all that have
+  /// the skill. On others that have it, this is no candidate and needs no
+  /// reason: they have another way.
+  std::set<std::string> only_on;
 };
 
 /// One step of the request. The deployments are those of its model, narrowed
@@ -76,6 +83,9 @@ struct exclusion {
   int gpu = -1;
   /// A sentence for people.
   std::string reason;
+  /// How the CPU was read when the node refused it. A strict refusal says
+  /// nothing about the floored reading.
+  bool cpu_floor = false;
 };
 
 struct problem {

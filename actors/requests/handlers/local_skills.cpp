@@ -15,7 +15,10 @@ void list_local_skills(const request_context& context, skill_query query,
         for (const auto& skill : node.skills)
           if (query.operation.empty()
               || skill.descriptor.operation == query.operation)
-            result.skills.push_back({skill, {node.identity.name}});
+            result.skills.push_back(
+                {skill, {node.identity.name}, {skill.added_unix_ms}});
+        for (const auto& problem : node.refused_skills)
+          result.refused.push_back({node.identity.name, problem});
         done.deliver(std::move(result));
       });
 }

@@ -73,6 +73,7 @@ private:
       auto& wish = wishes_[node];
       wish.agent = agent_of(node);
       wish.message.task = task_.request.task;
+      wish.message.cpu_floor = held_.task.plan.cpu_floor;
       wish.message.specs.push_back(held_.specs[i]);
     }
     new_refusals_ = 0;
@@ -106,7 +107,8 @@ private:
         continue;
       const auto& x = held_.task.plan.allocations[i];
       held_.refused.push_back({x.step, x.node, x.deployment, x.gpu,
-                               "refused by the node: " + reason});
+                               "refused by the node: " + reason,
+                               held_.task.plan.cpu_floor});
       context_.home().tell("allocation_refused", task_.request.task,
                            {{"step", x.step},
                             {"node", x.node},

@@ -44,8 +44,9 @@ std::optional<failure> think_otherwise(const what_if& other,
                      "/with/" + std::to_string(i) + "/name",
                      "give it another name, or think the other one away"};
     nodes.push_back(other.with[i]);
+    // It has the newest build of each skill.
     for (auto& step : known.steps)
-      step.nodes.push_back(other.with[i].name);
+      step.builds.front().nodes.push_back(other.with[i].name);
   }
   std::sort(nodes.begin(), nodes.end(),
             [](const auto& x, const auto& y) { return x.name < y.name; });
@@ -99,7 +100,8 @@ void place(const request_context& context, resolved_task task,
                          task.steps,
                          std::move(task.cell.nodes),
                          {},
-                         std::move(task.why)};
+                         std::move(task.why),
+                         true};
   ask<task_plan>(context, context.services->scheduler, limits::task::search,
                  std::move(question), done,
                  [done, request = std::move(task.request),

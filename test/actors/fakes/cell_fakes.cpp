@@ -156,6 +156,10 @@ caf::behavior local_parts(caf::event_based_actor* self, fake_site* site,
       [=](const instance_query&) {
         return instance_description{node->instances};
       },
+      [=](const ends_acknowledged& x) {
+        auto& known = node->acknowledged;
+        known.insert(known.end(), x.instances.begin(), x.instances.end());
+      },
       [=](const instance_reservation& x) {
         node->reservations.push_back(x);
         return instances_reserved{{{"t-b-1", "no room"}}};

@@ -57,6 +57,7 @@ struct fake_node {
   std::optional<failure> deployment_refusal;
   bool disk_full = false;
   std::vector<instance_row> instances;
+  std::vector<std::string> acknowledged; ///< Ends that need not be told again.
   std::vector<instance_reservation> reservations;
   std::vector<instance_deployment> deployments;
   std::vector<instance_removal> removals;

@@ -132,6 +132,16 @@ scripted_runtime(scripted_runtime_actor::pointer self,
         script->instance = caf::actor_cast<caf::actor>(self->current_sender());
         return either(script->adopt_error, script->adoption);
       },
+      [=](const hear_container& x) {
+        script->heard.push_back(x);
+        if (script->deaf)
+          return;
+        auto words = std::exchange(script->words, {});
+        words.heard = true;
+        caf::anon_send(
+            caf::actor_cast<skill_instance_actor>(self->current_sender()),
+            words);
+      },
       [=](const log_query& x) {
         script->queries.push_back(x);
         return log_excerpt{x.instance, script->log, 0, true};
@@ -204,6 +214,7 @@ container_supervisor_actor fake_supervisor(caf::actor_system& system,
         [](const instance_query&) { return instance_description{}; },
         [](const log_query&) { return log_excerpt{}; },
         [](const listen_to_instances&) {},
+        [](const ends_acknowledged&) {},
         [](const container_exited&) {},
         [](const instance_notified&) {},
         [](const runtime_troubled&) {},

@@ -60,6 +60,8 @@ struct runtime_script {
   bool silent =
       false; ///< Starts, but does not answer until `answer` is called.
   bool stops_never = false;
+  bool deaf = false;       ///< Does not answer when told to hear an instance.
+  instance_notified words; ///< What waits at the socket of an instance.
   container_adopted adoption;
   int stop_code = 143;
   std::string log = "first line\nlast line\n";
@@ -70,6 +72,7 @@ struct runtime_script {
   std::vector<remove_container> removed;
   std::vector<adopt_container> adopted;
   std::vector<log_query> queries;
+  std::vector<hear_container> heard;
   std::vector<caf::typed_response_promise<container_started>> unanswered;
   std::function<void()> answer; ///< Makes it give the answers it has held back.
   caf::actor instance; ///< Who has asked for an image or an adoption last.

@@ -4,6 +4,7 @@
 #include "messages/failure.hpp"
 #include "test/actors/fakes/supervision_fakes.hpp"
 
+#include <algorithm>
 #include <string>
 
 using namespace roscell;
@@ -59,8 +60,8 @@ struct bench : virtual_time {
   }
 
   void say(const std::string& instance, const std::string& status = {}) {
-    caf::anon_send(supervisor,
-                   instance_notified{instance, true, true, false, status});
+    caf::anon_send(supervisor, instance_notified{instance, true, true, false,
+                                                 status, false});
     settle();
   }
 
@@ -414,18 +415,64 @@ TEST_CASE("queries choose by task and by instance") {
   CHECK(refusal(unknown).code == error_code::unknown_task);
 }
 
-TEST_CASE("live instances are bounded, and so are the rows of ended ones") {
+TEST_CASE("live instances are bounded") {
   bench b;
   b.start();
   const auto live = limits::instance::most;
-  const auto ended = limits::instance::most_ended;
   for (size_t i = 0; i < live; ++i)
     b.deploy("i" + std::to_string(i));
   CHECK(refusal(b.deploy("one-more")).code == error_code::conflict);
-  for (size_t i = 0; i < ended + 8; ++i)
-    b.exit_of("i" + std::to_string(i), "c" + std::to_string(i + 1), 1);
-  CHECK(b.rows().size() == live - 8);
+}
+
+TEST_CASE("what has ended stays known until the coordinator keeps it") {
+  bench b;
+  b.start();
+  const auto kept = limits::instance::most_ended;
+  std::vector<std::string> ended;
+  for (size_t i = 0; i < kept + 8; ++i) {
+    ended.push_back("i" + std::to_string(i));
+    b.deploy(ended.back());
+    b.exit_of(ended.back(), "c" + std::to_string(i + 1), 1);
+  }
+  // The logs of the oldest are gone, not what became of them.
   CHECK(b.runtime->removed.size() == 8);
+  CHECK(b.rows().size() == kept + 8);
+  CHECK(b.store->states("i0").back() == "failed");
+  caf::anon_send(b.supervisor, ends_acknowledged{ended});
+  b.settle();
+  CHECK(b.rows().size() == kept);
+  CHECK(b.store->states("i0").back() == "-");
+}
+
+TEST_CASE("what nobody acknowledges is bounded, and so are its bytes") {
+  bench b;
+  const auto kept = limits::instance::most_ended;
+  size_t most = 0;
+  size_t parameters = 0;
+  SECTION("many") {
+    // About 1 KiB each.
+    most = limits::instance::most_unacknowledged_bytes / limits::kib;
+  }
+  SECTION("large") {
+    parameters = 100'000;
+    most = 2;
+  }
+  for (size_t i = 0; i < kept + 600; ++i) {
+    instance_row row;
+    row.spec = echo_spec(b.catalogue.hash, "i" + std::to_string(i));
+    row.spec.parameters = "{\"x\": \"" + std::string(parameters, 'x') + "\"}";
+    row.state = instance_state::stopped;
+    row.since_unix_ms = static_cast<int64_t>(i);
+    b.config.restored.push_back(row);
+  }
+  b.start();
+  const auto left = b.rows();
+  CHECK(left.size() <= kept + most);
+  CHECK(left.size() > kept + most / 2);
+  // The newest.
+  CHECK(std::any_of(left.begin(), left.end(), [&](const auto& x) {
+    return x.spec.instance == "i" + std::to_string(kept + 599);
+  }));
 }
 
 TEST_CASE("an engine's trouble is told of every live instance, and its end") {

@@ -35,7 +35,7 @@ TEST_CASE("an instance is told who it is, what it works on, and how") {
   CHECK(env.at("ROSCELL_MODEL") == "plain");
   CHECK(env.at("ROSCELL_DEPLOYMENT") == "cpu");
   CHECK(env.at("ROSCELL_CELL") == "kitchen");
-  CHECK(env.at("WATCHDOG_USEC") == "10000000");
+  CHECK(env.at("WATCHDOG_USEC") == "8000000");
   CHECK(env.at("ROSCELL_PARAMETERS") == R"({"prefix":"> "})");
   CHECK(json::parse(env.at("ROSCELL_INPUTS"))
         == json::parse(R"([{"protocol":"file","endpoint":"/in.txt",

@@ -19,6 +19,12 @@ std::string with(const std::string& part, const std::string& other) {
   return text.replace(at, part.size(), other);
 }
 
+/// A folder that is a skill.
+void write_echo(const scratch_folder& folder, const std::string& name) {
+  folder.write(name + "/skill.json", echo_descriptor());
+  folder.write(name + "/bin/echo", "#!/bin/sh\n", true);
+}
+
 skill_catalogue scan(const scratch_folder& folder) {
   return skill_catalogue::scan({folder.path()});
 }
@@ -46,7 +52,7 @@ TEST_CASE("a folder without a descriptor is none of our business") {
 
 TEST_CASE("a bad descriptor is left out alone, with file and pointer") {
   scratch_folder folder;
-  folder.write("good/skill.json", echo_descriptor());
+  write_echo(folder, "good");
   std::string where;
   SECTION("not JSON") {
     folder.write("bad/skill.json", "{ \"operation\": ");
@@ -94,8 +100,8 @@ TEST_CASE("a descriptor of many errors is told of in bounded length") {
 
 TEST_CASE("the same content elsewhere is the same skill") {
   scratch_folder folder;
-  folder.write("one/skill.json", echo_descriptor());
-  folder.write("two/skill.json", echo_descriptor());
+  write_echo(folder, "one");
+  write_echo(folder, "two");
   const auto skills = scan(folder);
   CHECK(skills.skills().size() == 1);
   CHECK(skills.problems().empty());
@@ -103,7 +109,7 @@ TEST_CASE("the same content elsewhere is the same skill") {
 
 TEST_CASE("a skill that cannot be hashed is left out") {
   scratch_folder folder;
-  folder.write("bad/skill.json", echo_descriptor());
+  write_echo(folder, "bad");
   fs::create_symlink("/etc/passwd", folder.path() / "bad/model");
   const auto skills = scan(folder);
   CHECK(skills.skills().empty());
@@ -114,4 +120,76 @@ TEST_CASE("a skill directory that cannot be read is told of") {
   const auto skills = skill_catalogue::scan({"/no/such/directory"});
   REQUIRE(skills.problems().size() == 1);
   CHECK(skills.problems()[0].path == "/no/such/directory");
+}
+
+TEST_CASE("a skill whose program cannot be run is refused, with the remedy") {
+  scratch_folder folder;
+  write_echo(folder, "good");
+  folder.write("bad/skill.json", echo_descriptor());
+  std::string remedy = "build the skill";
+  SECTION("it is missing") {}
+  SECTION("it is a folder") {
+    fs::create_directories(folder.path() / "bad/bin/echo");
+  }
+  SECTION("it may not be executed") {
+    folder.write("bad/bin/echo", "#!/bin/sh\n");
+    remedy = "chmod +x";
+  }
+  const auto skills = scan(folder);
+  CHECK(skills.skills().size() == 1);
+  REQUIRE(skills.problems().size() == 1);
+  const auto& problem = skills.problems()[0];
+  CHECK(problem.path == folder.path() / "bad/skill.json");
+  CHECK(problem.where == "/entry_point/0");
+  CHECK(problem.message.find(remedy) != std::string::npos);
+}
+
+TEST_CASE("a program for another machine is refused, an own one tells for what "
+          "it is built") {
+  scratch_folder folder;
+  folder.write("see/skill.json", echo_descriptor());
+  // The header of a program, up to what says which machine it is for.
+  std::string header("\177ELF\2\1\1\0\0\0\0\0\0\0\0\0\2\0", 18);
+  header += std::string("\xB7\0\1\0\0\0", 6);
+  folder.write("see/bin/echo", header, true);
+  const auto here = skill_catalogue::scan({folder.path()}, "arm64");
+  REQUIRE(here.skills().size() == 1);
+  CHECK(here.skills()[0].architectures == std::vector<std::string>{"arm64"});
+  const auto there = skill_catalogue::scan({folder.path()}, "amd64");
+  CHECK(there.skills().empty());
+  REQUIRE(there.problems().size() == 1);
+  CHECK(there.problems()[0].message
+        == "is built for arm64, and this node is amd64");
+}
+
+TEST_CASE("a version is the author's, else the sources', else the build's") {
+  scratch_folder folder;
+  write_echo(folder, "echo");
+  const auto version = [&] { return scan(folder).skills().at(0).version; };
+  CHECK(version() == scan(folder).skills().at(0).hash);
+  folder.write("echo/skill.version", "abc123\n");
+  CHECK(version() == "abc123");
+  folder.write("echo/skill.version", "two words\n");
+  CHECK(version() == scan(folder).skills().at(0).hash);
+  folder.write(
+      "echo/skill.json",
+      with("\"operation\": ", "\"version\": \"1.2\", \"operation\": "));
+  CHECK(version() == "1.2");
+}
+
+TEST_CASE("a build tells when its folder changed last") {
+  scratch_folder folder;
+  write_echo(folder, "echo");
+  const auto before = scan(folder).skills().at(0).added_unix_ms;
+  CHECK(before > 1'600'000'000'000);
+  folder.write("echo/new", "");
+  const auto after = scan(folder);
+  CHECK(after.skills().at(0).added_unix_ms >= before);
+}
+
+TEST_CASE("what is told of problems to others is bounded") {
+  scratch_folder folder;
+  for (int i = 0; i < 40; ++i)
+    folder.write("bad" + std::to_string(i) + "/skill.json", "{");
+  CHECK(scan(folder).told_problems().size() == 32);
 }

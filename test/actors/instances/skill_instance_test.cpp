@@ -63,8 +63,8 @@ struct bench : virtual_time {
   }
 
   void notify(bool is_ready, bool is_alive) {
-    caf::anon_send(instance,
-                   instance_notified{"i", is_ready, is_alive, false, {}});
+    caf::anon_send(
+        instance, instance_notified{"i", is_ready, is_alive, false, {}, false});
     settle();
   }
 
@@ -80,6 +80,12 @@ struct bench : virtual_time {
 
   void answer_start() {
     runtime->answer();
+    settle();
+  }
+
+  /// Time passes while nobody of this process runs.
+  void jump(std::chrono::milliseconds span) {
+    scheduler.clock().advance_time(span);
     settle();
   }
 
@@ -202,6 +208,56 @@ TEST_CASE("signs of life keep a program, silence ends it by force at once") {
   CHECK(contains(b.reason(), "no sign of life"));
   REQUIRE(b.runtime->stopped.size() == 1);
   CHECK(b.runtime->stopped[0].grace_ms == 0);
+}
+
+TEST_CASE("words that wait at the socket are heard before a skill is judged") {
+  bench b;
+  b.start_ready();
+  b.runtime->words.alive = true;
+  b.advance(limits::instance::watchdog + 1s);
+  CHECK(b.state() == instance_state::running);
+  CHECK(b.runtime->heard.size() == 1);
+  // Only once: the next silence counts from there.
+  b.advance(limits::instance::watchdog);
+  CHECK(b.state() == instance_state::failed);
+}
+
+TEST_CASE("a node that was stopped does not take that for a skill's silence") {
+  bench b;
+  b.start_ready();
+  b.jump(30s);
+  SECTION("the skill goes on, too: its words come soon") {
+    CHECK(b.state() == instance_state::running);
+    b.advance(4s);
+    b.alive();
+    b.advance(9s);
+    CHECK(b.state() == instance_state::running);
+  }
+  SECTION("the skill hangs: it is given a moment, once") {
+    b.advance(4s);
+    CHECK(b.state() == instance_state::running);
+    b.jump(30s);
+    CHECK(b.state() == instance_state::failed);
+  }
+}
+
+TEST_CASE("a runtime that cannot be asked says nothing about a skill") {
+  bench b;
+  b.start_ready();
+  b.runtime->deaf = true;
+  b.advance(60s);
+  CHECK(b.state() == instance_state::running);
+  b.runtime->deaf = false;
+  b.advance(20s);
+  CHECK(b.state() == instance_state::failed);
+}
+
+TEST_CASE("a skill whose READY=1 waits at the socket is ready") {
+  bench b;
+  b.start();
+  b.runtime->words.ready = true;
+  b.advance(limits::instance::ready + 1s);
+  CHECK(b.state() == instance_state::running);
 }
 
 TEST_CASE("what a program's end means depends on its state and code") {

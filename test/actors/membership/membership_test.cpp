@@ -140,6 +140,14 @@ TEST_CASE_METHOD(membership_test, "however long the parameters of what it "
   CHECK(site.base.rows.at("arm-1").registration.instances.size() == 12);
 }
 
+TEST_CASE_METHOD(membership_test,
+                 "ends that a registration has told are acknowledged") {
+  node.instances = {some_row("t-a-1", "t"), some_row("t-b-2", "t")};
+  node.instances[1].state = instance_state::stopped;
+  form_cell();
+  CHECK(node.acknowledged == std::vector<std::string>{"t-b-2"});
+}
+
 TEST_CASE_METHOD(membership_test, "verdicts are carried out one by one") {
   node.instances = {some_row("t-a-1", "t"), some_row("t-b-2", "t")};
   site.base.verdicts = {{"t-a-1", verdict::keep, {}},

@@ -36,6 +36,7 @@ struct agent_fixture {
     config.node = "arm";
     config.labels = {{"room", "hall"}};
     config.devices = {"/dev/video0", "/dev/can0"};
+    config.cpu_floor = 0.25;
     config.supervisor = caf::actor_cast<container_supervisor_actor>(supervisor);
     config.probe = caf::actor_cast<resource_probe_actor>(probe);
     agent = spawn(time.system, time.context, node_agent, config);
@@ -225,6 +226,35 @@ TEST_CASE_METHOD(
   CHECK(reply->refused[0].instance == "t-b-1");
   CHECK(reply->refused[0].reason == "needs 1.0 cores, 0.5 free: short by 0.5");
   CHECK(report().cpu.used == Approx(4));
+}
+
+TEST_CASE_METHOD(agent_fixture,
+                 "What other programs use of the CPU is compressible down to "
+                 "the floor, reservations are not",
+                 "[node_agent]") {
+  CHECK(report().cpu_compressible == 0);
+  host.cpu.used = 3.75;
+  add_instance("10:5", instance_state::running);
+  const auto node = report();
+  CHECK(node.cpu.used == Approx(4.75));
+  CHECK(node.cpu_compressible == Approx(0.75));
+}
+
+TEST_CASE_METHOD(agent_fixture,
+                 "A node judges a reservation by the reading that it was "
+                 "placed with",
+                 "[node_agent]") {
+  host.cpu.used = 4;
+  instance_reservation wish{"t", {wanted("t-a-1", 1)}, false};
+  CHECK(ask<instances_reserved>(wish)->refused.size() == 1);
+  wish.cpu_floor = true;
+  CHECK(ask<instances_reserved>(wish)->refused.empty());
+  // Room that is kept is a reservation, and never floored.
+  auto other = wanted("u-a-1", 0.1);
+  other.task = "u";
+  CHECK(ask<instances_reserved>(instance_reservation{"u", {other}, true})
+            ->refused.size()
+        == 1);
 }
 
 TEST_CASE_METHOD(agent_fixture, "Two tasks never get the same room",

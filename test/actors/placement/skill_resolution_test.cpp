@@ -63,18 +63,20 @@ TEST_CASE("A step is resolved to its skill, model and all its deployments",
           "[skill_resolution]") {
   const auto steps = resolved({step("see", "yolo"), step("hear", "wave")});
   REQUIRE(steps.size() == 2);
-  CHECK(steps[0].skill.hash == "h1");
-  CHECK(steps[0].model.name == "yolo");
-  CHECK(steps[0].model.deployments.size() == 2);
-  CHECK(steps[1].nodes == std::vector<std::string>{"a", "b"});
+  REQUIRE(steps[0].builds.size() == 1);
+  CHECK(steps[0].builds[0].hash == "h1");
+  CHECK(steps[0].builds[0].model.name == "yolo");
+  CHECK(steps[0].builds[0].model.deployments.size() == 2);
+  CHECK(steps[1].builds[0].nodes == std::vector<std::string>{"a", "b"});
 }
 
 TEST_CASE("A named deployment is the only one left", "[skill_resolution]") {
   auto wish = step("see", "tag");
   wish.deployment = "gpu";
   const auto steps = resolved({wish});
-  REQUIRE(steps[0].model.deployments.size() == 1);
-  CHECK(steps[0].model.deployments[0].name == "gpu");
+  const auto& options = steps[0].builds[0].model.deployments;
+  REQUIRE(options.size() == 1);
+  CHECK(options[0].name == "gpu");
 }
 
 TEST_CASE("An unknown operation is refused with those there are",
@@ -132,20 +134,86 @@ TEST_CASE("A protocol or data type that a skill does not take is refused",
   CHECK(refusal({wish}).where == "/pipeline/0/output/protocol");
 }
 
-TEST_CASE("Of two versions of a skill the one that most nodes have is taken",
+TEST_CASE("Every node offers its own build, however few have that one",
           "[skill_resolution]") {
   const auto few = row("h1", "see", {"tag"}, {"a"});
   const auto many = row("h2", "see", {"tag"}, {"b", "c"});
-  CHECK(resolved({step("see", "tag")}, {few, many})[0].skill.hash == "h2");
-  CHECK(resolved({step("see", "tag")}, {many, few})[0].skill.hash == "h2");
+  const auto builds = resolved({step("see", "tag")}, {few, many})[0].builds;
+  REQUIRE(builds.size() == 2);
+  CHECK(builds[0].hash == "h1");
+  CHECK(builds[0].nodes == std::vector<std::string>{"a"});
+  CHECK(builds[1].hash == "h2");
+  CHECK(builds[1].nodes == std::vector<std::string>{"b", "c"});
 }
 
-TEST_CASE("A version without the model does not count", "[skill_resolution]") {
+TEST_CASE("Of several builds on a node the one added last is the candidate",
+          "[skill_resolution]") {
+  auto old = row("h1", "see", {"tag"}, {"a", "b"});
+  old.added_unix_ms = {10, 30};
+  auto later = row("h2", "see", {"tag"}, {"a", "b"});
+  later.added_unix_ms = {20, 20};
+  const auto builds = resolved({step("see", "tag")}, {later, old})[0].builds;
+  REQUIRE(builds.size() == 2);
+  // What came last to any node is first.
+  CHECK(builds[0].hash == "h1");
+  CHECK(builds[0].nodes == std::vector<std::string>{"b"});
+  CHECK(builds[1].nodes == std::vector<std::string>{"a"});
+}
+
+TEST_CASE("A build that is a candidate nowhere is left out",
+          "[skill_resolution]") {
+  auto old = row("h1", "see", {"tag"}, {"a"});
+  old.added_unix_ms = {10};
+  auto later = row("h2", "see", {"tag"}, {"a"});
+  later.added_unix_ms = {20};
+  const auto builds = resolved({step("see", "tag")}, {old, later})[0].builds;
+  REQUIRE(builds.size() == 1);
+  CHECK(builds[0].hash == "h2");
+}
+
+TEST_CASE("A step that names a build gets it, also where there is a newer one",
+          "[skill_resolution]") {
+  auto old = row("0123456789abcdef", "see", {"tag"}, {"a"});
+  auto later = row("fedcba9876543210", "see", {"tag"}, {"a", "b"});
+  later.added_unix_ms = {20, 20};
+  auto wish = step("see", "tag");
+  wish.build = "01234567";
+  const auto builds = resolved({wish}, {old, later})[0].builds;
+  REQUIRE(builds.size() == 1);
+  CHECK(builds[0].hash == old.skill.hash);
+  CHECK(builds[0].nodes == std::vector<std::string>{"a"});
+  wish.build = "89abcdef";
+  const auto why = refusal({wish}, {old, later});
+  CHECK(why.code == error_code::unknown_operation);
+  CHECK(why.where == "/pipeline/0/build");
+  CHECK(why.hint == "its builds are: fedcba987654, 0123456789ab");
+}
+
+TEST_CASE("A build without the model, deployment or protocol does not count",
+          "[skill_resolution]") {
+  const auto right = row("h1", "see", {"yolo"}, {"a"});
+  auto other = row("h2", "see", {"tag"}, {"a", "b"});
+  other.added_unix_ms = {20, 20};
+  auto wish = step("see", "yolo");
+  SECTION("model") {}
+  SECTION("deployment") {
+    wish.deployment = "gpu";
+    other.skill.descriptor.models[0].name = "yolo";
+    other.skill.descriptor.models[0].deployments.pop_back();
+  }
+  SECTION("protocol") {
+    wish.input = {{"file", "/a", "image/png"}};
+    other.skill.descriptor.models[0].name = "yolo";
+    other.skill.descriptor.input.protocols = {"ros2"};
+  }
+  const auto builds = resolved({wish}, {other, right})[0].builds;
+  REQUIRE(builds.size() == 1);
+  CHECK(builds[0].hash == "h1");
+}
+
+TEST_CASE("A hint names the models of all builds", "[skill_resolution]") {
   const auto right = row("h1", "see", {"yolo"}, {"a"});
   const auto other = row("h2", "see", {"tag"}, {"b", "c"});
-  const auto steps = resolved({step("see", "yolo")}, {other, right});
-  CHECK(steps[0].skill.hash == "h1");
-  // A hint then names the models of all of them.
   CHECK(refusal({step("see", "eye")}, {other, right}).hint
         == "its models are: tag, yolo");
 }

@@ -160,14 +160,100 @@ TEST_CASE("A node without the skill is rejected for that",
   resolved_step step;
   step.step = document.request.pipeline[0];
   step.step.labels.clear();
-  step.model = document.skills[0].models[0];
-  step.nodes = {"g"};
+  step.builds = {{"h1", document.skills[0].models[0], {"g"}}};
   const auto result = allocate({"t", {step}, document.nodes});
   REQUIRE(std::holds_alternative<task_plan>(result));
   const auto& found = std::get<task_plan>(result);
   CHECK(found.allocations[0].node == "g");
   REQUIRE(found.rejected.size() == 1);
   CHECK(found.rejected[0].node == "a");
+}
+
+TEST_CASE("Each node runs its own build, also where it is for another machine",
+          "[task_allocation]") {
+  auto document = std::get<plan_document>(decode<plan_document>(two_nodes()));
+  document.nodes[1].architecture = "arm64";
+  document.nodes[1].labels["room"] = "yard";
+  resolved_step step;
+  step.step = document.request.pipeline[0];
+  auto model = document.skills[0].models[0];
+  model.deployments[0].architectures = {"amd64", "arm64"};
+  auto other = model;
+  SECTION("of one descriptor") {}
+  SECTION("of another descriptor that asks for more") {
+    other.deployments[0].resources.cpu = 1.5;
+  }
+  step.builds = {{"h1", model, {"a"}}, {"h2", other, {"g"}}};
+  for (const auto* room : {"hall", "yard"}) {
+    step.step.labels["room"] = room;
+    const auto result = allocate({"t", {step}, document.nodes});
+    REQUIRE(std::holds_alternative<task_plan>(result));
+    const auto& found = std::get<task_plan>(result);
+    const bool in_hall = room == std::string{"hall"};
+    CHECK(found.allocations[0].node == (in_hall ? "a" : "g"));
+    CHECK(found.allocations[0].build == (in_hall ? "h1" : "h2"));
+    CHECK(found.allocations[0].deployment == "cpu");
+    // The other node once, for its label: it does have a build.
+    REQUIRE(found.rejected.size() == 1);
+    CHECK(found.rejected[0].node == (in_hall ? "g" : "a"));
+    REQUIRE(found.rejected[0].causes.size() == 1);
+    CHECK(found.rejected[0].causes[0].kind == "label");
+  }
+}
+
+TEST_CASE("A candidate that was refused is left out with its node's build",
+          "[task_allocation]") {
+  const auto document =
+      std::get<plan_document>(decode<plan_document>(two_nodes()));
+  resolved_step step;
+  step.step = document.request.pipeline[0];
+  step.step.labels.clear();
+  const auto& model = document.skills[0].models[0];
+  auto other = model;
+  other.deployments[0].resources.cpu = 1.5;
+  step.builds = {{"h1", model, {"a"}}, {"h2", other, {"g"}}};
+  const auto result =
+      allocate({"t", {step}, document.nodes, {{"s0", "g", "cpu", -1, "no"}}});
+  REQUIRE(std::holds_alternative<task_plan>(result));
+  CHECK(std::get<task_plan>(result).allocations[0].build == "h1");
+}
+
+TEST_CASE("A node without any build is rejected once, whatever the builds",
+          "[task_allocation]") {
+  const auto document =
+      std::get<plan_document>(decode<plan_document>(two_nodes()));
+  resolved_step step;
+  step.step = document.request.pipeline[0];
+  const auto& model = document.skills[0].models[0];
+  auto other = model;
+  other.deployments[0].resources.cpu = 1.5;
+  step.builds = {{"h1", model, {"a"}}, {"h2", other, {"elsewhere"}}};
+  const auto result = allocate({"t", {step}, document.nodes});
+  REQUIRE(std::holds_alternative<task_plan>(result));
+  CHECK(std::get<task_plan>(result).rejected.size() == 1);
+}
+
+TEST_CASE("A cell whose cores are busy is read with the floor, and says so",
+          "[task_allocation]") {
+  auto text = two_nodes();
+  text["request"]["pipeline"].erase(1);
+  text["nodes"][0]["cpu"]["used"] = 4;
+  text["nodes"][0]["cpu_compressible"] = 1;
+  const auto document = std::get<plan_document>(decode<plan_document>(text));
+  resolved_step step;
+  step.step = document.request.pipeline[0];
+  step.builds = {{"h1", document.skills[0].models[0], {"a", "g"}}};
+  const auto result = allocate({"t", {step}, document.nodes});
+  REQUIRE(std::holds_alternative<task_plan>(result));
+  const auto reply = message_json(std::get<task_plan>(result));
+  CHECK_FALSE(validate_message(reply));
+  CHECK(reply.at("cpu_floor") == true);
+  CHECK(reply.at("warnings").size() == 1);
+  // What is used stays what it is.
+  CHECK(reply.at("use").at(0).at("before") == 4);
+  CHECK(reply.at("use").at(0).at("after") == 5);
+  // On paper the numbers are meant as they stand.
+  CHECK(refusal(text).code == error_code::no_feasible_allocation);
 }
 
 TEST_CASE("Without any node nothing can be placed", "[task_allocation]") {

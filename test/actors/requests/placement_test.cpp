@@ -170,8 +170,8 @@ TEST_CASE("A search ends when one of its nodes leaves in the middle",
   for (int i = 0; i < 6; ++i) {
     resolved_step step;
     step.step.id = "s" + std::to_string(i);
-    step.model = echo_skill().descriptor.models[0];
-    step.nodes = {names.begin(), names.end()};
+    step.builds = {
+        {"h", echo_skill().descriptor.models[0], {names.begin(), names.end()}}};
     asked.steps.push_back(step);
   }
   search_guard guard;

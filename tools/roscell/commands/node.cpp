@@ -120,6 +120,12 @@ void add_resources(CLI::App& command, node_options& options) {
                   "Offer no more than this: cores, MiB, MiB")
       ->option_text("cpu=N,memory_mib=N,disk_mib=N [all]");
   command
+      .add_option("--cpu-floor", config.cpu_floor,
+                  "Part of the cores on which a task may count while other "
+                  "programs keep all of them busy; 0: none")
+      ->check(CLI::Range(0.0, 1.0))
+      ->option_text("FRACTION [0.25]");
+  command
       .add_option("--device", config.devices,
                   "Offer this device as well; can be repeated")
       ->option_text("PATH")

@@ -9,9 +9,6 @@ namespace roscell::cli {
 
 namespace {
 
-/// Digits of a content hash that tell skills apart.
-constexpr size_t short_hash = 12;
-
 /// Nothing is shown of what has not been measured yet.
 std::string cores(const amount& a) {
   if (a.capacity == 0)
@@ -202,31 +199,6 @@ std::string instances_view(const instance_description& instances,
                       row.spec.model + "/" + row.spec.deployment,
                       exit_text(row.exit_code), remark(row)});
   return or_nothing(t, "instances", style);
-}
-
-std::string skills_view(const skill_list& skills, const view_style& style) {
-  table t{{{"OPERATION"},
-           {"MODEL"},
-           {"DEPLOYMENT"},
-           {"CPU (cores)", align::right},
-           {"MEMORY (MiB)", align::right},
-           {"DISK (MiB)", align::right},
-           {"GPU MEMORY (MiB)", align::right},
-           {"SKILL"},
-           {"NODES"}},
-          {}};
-  for (const auto& row : skills.skills)
-    for (const auto& model : row.skill.descriptor.models)
-      for (const auto& option : model.deployments) {
-        const auto& r = option.resources;
-        t.rows.push_back({row.skill.descriptor.operation, model.name,
-                          option.name, format_number(r.cpu),
-                          format_mib(r.memory_mib), format_mib(r.disk_mib),
-                          r.needs_gpu() ? format_mib(r.gpu_memory_mib) : "",
-                          row.skill.hash.substr(0, short_hash),
-                          listed({row.nodes.begin(), row.nodes.end()})});
-      }
-  return or_nothing(t, "skills", style);
 }
 
 } // namespace roscell::cli

@@ -62,6 +62,9 @@ problem_text bad_gpus(const std::string& place, const node& host) {
 problem_text bad_node(const std::string& place, const node& host) {
   auto bad = bad_amount(place + ".cpu", host.cpu);
   if (!bad)
+    bad = bad_number(place + ".cpu_compressible", host.cpu_compressible, 0,
+                     max_amount);
+  if (!bad)
     bad = bad_amount(place + ".memory_mib", host.memory_mib);
   if (!bad)
     bad = bad_amount(place + ".disk_mib", host.disk_mib);

@@ -236,4 +236,26 @@ TEST_CASE("Skills of the same content are one row, of active nodes only",
   CHECK(registry.skills("dance").empty());
 }
 
+TEST_CASE("Each node tells when it got a build, and what it refused",
+          "[cell_registry]") {
+  cell_registry registry;
+  auto b = node("b", "u1");
+  b.skills = {skill("h1", "echo")};
+  b.skills[0].added_unix_ms = 2;
+  b.refused_skills = {{"/skills/x", "", "no program"}};
+  auto a = node("a", "u2");
+  a.skills = {skill("h1", "echo")};
+  a.skills[0].added_unix_ms = 7;
+  registry.activate(b, at(0ms));
+  registry.activate(a, at(0ms));
+  const auto rows = registry.skills("");
+  REQUIRE(rows.size() == 1);
+  CHECK(rows[0].nodes == std::vector<std::string>{"a", "b"});
+  CHECK(rows[0].added_unix_ms == std::vector<int64_t>{7, 2});
+  const auto refused = registry.refused_skills();
+  REQUIRE(refused.size() == 1);
+  CHECK(refused[0].node == "b");
+  CHECK(refused[0].problem.message == "no program");
+}
+
 } // namespace roscell::test

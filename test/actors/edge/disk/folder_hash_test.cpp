@@ -111,3 +111,25 @@ TEST_CASE("a folder beyond the limits is refused") {
 TEST_CASE("a folder that is not there cannot be hashed") {
   CHECK(error_of(hash_folder("/no/such/folder")).code == error_code::internal);
 }
+
+TEST_CASE(
+    "a folder looks otherwise once a file was written, added or removed") {
+  own_folder folder;
+  folder.write("a", "1");
+  folder.write("b/c", "2");
+  const auto look = [&] { return value_of(look_at_folder(folder.path())); };
+  const auto before = look();
+  CHECK(before.changed_unix_ms > 1'600'000'000'000);
+  CHECK(look().state == before.state);
+  SECTION("written, with an old time of its content") {
+    folder.write("a", "3");
+    fs::last_write_time(folder.path() / "a", fs::file_time_type{});
+  }
+  SECTION("added") {
+    folder.write("d", "");
+  }
+  SECTION("removed") {
+    fs::remove(folder.path() / "b/c");
+  }
+  CHECK(look().state != before.state);
+}

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "actors/edge/disk/folder_hash.hpp"
 #include "actors/edge/io/io_thread.hpp"
 #include "actors/instances/engine/engine_runtime.hpp"
 #include "test/actors/instances/process/process_bench.hpp"
@@ -155,8 +156,14 @@ struct engine_bench {
   }
 
   prepare_image image(const std::string& instance = "i") const {
-    return {instance, "echo",      (folder.path() / "skill").string(),
-            "hash",   {"bin/run"}, "base:1"};
+    const auto skill = folder.path() / "skill";
+    return {instance,
+            "echo",
+            skill.string(),
+            std::get<std::string>(hash_folder(skill)),
+            {},
+            {"bin/run"},
+            "base:1"};
   }
 
   start_container container() const {

@@ -89,6 +89,8 @@ struct process_bench {
           [this](const instance_notified& x) {
             if (x.ready)
               told.put("ready");
+            if (x.heard)
+              told.put("heard");
           },
           [](const runtime_troubled&) {
             // Processes have no engine.
@@ -105,10 +107,16 @@ struct process_bench {
     end_and_await(self, listener);
   }
 
+  /// The node ends; its programs go on.
+  void leave() {
+    end_and_await(self, runtime);
+    runtime = nullptr;
+  }
+
   /// A fresh runtime that knows nothing, as after a restart of the node.
   void restart() {
     if (runtime)
-      end_and_await(self, runtime);
+      leave();
     runtime = roscell::spawn<caf::detached>(system, context, process_runtime,
                                             config, listener);
   }

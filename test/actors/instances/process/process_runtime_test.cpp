@@ -1,5 +1,6 @@
 #include "actors/instances/process/process_runtime.hpp"
 
+#include "actors/edge/disk/folder_hash.hpp"
 #include "actors/edge/process/pidfd.hpp"
 #include "test/actors/instances/process/process_bench.hpp"
 
@@ -60,14 +61,11 @@ TEST_CASE("an entry point is checked before anything is started") {
   process_bench b;
   b.folder.write("skill/bin/plain", "");
   b.folder.write("skill/bin/run", "", true);
+  const auto folder = b.folder.path() / "skill";
+  const auto hash = std::get<std::string>(hash_folder(folder));
   const auto prepare = [&](const std::string& program) {
-    return b.ask<image_prepared>(
-        prepare_image{"i",
-                      "echo",
-                      (b.folder.path() / "skill").string(),
-                      "hash",
-                      {program},
-                      "image"});
+    return b.ask<image_prepared>(prepare_image{
+        "i", "echo", folder.string(), hash, {}, {program}, "image"});
   };
   CHECK(prepare("bin/run"));
   for (const auto* program : {"bin/none", "bin", "bin/plain"}) {
@@ -78,6 +76,9 @@ TEST_CASE("an entry point is checked before anything is started") {
     CHECK(why.message.find(program) != std::string::npos);
     CHECK_FALSE(why.hint.empty());
   }
+  // What is there now is not what was hashed.
+  b.folder.write("skill/model", "");
+  CHECK_FALSE(prepare("bin/run"));
 }
 
 TEST_CASE("a killed program is told of by its signal") {
@@ -100,6 +101,38 @@ TEST_CASE("a killed shim takes its program along and is told of") {
     pollfd waited{pidfd.get(), POLLIN, 0};
     CHECK(::poll(&waited, 1, 30'000) == 1);
   }
+}
+
+TEST_CASE("what a killed shim's program has started elsewhere ends, too") {
+  process_bench b;
+  // It has a session and a parent of its own, and tells its number.
+  const auto container =
+      b.start("setsid sh -c 'echo $$; " + endless + "' & " + endless);
+  const auto text = b.log(0, 20'000).text;
+  const unique_fd pidfd{::pidfd_open(std::stoi(text), 0)};
+  REQUIRE(pidfd);
+  SECTION("while the node is there") {
+    ::kill(pid_of(container), SIGKILL);
+    CHECK(b.told.take() == "exit 137");
+  }
+  SECTION("while it is away") {
+    b.leave();
+    ::kill(pid_of(container), SIGKILL);
+    b.restart();
+    CHECK_FALSE(
+        b.get<container_adopted>(adopt_container{"i", container}).running);
+  }
+  pollfd waited{pidfd.get(), POLLIN, 0};
+  CHECK(::poll(&waited, 1, 5'000) == 1);
+}
+
+TEST_CASE("words that wait at a socket are told before the answer to hearing") {
+  process_bench b;
+  b.start(endless);
+  caf::anon_send(b.runtime, hear_container{"i"});
+  CHECK(b.told.take() == "heard");
+  caf::anon_send(b.runtime, hear_container{"nobody"});
+  CHECK(b.told.take() == "heard");
 }
 
 TEST_CASE("stopping asks first, and force follows after the grace") {

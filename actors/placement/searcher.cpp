@@ -1,0 +1,58 @@
+#include "actors/placement/searcher.hpp"
+
+#include "actors/house/limits.hpp"
+#include "actors/placement/task_allocation.hpp"
+#include "messages/failure.hpp"
+
+#include <set>
+#include <string>
+#include <utility>
+
+namespace roscell {
+
+namespace {
+
+using self_pointer = scheduler_actor::stateful_pointer<searcher_state>;
+
+caf::result<task_plan> search(self_pointer self, const allocate_task& asked) {
+  auto& guard = *self->state.guard;
+  std::set<std::string> nodes;
+  for (const auto& node : asked.nodes)
+    nodes.insert(node.name);
+  guard.begin(std::move(nodes));
+  auto outcome = allocate(asked, limits::task::allocation_budget,
+                          [&guard] { return guard.must_stop(); });
+  if (const auto gone = guard.end(); !gone.empty()) {
+    ++self->state.interrupted;
+    return fail(error_code::conflict,
+                "node '" + gone + "' left while the task was being placed",
+                "/pipeline", "send the request again");
+  }
+  if (auto* problem = std::get_if<failure>(&outcome)) {
+    ++self->state.refusals;
+    return to_error(*problem);
+  }
+  ++self->state.plans;
+  return std::get<task_plan>(std::move(outcome));
+}
+
+} // namespace
+
+scheduler_actor::behavior_type searcher(self_pointer self,
+                                        std::shared_ptr<search_guard> guard,
+                                        const scheduler_actor& owner) {
+  self->state.guard = std::move(guard);
+  self->monitor(owner);
+  self->set_down_handler(
+      [self](const caf::down_msg& down) { self->quit(down.reason); });
+  return {
+      [self](const state_query&) {
+        return state_of({{"plans", self->state.plans},
+                         {"refusals", self->state.refusals},
+                         {"interrupted", self->state.interrupted}});
+      },
+      [self](const allocate_task& asked) { return search(self, asked); },
+  };
+}
+
+} // namespace roscell

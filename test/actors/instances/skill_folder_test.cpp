@@ -1,0 +1,63 @@
+#include "actors/instances/skill_folder.hpp"
+
+#include "test/actors/fakes/supervision_fakes.hpp"
+
+#include <variant>
+
+using namespace roscell;
+using namespace roscell::test;
+
+namespace {
+
+/// The build of the echo skill, as its catalogue has read it.
+prepare_image wish_of(const echo_catalogue& echo) {
+  const auto& folder = *echo.skills->find(echo.hash);
+  prepare_image wish;
+  wish.skill_dir = folder.path.string();
+  wish.skill = echo.hash;
+  wish.look = folder.look;
+  return wish;
+}
+
+bool is_same(const prepare_image& wish) {
+  return std::holds_alternative<bool>(check_build(wish));
+}
+
+} // namespace
+
+TEST_CASE("a folder that was not touched holds its build") {
+  const echo_catalogue echo;
+  CHECK(is_same(wish_of(echo)));
+}
+
+TEST_CASE("an edited folder does not run under the hash that it had") {
+  const echo_catalogue echo;
+  const auto wish = wish_of(echo);
+  SECTION("a program that was replaced") {
+    echo.folder.write("echo/bin/echo", "#!/bin/sh\nexit 1\n", true);
+  }
+  SECTION("of the same length") {
+    echo.folder.write("echo/bin/echo", "#!/bin/ls\n", true);
+  }
+  SECTION("a file more") {
+    echo.folder.write("echo/model", "");
+  }
+  SECTION("a file less") {
+    std::filesystem::remove(echo.folder.path() / "echo/bin/echo");
+  }
+  const auto result = check_build(wish);
+  REQUIRE(std::holds_alternative<edge_error>(result));
+  const auto& why = std::get<edge_error>(result);
+  CHECK(why.code == error_code::engine_failed);
+  CHECK(why.message.find("was edited") != std::string::npos);
+  CHECK(why.hint.find("restart the node") != std::string::npos);
+}
+
+TEST_CASE("a folder that only looks otherwise still holds its build") {
+  const echo_catalogue echo;
+  auto wish = wish_of(echo);
+  echo.folder.write("echo/bin/echo", "#!/bin/sh\n", true);
+  CHECK(is_same(wish));
+  wish.look = "nothing like it";
+  CHECK(is_same(wish));
+}

@@ -1,0 +1,117 @@
+# Skills as they lie on nodes, and CPU that others use.
+
+# own_skills NAME: a folder of skills for one node, a copy of all.
+own_skills() {
+  cp -r "$scratch/skills" "$scratch/$1.skills"
+}
+
+# start_two: a cell of two nodes, each with its own folder of skills.
+start_two() {
+  skills=$scratch/head.skills start_node head --coordinator --cell line \
+    --interface lo --label place=head
+  skills=$scratch/arm.skills start_node arm --interface lo \
+    --join "$(discovery_of head)" --label place=arm
+  await_joined head arm
+}
+
+test_a_node_whose_build_no_other_has_runs_it_where_its_label_is_asked_for() {
+  own_skills head
+  own_skills arm
+  touch "$scratch/arm.skills/echo/extra"
+  start_two
+  local node
+  for node in arm head; do
+    echo_task "on-$node" "$node" > "$scratch/task.json"
+    to head request "$scratch/task.json" > "$scratch/reply.json" \
+      || fail "refused: $(cat "$scratch/reply.json")"
+    expect "the node" "$(jq -r '.instances[0].node' "$scratch/reply.json")" \
+      "$node"
+  done
+  expect "builds" "$(get head /v1/skills | jq '.skills | length')" 2
+  expect "versions" \
+    "$(get head /v1/skills | jq '[.skills[].skill.version] | unique | length')" 1
+}
+
+test_a_skill_without_its_program_is_refused_and_shown_with_the_reason() {
+  own_skills head
+  own_skills arm
+  rm "$scratch/arm.skills/echo/bin/echo"
+  start_two
+  expect "who has it" \
+    "$(get head /v1/skills | jq -c '[.skills[].nodes[]]')" '["head"]'
+  to head skills > "$scratch/table"
+  grep -q "refused on arm: .*/echo/skill.json /entry_point/0: .*missing" \
+    "$scratch/table" || fail "not shown: $(cat "$scratch/table")"
+  echo_task hello arm > "$scratch/task.json"
+  to head request "$scratch/task.json" > "$scratch/reply.json"
+  expect "code" "$(jq -r .error.code "$scratch/reply.json")" \
+    no_feasible_allocation
+}
+
+test_an_edited_skill_folder_does_not_run_under_its_old_hash() {
+  own_skills head
+  skills=$scratch/head.skills start_node head --coordinator --interface lo
+  touch "$scratch/head.skills/echo/extra"
+  echo_task hello > "$scratch/task.json"
+  to head request "$scratch/task.json" > "$scratch/reply.json"
+  expect "code" "$(jq -r .error.code "$scratch/reply.json")" engine_failed
+  jq -r .error.message "$scratch/reply.json" | grep -q "was edited" \
+    || fail "$(cat "$scratch/reply.json")"
+}
+
+# keep_cores_busy: every core is taken until the test is over.
+keep_cores_busy() {
+  local i
+  for ((i = 0; i < $(nproc); ++i)); do
+    (while :; do :; done) &
+    echo $! >> "$scratch/pids"
+  done
+  # A sample of the CPU takes a second; until then it was not busy.
+  sleep 2
+}
+
+test_a_task_finds_its_share_of_busy_cores_unless_the_floor_is_zero() {
+  local folder
+  own_skills head
+  folder=$scratch/head.skills/echo
+  jq '.models[].deployments[].resources.cpu = 0.1' "$folder/skill.json" \
+    > "$scratch/skill.json" && mv "$scratch/skill.json" "$folder/skill.json"
+  keep_cores_busy
+  skills=$scratch/head.skills start_node head --coordinator --interface lo \
+    --capacity "cpu=$(nproc)"
+  skills=$scratch/head.skills start_node strict --coordinator --cell other \
+    --interface lo --cpu-floor 0
+  echo_task hello > "$scratch/task.json"
+  to strict request "$scratch/task.json" > "$scratch/reply.json"
+  expect "code" "$(jq -r .error.code "$scratch/reply.json")" \
+    no_feasible_allocation
+  jq '.type = "task_plan_query"' "$scratch/task.json" \
+    | to head request > "$scratch/plan.json" || fail "$(cat "$scratch/plan.json")"
+  expect "the reading" "$(jq .cpu_floor "$scratch/plan.json")" true
+  to head request "$scratch/task.json" > "$scratch/reply.json" \
+    || fail "refused: $(cat "$scratch/reply.json")"
+}
+
+test_a_node_that_was_stopped_for_longer_than_the_watchdog_keeps_its_skills() {
+  start_node head --coordinator --interface lo
+  echo_task hello > "$scratch/task.json"
+  to head request "$scratch/task.json" > "$scratch/reply.json" \
+    || fail "refused: $(cat "$scratch/reply.json")"
+  kill -STOP "${pid[head]}"
+  sleep 12
+  kill -CONT "${pid[head]}"
+  # Whatever it judges, it judges within its next interval.
+  sleep 11
+  expect "the instance" \
+    "$(get head /v1/instances | jq -r '.instances[0].state')" running
+}
+
+test_an_installed_node_finds_its_shim() {
+  cmake --install "$ROSCELL_BUILD" --prefix "$scratch/usr" > "$scratch/out" 2>&1 \
+    || fail "$(cat "$scratch/out")"
+  ROSCELL=$scratch/usr/bin/roscell
+  start_node head --coordinator --interface lo
+  echo_task hello > "$scratch/task.json"
+  to head request "$scratch/task.json" > "$scratch/reply.json" \
+    || fail "refused: $(cat "$scratch/reply.json")"
+}

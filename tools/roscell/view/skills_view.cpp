@@ -1,0 +1,106 @@
+#include "tools/roscell/view/format.hpp"
+#include "tools/roscell/view/views.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <utility>
+
+namespace roscell::cli {
+
+namespace {
+
+/// Digits of a content hash that tell builds apart.
+constexpr size_t short_hash = 12;
+
+/// Each name once, in order.
+std::string listed(const std::set<std::string>& names) {
+  return joined({names.begin(), names.end()});
+}
+
+/// When the newest build of an operation came to a node.
+using newest_builds = std::map<std::pair<std::string, std::string>, int64_t>;
+
+int64_t added_on(const skill_row& row, size_t node) {
+  return node < row.added_unix_ms.size() ? row.added_unix_ms[node] : 0;
+}
+
+newest_builds newest_of(const skill_list& skills) {
+  newest_builds result;
+  for (const auto& row : skills.skills)
+    for (size_t i = 0; i < row.nodes.size(); ++i) {
+      auto& known = result[{row.skill.descriptor.operation, row.nodes[i]}];
+      known = std::max(known, added_on(row, i));
+    }
+  return result;
+}
+
+/// The nodes of a build, those with a newer one marked.
+std::set<std::string> marked_nodes(const skill_row& row,
+                                   const newest_builds& newest) {
+  std::set<std::string> result;
+  for (size_t i = 0; i < row.nodes.size(); ++i) {
+    const auto last = newest.at({row.skill.descriptor.operation, row.nodes[i]});
+    result.insert(row.nodes[i] + (added_on(row, i) < last ? "*" : ""));
+  }
+  return result;
+}
+
+std::string refused_view(const std::vector<refused_skill>& refused) {
+  std::string text;
+  for (const auto& x : refused)
+    text += "refused on " + printable(x.node) + ": " + printable(x.problem.path)
+            + (x.problem.where.empty() ? "" : " " + printable(x.problem.where))
+            + ": " + printable(x.problem.message) + "\n";
+  return text;
+}
+
+/// A version that is a hash is as long as one.
+std::string short_version(const std::string& version) {
+  constexpr size_t hash_digits = 64;
+  return version.size() == hash_digits ? version.substr(0, short_hash)
+                                       : version;
+}
+
+} // namespace
+
+std::string skills_view(const skill_list& skills, const view_style& style) {
+  table t{{{"OPERATION"},
+           {"VERSION"},
+           {"BUILT FOR"},
+           {"MODEL"},
+           {"DEPLOYMENT"},
+           {"CPU (cores)", align::right},
+           {"MEMORY (MiB)", align::right},
+           {"DISK (MiB)", align::right},
+           {"GPU MEMORY (MiB)", align::right},
+           {"BUILD"},
+           {"NODES"}},
+          {}};
+  const auto newest = newest_of(skills);
+  bool has_older = false;
+  for (const auto& row : skills.skills) {
+    const auto nodes = listed(marked_nodes(row, newest));
+    has_older = has_older || nodes.find('*') != std::string::npos;
+    const auto& made_for = row.skill.architectures;
+    for (const auto& model : row.skill.descriptor.models)
+      for (const auto& option : model.deployments) {
+        const auto& r = option.resources;
+        t.rows.push_back(
+            {row.skill.descriptor.operation, short_version(row.skill.version),
+             made_for.empty() ? "any"
+                              : listed({made_for.begin(), made_for.end()}),
+             model.name, option.name, format_number(r.cpu),
+             format_mib(r.memory_mib), format_mib(r.disk_mib),
+             r.needs_gpu() ? format_mib(r.gpu_memory_mib) : "",
+             row.skill.hash.substr(0, short_hash), nodes});
+      }
+  }
+  return (t.rows.empty() ? "no skills\n" : t.render(style.text))
+         + (has_older ? "* has a newer build: this one is for steps that name "
+                        "it\n"
+                      : "")
+         + refused_view(skills.refused);
+}
+
+} // namespace roscell::cli
