@@ -44,6 +44,7 @@ struct wire {
   std::array<std::chrono::steady_clock::time_point, 2> last_arrival;
   /// Nothing passes and nobody is told: a cable pulled out.
   bool silent = false;
+  std::array<bool, 2> mute{}; ///< The same for what this end sends.
   bool open = true;
   bool lossy = false; ///< A frame has been lost.
   /// Frames that wait for the end of the silence, with their receivers.
@@ -53,6 +54,11 @@ struct wire {
 
   wire(std::mt19937& randomness, const wire_faults& what)
       : random(randomness), faults(what) {}
+
+  /// Whether what this end sends is held back.
+  bool holds(size_t end) const {
+    return silent || mute[end];
+  }
 
   bool happens(double probability) {
     return probability > 0
@@ -98,7 +104,7 @@ inline void end(self_pointer self, const std::string& reason) {
 /// Ends the other end, after what is on its way to it.
 inline void end_other(self_pointer self, const std::string& reason) {
   auto& link = *self->state.link;
-  if (!std::exchange(link.open, false) || link.silent)
+  if (!std::exchange(link.open, false) || link.holds(self->state.index))
     return;
   const auto other = 1 - self->state.index;
   const auto now = self->clock().now();
@@ -124,7 +130,7 @@ inline void send_out(self_pointer self, const std::string& text) {
   ++link.frames;
   if (!link.open)
     return;
-  if (link.silent) {
+  if (link.holds(self->state.index)) {
     link.held.emplace_back(1 - self->state.index, text);
     return;
   }
@@ -149,7 +155,8 @@ inline void send_out(self_pointer self, const std::string& text) {
 inline void send_out(self_pointer self, beat_kind kind) {
   auto& link = *self->state.link;
   ++link.beats;
-  if (!link.open || link.silent || link.happens(link.faults.lose_beat))
+  if (!link.open || link.holds(self->state.index)
+      || link.happens(link.faults.lose_beat))
     return;
   const auto times = link.happens(link.faults.repeat_beat) ? 2 : 1;
   for (auto i = 0; i < times; ++i)
@@ -224,15 +231,33 @@ inline void cut(wire& x) {
     caf::anon_send(end, session_closed{"the connection broke"});
 }
 
-/// Ends a silence: what was held back arrives, and so does the news that the
-/// other end has gone.
-inline void heal(wire& x) {
-  if (!std::exchange(x.silent, false))
-    return;
-  for (auto& [receiver, text] : std::exchange(x.held, {}))
-    caf::anon_send(x.ends[receiver], frame_received{std::move(text)});
+/// Lets arrive what was held back of what these ends have sent, and the news
+/// that the other end has gone.
+inline void release(wire& x, const std::array<bool, 2>& senders) {
+  decltype(x.held) still;
+  for (auto& [receiver, text] : std::exchange(x.held, {})) {
+    if (senders[1 - receiver])
+      caf::anon_send(x.ends[receiver], frame_received{std::move(text)});
+    else
+      still.emplace_back(receiver, std::move(text));
+  }
+  x.held = std::move(still);
   if (!x.open)
     cut(x);
+}
+
+/// Lets only these ends be heard no more; whoever was mute before is heard.
+inline void mute(wire& x, const std::array<bool, 2>& ends) {
+  const auto before = std::exchange(x.mute, ends);
+  if (!x.silent && (before[0] || before[1]))
+    release(x, {before[0] && !ends[0], before[1] && !ends[1]});
+}
+
+/// Ends a silence.
+inline void heal(wire& x) {
+  const auto muted = std::exchange(x.mute, {});
+  if (std::exchange(x.silent, false) || muted[0] || muted[1])
+    release(x, {true, true});
 }
 
 } // namespace roscell::test

@@ -1,5 +1,5 @@
 #include "actors/cell/cell_balance.hpp"
-#include "test/site/site_watch.hpp"
+#include "test/site/watch/site_watch.hpp"
 
 #include <algorithm>
 #include <cstdlib>

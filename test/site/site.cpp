@@ -1,101 +1,13 @@
 #include "test/site/site.hpp"
 
+#include "test/site/site_start.hpp"
+
 #include <caf/actor_cast.hpp>
 
 #include <algorithm>
 #include <utility>
 
 namespace roscell::test {
-
-namespace {
-
-/// A public announcement travels for so long, and the answer of a discovery
-/// server.
-constexpr auto presence_delay = 20ms;
-
-/// Somebody who was killed is seen for so long, at least. It is ten minutes in
-/// production; nothing depends on it but how long a test takes.
-constexpr auto ghost_span = 15s;
-
-std::pair<size_t, size_t> ordered(size_t x, size_t y) {
-  return {std::min(x, y), std::max(x, y)};
-}
-
-template <class Handle>
-Handle part(const site_party& x) {
-  return caf::actor_cast<Handle>(x.edge);
-}
-
-std::string record(const site_party& x, const std::string& table,
-                   const std::string& key) {
-  const auto records = x.disk.find(table);
-  if (records == x.disk.end())
-    return {};
-  const auto i = records->second.find(key);
-  return i == records->second.end() ? std::string{} : i->second;
-}
-
-node_identity identity_on_disk(const site_party& x) {
-  const auto known = record(x, "identity", "node");
-  auto result =
-      known.empty() ? node_identity{} : json::parse(known).get<node_identity>();
-  result.name = x.name;
-  result.uuid = x.uuid;
-  result.address = x.address;
-  return result;
-}
-
-membership_config membership_setup(const site_party& x) {
-  membership_config result;
-  result.identity = identity_on_disk(x);
-  result.configured = x.configured;
-  result.site_token = site_token;
-  if (const auto known = record(x, "identity", "membership"); !known.empty())
-    result.restored = json::parse(known).get<membership_record>();
-  return result;
-}
-
-/// Starts the membership as actors/node/node_builder.cpp does.
-void start_membership(site& place, site_party& x) {
-  membership_parts parts;
-  parts.discovery = part<discovery_actor>(x);
-  parts.connector = part<session_connector_actor>(x);
-  parts.agent = part<node_agent_actor>(x);
-  parts.supervisor = part<container_supervisor_actor>(x);
-  parts.store = part<state_store_actor>(x);
-  const auto config = membership_setup(x);
-  x.membership =
-      spawn(place.time.system, x.context, membership, x.context, parts, config);
-  if (takes_up_earlier_cell(config) || x.configured == "wait")
-    return;
-  if (x.configured.empty())
-    caf::anon_send(x.membership, seek_cell{});
-  else
-    caf::anon_send(x.membership, join_cell{x.configured});
-}
-
-void start_coordinator(site& place, site_party& x) {
-  const auto known = record(x, "identity", "incarnation");
-  coordinator_setup setup;
-  setup.incarnation = known.empty() ? 1 : std::stoll(known) + 1;
-  x.disk["identity"]["incarnation"] = std::to_string(setup.incarnation);
-  setup.cell = x.cell;
-  setup.discovery_server = x.discovery_server;
-  setup.self = identity_on_disk(x);
-  setup.agent = part<node_agent_actor>(x);
-  setup.store = part<state_store_actor>(x);
-  setup.discovery = part<discovery_actor>(x);
-  setup.connector = part<session_connector_actor>(x);
-  setup.registration = part<registration_client_actor>(x);
-  for (const auto& [key, value] : x.disk["members"])
-    setup.members.push_back(json::parse(value).get<member_record>());
-  for (const auto& [key, value] : x.disk["transfers"])
-    setup.transfers.push_back(json::parse(value).get<transfer_row>());
-  x.coordinator =
-      spawn(place.time.system, x.context, cell_coordinator, x.context, setup);
-}
-
-} // namespace
 
 // -- a party -----------------------------------------------------------------
 
@@ -113,6 +25,33 @@ membership_status& site_party::status() const {
   using pointer = membership_actor::stateful_pointer<membership_status>;
   auto* actor = caf::actor_cast<caf::abstract_actor*>(membership);
   return dynamic_cast<pointer>(actor)->state;
+}
+
+std::vector<caf::actor> site_party::actors() const {
+  std::vector<caf::actor> result;
+  const auto add = [&](const auto& x) {
+    if (x)
+      result.push_back(caf::actor_cast<caf::actor>(x));
+  };
+  add(coordinator);
+  add(membership);
+  add(router);
+  add(planner);
+  add(agent);
+  add(supervisor);
+  add(edge);
+  return result;
+}
+
+void site_party::forget_actors() {
+  edge = nullptr;
+  coordinator = nullptr;
+  membership = nullptr;
+  supervisor = nullptr;
+  listener = nullptr;
+  agent = nullptr;
+  planner = nullptr;
+  router = nullptr;
 }
 
 // -- the site ----------------------------------------------------------------
@@ -181,19 +120,20 @@ void site::start(site_party& x) {
   if (x.alive())
     return;
   ++x.life;
+  x.context.directory = std::make_shared<actor_directory>();
   x.edge = time.system.spawn(site_edge, this, &x);
-  if (!x.coordinates)
-    return start_membership(*this, x);
-  start_coordinator(*this, x);
+  resume_programs(*this, x);
+  start_parts(*this, x);
   for (auto& other : parties)
-    if (other->looking_for == x.discovery_server)
+    if (x.coordinates && other->looking_for == x.discovery_server)
       look_up(*other);
 }
 
 void site::kill(site_party& x) {
   if (!x.alive())
     return;
-  std::vector<caf::actor> doomed{x.brain(), x.edge};
+  thaw(x);
+  auto doomed = x.actors();
   for (const auto& c : connections)
     for (size_t end = 0; end < 2; ++end)
       if (c.parties[end] == x.index)
@@ -202,14 +142,11 @@ void site::kill(site_party& x) {
   // All at once, so that none has time for last words.
   for (const auto& actor : doomed)
     caf::anon_send_exit(actor, caf::exit_reason::kill);
-  x.edge = nullptr;
-  x.coordinator = nullptr;
-  x.membership = nullptr;
+  x.forget_actors();
   x.looking_for.clear();
   x.announced.reset();
   x.shown.clear();
-  for (auto& request : requests)
-    request.closed |= request.asked == x.index;
+  close_calls(x);
   // The kernel closes what had no owner yet.
   for (const auto& c : connections)
     for (size_t end = 0; end < 2; ++end)
@@ -217,7 +154,20 @@ void site::kill(site_party& x) {
         caf::anon_send(c.link->ends[end], close_session{"the peer has ended"});
   for (auto& viewer : parties)
     fade(*viewer, x.index, ghost_span + std::chrono::seconds{pick(30)});
-  time.settle();
+  settle();
+}
+
+void site::close_calls(const site_party& x) {
+  for (auto& request : requests)
+    request.closed |= request.asked == x.index && !request.is_answered();
+  for (auto& task : tasks)
+    for (auto& call : task->calls)
+      call.closed |= task->cell == x.index && !call.answered();
+}
+
+void site::crash(site_party& x) {
+  kill(x);
+  end_programs(x);
 }
 
 // -- time --------------------------------------------------------------------
@@ -227,7 +177,7 @@ bool site::pass_until(std::chrono::milliseconds span,
   auto& clock = time.scheduler.clock();
   const auto end = clock.now() + span;
   for (;;) {
-    while (time.scheduler.try_run_once())
+    while (run_one())
       if (stop())
         return true;
     if (!clock.has_pending_timeout() || clock.schedule().begin()->first > end)
@@ -237,6 +187,46 @@ bool site::pass_until(std::chrono::milliseconds span,
   }
   clock.advance_time(end - clock.now());
   return false;
+}
+
+void site::settle() {
+  while (run_one())
+    continue;
+}
+
+bool site::run_one() {
+  keep_frozen_back();
+  return time.scheduler.try_run_once();
+}
+
+void site::keep_frozen_back() {
+  if (frozen_.empty())
+    return;
+  auto& jobs = time.scheduler.jobs;
+  for (auto& [party, ids] : frozen_)
+    for (auto i = jobs.begin(); i != jobs.end();) {
+      const auto* actor = dynamic_cast<caf::abstract_actor*>(*i);
+      if (!actor || ids.count(actor->id()) == 0) {
+        ++i;
+        continue;
+      }
+      kept_back_[party].push_back(*i);
+      i = jobs.erase(i);
+    }
+}
+
+void site::freeze(site_party& x) {
+  if (!x.alive())
+    return;
+  auto& ids = frozen_[x.index];
+  for (const auto& row : x.context.directory->rows())
+    ids.insert(row.id);
+}
+
+void site::thaw(site_party& x) {
+  frozen_.erase(x.index);
+  for (auto* job : std::exchange(kept_back_[x.index], {}))
+    time.scheduler.jobs.push_back(job);
 }
 
 void site::later(const site_party& x, std::chrono::milliseconds delay,
@@ -250,129 +240,13 @@ void site::run_work(uint64_t number) {
     work.mapped()();
 }
 
+void site::report_violation(const std::string& what) {
+  violations.push_back(what);
+}
+
 frame_fate site::decide(const char* what, size_t from, size_t to) {
   ++messages;
   return judge ? judge({messages, what, from, to}) : frame_fate::passed;
-}
-
-// -- who reaches and sees whom -----------------------------------------------
-
-bool site::reachable(size_t x, size_t y) const {
-  return sides_.empty() || sides_[x] == sides_[y];
-}
-
-bool site::sees(const site_party& viewer, const site_party& subject) const {
-  const auto x = viewer.index;
-  const auto y = subject.index;
-  return reachable(x, y) && hidden_.count(ordered(x, y)) == 0;
-}
-
-void site::split(const std::vector<int>& sides) {
-  sides_ = sides;
-  for (auto& c : connections) {
-    if (reachable(c.parties[0], c.parties[1]))
-      heal(*c.link);
-    else
-      c.link->silent = true;
-  }
-  spread();
-  for (auto& x : parties)
-    look_up(*x);
-}
-
-void site::block(size_t x, size_t y) {
-  blocked_.insert(ordered(x, y));
-}
-
-void site::hide(size_t x, size_t y) {
-  hidden_.insert(ordered(x, y));
-}
-
-void site::heal_all() {
-  blocked_.clear();
-  hidden_.clear();
-  split({});
-}
-
-void site::show(site_party& viewer, const site_party& subject) {
-  const auto what = *subject.announced;
-  auto& known = viewer.shown[subject.index];
-  if (known == what)
-    return;
-  known = what;
-  later(viewer, presence_delay, [&viewer, who = subject.index, what] {
-    const auto i = viewer.shown.find(who);
-    if (i != viewer.shown.end() && i->second == what)
-      caf::anon_send(viewer.brain(), presence_seen{what});
-  });
-}
-
-void site::fade(site_party& viewer, size_t subject,
-                std::chrono::milliseconds delay) {
-  auto known = viewer.shown.extract(subject);
-  if (known.empty())
-    return;
-  later(viewer, delay, [&viewer, subject, what = known.mapped()] {
-    if (viewer.announced && viewer.shown.count(subject) == 0)
-      caf::anon_send(viewer.brain(), presence_gone{what});
-  });
-}
-
-void site::spread() {
-  for (auto& viewer : parties) {
-    if (!viewer->announced)
-      continue;
-    for (const auto& subject : parties)
-      if (subject != viewer && subject->announced && sees(*viewer, *subject))
-        show(*viewer, *subject);
-  }
-}
-
-void site::withdraw(site_party& x) {
-  if (!std::exchange(x.announced, std::nullopt))
-    return;
-  x.shown.clear();
-  for (auto& viewer : parties)
-    fade(*viewer, x.index,
-         sees(*viewer, x) ? std::chrono::milliseconds{presence_delay}
-                          : std::chrono::milliseconds{ghost_span});
-}
-
-void site::look_up(site_party& x) {
-  if (x.looking_for.empty())
-    return;
-  later(x, 115ms, [this, &x, wanted = x.looking_for] {
-    for (const auto& c : parties)
-      if (x.looking_for == wanted && c->discovery_server == wanted && c->alive()
-          && reachable(x.index, c->index))
-        caf::anon_send(x.membership,
-                       coordinator_found{c->cell, c->name, c->address,
-                                         c->cell_state().setup.incarnation});
-  });
-}
-
-site_party* site::find_address(const std::string& address) {
-  for (const auto& x : parties)
-    if (x->address == address)
-      return x.get();
-  return nullptr;
-}
-
-wire_ptr site::connect(const site_party& from, const site_party& to) {
-  const auto blocked = blocked_.count(ordered(from.index, to.index)) > 0;
-  if (!to.alive() || blocked || !reachable(from.index, to.index))
-    return nullptr;
-  auto link = make_wire(time.system, context, random, faults);
-  link->judge = [this, who = std::array{to.index, from.index}](size_t end) {
-    return decide("frame", who[end], who[1 - end]);
-  };
-  connections.erase(std::remove_if(connections.begin(), connections.end(),
-                                   [](const auto& c) {
-                                     return !c.link->open && !c.link->silent;
-                                   }),
-                    connections.end());
-  connections.push_back({link, {to.index, from.index}});
-  return link;
 }
 
 } // namespace roscell::test

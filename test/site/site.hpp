@@ -1,8 +1,8 @@
 #pragma once
 
-#include "actors/cell/cell_coordinator.hpp"
-#include "actors/membership/membership.hpp"
 #include "test/lossy_link.hpp"
+#include "test/site/site_party.hpp"
+#include "test/site/site_task.hpp"
 
 #include <array>
 #include <functional>
@@ -16,53 +16,22 @@
 #include <vector>
 
 /// A whole site in miniature: real cell coordinators and memberships with their
-/// members and peers. Around them are fakes of discovery, connections, REST and
-/// disks, which can be made bad; time is virtual.
+/// members and peers, request routers and pipelines, node agents, container
+/// supervisors and skill instances. Around them are fakes of discovery,
+/// connections, REST, disks, hosts and programs, which can be made bad; time is
+/// virtual.
 namespace roscell::test {
 
 using namespace std::chrono_literals;
-
-/// One machine: a coordination node, or one that looks for a cell. Its disk
-/// survives a kill.
-struct site_party {
-  size_t index = 0;
-  bool coordinates = false;
-  std::string name;
-  std::string uuid;
-  std::string address;
-  std::string cell;             ///< Coordinators only.
-  std::string discovery_server; ///< The same.
-  std::string configured;       ///< Nodes only; see `membership_record`.
-  std::map<std::string, std::map<std::string, std::string>> disk; ///< By table.
-  bool disk_full = false;
-
-  unsigned life = 0;                  ///< Counts its starts.
-  caf::actor edge;                    ///< Plays every part around it.
-  cell_coordinator_actor coordinator; ///< Invalid unless it coordinates.
-  membership_actor membership;        ///< Invalid if it does.
-  std::string looking_for;            ///< A discovery server.
-  std::optional<node_presence> announced;
-  std::map<size_t, node_presence> shown; ///< What it sees of which party.
-
-  house context; ///< Tells facts as this party's.
-
-  bool alive() const {
-    return edge != nullptr;
-  }
-
-  /// Whoever hears of discovery; the party lives.
-  caf::actor brain() const;
-
-  /// The state of its actor, which nothing works on meanwhile.
-  cell_coordinator_state& cell_state() const;
-  membership_status& status() const;
-};
 
 /// A request that an operator has sent to a coordinator.
 struct site_request {
   size_t asked = 0;
   std::string text;
+  instance_policy policy = instance_policy::refuse;
   std::function<bool()> is_answered;
+  /// Why it was refused; nothing while there is no answer.
+  std::function<std::optional<failure>()> refusal;
   bool closed = false; ///< The coordinator was killed, so the caller knows.
 };
 
@@ -105,29 +74,54 @@ public:
   std::vector<std::unique_ptr<site_party>> parties;
   std::vector<connection> connections;
   std::vector<site_request> requests;
+  std::vector<std::unique_ptr<site_task>> tasks;
   std::vector<told_at> facts;
   /// Decides about a message; may be empty.
   std::function<frame_fate(const site_message&)> judge;
   size_t messages = 0;
+
+  size_t containers = 0;               ///< Number of the last one.
+  std::map<std::string, size_t> homes; ///< Where which instance was started.
+  std::set<std::string> finished;      ///< Instances that ended with 0.
+  std::vector<std::string> violations; ///< What must never happen, and did.
 
   site_party& add_coordinator(const std::string& uuid);
   site_party& add_node(const std::string& configured = "");
 
   void start(site_party& x);
   void kill(site_party& x);
+  /// The machine loses its power: what runs on it ends too.
+  void crash(site_party& x);
+  /// SIGSTOP for its process, but neither for the kernel nor for what runs
+  /// there, and SIGCONT.
+  void freeze(site_party& x);
+  void thaw(site_party& x);
 
   /// Asks a coordinator that lives.
   template <class Reply, class Request>
   void ask(const site_party& whom, const Request& what) {
     auto reply = time.ask<Reply>(whom.coordinator, what);
-    requests.push_back({whom.index, message_json(what).dump(),
-                        [reply] { return reply->has_value(); }});
+    requests.push_back({whom.index, message_json(what).dump(), what.instances,
+                        [reply] { return reply->has_value(); },
+                        [reply]() -> std::optional<failure> {
+                          if (!reply->has_value() || **reply)
+                            return std::nullopt;
+                          return to_failure((*reply)->error());
+                        }});
   }
+
+  site_task& add_task(const site_party& coordinator,
+                      const std::vector<json>& steps);
+  /// Asks the task's coordinator, which lives.
+  void request(site_task& x);
+  void terminate(site_task& x);
 
   // -- what can go wrong ------------------------------------------------------
 
   /// Only parties of the same side reach each other.
   void split(const std::vector<int>& sides);
+  /// Nothing passes from one to the other; the way back is open.
+  void cut_one_way(size_t from, size_t to);
   /// These two cannot connect to each other; what is connected stays.
   void block(size_t x, size_t y);
   /// These two do not see each other's public presence.
@@ -135,10 +129,17 @@ public:
   /// Ends all of that and every silence.
   void heal_all();
 
-  bool reachable(size_t x, size_t y) const;
+  bool passes(size_t from, size_t to) const;
+  bool reachable(size_t x, size_t y) const {
+    return passes(x, y) && passes(y, x);
+  }
+
+  std::chrono::steady_clock::time_point now() const {
+    return time.scheduler.clock().now();
+  }
 
   void pass(std::chrono::milliseconds span) {
-    time.pass(span);
+    pass_until(span, [] { return false; });
   }
 
   /// The same, but stops in the middle of a moment once `stop` says so.
@@ -162,6 +163,7 @@ public:
   /// Tells a node of the coordinator that it looks for.
   void look_up(site_party& x);
   wire_ptr connect(const site_party& from, const site_party& to);
+  void report_violation(const std::string& what);
   site_party* find_address(const std::string& address);
   house context;
 
@@ -169,22 +171,41 @@ private:
   bool sees(const site_party& viewer, const site_party& subject) const;
   site_party& add_party(const std::string& name);
   void keep_facts(site_party& x);
+  void call(site_task& x, const json& document, bool ends);
+  void close_calls(const site_party& x);
+  void settle();
+  bool run_one();
+  void keep_frozen_back();
+  void update_links();
   void show(site_party& viewer, const site_party& subject);
   void fade(site_party& viewer, size_t subject,
             std::chrono::milliseconds delay);
 
   std::vector<int> sides_;
+  std::set<std::pair<size_t, size_t>> one_way_; ///< From, to: cut.
   std::set<std::pair<size_t, size_t>> blocked_;
   std::set<std::pair<size_t, size_t>> hidden_;
   std::map<uint64_t, std::function<void()>> work_;
   uint64_t last_work_ = 0;
-  std::vector<caf::actor> fact_keepers_; ///< One a party.
+  std::vector<caf::actor> fact_keepers_;             ///< One a party.
+  std::map<size_t, std::set<caf::actor_id>> frozen_; ///< By party.
+  std::map<size_t, std::vector<caf::resumable*>> kept_back_;
   std::chrono::steady_clock::time_point start_;
 };
 
-/// Plays discovery, connector, registration client, disk and agent of a party.
+/// Plays discovery, connector, registration client, disk, probe and runtime of
+/// a party.
 caf::behavior site_edge(caf::event_based_actor* self, site* place,
                         site_party* me);
+
+/// Somebody who was killed is seen for so long, at least. It is ten minutes in
+/// production; nothing depends on it but how long a test takes.
+constexpr auto ghost_span = 15s;
+
+/// A step of a task request; any deployment and any node if these are empty.
+json work_step(const std::string& id, const program_script& script = {},
+               const std::string& deployment = "",
+               const std::string& node = "");
 
 /// What the site's nodes prove switches with.
 constexpr auto site_token = "a token of this site";

@@ -203,22 +203,11 @@ caf::result<record_stored> write(caf::event_based_actor* self, site* place,
   return promise;
 }
 
-resource_report measure(const site_party& me) {
-  resource_report result;
-  auto& x = result.resources;
-  x.name = me.name;
-  x.architecture = "amd64";
-  x.cpu = {4, 0.5};
-  x.memory_mib = {8192, 1024};
-  x.disk_mib = {100'000, 10'000};
-  return result;
-}
-
 } // namespace
 
 caf::behavior site_edge(caf::event_based_actor* self, site* place,
                         site_party* me) {
-  return {
+  const caf::message_handler outside{
       [=](const announce_presence& x) { announce(place, me, x.self); },
       [=](const withdraw_presence&) { place->withdraw(*me); },
       [=](const find_coordinator& x) {
@@ -233,12 +222,8 @@ caf::behavior site_edge(caf::event_based_actor* self, site* place,
       [=](const store_record& x) { return write(self, place, me, {{x}}); },
       [=](const store_records& x) { return write(self, place, me, x); },
       [=](caf::tick_atom, uint64_t number) { place->run_work(number); },
-      [=](const resource_query&) { return measure(*me); },
-      [=](const instance_query&) { return instance_description{}; },
-      [=](const instance_removal& x) {
-        return instances_removed{{x.instance}};
-      },
   };
+  return program_edge(self, place, me).or_else(outside);
 }
 
 } // namespace roscell::test

@@ -1,7 +1,7 @@
 #include "actors/edge/session/registration_proof.hpp"
 #include "actors/session/registration_order.hpp"
 #include "messages/failure.hpp"
-#include "test/site/site_watch.hpp"
+#include "test/site/watch/site_watch.hpp"
 
 #include <algorithm>
 

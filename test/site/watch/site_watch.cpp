@@ -1,4 +1,6 @@
-#include "test/site/site_watch.hpp"
+#include "test/site/watch/site_watch.hpp"
+
+#include "test/site/watch/task_rest.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -56,10 +58,25 @@ std::string state_word(const site_party& node) {
          + std::to_string(node.status().config.identity.epoch);
 }
 
+/// A node that does not come back is missed, and that is all.
+std::string retired_complaint(const site& place, const site_party& node) {
+  std::string result;
+  for (const auto& c : place.parties) {
+    const auto* row = c->coordinates ? row_of(*c, node) : nullptr;
+    if (row && row->row.state != row_state::lost
+        && row->row.state != row_state::expected)
+      result += node.name + ", which is gone, is "
+                + std::string{to_word(row->row.state)} + " at " + c->cell
+                + "; ";
+  }
+  return result;
+}
+
 /// One node against all registries.
 std::string node_complaint(const site& place, const site_party& node) {
   if (!node.alive())
-    return node.name + " is dead; ";
+    return node.retired ? retired_complaint(place, node)
+                        : node.name + " is dead; ";
   const auto& st = node.status();
   std::string result;
   const auto add = [&](const std::string& what) {
@@ -68,6 +85,9 @@ std::string node_complaint(const site& place, const site_party& node) {
   if (st.standing != node_state::member
       && (st.standing != node_state::independent || st.seeking))
     add("has not come to rest");
+  const bool belongs = st.standing == node_state::member;
+  if (belongs == node.announced.has_value())
+    add(belongs ? "announces itself" : "announces nothing");
   for (const auto& c : place.parties) {
     if (!c->coordinates)
       continue;
@@ -85,6 +105,12 @@ std::string node_complaint(const site& place, const site_party& node) {
   return result;
 }
 
+bool is_of_retired(const site& place, const transfer_row& transfer) {
+  return std::any_of(
+      place.parties.begin(), place.parties.end(),
+      [&](const auto& x) { return x->retired && x->uuid == transfer.uuid; });
+}
+
 std::string cell_complaint(const site& place, const site_party& x) {
   if (!x.alive())
     return x.name + " is dead; ";
@@ -92,7 +118,8 @@ std::string cell_complaint(const site& place, const site_party& x) {
   const auto& st = x.cell_state();
   for (const auto& [id, transfer] : st.transfers)
     if (transfer.row.state != transfer_state::done
-        && transfer.row.state != transfer_state::returned)
+        && transfer.row.state != transfer_state::returned
+        && !is_of_retired(place, transfer.row))
       result += "transfer " + id + " is "
                 + std::string{to_word(transfer.row.state)} + "; ";
   const auto stored = x.disk.find("transfers");
@@ -116,7 +143,7 @@ std::string complaint(const site& place) {
   for (const auto& request : place.requests)
     if (!request.closed && !request.is_answered())
       result += "no answer to " + request.text + "; ";
-  return result;
+  return result + task_complaint(place);
 }
 
 std::string old_registrations(const site& place) {
@@ -151,7 +178,9 @@ std::string calm_down(site& place) {
       cut(*c.link);
   for (auto& x : place.parties) {
     x->disk_full = false;
-    place.start(*x);
+    x->builds_fail = false;
+    if (!x->retired)
+      place.start(*x);
   }
   // What was held up arrives.
   place.pass(10s);
@@ -164,6 +193,21 @@ std::string calm_down(site& place) {
   }
   place.pass(10s);
   return complaint(place);
+}
+
+std::string release_retired(site& place) {
+  std::string result;
+  for (const auto& node : place.parties)
+    for (const auto& c : place.parties) {
+      if (!node->retired || !c->coordinates || !row_of(*c, *node))
+        continue;
+      auto reply = place.time.ask<node_released>(
+          c->coordinator, node_release{node->name, instance_policy::terminate});
+      place.pass(60s);
+      if (!reply->has_value() || !**reply || row_of(*c, *node))
+        result += c->cell + " does not let " + node->name + " go; ";
+    }
+  return result;
 }
 
 void site_watch::measure(std::map<place_key, moment>& since,
@@ -196,6 +240,7 @@ void site_watch::look() {
         active.size() > 1 && are_connected(place_, *active[0], *active[1]);
     measure(doubles_, {node->index, 0}, twice, longest_double_);
   }
+  tasks_.look();
 }
 
 void site_watch::live(duration span) {
@@ -206,8 +251,6 @@ void site_watch::live(duration span) {
 }
 
 void print_facts(const site& place) {
-  if (!std::getenv("ROSCELL_SEED"))
-    return;
   for (const auto& x : place.facts)
     std::cerr << x.when.count() << " ms " << place.parties[x.party]->name
               << ": " << x.what << " '" << x.subject << "' " << x.data.dump()

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "test/site/site.hpp"
+#include "test/site/watch/task_watch.hpp"
 
 #include <chrono>
 #include <map>
@@ -17,16 +18,20 @@ std::string complaint(const site& place);
 /// of the same node; empty if there is none.
 std::string old_registrations(const site& place);
 
-/// Lets time pass until there is no complaint, and looks whether it stays so.
-/// Gives what is left of it.
+/// Ends all trouble, lets time pass until there is no complaint, and looks
+/// whether it stays so. Gives what is left of it.
 std::string calm_down(site& place);
+
+/// Has every cell let go the nodes that do not come back: what they have left
+/// behind must not stand in the way. Gives what does.
+std::string release_retired(site& place);
 
 /// Watches the invariants while there is trouble.
 class site_watch {
 public:
   using duration = std::chrono::milliseconds;
 
-  explicit site_watch(site& place) : place_(place) {}
+  explicit site_watch(site& place) : place_(place), tasks_(place) {}
 
   /// Lets time pass, looking every so often.
   void live(duration span);
@@ -44,6 +49,10 @@ public:
     return longest_double_;
   }
 
+  const task_watch& tasks() const {
+    return tasks_;
+  }
+
   static constexpr duration period{250};
 
 private:
@@ -54,13 +63,14 @@ private:
                bool holds, duration& longest);
 
   site& place_;
+  task_watch tasks_;
   std::map<place_key, moment> lies_;
   std::map<place_key, moment> doubles_;
   duration longest_lie_{0};
   duration longest_double_{0};
 };
 
-/// Prints the facts that were told, if ROSCELL_SEED asks for one run.
+/// Prints the facts that were told, and when.
 void print_facts(const site& place);
 
 } // namespace roscell::test

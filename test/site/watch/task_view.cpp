@@ -1,0 +1,47 @@
+#include "test/site/watch/task_view.hpp"
+
+namespace roscell::test {
+
+std::vector<task_view> tasks_of(const site_party& coordinator) {
+  std::vector<task_view> result;
+  const auto& st = coordinator.cell_state();
+  for (const auto& [task, entry] : st.tasks.entries()) {
+    const auto& record = entry.record;
+    task_view view{task, record.state, {}};
+    for (size_t i = 0; i < record.specs.size(); ++i) {
+      const auto& instance = record.specs[i].instance;
+      const auto* row = st.registry.find_instance(instance);
+      view.steps.push_back({record.specs[i].step, instance, record.nodes[i],
+                            row && !is_live(row->state)});
+    }
+    result.push_back(std::move(view));
+  }
+  return result;
+}
+
+size_t instances_shown(const site_party& coordinator) {
+  size_t result = 0;
+  for (const auto& row : coordinator.cell_state().registry.rows())
+    result += row.instances.size();
+  return result;
+}
+
+bool are_cell(const site_party& coordinator, const site_party& node) {
+  if (&coordinator == &node)
+    return true;
+  if (!coordinator.alive() || !node.alive() || node.coordinates)
+    return false;
+  const auto& st = node.status();
+  const auto* row = coordinator.cell_state().registry.find_uuid(node.uuid);
+  return st.standing == node_state::member && st.cell == coordinator.cell && row
+         && row->row.state == row_state::active;
+}
+
+site_party* find_party(const site& place, const std::string& name) {
+  for (const auto& x : place.parties)
+    if (x->name == name)
+      return x.get();
+  return nullptr;
+}
+
+} // namespace roscell::test

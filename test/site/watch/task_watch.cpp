@@ -1,0 +1,177 @@
+#include "test/site/watch/task_watch.hpp"
+
+#include <algorithm>
+
+namespace roscell::test {
+
+namespace {
+
+bool has_step(const std::vector<task_view>& tasks, const std::string& instance,
+              const std::string& node) {
+  return std::any_of(tasks.begin(), tasks.end(), [&](const auto& task) {
+    return std::any_of(task.steps.begin(), task.steps.end(),
+                       [&](const auto& x) {
+                         return x.instance == instance && x.node == node;
+                       });
+  });
+}
+
+const site_task* find_task(const site& place, size_t cell,
+                           const std::string& name) {
+  for (const auto& x : place.tasks)
+    if (x->cell == cell && x->name == name)
+      return x.get();
+  return nullptr;
+}
+
+} // namespace
+
+void task_watch::span_book::update(const std::set<key>& present, moment now) {
+  for (auto i = since.begin(); i != since.end();)
+    i = present.count(i->first) == 0 ? since.erase(i) : std::next(i);
+  for (const auto& x : present) {
+    const auto begin = since.emplace(x, now).first->second;
+    longest =
+        std::max(longest, std::chrono::duration_cast<duration>(now - begin));
+  }
+}
+
+void task_watch::look() {
+  std::set<key> doubled, stray;
+  std::map<size_t, snapshot> now;
+  look_at_facts();
+  for (const auto& c : place_.parties) {
+    if (!c->coordinates || !c->alive())
+      continue;
+    const auto tasks = tasks_of(*c);
+    look_at_programs(*c, tasks, doubled, stray);
+    auto& x = now[c->index];
+    x.life = c->life;
+    for (const auto& task : tasks) {
+      if (task.state != task_state::deploying
+          && task.state != task_state::terminating)
+        x.running.insert(task.task);
+      for (const auto& step : task.steps)
+        if (!step.ended && task.state != task_state::terminating)
+          x.placed.emplace(task.task, step.node);
+    }
+    look_at_ends(*c, x);
+  }
+  seen_ = std::move(now);
+  doubles_.update(doubled, place_.now());
+  strays_.update(stray, place_.now());
+  for (size_t i = 0; i < place_.requests.size(); ++i)
+    if (place_.requests[i].is_answered())
+      answered_.insert(i);
+}
+
+void task_watch::look_at_programs(const site_party& coordinator,
+                                  const std::vector<task_view>& tasks,
+                                  std::set<key>& doubled,
+                                  std::set<key>& stray) const {
+  std::map<key, size_t> nodes; ///< On which a step runs.
+  for (const auto& node : place_.parties) {
+    if (node->programs.empty() || !are_cell(coordinator, *node))
+      continue;
+    for (const auto& [instance, x] : node->programs) {
+      if (x.cell != coordinator.cell || !x.runs(place_.now()))
+        continue;
+      const key step{coordinator.index, x.task, x.step};
+      if (++nodes[step] > 1)
+        doubled.insert(step);
+      if (!has_step(tasks, instance, node->name))
+        stray.emplace(node->index, instance, "");
+    }
+  }
+}
+
+/// A request that was definitely refused does nothing more.
+bool task_watch::may_still_act(const site_request& x,
+                               size_t coordinator) const {
+  const auto number = static_cast<size_t>(&x - place_.requests.data());
+  if (x.closed || answered_.count(number) == 0)
+    return true;
+  const auto why = x.refusal();
+  return !why || why->code == error_code::unresolved
+         || why->code == error_code::timeout
+         || (why->code == error_code::unreachable && x.asked != coordinator);
+}
+
+bool task_watch::is_wanted(instance_policy policy, size_t coordinator) const {
+  return std::any_of(
+      place_.requests.begin(), place_.requests.end(), [&](const auto& x) {
+        return x.policy == policy && may_still_act(x, coordinator);
+      });
+}
+
+/// A task that runs ends only if somebody wants it.
+void task_watch::look_at_ends(const site_party& coordinator,
+                              const snapshot& now) {
+  const auto i = seen_.find(coordinator.index);
+  if (i == seen_.end() || i->second.life != now.life)
+    return;
+  for (const auto& task : i->second.running) {
+    if (now.running.count(task) > 0)
+      continue;
+    const auto* asked = find_task(place_, coordinator.index, task);
+    if ((!asked || !asked->end_is_wanted())
+        && !is_wanted(instance_policy::terminate, coordinator.index))
+      place_.report_violation("task '" + task + "' of " + coordinator.cell
+                              + " is ended, and nobody wants that");
+  }
+}
+
+void task_watch::look_at_facts() {
+  for (; facts_seen_ < place_.facts.size(); ++facts_seen_) {
+    const auto& fact = place_.facts[facts_seen_];
+    if (fact.what == "node_departing")
+      look_at_departure(fact);
+    else if (fact.what == "instance_moved")
+      look_at_move(fact);
+    else if (fact.what == "transfer_ended"
+             && !ended_transfers_
+                     .emplace(fact.party, fact.data.at("transfer"),
+                              std::to_string(fact.life))
+                     .second)
+      place_.report_violation("transfer "
+                              + fact.data.at("transfer").get<std::string>()
+                              + " has ended twice");
+  }
+}
+
+/// A node that has something to do, or will have, is not let go unless somebody
+/// has said what shall become of it.
+void task_watch::look_at_departure(const told_at& fact) {
+  const auto quoted = '"' + fact.subject + '"';
+  for (const auto& x : place_.requests)
+    if (x.policy != instance_policy::refuse
+        && x.text.find(quoted) != std::string::npos)
+      return;
+  const auto& c = *place_.parties[fact.party];
+  const auto before = seen_.find(c.index);
+  if (!c.alive() || before == seen_.end() || before->second.life != c.life)
+    return;
+  for (const auto& task : tasks_of(c))
+    for (const auto& step : task.steps)
+      if (step.node == fact.subject && !step.ended
+          && before->second.placed.count({task.task, step.node}) > 0)
+        place_.report_violation("'" + step.instance + "' is on node '"
+                                + fact.subject + "', which is let go");
+}
+
+void task_watch::look_at_move(const told_at& fact) {
+  if (!is_wanted(instance_policy::reschedule, fact.party))
+    place_.report_violation("'" + fact.subject
+                            + "' is moved, and nobody wants that");
+  const auto old = fact.data.at("replaces").get<std::string>();
+  const auto end = place_.facts.begin() + static_cast<ptrdiff_t>(facts_seen_);
+  const bool known = std::any_of(place_.facts.begin(), end, [&](const auto& x) {
+    return x.what == "instance_changed" && x.party == fact.party
+           && x.subject == old && x.data.value("state", "") == "stopped"
+           && x.data.value("exit_code", -1) == 0;
+  });
+  if (known && place_.finished.count(old) > 0)
+    place_.report_violation("'" + old + "' has finished and is moved");
+}
+
+} // namespace roscell::test
