@@ -2,8 +2,8 @@
 
 #include "actors/cell/cell_places.hpp"
 #include "actors/cell/state/coordinator_timer.hpp"
-#include "actors/cell/transfers/transfer_start.hpp"
 #include "actors/cell/tasks/cell_instances.hpp"
+#include "actors/cell/transfers/transfer_start.hpp"
 #include "actors/house/limits.hpp"
 #include "messages/failure.hpp"
 

@@ -21,7 +21,6 @@ namespace {
 
 using self_pointer = coordinator_pointer;
 
-
 void stop_searches_on(const cell_coordinator_state& st,
                       const std::string& node) {
   if (st.setup.searches)

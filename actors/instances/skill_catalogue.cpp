@@ -165,7 +165,8 @@ std::vector<installed_skill> skill_catalogue::skills() const {
 
 std::vector<skill_problem> skill_catalogue::told_problems() const {
   std::vector<skill_problem> result;
-  for (size_t i = 0; i < std::min(problems_.size(), limits::skill::told_problems); ++i) {
+  for (size_t i = 0;
+       i < std::min(problems_.size(), limits::skill::told_problems); ++i) {
     auto x = problems_[i];
     for (auto* text : {&x.path, &x.where, &x.message})
       *text = valid_utf8(text->substr(0, limits::skill::told_text_bytes));

@@ -15,9 +15,9 @@ const scheduler_actor& searcher_for(self_pointer self, bool trial) {
   auto& st = self->state;
   auto& result = trial ? st.trial : st.live;
   if (!result) {
-    result = st.config.make_searcher(
-        trial ? std::make_shared<search_guard>() : st.config.guard,
-        caf::actor_cast<scheduler_actor>(self));
+    result = st.config.make_searcher(trial ? std::make_shared<search_guard>()
+                                           : st.config.guard,
+                                     caf::actor_cast<scheduler_actor>(self));
     self->monitor(result);
   }
   return result;

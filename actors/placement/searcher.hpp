@@ -2,7 +2,7 @@
 
 #include "actors/house/house.hpp"
 #include "actors/placement/search_guard.hpp"
-#include "messages/type_ids.hpp"
+#include "messages/messages.hpp"
 
 #include <memory>
 

@@ -99,7 +99,7 @@ void on_challenge(self_pointer self, uint64_t call,
   order.proof = prove(order_of(order), st.config.site_token);
   x.proven = true;
   send_to_node(self, call, x.wish.address, "POST", registration_path,
-       message_json(order).dump());
+               message_json(order).dump());
 }
 
 /// Why nobody at that address may be asked, if so.
@@ -173,7 +173,7 @@ caf::result<standing_proved> ask_standing(self_pointer self,
   const auto nonce = make_nonce();
   st.questions.emplace(call, standing_call{wish, nonce, promise});
   send_to_node(self, call, wish.address, "GET",
-       std::string{registration_path} + "?nonce=" + nonce, "");
+               std::string{registration_path} + "?nonce=" + nonce, "");
   return promise;
 }
 

@@ -1,12 +1,12 @@
 #pragma once
 
 #include "actors/cell/books/cell_registry.hpp"
+#include "actors/cell/books/deployment_book.hpp"
 #include "actors/cell/books/free_node_book.hpp"
 #include "actors/cell/books/peer_book.hpp"
 #include "actors/cell/books/place_book.hpp"
-#include "actors/cell/books/transfer_book.hpp"
-#include "actors/cell/books/deployment_book.hpp"
 #include "actors/cell/books/task_book.hpp"
+#include "actors/cell/books/transfer_book.hpp"
 #include "actors/cell/tasks/task_desk.hpp"
 #include "actors/house/alarm.hpp"
 #include "actors/house/house.hpp"

@@ -132,11 +132,13 @@ std::vector<instance_verdict> take_up_instances(self_pointer self,
   auto verdicts = reconcile(st, node);
   st.deployments.forget_node(name);
   std::set<std::string> tasks;
-  for (const auto& x : node.instances) {
+  for (auto x : node.instances) {
     if (!is_wanted(st, x.spec.instance, name))
       continue;
-    st.deployments.tell(name, x);
+    // A node that registers says less of an instance than the task knows.
+    x.spec = st.deployments.find(x.spec.instance, name)->spec;
     tasks.insert(x.spec.task);
+    st.deployments.tell(name, std::move(x));
   }
   // It has just been told what to stop.
   st.desk.removals.forget_node(name);

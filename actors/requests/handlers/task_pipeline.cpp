@@ -96,12 +96,9 @@ void resolve_skills(const request_context&, claimed_task task,
 
 void place(const request_context& context, resolved_task task,
            outcome<allocated_task> done) {
-  allocate_task question{task.request.task,
-                         task.steps,
-                         std::move(task.cell.nodes),
-                         {},
-                         std::move(task.why),
-                         true};
+  allocate_task question{task.request.task,          task.steps,
+                         std::move(task.cell.nodes), {},
+                         std::move(task.why),        true};
   ask<task_plan>(context, context.services->scheduler, limits::task::search,
                  std::move(question), done,
                  [done, request = std::move(task.request),

@@ -1,7 +1,7 @@
 #include "actors/requests/rest.hpp"
 
-#include "messages/failure.hpp"
 #include "messages/codec/json_codec.hpp"
+#include "messages/failure.hpp"
 #include "test/fixture.hpp"
 
 namespace roscell::test {
