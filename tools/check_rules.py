@@ -1,9 +1,8 @@
 #!/usr/bin/env python3
 """Checks that the tests which docs/protocols.md names are there.
 
-A rule names what holds it as `test/FOLDER/FILE`: "name of a test". Every
-section must name some, and so must every row of a table with a column
-"held by".
+One table there says for each rule what holds it, as `test/FOLDER/FILE`: "name of
+a test". It must speak of every section, and of every row of a table of failures.
 Usage: tools/check_rules.py
 """
 
@@ -50,24 +49,40 @@ def missing(text):
             yield f'{path} has no test "{name}"'
 
 
-def unnamed(text):
-    for section in re.split(r"^## ", text, flags=re.MULTILINE)[1:]:
-        title = section.splitlines()[0]
-        if not list(references(section)):
-            yield f"the section '{title}' names no test"
-    held = False
+def rows_of(text, headers):
+    """The rows of the tables whose first column has one of these headers."""
+    wanted = False
     for line in text.splitlines():
+        cells = [x.strip() for x in line.strip("|").split("|")]
         if not line.startswith("|"):
-            held = False
-        elif "held by" in line:
-            held = True
-        elif held and not set(line) <= set("|-: ") and not list(references(line)):
-            yield f"a rule names no test: {line}"
+            wanted = False
+        elif cells[0] in headers:
+            wanted = True
+        elif wanted and not set(line) <= set("|-: "):
+            yield cells
+
+
+def unheld(text):
+    """Sections and failures of which the table says nothing."""
+    rules = {row[0]: row[-1] for row in rows_of(text, ["rule"])}
+    for rule, held_by in rules.items():
+        if not list(references(held_by)):
+            yield f"the rule '{rule}' names no test"
+    named = {match[1] for match in map(re.compile(r"\*\*(.*)\*\*").match, rules) if match}
+    for title in re.findall(r"^## (.*)", text, re.MULTILINE):
+        failures = [row[0] for row in rows_of(section(text, title), ["what", "what breaks"])]
+        if title != "What holds these rules" and not failures and title not in named:
+            yield f"no rule of the section '{title}' is in the table"
+        yield from (f"'{x}' is not in the table" for x in failures if x not in rules)
+
+
+def section(text, title):
+    return re.split(r"^## ", text.split(f"## {title}\n")[1], maxsplit=1, flags=re.MULTILINE)[0]
 
 
 def main():
     text = PAGE.read_text()
-    problems = list(missing(text)) + list(unnamed(text))
+    problems = list(missing(text)) + list(unheld(text))
     for problem in problems:
         print(f"rules: {PAGE.relative_to(ROOT)}: {problem}")
     if not problems:
