@@ -1,5 +1,7 @@
 #include "actors/edge/session/session_handshake.hpp"
 
+#include "actors/house/limits.hpp"
+
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
@@ -276,12 +278,12 @@ TEST_CASE("fields of a frame are checked before they are used") {
       {"version", "1.00000000000000000"},
       {"version", 1.0},
       {"node", ""},
-      {"node", std::string(129, 'x')},
+      {"node", std::string(limits::text::name_bytes + 1, 'x')},
       {"node", "a\nb"},
       {"node", nullptr},
       {"uuid", ""},
       {"uuid", "xyz"},
-      {"uuid", std::string(65, 'a')},
+      {"uuid", std::string(limits::text::uuid_bytes + 1, 'a')},
       {"epoch", -1},
       {"epoch", 1.5},
       {"epoch", "7"},
