@@ -1,6 +1,6 @@
 #pragma once
 
-#include "actors/cell/cell_coordinator.hpp"
+#include "actors/cell/state/coordinator_state.hpp"
 
 #include <cstdint>
 #include <string>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "actors/cell/cell_coordinator.hpp"
+#include "actors/cell/state/coordinator_state.hpp"
 
 /// What the CELL COORDINATOR does about its members.
 namespace roscell {

@@ -1,4 +1,4 @@
-#include "test/site/site_watch.hpp"
+#include "test/site/watch/site_watch.hpp"
 
 #include <catch2/catch.hpp>
 

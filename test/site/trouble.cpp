@@ -264,13 +264,13 @@ void trouble::operate_tasks() {
 /// For how long a registry may show a node that does not believe in it: a
 /// lease, and until the next look.
 trouble::duration trouble::longest_honest_lie() const {
-  duration result = lease_span + site_watch::period;
+  duration result = limits::lease::span + site_watch::period;
   // A frame that was held up is a sign of life when it arrives.
   if (holds_)
     result += held_for;
   // A lost frame, which TCP would repeat, costs the wait for its answer.
   if (hostile_)
-    result += registration_timeout;
+    result += limits::membership::registration;
   return result;
 }
 
