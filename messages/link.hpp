@@ -170,6 +170,7 @@ struct node_presence {
   std::string address;          ///< Of its HTTP port.
   std::string discovery_server; ///< "ip:port"; coordinators only.
   int64_t server_id = 0;        ///< Of the discovery server.
+  std::string cell_uuid;        ///< Of the cell; not of an independent node.
 
   static constexpr auto fields() {
     return std::make_tuple(
@@ -181,7 +182,8 @@ struct node_presence {
         required("cell", &node_presence::cell),
         required("address", &node_presence::address),
         required("discovery_server", &node_presence::discovery_server),
-        required("server_id", &node_presence::server_id));
+        required("server_id", &node_presence::server_id),
+        optional("cell_uuid", &node_presence::cell_uuid));
   }
 };
 

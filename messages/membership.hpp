@@ -56,13 +56,15 @@ struct membership_record {
   std::string discovery_server; ///< Of its cell; empty: it was released.
   std::string cell;
   join_origin origin = join_origin::given;
+  std::string cell_uuid; ///< Empty: its coordinator has not told it.
 
   static constexpr auto fields() {
     return std::make_tuple(
         required("configured", &membership_record::configured),
         required("discovery_server", &membership_record::discovery_server),
         required("cell", &membership_record::cell),
-        required("origin", &membership_record::origin));
+        required("origin", &membership_record::origin),
+        optional("cell_uuid", &membership_record::cell_uuid));
   }
 };
 

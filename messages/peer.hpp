@@ -64,6 +64,7 @@ struct cell_standing {
   int64_t size = 0;      ///< Active, reserved and departing rows.
   bool rebalance = true; ///< Takes part in evening out.
   std::vector<member_claim> members;
+  std::string cell_uuid; ///< Of the cell.
 
   static constexpr auto fields() {
     return std::make_tuple(required("place", &cell_standing::place),
@@ -71,7 +72,8 @@ struct cell_standing {
                            required("incarnation", &cell_standing::incarnation),
                            required("size", &cell_standing::size),
                            required("rebalance", &cell_standing::rebalance),
-                           required("members", &cell_standing::members));
+                           required("members", &cell_standing::members),
+                           optional("cell_uuid", &cell_standing::cell_uuid));
   }
 };
 

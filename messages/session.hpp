@@ -57,6 +57,8 @@ struct node_registration {
   join_origin origin = join_origin::given;
   std::string transfer; ///< The one that brings the node here, if any.
   std::vector<skill_problem> refused_skills; ///< The first of them.
+  /// The only cell that the node comes back to; empty: whichever this is.
+  std::string cell_uuid;
 
   static constexpr auto fields() {
     return std::make_tuple(
@@ -67,7 +69,8 @@ struct node_registration {
         required("instances", &node_registration::instances),
         optional("origin", &node_registration::origin),
         optional("transfer", &node_registration::transfer),
-        optional("refused_skills", &node_registration::refused_skills));
+        optional("refused_skills", &node_registration::refused_skills),
+        optional("cell_uuid", &node_registration::cell_uuid));
   }
 };
 
@@ -97,13 +100,15 @@ struct node_registered {
   std::string coordinator;
   int64_t incarnation = 0;
   std::vector<instance_verdict> verdicts;
+  std::string cell_uuid; ///< Empty: an older coordinator, which has none.
 
   static constexpr auto fields() {
     return std::make_tuple(
         required("cell", &node_registered::cell),
         required("coordinator", &node_registered::coordinator),
         required("incarnation", &node_registered::incarnation),
-        required("verdicts", &node_registered::verdicts));
+        required("verdicts", &node_registered::verdicts),
+        optional("cell_uuid", &node_registered::cell_uuid));
   }
 };
 

@@ -40,14 +40,17 @@ std::string cell_of(const std::vector<cell_size>& cells,
 }
 
 /// One cell has done what it could. Once all have, it is looked at again as
-/// long as something moves.
+/// long as something moves. What cannot be moved is not tried again soon, if
+/// something else wants the sizes looked at: it costs the member its session.
 void on_surrendered(self_pointer self, bool moved) {
   auto& st = self->state;
   --st.balancing;
   if (moved)
-    arm_balance(self);
-  else
-    set_timer(self); // Something else may have armed it meanwhile.
+    return arm_balance(self);
+  if (st.balance_due != time_point::max())
+    st.balance_due =
+        std::max(st.balance_due, self->clock().now() + limits::retry::longest);
+  set_timer(self);
 }
 
 void order_move(self_pointer self, const cell_move& move,

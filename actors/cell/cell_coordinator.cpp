@@ -140,7 +140,10 @@ cell_coordinator(self_pointer self, const house& context,
       [self](const presence_gone& x) { on_presence_gone(self, x.who); },
       [self](const peer_opened& x) { on_peer_opened(self, x); },
       [self](const peer_lost& x) { on_peer_lost(self, x); },
-      [self](const peer_told& x) { on_peer_told(self, x); },
+      [self](const peer_told& x) {
+        on_peer_told(self, x);
+        grant_awaited_places(self);
+      },
       [self](const peer_changed& x) { on_peer_changed(self, x); },
       [self](const place_request& x) { return grant_place(self, x); },
       [self](const place_reservation& x) { return reserve_place(self, x); },

@@ -48,12 +48,9 @@ void on_registration_kept(
   auto& st = self->state;
   const auto& node = request.registration;
   const auto& who = node.identity;
-  std::string transfer;
   member_actor former;
-  if (const auto* old = st.registry.find_uuid(who.uuid)) {
-    transfer = old->transfer;
+  if (const auto* old = st.registry.find_uuid(who.uuid))
     former = old->member;
-  }
   auto* entry = st.registry.accept(who.uuid, request.member, now_of(self));
   if (!entry) {
     promise.deliver(
@@ -63,7 +60,7 @@ void on_registration_kept(
   }
   if (former && former != request.member)
     self->send(former, close_session{"the node has registered anew"});
-  st.places.erase(who.uuid);
+  st.places.forget(who.uuid);
   st.free_nodes.registered(who);
   publish(self, {who.uuid});
   st.context.tell("node_joined", who.name,
@@ -71,12 +68,11 @@ void on_registration_kept(
                    {"epoch", who.epoch},
                    {"address", who.address},
                    {"size", st.registry.active_count()}});
-  promise.deliver(node_registered{st.setup.cell, st.setup.self.name,
-                                  st.setup.incarnation,
-                                  take_up_instances(self, node)});
+  promise.deliver(
+      node_registered{st.setup.cell, st.setup.self.name, st.setup.incarnation,
+                      take_up_instances(self, node), st.setup.cell_uuid});
   settle_arrivals(self, who.uuid, nullptr);
-  if (!transfer.empty())
-    on_node_returned(self, transfer);
+  on_node_returned(self, who.uuid);
 }
 
 } // namespace
@@ -136,6 +132,14 @@ caf::result<node_registered> register_member(self_pointer self,
                 "/identity/uuid",
                 "start this node with another --data-dir, or with this one "
                 "emptied: then it makes a UUID of its own");
+  const auto& cell = request.registration.cell_uuid;
+  if (!cell.empty() && cell != st.setup.cell_uuid)
+    return fail(error_code::unknown_cell,
+                "this is another cell '" + st.setup.cell
+                    + "' than the one that the node was in",
+                "/cell_uuid",
+                "it waits for its own; to take it over, name it in a "
+                "cell_formation");
   if (auto why = st.registry.refusal(who, now_of(self)))
     return to_error(*why);
   auto promise = self->make_response_promise<node_registered>();
@@ -185,9 +189,7 @@ void on_member_lost(self_pointer self, const member_lost& fact) {
     return;
   const auto name = entry->row.identity.name;
   if (entry->row.state == row_state::departing) {
-    // It goes: where it turns up tells the rest.
-    entry->agent = nullptr;
-    entry->member = nullptr;
+    on_departing_node_lost(self, *entry, fact.reason);
     return set_timer(self);
   }
   st.registry.deactivate(*entry, row_state::lost, fact.reason, now_of(self));

@@ -19,6 +19,7 @@ cell_standing standing_of(const cell_coordinator_state& st) {
   cell_standing result;
   result.place = own_address(st.setup);
   result.uuid = st.setup.self.uuid;
+  result.cell_uuid = st.setup.cell_uuid;
   result.incarnation = st.setup.incarnation;
   result.size = static_cast<int64_t>(st.registry.size());
   result.rebalance = st.setup.rebalance;
@@ -75,6 +76,9 @@ void give_up_place(self_pointer self, const std::string& uuid) {
 void weigh(self_pointer self, const peer_entry& from,
            const member_claim& claim) {
   auto& st = self->state;
+  // Its place has been taken, there or elsewhere.
+  if (claim.active)
+    st.places.forget(claim.uuid);
   auto* entry = st.registry.find_uuid(claim.uuid);
   if (!entry || !claim.active || claim.uuid == st.setup.self.uuid)
     return;
@@ -155,6 +159,8 @@ void on_peer_changed(self_pointer self, const peer_changed& fact) {
   if (before != fact.change.size)
     st.context.tell("peer_changed", entry->standing.place.cell,
                     {{"size", fact.change.size}});
+  for (const auto& uuid : fact.change.gone)
+    st.places.forget(uuid, entry->standing.uuid);
   for (const auto& claim : fact.change.changed)
     weigh(self, *entry, claim);
 }

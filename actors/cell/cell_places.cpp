@@ -62,9 +62,8 @@ void on_place_kept(self_pointer self, const std::string& uuid,
   const auto* holder = st.peers.find(uuid);
   if (!holder) {
     st.places.forget(request.uuid, uuid);
-    return promise.deliver(fail(error_code::unreachable,
-                                "the cell has just gone", "",
-                                "it is asked again by itself"));
+    promise.deliver(fail(error_code::unreachable, "the cell has just gone"));
+    return;
   }
   promise.deliver(place_granted{holder->standing.place});
 }

@@ -87,6 +87,7 @@ void appear(self_pointer self) {
   me.address = setup.self.address;
   me.discovery_server = setup.discovery_server;
   me.server_id = setup.server_id;
+  me.cell_uuid = setup.cell_uuid;
   self->send(setup.discovery, announce_presence{std::move(me)});
 }
 

@@ -97,8 +97,9 @@ void forget(self_pointer self) {
 }
 
 node_presence to_presence(const announcement& said) {
-  return {said.role, said.node,    said.uuid,      said.epoch, said.incarnation,
-          said.cell, said.session, said.discovery, said.server};
+  return {said.role,        said.node,     said.uuid,    said.epoch,
+          said.incarnation, said.cell,     said.session, said.discovery,
+          said.server,      said.cell_uuid};
 }
 
 announcement to_announcement(const node_presence& x) {
@@ -112,6 +113,7 @@ announcement to_announcement(const node_presence& x) {
   result.session = x.address;
   result.discovery = x.discovery_server;
   result.server = x.server_id;
+  result.cell_uuid = x.cell_uuid;
   return result;
 }
 

@@ -39,6 +39,7 @@ void finish_leaving(self_pointer self) {
   st.switching.reset();
   if (auto cell = std::exchange(st.cell, {}); !cell.empty())
     tell(self, "cell_left", {{"cell", cell}});
+  st.cell_uuid.clear();
   st.coordinator.clear();
   st.address.clear();
   st.incarnation = 0;
@@ -122,6 +123,7 @@ void resume(self_pointer self) {
   st.wanted = st.stored->discovery_server;
   st.origin = st.stored->origin;
   st.cell = st.stored->cell;
+  st.cell_uuid = st.stored->cell_uuid;
   st.standing = node_state::orphaned;
   begin_attempt(self);
 }

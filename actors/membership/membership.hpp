@@ -101,6 +101,7 @@ struct membership_status {
 
   /// The cell that the node is in, or was when it was orphaned.
   std::string cell;
+  std::string cell_uuid;   ///< Empty: not known, then the name has to do.
   std::string coordinator; ///< Its name.
   std::string address;     ///< Of its HTTP port.
   int64_t incarnation = 0;

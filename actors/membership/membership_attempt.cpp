@@ -46,6 +46,7 @@ void on_registered(self_pointer self, const node_registered& reply) {
   st.phase = phase::joined;
   st.standing = node_state::member;
   st.cell = reply.cell;
+  st.cell_uuid = reply.cell_uuid;
   st.coordinator = reply.coordinator;
   st.incarnation = reply.incarnation;
   st.address = st.found_address;
@@ -88,6 +89,8 @@ node_registration registration_of(const membership_status& st) {
   result.origin = st.origin;
   if (st.switching)
     result.transfer = st.switching->order.transfer;
+  else if (st.standing == node_state::orphaned)
+    result.cell_uuid = st.cell_uuid;
   for (auto& row : result.instances) {
     row.node = st.config.identity.name;
     shorten(row);

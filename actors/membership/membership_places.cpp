@@ -70,6 +70,12 @@ void gather(self_pointer self) {
   set_timer(self);
 }
 
+/// Whether that is the cell that the node was in. Several may have its name.
+bool is_own_cell(const membership_status& st, const node_presence& who) {
+  const bool known = !st.cell_uuid.empty() && !who.cell_uuid.empty();
+  return known ? who.cell_uuid == st.cell_uuid : who.cell == st.cell;
+}
+
 /// The coordinator that an orphan waits for is back, maybe at a new address.
 void return_to(self_pointer self, const node_presence& who) {
   auto& st = self->state;
@@ -95,6 +101,7 @@ void show_presence(self_pointer self) {
   x.uuid = me.uuid;
   x.epoch = me.epoch;
   x.cell = st.cell;
+  x.cell_uuid = st.cell_uuid;
   x.address = me.address;
   if (st.shown == x)
     return;
@@ -115,7 +122,7 @@ void on_presence_seen(self_pointer self, const node_presence& who) {
   if (who.role != "coordinator" || !st.shown)
     return;
   const bool news = st.coordinators.see(who);
-  if (st.standing == node_state::orphaned && who.cell == st.cell)
+  if (st.standing == node_state::orphaned && is_own_cell(st, who))
     return_to(self, who);
   else if (news && st.seeking && st.wanted.empty()
            && (st.phase == phase::resting || st.phase == phase::waiting))

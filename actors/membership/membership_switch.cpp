@@ -4,6 +4,8 @@
 #include "actors/membership/membership_steps.hpp"
 #include "actors/session/registration_order.hpp"
 
+#include <algorithm>
+#include <optional>
 #include <utility>
 
 namespace roscell::membership_steps {
@@ -113,6 +115,7 @@ membership_record record_of(const membership_status& st) {
   if (st.standing == node_state::member) {
     result.discovery_server = st.wanted;
     result.cell = st.cell;
+    result.cell_uuid = st.cell_uuid;
     result.origin = st.origin;
   }
   return result;
@@ -122,39 +125,58 @@ store_record to_store(const membership_record& x) {
   return {"identity", "membership", json(x).dump(), true};
 }
 
+/// Whether the switch that is being written down is wanted still: the node may
+/// have been told to leave its cell meanwhile.
+bool is_accepting(const membership_status& st, const std::string& transfer) {
+  return st.phase == phase::accepting && st.switching
+         && st.switching->order.transfer == transfer;
+}
+
+/// What is on disk counts, whether the node goes or not.
+void take_up(membership_status& st, const node_identity& raised,
+             const std::optional<membership_record>& record) {
+  st.config.identity.epoch = std::max(st.config.identity.epoch, raised.epoch);
+  if (record)
+    st.stored = record;
+}
+
+void on_switch_written(self_pointer self, const std::string& transfer,
+                       const switch_reply& reply) {
+  auto& st = self->state;
+  if (!is_accepting(st, transfer))
+    return reply(fail(error_code::conflict,
+                      "node '" + st.config.identity.name
+                          + "' left its cell before the switch was written "
+                            "down",
+                      "/node", "ask again when it has come to rest"));
+  reply(switch_accepted{st.config.identity.epoch});
+  depart(self);
+}
+
 /// Writes the raised epoch; a released node also writes that it is released,
 /// so that it does not come back when it is started again.
 void write_down(self_pointer self, const switch_reply& reply) {
   auto& st = self->state;
+  const auto transfer = st.switching->order.transfer;
   auto raised = st.config.identity;
   ++raised.epoch;
-  auto undo = [self, reply](const caf::error& why) {
-    stay(self);
-    reply(why);
-  };
-  auto done = [self, reply, raised] {
-    self->state.config.identity = raised;
-    reply(switch_accepted{raised.epoch});
-    depart(self);
-  };
-  const bool release = st.switching->order.target.empty();
-  self->request(st.parts.store, limits::local::part,
-                store_record{"identity", "node", json(raised).dump(), true})
+  std::optional<membership_record> record;
+  store_records records{{{"identity", "node", json(raised).dump(), true}}};
+  if (st.switching->order.target.empty()) {
+    record = record_of(st);
+    records.records.push_back(to_store(*record));
+  }
+  self->request(st.parts.store, limits::local::part, records)
       .then(
-          [self, done, undo, release](const record_stored&) {
-            if (!release)
-              return done();
-            const auto record = record_of(self->state);
-            self->request(self->state.parts.store, limits::local::part,
-                          to_store(record))
-                .then(
-                    [self, done, record](const record_stored&) {
-                      self->state.stored = record;
-                      done();
-                    },
-                    undo);
+          [=](const record_stored&) {
+            take_up(self->state, raised, record);
+            on_switch_written(self, transfer, reply);
           },
-          undo);
+          [=](const caf::error& why) {
+            if (is_accepting(self->state, transfer))
+              stay(self);
+            reply(why);
+          });
 }
 
 void accept(self_pointer self, const registration_switch& order,

@@ -185,6 +185,7 @@ private:
     setup.cell = config.cell;
     setup.discovery_server = parts_.edges->discovery_server;
     setup.incarnation = data_.incarnation;
+    setup.cell_uuid = data_.cell_uuid;
     setup.self = parts_.identity;
     setup.skills = parts_.skills;
     setup.refused_skills = parts_.refused_skills;

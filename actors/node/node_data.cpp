@@ -144,6 +144,20 @@ caf::error load_identity(const node_config& config, node_data& data,
   return caf::none;
 }
 
+/// A cell has a UUID of its own from its first start on; its members follow it.
+caf::error load_cell_uuid(node_data& data, const documents& table) {
+  const auto known = table.find("cell_uuid");
+  if (known != table.end() && known->second.is_string())
+    data.cell_uuid = known->second.get<std::string>();
+  if (!data.cell_uuid.empty())
+    return caf::none;
+  data.cell_uuid = make_uuid();
+  if (auto why = data.database->put("identity", "cell_uuid",
+                                    json(data.cell_uuid).dump()))
+    return to_caf(*why);
+  return caf::none;
+}
+
 /// Of a coordinator: each start has a number of its own, written before it is
 /// used.
 caf::error raise_incarnation(node_data& data, const documents& table) {
@@ -166,7 +180,11 @@ caf::error load_self(const node_config& config, node_data& data, bool existed) {
   if (const auto i = table->find("membership"); i != table->end())
     data.membership = understand<membership_record>(data, "identity",
                                                     "membership", i->second);
-  return config.coordinator ? raise_incarnation(data, *table) : caf::none;
+  if (!config.coordinator)
+    return caf::none;
+  if (auto why = load_cell_uuid(data, *table))
+    return why;
+  return raise_incarnation(data, *table);
 }
 
 caf::error load_tables(const node_config& config, node_data& data) {

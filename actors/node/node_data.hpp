@@ -31,9 +31,10 @@ struct node_data {
   std::shared_ptr<sqlite_store> database;
   node_identity identity;  ///< UUID and epoch; name and address are not set.
   int64_t incarnation = 0; ///< Of the coordinator, already raised.
+  std::string cell_uuid;   ///< Of the cell that it coordinates.
   std::optional<membership_record> membership; ///< Of a primary node.
   std::vector<member_record> members;          ///< Of a coordinator.
-  std::vector<transfer_row> transfers;         ///< The same; those left open.
+  std::vector<transfer_row> transfers;         ///< The same.
   std::vector<instance_row> instances;
   std::vector<task_record> tasks;
   std::vector<unread_record> unread; ///< They stay where they are.

@@ -219,4 +219,54 @@ TEST_CASE("cells stay even when one coordinator dies in the middle",
   });
 }
 
+TEST_CASE("a batch is even at once although coordinators tell sizes late",
+          "[balance]") {
+  virtual_time clock;
+  for (uint32_t seed = 1; seed <= 5; ++seed) {
+    batch x{clock, seed, 4, 60};
+    x.place.faults.late_by = 800ms;
+    x.place.judge = [&](const site_message& m) {
+      const bool between = x.place.parties[m.from]->coordinates
+                           && x.place.parties[m.to]->coordinates;
+      return between && std::string{m.what} == "frame" ? frame_fate::late
+                                                       : frame_fate::passed;
+    };
+    x.start(x.coordinators, 0ms);
+    x.start(x.nodes, 200ms);
+    x.place.pass(1s);
+    x.place.judge = nullptr;
+    const auto all_joined = [&] {
+      const auto all = x.sizes();
+      return std::accumulate(all.begin(), all.end(), int64_t{0}) == 64;
+    };
+    for (auto left = 10s; left > 0s && !all_joined(); left -= 1s)
+      x.place.pass(1s);
+    INFO("seed " << seed << ": sizes " << x.text());
+    CHECK(all_joined());
+    CHECK(spread_of(x.sizes()) <= 1);
+  }
+}
+
+TEST_CASE("cells are evened out once what hindered it is gone", "[balance]") {
+  virtual_time clock;
+  site place{clock, 1};
+  auto& late = place.add_coordinator("c-0");
+  auto& early = place.add_coordinator("c-1");
+  std::vector<site_party*> nodes{&place.add_node(), &place.add_node()};
+  place.start(early);
+  for (auto* x : nodes)
+    place.start(*x);
+  place.pass(20s);
+  REQUIRE(early.cell_state().registry.active_count() == 3);
+  for (const auto* x : nodes)
+    place.block(x->index, late.index);
+  place.start(late);
+  place.pass(20s);
+  REQUIRE(late.cell_state().registry.active_count() == 1);
+  place.heal_all();
+  place.pass(120s);
+  CHECK(late.cell_state().registry.active_count() == 2);
+  CHECK(early.cell_state().registry.active_count() == 2);
+}
+
 } // namespace

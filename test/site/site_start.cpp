@@ -108,6 +108,7 @@ coordinator_setup setup_of(site_party& x) {
   setup.incarnation = known.empty() ? 1 : std::stoll(known) + 1;
   x.disk["identity"]["incarnation"] = std::to_string(setup.incarnation);
   setup.cell = x.cell;
+  setup.cell_uuid = "ce-" + x.uuid;
   setup.discovery_server = x.discovery_server;
   setup.self = identity_on_disk(x);
   setup.skills = site_skills()->skills();

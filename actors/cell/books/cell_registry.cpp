@@ -62,18 +62,15 @@ void cell_registry::expect(const member_record& known,
   settle_owner(known.identity.name);
 }
 
-void cell_registry::depart(registry_entry& entry, std::string transfer,
-                           const registry_time& now) {
+void cell_registry::depart(registry_entry& entry, const registry_time& now) {
   entry.row.state = row_state::departing;
   entry.row.since_unix_ms = now.unix_ms;
-  entry.transfer = std::move(transfer);
 }
 
 void cell_registry::stay(registry_entry& entry, const registry_time& now) {
   entry.row.state = row_state::active;
   entry.row.since_unix_ms = now.unix_ms;
   entry.row.reason.clear();
-  entry.transfer.clear();
 }
 
 registry_entry& cell_registry::activate(registry_entry entry,
@@ -119,7 +116,6 @@ void cell_registry::deactivate(registry_entry& entry, row_state state,
   entry.inactive_since = now.steady;
   entry.agent = nullptr;
   entry.member = nullptr;
-  entry.transfer.clear();
 }
 
 void cell_registry::erase(const std::string& uuid) {

@@ -29,7 +29,6 @@ struct registry_entry {
   std::chrono::steady_clock::time_point inactive_since;
   join_origin origin = join_origin::given;
   std::chrono::steady_clock::time_point held_until; ///< Reserved rows.
-  std::string transfer;                             ///< Of departing rows.
 };
 
 /// What of a row outlives the coordinator's process.
@@ -96,8 +95,7 @@ public:
   void expect(const member_record& known, const registry_time& now);
 
   /// The row of a node that is about to leave. Nothing new is placed on it.
-  void depart(registry_entry& entry, std::string transfer,
-              const registry_time& now);
+  void depart(registry_entry& entry, const registry_time& now);
 
   /// Takes `depart` back.
   void stay(registry_entry& entry, const registry_time& now);

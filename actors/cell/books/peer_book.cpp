@@ -1,24 +1,11 @@
 #include "actors/cell/books/peer_book.hpp"
 
+#include "actors/house/limits.hpp"
+
 #include <algorithm>
 #include <utility>
 
 namespace roscell {
-
-// -- one session --------------------------------------------------------------
-
-int64_t peer_entry::size() const {
-  auto result = standing.size;
-  for (auto i = promised.begin(); i != promised.end();
-       i = promised.upper_bound(*i))
-    result += members.count(*i) == 0 ? 1 : 0;
-  return result;
-}
-
-void peer_entry::forget_promise(const std::string& node) {
-  if (const auto i = promised.find(node); i != promised.end())
-    promised.erase(i);
-}
 
 // -- what is announced --------------------------------------------------------
 
@@ -62,6 +49,8 @@ peer_book::sighting peer_book::see(const node_presence& who, time_point now) {
   if (x.announced == who)
     return sighting::repeated;
   const bool appeared = !x.announced;
+  if (appeared)
+    x.appeared = now;
   x.announced = who;
   // It has just shown that it lives.
   calls_.hurry(who.uuid, now);
@@ -89,6 +78,15 @@ bool peer_book::vanish(const node_presence& who) {
 bool peer_book::is_announced(const std::string& node_name) const {
   return std::any_of(by_uuid_.begin(), by_uuid_.end(), [&](const auto& x) {
     return x.second.announced && x.second.announced->name == node_name;
+  });
+}
+
+bool peer_book::expects_standings(time_point now) const {
+  return std::any_of(by_uuid_.begin(), by_uuid_.end(), [&](const auto& x) {
+    const auto& entry = x.second;
+    return entry.announced && !entry.session.told
+           && now - entry.appeared < limits::cell::sizes
+           && calls_.failures(x.first) == 0;
   });
 }
 

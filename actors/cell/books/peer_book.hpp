@@ -8,7 +8,6 @@
 #include <functional>
 #include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -20,14 +19,6 @@ struct peer_entry {
   bool told = false; ///< Its standing has come.
   cell_standing standing;
   std::map<std::string, member_claim> members; ///< By UUID.
-  /// UUIDs of nodes that it is being asked to keep a place for.
-  std::multiset<std::string> promised;
-
-  /// What counts when a place is given out. A promise whose place has been told
-  /// already counts once.
-  int64_t size() const;
-
-  void forget_promise(const std::string& node);
 };
 
 /// The other coordinators: what is announced of them, which is a hint, and what
@@ -57,6 +48,10 @@ public:
   bool vanish(const node_presence& who);
 
   bool is_announced(const std::string& node_name) const;
+
+  /// Whether a coordinator has appeared a moment ago that has not told its
+  /// standing yet, and has not failed to.
+  bool expects_standings(time_point now) const;
 
   // -- sessions that are to be opened -----------------------------------------
 
@@ -120,6 +115,7 @@ public:
 private:
   struct known {
     std::optional<node_presence> announced;
+    time_point appeared; ///< When it was announced first, or anew.
     bool proved = false; ///< It has had a session.
     peer_entry session;
   };

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "messages/failure.hpp"
-#include "messages/formation.hpp"
 
 #include <chrono>
 #include <deque>

@@ -78,6 +78,14 @@ std::string transfer_book::holder_of(const std::string& uuid) const {
   return {};
 }
 
+bool transfer_book::is_busy(const std::string& uuid) const {
+  return std::any_of(transfers_.begin(), transfers_.end(), [&](const auto& x) {
+    const auto& row = x.second.row;
+    return row.uuid == uuid && is_open(row.state)
+           && row.state != transfer_state::unresolved;
+  });
+}
+
 cell_transfer* transfer_book::find_proposed(const std::string& id) {
   const auto i = transfers_.find(id);
   return i == transfers_.end() || i->second.kept ? nullptr : &i->second;
@@ -91,7 +99,10 @@ cell_transfer* transfer_book::find_open(const std::string& id) {
 }
 
 cell_transfer* transfer_book::find_open_of(const std::string& uuid) {
-  return find_open(holder_of(uuid));
+  for (auto& [id, x] : transfers_)
+    if (x.row.uuid == uuid && x.kept && is_open(x.row.state))
+      return &x;
+  return nullptr;
 }
 
 transfer_row transfer_book::switching_row(const cell_transfer& x,

@@ -65,6 +65,9 @@ public:
   /// The id of what holds the node, kept or not yet; empty if nothing does.
   std::string holder_of(const std::string& uuid) const;
 
+  /// Whether that is more than a transfer of which nothing is known any more.
+  bool is_busy(const std::string& uuid) const;
+
   /// Not kept yet; null if that is over.
   cell_transfer* find_proposed(const std::string& id);
 

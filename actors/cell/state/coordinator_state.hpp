@@ -28,6 +28,7 @@ namespace roscell {
 /// What a coordinator is told when it starts.
 struct coordinator_setup {
   std::string cell;
+  std::string cell_uuid;        ///< Stays with the cell, whatever its name is.
   std::string discovery_server; ///< "ip:port"
   int64_t incarnation = 0;
   node_identity self; ///< Of the coordination node itself.
@@ -39,7 +40,7 @@ struct coordinator_setup {
   state_store_actor store;
   std::vector<task_record> tasks;      ///< As an earlier run has stored them.
   std::vector<member_record> members;  ///< The same.
-  std::vector<transfer_row> transfers; ///< The same; those that were open.
+  std::vector<transfer_row> transfers; ///< The same.
   /// What instances of this cell find in their environment.
   std::map<std::string, std::string> environment;
   /// Towards other coordinators and nodes in no cell; all invalid in a cell

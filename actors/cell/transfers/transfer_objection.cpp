@@ -23,8 +23,9 @@ std::optional<failure> objection_of_row(const cell_coordinator_state& st,
     return failure{error_code::conflict, name + " is reserved", "/node",
                    "wait until it has joined"};
   const auto id = st.transfers.holder_of(row.identity.uuid);
-  const bool is_away = !entry.member && row.state != row_state::departing;
-  if (id.empty() || is_away)
+  const bool settles_by_itself =
+      st.transfers.is_busy(row.identity.uuid) || entry.member;
+  if (id.empty() || !settles_by_itself)
     return std::nullopt;
   return failure{error_code::conflict, name + " is departing", "/node",
                  "its transfer is '" + id + "'"};

@@ -74,11 +74,25 @@ void begin_departure(self_pointer self, const std::string& id,
   });
 }
 
+/// An earlier transfer of a node that is away is given up for a new one.
+void end_unresolved(self_pointer self, const std::string& uuid) {
+  const auto* x = self->state.transfers.find_open_of(uuid);
+  if (!x)
+    return;
+  const failure why{error_code::conflict,
+                    "node '" + x->row.node + "' was released while it was away",
+                    "/node"};
+  end_transfer(self, x->row.transfer, transfer_state::returned, why.message,
+               &why);
+}
+
 /// The proposed transfer is kept. What spoke against it is asked once more: the
 /// store took its time.
 void on_transfer_kept(self_pointer self, const std::string& id,
                       const transfer_wish& wish) {
   auto& st = self->state;
+  if (const auto* proposed = st.transfers.find_proposed(id))
+    end_unresolved(self, proposed->row.uuid);
   st.transfers.open(id);
   const auto* x = st.transfers.find_open(id);
   if (!x)
@@ -96,18 +110,6 @@ void on_transfer_kept(self_pointer self, const std::string& id,
                   [self, id] { release_absent(self, id); });
 }
 
-/// An earlier transfer of a node that is away is given up for a new one.
-void end_unresolved(self_pointer self, const std::string& uuid) {
-  const auto* x = self->state.transfers.find_open_of(uuid);
-  if (!x)
-    return;
-  const failure why{error_code::conflict,
-                    "node '" + x->row.node + "' was released while it was away",
-                    "/node"};
-  end_transfer(self, x->row.transfer, transfer_state::returned, why.message,
-               &why);
-}
-
 } // namespace
 
 void start_transfer(self_pointer self, const transfer_wish& wish,
@@ -116,7 +118,6 @@ void start_transfer(self_pointer self, const transfer_wish& wish,
   if (auto why = objection_to(self, wish))
     return refuse_transfer(done, *why);
   const auto uuid = st.registry.find_name(wish.node)->row.identity.uuid;
-  end_unresolved(self, uuid);
   const auto row =
       st.transfers.propose(wish.node, uuid, wish.target, now_of(self).unix_ms);
   const auto id = row.transfer;

@@ -16,7 +16,7 @@ constexpr std::string_view hex_digits = "0123456789abcdef";
 
 auto as_tuple(const announcement& x) {
   return std::tie(x.protocol_version, x.role, x.node, x.cell, x.session, x.uuid,
-                  x.incarnation, x.epoch, x.discovery, x.server);
+                  x.incarnation, x.epoch, x.discovery, x.server, x.cell_uuid);
 }
 
 bool is_plain(unsigned char byte) {
@@ -58,14 +58,15 @@ std::optional<std::string> unescape(std::string_view text) {
 }
 
 std::string* text_of(announcement& x, std::string_view key) {
-  const std::array<std::pair<std::string_view, std::string*>, 7> members{
+  const std::array<std::pair<std::string_view, std::string*>, 8> members{
       {{"roscell", &x.protocol_version},
        {"role", &x.role},
        {"node", &x.node},
        {"cell", &x.cell},
        {"session", &x.session},
        {"uuid", &x.uuid},
-       {"discovery", &x.discovery}}};
+       {"discovery", &x.discovery},
+       {"cell_uuid", &x.cell_uuid}}};
   for (auto& [name, member] : members)
     if (name == key)
       return member;
@@ -123,6 +124,8 @@ std::string encode(const announcement& x) {
     append_pair(result, "discovery", x.discovery);
   if (x.server != 0)
     append_pair(result, "server", std::to_string(x.server));
+  if (!x.cell_uuid.empty())
+    append_pair(result, "cell_uuid", x.cell_uuid);
   return result;
 }
 

@@ -36,6 +36,7 @@ struct announcement {
   std::int64_t epoch = 0;               ///< Registration epoch of the node.
   std::string discovery;   ///< "ip:port" of the cell's discovery server.
   std::int64_t server = 0; ///< Id n of the cell's discovery server.
+  std::string cell_uuid;   ///< Of the cell; absent in older versions.
 };
 
 bool operator==(const announcement& x, const announcement& y);

@@ -86,6 +86,10 @@ caf::behavior agent(caf::event_based_actor* self, fake_agent* x) {
         return log_excerpt{query.instance, "hello from " + x->identity.name, 5,
                            false};
       },
+      [=](const registration_switch& order) {
+        x->orders.push_back(order);
+        return switch_accepted{order.epoch + 1};
+      },
       [=](const close_session& wish) { x->closed.push_back(wish.reason); },
       [=](const registration_switch&) { return switch_accepted{}; },
       [=](caf::tick_atom) {

@@ -41,8 +41,9 @@ struct fake_agent {
   int reluctance = 0; ///< How many reservations it refuses from now on.
   std::vector<instance_spec> deployments;
   std::vector<instance_removal> removals;
-  std::vector<std::string> closed; ///< Reasons of `close_session`.
-  caf::actor deployer;             ///< The pipeline that asked last.
+  std::vector<registration_switch> orders; ///< To go elsewhere.
+  std::vector<std::string> closed;         ///< Reasons of `close_session`.
+  caf::actor deployer;                     ///< The pipeline that asked last.
 
   std::vector<std::pair<caf::response_promise, instance_spec>> starting;
   std::vector<std::pair<caf::response_promise, resource_report>> reports;

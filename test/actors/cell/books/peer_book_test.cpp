@@ -1,5 +1,7 @@
 #include "actors/cell/books/peer_book.hpp"
 
+#include "actors/house/limits.hpp"
+
 #include <caf/actor_cast.hpp>
 #include <caf/actor_system.hpp>
 #include <caf/actor_system_config.hpp>
@@ -231,17 +233,27 @@ TEST_CASE("The newest claim tells who has a node", "[peer_book]") {
   CHECK(book.find_holder("arm")->standing.place.cell == "yard");
 }
 
-TEST_CASE("A promise counts once, also when its place has been told",
+TEST_CASE("A coordinator that has just appeared is expected to tell its size",
           "[peer_book]") {
-  peer_entry x;
-  x.standing.size = 2;
-  x.promised = {"u1", "u1", "u2"};
-  CHECK(x.size() == 4);
-  x.members["u1"] = {"arm", "u1", 1, false};
-  CHECK(x.size() == 3);
-  x.forget_promise("u2");
-  x.forget_promise("u2");
-  CHECK(x.size() == 2);
+  peer_handles handles;
+  peer_book book{"c-5"};
+  CHECK_FALSE(book.expects_standings(start));
+  book.see(coordinator("c-1"), start);
+  CHECK(book.expects_standings(start + 1s));
+  CHECK_FALSE(book.expects_standings(start + limits::cell::sizes));
+  book.open("c-1", handles.first);
+  CHECK(book.expects_standings(start + 1s));
+  book.tell(handles.first, standing("c-1", "lab", 3));
+  CHECK_FALSE(book.expects_standings(start + 1s));
+}
+
+TEST_CASE("A coordinator that cannot be reached is not expected to tell",
+          "[peer_book]") {
+  peer_book book{"c-5"};
+  book.see(coordinator("c-1"), start);
+  REQUIRE(book.begin_due(start).size() == 1);
+  book.attempt_failed("c-1", "nobody answers", start);
+  CHECK_FALSE(book.expects_standings(start));
 }
 
 TEST_CASE("Two cells of one name are shown with that trouble", "[peer_book]") {

@@ -105,6 +105,10 @@ TEST_CASE_METHOD(open_transfer, "What is unresolved is open, and answered",
   CHECK(book.overdue(start + 1h).empty());
   CHECK(book.next_deadline() == transfer_book::time_point::max());
   CHECK(book.holder_of("uuid-of-arm") == id);
+  CHECK_FALSE(book.is_busy("uuid-of-arm"));
+  book.propose("arm", "uuid-of-arm", "", 10);
+  CHECK(book.is_busy("uuid-of-arm"));
+  CHECK(book.find_open_of("uuid-of-arm") == book.find_open(id));
   CHECK(book.end(id, transfer_state::done, "", 10));
 }
 

@@ -35,10 +35,11 @@ TEST_CASE("an announcement names epoch, discovery server and its id",
   x.epoch = 7;
   x.discovery = "10.0.0.5:11811";
   x.server = 255;
+  x.cell_uuid = "9b8f";
   CHECK(decode(encode(x)) == x);
   auto bytes = encode(x);
   CHECK(bytes.substr(bytes.find("epoch="))
-        == "epoch=7;discovery=10.0.0.5:11811;server=255;");
+        == "epoch=7;discovery=10.0.0.5:11811;server=255;cell_uuid=9b8f;");
   for (auto change : {&announcement::epoch, &announcement::server}) {
     auto other = x;
     other.*change += 1;
@@ -58,6 +59,7 @@ TEST_CASE("the longest names and numbers fit into an announcement",
   x.incarnation = session_frame_bounds::number;
   x.epoch = session_frame_bounds::number;
   x.server = 255;
+  x.cell_uuid = x.uuid;
   CHECK(encode(x).size() <= limits::discovery::announcement_bytes);
   CHECK(decode(encode(x)) == x);
 }
