@@ -286,12 +286,6 @@ constexpr seconds stopping{5};
 
 static_assert(leaving < stopping);
 
-/// From the signal to the process's end: systemd would wait 90 s before it uses
-/// force.
-constexpr seconds stopping{5};
-
-static_assert(leaving < stopping);
-
 /// Coordinators that were started together appear one after the other; asking
 /// all of them at once for places would make the first ones full.
 constexpr milliseconds gathering{200};

@@ -1,4 +1,4 @@
-#include "test/site/site_watch.hpp"
+#include "test/site/watch/site_watch.hpp"
 
 /// A cell's name may be claimed twice; its UUID is its own.
 namespace {

@@ -1,5 +1,5 @@
 #include "messages/failure.hpp"
-#include "test/site/site_watch.hpp"
+#include "test/site/watch/site_watch.hpp"
 
 #include <algorithm>
 

@@ -143,6 +143,7 @@ void site::kill(site_party& x) {
   for (const auto& actor : doomed)
     caf::anon_send_exit(actor, caf::exit_reason::kill);
   x.forget_actors();
+  x.waiting.clear();
   x.looking_for.clear();
   x.announced.reset();
   x.shown.clear();

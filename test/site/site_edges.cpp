@@ -5,6 +5,7 @@
 
 #include <caf/actor_cast.hpp>
 
+#include <algorithm>
 #include <utility>
 
 namespace roscell::test {
@@ -188,11 +189,34 @@ void write_record(site_party* me, const store_record& x) {
     table[x.key] = x.value;
 }
 
+/// Writes what has waited for room.
+void write_waiting(site* place, site_party* me) {
+  if (me->disk_full && !me->waiting.empty())
+    return place->later(*me, 1s, [=] { write_waiting(place, me); });
+  for (const auto& x : std::exchange(me->waiting, {}))
+    write_record(me, x);
+}
+
+/// A full disk keeps those that may wait in memory, and refuses others.
+caf::result<record_stored> put_off(site* place, site_party* me,
+                                   const store_records& x) {
+  const bool may_wait =
+      std::all_of(x.records.begin(), x.records.end(),
+                  [](const auto& record) { return record.may_wait; });
+  if (!may_wait)
+    return fail(error_code::internal, "the disk is full");
+  me->waiting.insert(me->waiting.end(), x.records.begin(), x.records.end());
+  if (me->waiting.size() == x.records.size())
+    place->later(*me, 1s, [=] { write_waiting(place, me); });
+  return record_stored{};
+}
+
 caf::result<record_stored> write(caf::event_based_actor* self, site* place,
                                  site_party* me, const store_records& x) {
   const auto fate = place->decide("write", me->index, me->index);
   if (me->disk_full || fate == frame_fate::lost)
-    return fail(error_code::internal, "the disk is full");
+    return put_off(place, me, x);
+  write_waiting(place, me);
   for (const auto& record : x.records)
     write_record(me, record);
   if (fate != frame_fate::late)

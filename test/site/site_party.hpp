@@ -25,6 +25,7 @@ struct site_party {
   std::string configured;       ///< Nodes only; see `membership_record`.
   std::map<std::string, std::map<std::string, std::string>> disk; ///< By table.
   bool disk_full = false;
+  std::vector<store_record> waiting; ///< Not written yet; lost with a kill.
   std::map<std::string, site_program> programs; ///< By instance.
   std::chrono::milliseconds build_takes{0};
   bool builds_fail = false;

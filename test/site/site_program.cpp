@@ -214,6 +214,9 @@ caf::message_handler program_edge(caf::event_based_actor* self, site* place,
       [=](const log_query& x) {
         return log_excerpt{x.instance, "", 0, true};
       },
+      [=](const hear_container& x) {
+        tell_listener(*me, {x.instance, false, false, false, "", true});
+      },
       [=](const measure_host&) { return measure(*me); },
       [](const mark_sample&) {},
   };

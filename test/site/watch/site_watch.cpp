@@ -116,16 +116,15 @@ std::string cell_complaint(const site& place, const site_party& x) {
     return x.name + " is dead; ";
   std::string result;
   const auto& st = x.cell_state();
-  for (const auto& [id, transfer] : st.transfers)
-    if (transfer.row.state != transfer_state::done
-        && transfer.row.state != transfer_state::returned
-        && !is_of_retired(place, transfer.row))
-      result += "transfer " + id + " is "
-                + std::string{to_word(transfer.row.state)} + "; ";
+  for (const auto& row : st.transfers.rows())
+    if (row.state != transfer_state::done
+        && row.state != transfer_state::returned && !is_of_retired(place, row))
+      result += "transfer " + row.transfer + " is "
+                + std::string{to_word(row.state)} + "; ";
   const auto stored = x.disk.find("transfers");
   if (stored != x.disk.end())
     for (const auto& [id, record] : stored->second)
-      if (st.transfers.count(id) == 0)
+      if (st.transfers.rows(id).empty())
         result += "transfer " + id + " is forgotten and on disk; ";
   for (const auto& y : place.parties)
     if (y->coordinates && y->index < x.index && !are_connected(place, x, *y))

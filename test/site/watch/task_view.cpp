@@ -6,23 +6,21 @@ std::vector<task_view> tasks_of(const site_party& coordinator) {
   std::vector<task_view> result;
   const auto& st = coordinator.cell_state();
   for (const auto& [task, entry] : st.tasks.entries()) {
-    const auto& record = entry.record;
-    task_view view{task, record.state, {}};
-    for (size_t i = 0; i < record.specs.size(); ++i) {
-      const auto& instance = record.specs[i].instance;
-      const auto* row = st.registry.find_instance(instance);
-      view.steps.push_back({record.specs[i].step, instance, record.nodes[i],
-                            row && !is_live(row->state)});
-    }
+    task_view view{
+        task, entry.ending ? task_state::terminating : entry.state, {}};
+    for (const auto& x : st.deployments.of_task(task))
+      view.steps.push_back(
+          {x.spec.step, x.spec.instance, x.node, x.end.has_value()});
     result.push_back(std::move(view));
   }
   return result;
 }
 
 size_t instances_shown(const site_party& coordinator) {
+  const auto& st = coordinator.cell_state();
   size_t result = 0;
-  for (const auto& row : coordinator.cell_state().registry.rows())
-    result += row.instances.size();
+  for (const auto& row : st.registry.rows())
+    result += st.deployments.known_on(row.identity.name, true).size();
   return result;
 }
 
