@@ -2,9 +2,9 @@
 
 #include "actors/instances/container_supervisor.hpp"
 #include "actors/node/node_agent.hpp"
-#include "actors/placement/scheduler.hpp"
 #include "actors/requests/handlers/registry.hpp"
 #include "actors/requests/request_router.hpp"
+#include "test/actors/fakes/planner.hpp"
 #include "test/site/site_skills.hpp"
 
 #include <caf/actor_cast.hpp>
@@ -128,7 +128,7 @@ void start_coordinator(site& place, site_party& x) {
   auto& system = place.time.system;
   auto setup = setup_of(x);
   setup.searches = std::make_shared<search_guard>();
-  x.planner = spawn(system, x.context, scheduler, setup.searches);
+  x.planner = spawn_planner(system, x.context, setup.searches);
   setup.scheduler = x.planner;
   x.coordinator = spawn(system, x.context, cell_coordinator, x.context, setup);
   caf::anon_send(x.supervisor, listen_to_instances{x.coordinator});

@@ -55,7 +55,7 @@ named_node find_in_cell(const cell_coordinator_state& st,
                         const std::string& cell) {
   if (const auto* peer = st.peers.find_cell(cell))
     return {peer->actor, {}, cell, {}};
-  return {nullptr,
+  return {{},
           {},
           {},
           {error_code::unknown_cell,
@@ -69,7 +69,7 @@ named_node find_elsewhere(const cell_coordinator_state& st,
                           const std::string& node) {
   const auto found = nodes_elsewhere(st, node);
   if (found.size() > 1)
-    return {nullptr, {}, {}, in_several(node, found)};
+    return {{}, {}, {}, in_several(node, found)};
   return found.empty() ? named_node{} : found.begin()->second;
 }
 
@@ -82,7 +82,7 @@ named_node find_named_node(const cell_coordinator_state& st,
   auto found = find_elsewhere(st, node);
   const auto* gone = st.transfers.find_gone(node);
   if (found.holder && gone && is_another(*gone, found))
-    return {nullptr, {}, {}, gone_from_here(*gone, found.cell)};
+    return {{}, {}, {}, gone_from_here(*gone, found.cell)};
   return found;
 }
 

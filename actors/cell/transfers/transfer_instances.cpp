@@ -1,7 +1,7 @@
 #include "actors/cell/transfers/transfer_instances.hpp"
 
 #include "actors/cell/state/transfer_end.hpp"
-#include "actors/cell/tasks/cell_tasks.hpp"
+#include "actors/cell/tasks/task_endings.hpp"
 #include "actors/cell/tasks/task_move.hpp"
 #include "actors/house/limits.hpp"
 #include "messages/failure.hpp"

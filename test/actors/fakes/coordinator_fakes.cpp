@@ -1,8 +1,8 @@
 #include "test/actors/fakes/coordinator_fakes.hpp"
 
 #include "actors/placement/reservation.hpp"
-#include "actors/placement/scheduler.hpp"
 #include "actors/requests/handlers/registry.hpp"
+#include "test/actors/fakes/planner.hpp"
 
 #include <algorithm>
 
@@ -229,7 +229,7 @@ paper_cell::paper_cell(const std::vector<task_record>& tasks,
   context = time.context;
   context.events = caf::actor_cast<event_log_actor>(fact_keeper);
   searches = std::make_shared<search_guard>();
-  planner = spawn(time.system, context, scheduler, searches);
+  planner = spawn_planner(time.system, context, searches);
   coordinator = spawn(time.system, context, cell_coordinator, context,
                       setup(tasks, on_base));
   base.coordinator = coordinator;

@@ -182,7 +182,6 @@ TEST_CASE("A registration of an older epoch is refused", "[cell_registry]") {
 TEST_CASE("The same UUID back replaces its row", "[cell_registry]") {
   cell_registry registry;
   auto& old = registry.activate(node("arm", "u1", 1), at(0ms));
-  old.row.instances = {instance("i1", "arm")};
   registry.deactivate(old, row_state::lost, "silent", at(10ms));
   auto again = node("left-arm", "u1", 2);
   again.row.reason = "left over";
