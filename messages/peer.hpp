@@ -2,7 +2,7 @@
 
 #include "messages/failure.hpp"
 #include "messages/formation.hpp"
-#include "messages/introspection.hpp"
+#include "messages/inside/introspection.hpp"
 
 #include <array>
 #include <string>

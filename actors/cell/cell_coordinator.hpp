@@ -4,8 +4,8 @@
 
 namespace roscell {
 
-/// The CELL COORDINATOR. Messages: messages/coordination.hpp; its tables and
-/// what happens to a task are drawn in docs/protocols.md.
+/// The CELL COORDINATOR. Messages: messages/inside/coordination.hpp; its tables
+/// and what happens to a task are drawn in docs/protocols.md.
 cell_coordinator_actor::behavior_type
 cell_coordinator(coordinator_pointer self, const house& context,
                  const coordinator_setup& setup);

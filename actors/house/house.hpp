@@ -1,7 +1,7 @@
 #pragma once
 
 #include "actors/house/actor_directory.hpp"
-#include "messages/introspection.hpp"
+#include "messages/inside/introspection.hpp"
 
 #include <caf/actor_system.hpp>
 #include <caf/mailbox_element.hpp>

@@ -61,7 +61,7 @@ struct container_supervisor_state {
   std::vector<pending_removal> removals;
 };
 
-/// The CONTAINER SUPERVISOR. Messages: messages/runtime.hpp.
+/// The CONTAINER SUPERVISOR. Messages: messages/inside/runtime.hpp.
 container_supervisor_actor::behavior_type container_supervisor(
     container_supervisor_actor::stateful_pointer<container_supervisor_state>
         self,

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "actors/edge/io/edge_error.hpp"
-#include "messages/runtime.hpp"
+#include "messages/inside/runtime.hpp"
 
 /// A skill folder can be edited at any time, and what is in it then is another
 /// build than the one that was chosen.

@@ -52,7 +52,7 @@ struct skill_instance_state {
   alarm timer;
 };
 
-/// The SKILL INSTANCE. Messages: messages/runtime.hpp.
+/// The SKILL INSTANCE. Messages: messages/inside/runtime.hpp.
 skill_instance_actor::behavior_type skill_instance(
     skill_instance_actor::stateful_pointer<skill_instance_state> self,
     const skill_instance_config& config);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "messages/link.hpp"
+#include "messages/inside/link.hpp"
 
 #include <map>
 #include <set>

@@ -34,7 +34,7 @@ struct discovery_state {
   std::unique_ptr<public_presence> presence;
 };
 
-/// The DISCOVERY edge. Messages: messages/link.hpp. Whoever asks for a
+/// The DISCOVERY edge. Messages: messages/inside/link.hpp. Whoever asks for a
 /// coordinator is told `coordinator_found`, again with each new announcement;
 /// whoever announces itself is told of the others. Events: edge_trouble,
 /// coordinator_ignored.

@@ -132,12 +132,12 @@ struct membership_status {
   std::vector<caf::typed_response_promise<node_departed>> leavers;
 };
 
-/// The MEMBERSHIP. Messages: messages/membership.hpp. Events: cell_joined,
-/// cell_left, coordinator_lost, join_refused, switch_accepted, switch_failed,
-/// each about this node. It stores its identity in table "identity" under the
-/// key "node" before every registration and every switch, with the epoch
-/// raised, and its `membership_record` under the key "membership" when it
-/// changes.
+/// The MEMBERSHIP. Messages: messages/inside/membership.hpp. Events:
+/// cell_joined, cell_left, coordinator_lost, join_refused, switch_accepted,
+/// switch_failed, each about this node. It stores its identity in table
+/// "identity" under the key "node" before every registration and every switch,
+/// with the epoch raised, and its `membership_record` under the key
+/// "membership" when it changes.
 membership_actor::behavior_type
 membership(membership_actor::stateful_pointer<membership_status> self,
            house context, membership_parts parts, membership_config config);

@@ -21,7 +21,7 @@ struct event_log_state {
   alarm timer;
 };
 
-/// The EVENT LOG. Messages: messages/introspection.hpp.
+/// The EVENT LOG. Messages: messages/inside/introspection.hpp.
 event_log_actor::behavior_type
 event_log(event_log_actor::stateful_pointer<event_log_state> self);
 

@@ -29,7 +29,7 @@ struct node_agent_state {
   uint64_t reports = 0;
 };
 
-/// The local NODE AGENT. Messages: messages/agent.hpp.
+/// The local NODE AGENT. Messages: messages/inside/agent.hpp.
 node_agent_actor::behavior_type
 node_agent(node_agent_actor::stateful_pointer<node_agent_state> self,
            const node_agent_config& config);

@@ -5,7 +5,7 @@
 #include "actors/edge/disk/directory_lock.hpp"
 #include "actors/edge/disk/sqlite_store.hpp"
 #include "actors/node/node_config.hpp"
-#include "messages/membership.hpp"
+#include "messages/inside/membership.hpp"
 #include "messages/node.hpp"
 
 #include <caf/expected.hpp>

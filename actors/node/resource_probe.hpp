@@ -39,8 +39,8 @@ struct resource_probe_state {
   uint64_t estimates = 0; ///< Of these, without a CPU sample in time.
 };
 
-/// The RESOURCE PROBE. Messages: messages/agent.hpp. It always answers at once;
-/// beats and earlier measurements leave the CPU samples that it needs.
+/// The RESOURCE PROBE. Messages: messages/inside/agent.hpp. It always answers
+/// at once; beats and earlier measurements leave the CPU samples that it needs.
 resource_probe_actor::behavior_type resource_probe(
     resource_probe_actor::stateful_pointer<resource_probe_state> self,
     const resource_probe_config& config);

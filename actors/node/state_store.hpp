@@ -27,7 +27,8 @@ struct state_store_state {
   uint64_t refused = 0; ///< Records that could not be.
 };
 
-/// The STATE STORE. Messages, and what each table holds: messages/storage.hpp.
+/// The STATE STORE. Messages, and what each table holds:
+/// messages/inside/storage.hpp.
 state_store_actor::behavior_type
 state_store(state_store_actor::stateful_pointer<state_store_state> self,
             const house& context, std::shared_ptr<sqlite_store> database);

@@ -1,8 +1,18 @@
 #pragma once
 
-#include "actors/requests/handlers/task_pipeline.hpp"
+#include "messages/messages.hpp"
+
+#include <string>
+#include <vector>
 
 namespace roscell {
+
+/// A task and where its steps are to run.
+struct allocated_task {
+  task_request request;
+  std::vector<resolved_step> steps;
+  task_plan plan;
+};
 
 /// The instances that an allocation asks for, in the order of the steps, each
 /// with an id of its own.

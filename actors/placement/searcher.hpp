@@ -20,8 +20,8 @@ struct searcher_state {
 };
 
 /// The SEARCHER, behind the SCHEDULER and with its handle. Messages:
-/// messages/coordination.hpp. `guard` tells it of nodes that leave. Ends with
-/// its owner.
+/// messages/inside/coordination.hpp. `guard` tells it of nodes that leave. Ends
+/// with its owner.
 scheduler_actor::behavior_type
 searcher(scheduler_actor::stateful_pointer<searcher_state> self,
          std::shared_ptr<search_guard> guard, const scheduler_actor& owner);

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "messages/coordination.hpp"
 #include "messages/failure.hpp"
+#include "messages/inside/coordination.hpp"
 
 #include <variant>
 #include <vector>

@@ -2,8 +2,8 @@
 
 #include "actors/house/limits.hpp"
 #include "messages/allocation_report.hpp"
-#include "messages/coordination.hpp"
 #include "messages/failure.hpp"
+#include "messages/inside/coordination.hpp"
 
 #include <chrono>
 #include <functional>

@@ -6,7 +6,8 @@ namespace roscell {
 
 /// Carries one request, a document that has passed its schema, through its
 /// handlers and ends with it, so that whatever kills it fails that request
-/// only: the next one gets a new actor. Messages: messages/coordination.hpp.
+/// only: the next one gets a new actor. Messages:
+/// messages/inside/coordination.hpp.
 handler_pipeline_actor::behavior_type
 handler_pipeline(pipeline_pointer self, const request_runner& run,
                  const std::shared_ptr<const node_services>& services,

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "actors/house/limits.hpp"
-#include "messages/link.hpp"
+#include "messages/inside/link.hpp"
 
 #include <chrono>
 #include <optional>

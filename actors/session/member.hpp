@@ -39,9 +39,9 @@ struct member_state {
   bool ended = false;
 };
 
-/// The MEMBER. Messages: messages/membership.hpp. It takes the session over at
-/// once and ends with it, telling the coordinator `member_lost` unless the node
-/// has departed. Its death closes the session too.
+/// The MEMBER. Messages: messages/inside/membership.hpp. It takes the session
+/// over at once and ends with it, telling the coordinator `member_lost` unless
+/// the node has departed. Its death closes the session too.
 member_actor::behavior_type
 member(member_actor::stateful_pointer<member_state> self,
        session_admitted accepted, cell_coordinator_actor coordinator);

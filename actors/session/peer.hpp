@@ -29,10 +29,10 @@ struct peer_state {
   bool ended = false;
 };
 
-/// The PEER. Messages: messages/membership.hpp. It takes the session over at
-/// once, tells the coordinator `peer_opened`, and passes on what comes from the
-/// other side: notices as `peer_told` and `peer_changed`, questions as the
-/// questions they are. It ends with the session.
+/// The PEER. Messages: messages/inside/membership.hpp. It takes the session
+/// over at once, tells the coordinator `peer_opened`, and passes on what comes
+/// from the other side: notices as `peer_told` and `peer_changed`, questions as
+/// the questions they are. It ends with the session.
 peer_actor::behavior_type peer(peer_actor::stateful_pointer<peer_state> self,
                                const peer_setup& setup);
 

@@ -31,7 +31,7 @@ struct session_connector_state {
   std::map<uint64_t, caf::typed_response_promise<session_opened>> pending;
 };
 
-/// The SESSION CONNECTOR. Messages: messages/link.hpp.
+/// The SESSION CONNECTOR. Messages: messages/inside/link.hpp.
 session_connector_actor::behavior_type session_connector(
     session_connector_actor::stateful_pointer<session_connector_state> self,
     const house& context, const connector_parts& parts);

@@ -47,7 +47,7 @@ struct wire_session_state {
   std::string peer;
 };
 
-/// The SESSION over a WebSocket. Messages: messages/link.hpp.
+/// The SESSION over a WebSocket. Messages: messages/inside/link.hpp.
 session_actor::behavior_type
 wire_session(session_actor::stateful_pointer<wire_session_state> self,
              const std::shared_ptr<session_wire>& wire,

@@ -1,7 +1,7 @@
 #include "messages/cell.hpp"
 #include "messages/codec/instantiate.hpp"
 #include "messages/formation.hpp"
-#include "messages/membership.hpp"
+#include "messages/inside/membership.hpp"
 #include "messages/peer.hpp"
 
 namespace roscell {

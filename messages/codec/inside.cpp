@@ -1,11 +1,11 @@
-#include "messages/agent.hpp"
 #include "messages/codec/instantiate.hpp"
-#include "messages/coordination.hpp"
-#include "messages/engine.hpp"
-#include "messages/introspection.hpp"
-#include "messages/link.hpp"
-#include "messages/runtime.hpp"
-#include "messages/storage.hpp"
+#include "messages/inside/agent.hpp"
+#include "messages/inside/coordination.hpp"
+#include "messages/inside/engine.hpp"
+#include "messages/inside/introspection.hpp"
+#include "messages/inside/link.hpp"
+#include "messages/inside/runtime.hpp"
+#include "messages/inside/storage.hpp"
 
 namespace roscell {
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "messages/coordination.hpp"
 #include "messages/failure.hpp"
-#include "messages/storage.hpp"
+#include "messages/inside/coordination.hpp"
+#include "messages/inside/storage.hpp"
 
 #include <chrono>
 #include <functional>

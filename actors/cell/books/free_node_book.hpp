@@ -3,7 +3,7 @@
 #include "actors/cell/books/stranger_calls.hpp"
 #include "actors/house/limits.hpp"
 #include "messages/cell.hpp"
-#include "messages/link.hpp"
+#include "messages/inside/link.hpp"
 
 #include <chrono>
 #include <functional>

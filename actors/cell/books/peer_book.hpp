@@ -2,7 +2,7 @@
 
 #include "actors/cell/books/stranger_calls.hpp"
 #include "actors/house/limits.hpp"
-#include "messages/coordination.hpp"
+#include "messages/inside/coordination.hpp"
 
 #include <chrono>
 #include <functional>

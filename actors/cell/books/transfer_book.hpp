@@ -2,7 +2,7 @@
 
 #include "messages/failure.hpp"
 #include "messages/formation.hpp"
-#include "messages/storage.hpp"
+#include "messages/inside/storage.hpp"
 
 #include <chrono>
 #include <cstdint>

@@ -3,7 +3,7 @@
 #include "actors/cell/books/removal_book.hpp"
 #include "actors/cell/books/task_book.hpp"
 #include "actors/house/backoff.hpp"
-#include "messages/coordination.hpp"
+#include "messages/inside/coordination.hpp"
 
 #include <caf/actor_addr.hpp>
 #include <caf/typed_response_promise.hpp>

@@ -2,7 +2,7 @@
 
 #include "actors/edge/io/edge_error.hpp"
 #include "messages/codec/json_codec.hpp"
-#include "messages/runtime.hpp"
+#include "messages/inside/runtime.hpp"
 
 #include <cstdint>
 #include <string>

@@ -106,7 +106,8 @@ struct engine_runtime_state {
   alarm timer;
 };
 
-/// The ENGINE RUNTIME. Messages: messages/runtime.hpp, messages/engine.hpp.
+/// The ENGINE RUNTIME. Messages: messages/inside/runtime.hpp,
+/// messages/inside/engine.hpp.
 engine_runtime_actor::behavior_type engine_runtime(
     engine_runtime_actor::stateful_pointer<engine_runtime_state> self,
     const engine_runtime_config& config, container_listener_actor listener);

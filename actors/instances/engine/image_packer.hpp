@@ -19,7 +19,7 @@ struct image_packer_state {
   prepare_image wish;    ///< For which it was planned.
 };
 
-/// The IMAGE PACKER. Messages: messages/engine.hpp. Ends with its owner.
+/// The IMAGE PACKER. Messages: messages/inside/engine.hpp. Ends with its owner.
 image_packer_actor::behavior_type
 image_packer(image_packer_actor::stateful_pointer<image_packer_state> self,
              const std::filesystem::path& work_dir,

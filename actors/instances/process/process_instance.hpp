@@ -3,7 +3,7 @@
 #include "actors/edge/io/edge_error.hpp"
 #include "actors/edge/process/child_watch.hpp"
 #include "actors/edge/process/process_identity.hpp"
-#include "messages/runtime.hpp"
+#include "messages/inside/runtime.hpp"
 
 #include <cstdint>
 #include <filesystem>

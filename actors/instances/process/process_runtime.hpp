@@ -53,7 +53,7 @@ struct process_runtime_state {
   alarm timer;
 };
 
-/// The PROCESS RUNTIME. Messages: messages/runtime.hpp.
+/// The PROCESS RUNTIME. Messages: messages/inside/runtime.hpp.
 process_runtime_actor::behavior_type process_runtime(
     process_runtime_actor::stateful_pointer<process_runtime_state> self,
     const process_runtime_config& config, container_listener_actor listener);

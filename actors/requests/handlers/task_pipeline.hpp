@@ -1,5 +1,6 @@
 #pragma once
 
+#include "actors/placement/instance_specs.hpp"
 #include "actors/requests/request_context.hpp"
 
 #include <optional>
@@ -28,12 +29,6 @@ struct resolved_task {
   std::vector<resolved_step> steps;
   cell_resources cell;
   std::string why;
-};
-
-struct allocated_task {
-  task_request request;
-  std::vector<resolved_step> steps;
-  task_plan plan;
 };
 
 /// Placed where the members keep room for it.

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "messages/introspection.hpp"
+#include "messages/inside/introspection.hpp"
 
 #include <caf/actor_system.hpp>
 

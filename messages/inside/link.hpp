@@ -3,7 +3,7 @@
 #include "messages/actors.hpp"
 #include "messages/beat.hpp"
 #include "messages/failure.hpp"
-#include "messages/introspection.hpp"
+#include "messages/inside/introspection.hpp"
 #include "messages/node.hpp"
 
 #include <array>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "messages/failure.hpp"
-#include "messages/runtime.hpp"
+#include "messages/inside/runtime.hpp"
 
 #include <cstdint>
 #include <string>

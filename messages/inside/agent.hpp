@@ -1,6 +1,6 @@
 #pragma once
 
-#include "messages/introspection.hpp"
+#include "messages/inside/introspection.hpp"
 #include "messages/reservation.hpp"
 #include "messages/session.hpp"
 

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "messages/actors.hpp"
+#include "messages/inside/introspection.hpp"
 #include "messages/instance.hpp"
-#include "messages/introspection.hpp"
 #include "messages/session.hpp"
 
 #include <map>

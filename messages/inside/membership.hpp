@@ -1,8 +1,8 @@
 #pragma once
 
-#include "messages/agent.hpp"
-#include "messages/link.hpp"
-#include "messages/runtime.hpp"
+#include "messages/inside/agent.hpp"
+#include "messages/inside/link.hpp"
+#include "messages/inside/runtime.hpp"
 
 #include <string>
 

@@ -1,11 +1,11 @@
 #pragma once
 
 #include "messages/actors.hpp"
-#include "messages/agent.hpp"
 #include "messages/allocation_report.hpp"
 #include "messages/cell.hpp"
-#include "messages/link.hpp"
-#include "messages/membership.hpp"
+#include "messages/inside/agent.hpp"
+#include "messages/inside/link.hpp"
+#include "messages/inside/membership.hpp"
 #include "messages/reservation.hpp"
 
 #include <caf/actor.hpp>
