@@ -222,6 +222,8 @@ using peer_actor = introspected_actor::extend<
 /// node.
 using registration_client_actor = introspected_actor::extend<
     caf::replies_to<switch_node>::with<switch_accepted>,
+    // Errors: unauthorized too, where there is no proof.
+    caf::replies_to<prove_standing>::with<standing_proved>,
     caf::reacts_to<node_answered>>;
 
 /// The SCHEDULER. Errors: no_feasible_allocation, conflict (a node has left in

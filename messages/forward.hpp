@@ -42,6 +42,8 @@ struct switch_accepted;
 struct registration_query;
 struct registration_challenge;
 struct switch_node;
+struct prove_standing;
+struct standing_proved;
 struct node_answered;
 struct node_registered;
 struct node_departed;

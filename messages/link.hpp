@@ -89,11 +89,13 @@ struct open_session {
   std::string address; ///< "ip:port"
   node_identity self;
   node_role role = node_role::primary;
+  std::string uuid; ///< The only node that may answer there; empty: any.
 
   static constexpr auto fields() {
     return std::make_tuple(required("address", &open_session::address),
                            required("self", &open_session::self),
-                           required("role", &open_session::role));
+                           required("role", &open_session::role),
+                           required("uuid", &open_session::uuid));
   }
 };
 

@@ -199,9 +199,10 @@ struct switch_accepted {
 /// Asks a node for what a proof must contain.
 struct registration_query {
   static constexpr const char* type = "registration_query";
+  std::string nonce; ///< Of who asks for a proof of the standing, if any.
 
   static constexpr auto fields() {
-    return std::make_tuple();
+    return std::make_tuple(optional("nonce", &registration_query::nonce));
   }
 };
 
@@ -212,13 +213,16 @@ struct registration_challenge {
   int64_t epoch = 0;
   std::string state; ///< A word of `node_state`.
   std::string nonce; ///< Good for one switch within 10 s.
+  std::string
+      proof; ///< Of node, UUID, epoch and state, over the asker's nonce.
 
   static constexpr auto fields() {
     return std::make_tuple(required("node", &registration_challenge::node),
                            required("uuid", &registration_challenge::uuid),
                            required("epoch", &registration_challenge::epoch),
                            required("state", &registration_challenge::state),
-                           required("nonce", &registration_challenge::nonce));
+                           required("nonce", &registration_challenge::nonce),
+                           optional("proof", &registration_challenge::proof));
   }
 };
 
@@ -230,6 +234,30 @@ struct switch_node {
   static constexpr auto fields() {
     return std::make_tuple(required("address", &switch_node::address),
                            required("order", &switch_node::order));
+  }
+};
+
+/// Asks a node at its REST API to prove that it is the one that it announces.
+struct prove_standing {
+  std::string address; ///< "ip:port"
+  std::string node;
+  std::string uuid;
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("address", &prove_standing::address),
+                           required("node", &prove_standing::node),
+                           required("uuid", &prove_standing::uuid));
+  }
+};
+
+/// It has, with the site token.
+struct standing_proved {
+  node_identity identity;
+  node_state state = node_state::independent;
+
+  static constexpr auto fields() {
+    return std::make_tuple(required("identity", &standing_proved::identity),
+                           required("state", &standing_proved::state));
   }
 };
 

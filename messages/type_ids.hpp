@@ -45,6 +45,8 @@
   X(registration_query)                                                        \
   X(registration_challenge)                                                    \
   X(switch_node)                                                               \
+  X(prove_standing)                                                            \
+  X(standing_proved)                                                           \
   X(node_answered)                                                             \
   X(node_registered)                                                           \
   X(node_departed)                                                             \

@@ -21,9 +21,11 @@ std::vector<cell_size> sizes_of(const cell_coordinator_state& st) {
   std::vector<cell_size> result;
   result.push_back({st.setup.self.uuid, st.setup.cell,
                     static_cast<int64_t>(st.registry.size())});
-  for (const auto& [uuid, peer] : st.peers)
-    if (peer.actor && peer.told && peer.standing.rebalance)
-      result.push_back({uuid, peer.standing.place.cell, peer.size()});
+  st.peers.for_each_session(
+      [&](const std::string& uuid, const peer_entry& peer) {
+        if (peer.told && peer.standing.rebalance)
+          result.push_back({uuid, peer.standing.place.cell, peer.size()});
+      });
   return result;
 }
 
@@ -59,7 +61,7 @@ void order_move(self_pointer self, const cell_move& move,
                   request)
         .then(done, failed);
   else
-    self->request(st.peers[move.from].actor, limits::transfer::forwarded,
+    self->request(st.peers.find(move.from)->actor, limits::transfer::forwarded,
                   request)
         .then(done, failed);
 }

@@ -5,6 +5,7 @@
 #include "actors/cell/cell_members.hpp"
 #include "actors/cell/cell_peers.hpp"
 #include "actors/cell/cell_places.hpp"
+#include "actors/cell/cell_presences.hpp"
 #include "actors/cell/cell_tasks.hpp"
 #include "actors/cell/cell_transfers.hpp"
 #include "actors/cell/state/arrivals.hpp"
@@ -42,7 +43,7 @@ cell_description describe(self_pointer self) {
           st.setup.incarnation,
           st.registry.rows(),
           describe_all_tasks(self),
-          list_free_nodes(self)};
+          self->state.free_nodes.rows()};
 }
 
 caf::result<task_description> answer(self_pointer self,
@@ -99,8 +100,8 @@ json summary(self_pointer self) {
           {"tasks", describe_all_tasks(self)},
           {"turn", st.turn},
           {"waiting", st.waiting.size()},
-          {"cells", list_cells(self)},
-          {"free", list_free_nodes(self)},
+          {"cells", list_cells(self->state)},
+          {"free", self->state.free_nodes.rows()},
           {"places", st.places.size()},
           {"transfers", st.transfers.size()},
           {"balancing", st.balancing}};
@@ -120,6 +121,7 @@ void on_tick(self_pointer self, uint64_t number) {
   settle_overdue_transfers(self);
   settle_overdue_arrivals(self);
   open_due_peers(self);
+  ask_due_proofs(self);
   balance_if_due(self);
   set_timer(self);
 }
@@ -131,6 +133,7 @@ cell_coordinator(self_pointer self, const house& context,
                  const coordinator_setup& setup) {
   self->state.context = context;
   self->state.setup = setup;
+  self->state.peers = peer_book{setup.self.uuid};
   add_own_row(self);
   restore_members(self);
   restore_transfers(self);
@@ -141,6 +144,7 @@ cell_coordinator(self_pointer self, const house& context,
   self->set_down_handler([self](const caf::down_msg& down) {
     on_pipeline_down(self, down.source);
     on_member_down(self, down.source);
+    on_peer_down(self, down.source);
   });
   return {
       [self](const state_query&) { return state_of(summary(self)); },
@@ -150,7 +154,9 @@ cell_coordinator(self_pointer self, const house& context,
       [self](const member_lost& x) { on_member_lost(self, x); },
       [self](const instance_changed& x) { on_instance_changed(self, x); },
       [self](const cell_query&) { return describe(self); },
-      [self](const cell_list_query&) { return cell_list{list_cells(self)}; },
+      [self](const cell_list_query&) {
+        return cell_list{list_cells(self->state)};
+      },
       [self](const task_query& x) { return answer(self, x); },
       [self](const instance_query& x) { return answer(self, x); },
       [self](const log_query& x) { return answer(self, x); },

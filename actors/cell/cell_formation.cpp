@@ -1,6 +1,5 @@
 #include "actors/cell/cell_formation.hpp"
 
-#include "actors/cell/cell_peers.hpp"
 #include "actors/cell/cell_places.hpp"
 #include "actors/cell/state/arrivals.hpp"
 #include "actors/cell/state/coordinator_publish.hpp"
@@ -45,23 +44,6 @@ void answer_on_arrival(self_pointer self, const std::string& uuid,
   });
 }
 
-node_presence find_presence(const cell_coordinator_state& st,
-                            const std::string& node) {
-  node_presence result;
-  for (const auto& [uuid, who] : st.presences)
-    if (who.name == node && who.role != "coordinator"
-        && who.epoch >= result.epoch)
-      result = who;
-  return result;
-}
-
-bool is_coordinator(const cell_coordinator_state& st, const std::string& node) {
-  for (const auto& [uuid, who] : st.presences)
-    if (who.name == node && who.role == "coordinator")
-      return true;
-  return node == st.setup.self.name;
-}
-
 /// Brings in a node that is in no cell, by its REST API.
 void bring_in_free(self_pointer self, const node_presence& who,
                    const outcome_done& done) {
@@ -90,7 +72,7 @@ void bring_in_free(self_pointer self, const node_presence& who,
               const auto why = to_failure(err);
               // What it announced may be long out of date.
               if (why.code == error_code::unreachable)
-                state.presences.erase(who.uuid);
+                state.free_nodes.forget(who.uuid);
               settle_arrivals(self, who.uuid, &why);
             });
 }
@@ -140,13 +122,13 @@ void bring_in(self_pointer self, const std::string& node,
   auto& st = self->state;
   if (settle_known(self, node, done))
     return;
-  if (is_coordinator(st, node))
+  if (node == st.setup.self.name || st.peers.is_announced(node))
     return done(failed(node, {error_code::conflict,
                               "'" + node
                                   + "' coordinates a cell: a coordination "
                                     "node cannot leave its cell"}));
-  const auto* peer = find_peer_with(self, node);
-  const auto who = find_presence(st, node);
+  const auto* peer = st.peers.find_holder(node);
+  const auto* who = st.free_nodes.find_name(node);
   // A node that says itself that it is in no cell knows best, unless a cell has
   // news that are newer.
   int64_t known = -1;
@@ -154,8 +136,8 @@ void bring_in(self_pointer self, const std::string& node,
     for (const auto& [uuid, claim] : peer->members)
       if (claim.name == node)
         known = claim.epoch;
-  if (!who.uuid.empty() && who.epoch >= known)
-    return bring_in_free(self, who, done);
+  if (who && who->epoch >= known)
+    return bring_in_free(self, node_presence{*who}, done);
   if (peer)
     return bring_over(self, *peer, node, policy, done);
   const auto* entry = st.registry.find_name(node);

@@ -1,9 +1,9 @@
 #include "actors/cell/cell_members.hpp"
 
-#include "actors/cell/cell_peers.hpp"
 #include "actors/cell/state/arrivals.hpp"
 #include "actors/cell/state/coordinator_publish.hpp"
 #include "actors/cell/state/coordinator_store.hpp"
+#include "actors/cell/state/coordinator_timer.hpp"
 #include "actors/cell/state/node_whereabouts.hpp"
 #include "actors/house/limits.hpp"
 #include "actors/placement/reservation.hpp"
@@ -160,20 +160,55 @@ void ask_for_resources(self_pointer self, const std::string& uuid,
           [tally](const caf::error&) { tally->finish_one(); });
 }
 
-/// Nobody is asked twice whether the same row has changed on disk.
-void store_member(self_pointer self, const registry_entry& entry) {
-  record_fact(self,
-              {"members", entry.row.identity.uuid,
-               json(member_record{entry.row.identity, entry.origin}).dump()});
+registry_entry entry_of(const register_node& request) {
+  const auto& node = request.registration;
+  registry_entry result;
+  result.row.identity = node.identity;
+  result.row.resources = node.resources;
+  result.row.resources.name = node.identity.name;
+  result.skills = node.skills;
+  result.agent = request.member;
+  result.member = request.member;
+  result.origin = node.origin;
+  return result;
 }
 
-/// What a node has announced before it registered is out of date. What it has
-/// announced since is not: then this registration has been overtaken.
-void forget_earlier_presence(self_pointer self, const node_identity& who) {
-  auto& presences = self->state.presences;
-  const auto i = presences.find(who.uuid);
-  if (i != presences.end() && i->second.epoch < who.epoch)
-    presences.erase(i);
+/// The row may be shown now.
+void on_registration_kept(
+    self_pointer self, const register_node& request,
+    caf::typed_response_promise<node_registered> promise) {
+  auto& st = self->state;
+  const auto& node = request.registration;
+  const auto& who = node.identity;
+  std::string transfer;
+  member_actor former;
+  if (const auto* old = st.registry.find_uuid(who.uuid)) {
+    transfer = old->transfer;
+    former = old->member;
+  }
+  auto* entry = st.registry.accept(who.uuid, request.member, now_of(self));
+  if (!entry) {
+    promise.deliver(
+        fail(error_code::conflict,
+             "the node has registered anew, or its session has ended"));
+    return;
+  }
+  if (former && former != request.member)
+    self->send(former, close_session{"the node has registered anew"});
+  entry->row.instances = kept_rows(st, node);
+  st.places.erase(who.uuid);
+  st.free_nodes.registered(who);
+  publish(self, {who.uuid});
+  st.context.tell("node_joined", who.name,
+                  {{"uuid", who.uuid},
+                   {"epoch", who.epoch},
+                   {"address", who.address},
+                   {"size", st.registry.active_count()}});
+  promise.deliver(node_registered{st.setup.cell, st.setup.self.name,
+                                  st.setup.incarnation, reconcile(st, node)});
+  settle_arrivals(self, who.uuid, nullptr);
+  if (!transfer.empty())
+    on_node_returned(self, transfer);
 }
 
 } // namespace
@@ -246,46 +281,33 @@ void on_member_admitted(self_pointer self, const session_admitted& fact) {
 caf::result<node_registered> register_member(self_pointer self,
                                              const register_node& request) {
   auto& st = self->state;
-  const auto& node = request.registration;
-  if (node.identity.uuid == st.setup.self.uuid)
-    return fail(
-        error_code::conflict, "the node has the UUID of the coordination node",
-        "/identity/uuid", "its data directory is a copy: give it an empty one");
-  if (auto why = st.registry.refusal(node.identity, now_of(self)))
-    return fail(error_code::conflict, *why, "/identity",
-                "give the node another --name, or wait until the other one "
-                "has been gone for a lease");
-  std::string transfer;
-  if (auto* old = st.registry.find_uuid(node.identity.uuid)) {
-    transfer = old->transfer;
-    if (old->member && old->member != request.member)
-      self->send(old->member, close_session{"the node has registered anew"});
-  }
-  registry_entry entry;
-  entry.row.identity = node.identity;
-  entry.row.resources = node.resources;
-  entry.row.resources.name = node.identity.name;
-  entry.row.instances = kept_rows(st, node);
-  entry.skills = node.skills;
-  entry.agent = request.member;
-  entry.member = request.member;
-  entry.origin = node.origin;
-  node_registered reply{st.setup.cell, st.setup.self.name, st.setup.incarnation,
-                        reconcile(st, node)};
-  store_member(self, st.registry.activate(std::move(entry), now_of(self)));
+  const auto& who = request.registration.identity;
+  if (who.uuid == st.setup.self.uuid)
+    return fail(error_code::conflict,
+                "this UUID is in use at " + st.setup.self.address
+                    + ", by the coordination node: its data directory is a "
+                      "copy",
+                "/identity/uuid",
+                "start this node with another --data-dir, or with this one "
+                "emptied: then it makes a UUID of its own");
+  if (auto why = st.registry.refusal(who, now_of(self)))
+    return to_error(*why);
+  auto promise = self->make_response_promise<node_registered>();
+  const bool known = st.registry.is_known(who, request.registration.origin);
   self->monitor(request.member);
-  st.places.erase(node.identity.uuid);
-  forget_earlier_presence(self, node.identity);
-  publish(self, {node.identity.uuid});
-  st.context.tell("node_joined", node.identity.name,
-                  {{"uuid", node.identity.uuid},
-                   {"epoch", node.identity.epoch},
-                   {"address", node.identity.address},
-                   {"size", st.registry.active_count()}});
-  settle_arrivals(self, node.identity.uuid, nullptr);
-  if (!transfer.empty())
-    on_node_returned(self, transfer);
-  return reply;
+  keep_records(
+      self, st.registry.propose(entry_of(request)),
+      [=] { on_registration_kept(self, request, promise); },
+      [=](const failure& why) {
+        // What is on disk will do: only the epoch there is an older one.
+        if (known)
+          return on_registration_kept(self, request, promise);
+        self->state.registry.withdraw(request.registration.identity.uuid,
+                                      request.member);
+        auto answer = promise;
+        answer.deliver(to_error(why));
+      });
+  return promise;
 }
 
 caf::result<node_departed> depart_member(self_pointer self,
@@ -320,7 +342,7 @@ void on_member_lost(self_pointer self, const member_lost& fact) {
     // It goes: where it turns up tells the rest.
     entry->agent = nullptr;
     entry->member = nullptr;
-    return on_row_vacated(self, fact.uuid);
+    return set_timer(self);
   }
   st.registry.deactivate(*entry, row_state::lost, fact.reason, now_of(self));
   publish(self, {fact.uuid});
@@ -328,10 +350,12 @@ void on_member_lost(self_pointer self, const member_lost& fact) {
   st.context.tell(
       "node_lost", name,
       {{"reason", fact.reason}, {"size", st.registry.active_count()}});
-  on_row_vacated(self, fact.uuid);
+  // It may have said publicly that it is in no cell before that was known.
+  set_timer(self);
 }
 
 void on_member_down(self_pointer self, const caf::actor_addr& gone) {
+  self->state.registry.withdraw(gone);
   std::vector<member_lost> losses;
   self->state.registry.for_each([&](registry_entry& entry) {
     if (entry.member && entry.member.address() == gone)

@@ -28,9 +28,11 @@ std::string smallest(const cell_coordinator_state& st,
     }
   };
   consider(st.setup.self.uuid, static_cast<int64_t>(st.registry.size()));
-  for (const auto& [uuid, peer] : st.peers)
-    if (peer.actor && peer.told)
-      consider(uuid, peer.size());
+  st.peers.for_each_session(
+      [&](const std::string& uuid, const peer_entry& peer) {
+        if (peer.told)
+          consider(uuid, peer.size());
+      });
   return result;
 }
 
@@ -62,7 +64,7 @@ void place_here(self_pointer self, const place_request& request,
 void place_at(self_pointer self, const std::string& uuid,
               const place_request& request, std::set<std::string> full,
               promise_type promise) {
-  auto& peer = self->state.peers[uuid];
+  auto& peer = *self->state.peers.find(uuid);
   peer.promised.insert(request.uuid);
   place_reservation wish{
       request.name, request.uuid, request.epoch,
@@ -71,20 +73,19 @@ void place_at(self_pointer self, const std::string& uuid,
       .then(
           [self, uuid, request, promise](const place_reserved&) mutable {
             auto& st = self->state;
-            auto i = st.peers.find(uuid);
-            if (i == st.peers.end()) {
+            auto* holder = st.peers.find(uuid);
+            if (!holder) {
               promise.deliver(
                   fail(error_code::unreachable, "the cell has just gone"));
               return;
             }
-            i->second.forget_promise(request.uuid);
+            holder->forget_promise(request.uuid);
             remember(self, request, uuid);
-            promise.deliver(place_granted{i->second.standing.place});
+            promise.deliver(place_granted{holder->standing.place});
           },
           [self, uuid, request, full, promise](const caf::error&) mutable {
-            auto i = self->state.peers.find(uuid);
-            if (i != self->state.peers.end())
-              i->second.forget_promise(request.uuid);
+            if (auto* holder = self->state.peers.find(uuid))
+              holder->forget_promise(request.uuid);
             full.insert(uuid);
             find_place(self, request, std::move(full), std::move(promise));
           });
@@ -111,21 +112,20 @@ std::string known_place(self_pointer self, const std::string& node) {
   if (i == st.places.end() || i->second.until <= self->clock().now())
     return {};
   const auto& uuid = i->second.coordinator;
-  const auto peer = st.peers.find(uuid);
-  const bool there = uuid == st.setup.self.uuid
-                     || (peer != st.peers.end() && peer->second.told);
+  const auto* peer = st.peers.find(uuid);
+  const bool there = uuid == st.setup.self.uuid || (peer && peer->told);
   return there ? uuid : std::string{};
 }
 
 /// The coordinator with the lowest UUID, if it is not this one.
 const peer_entry* place_giver(const cell_coordinator_state& st) {
-  for (const auto& [uuid, peer] : st.peers) {
-    if (uuid > st.setup.self.uuid)
-      break;
-    if (peer.actor && peer.told)
-      return &peer;
-  }
-  return nullptr;
+  const peer_entry* result = nullptr;
+  st.peers.for_each_session(
+      [&](const std::string& uuid, const peer_entry& peer) {
+        if (!result && peer.told && uuid < st.setup.self.uuid)
+          result = &peer;
+      });
+  return result;
 }
 
 } // namespace
@@ -164,7 +164,7 @@ caf::expected<place_reserved> reserve_here(self_pointer self,
                 "'" + request.name + "' is the coordination node of cell '"
                     + st.setup.cell + "'");
   if (auto why = st.registry.refusal(who, now_of(self)))
-    return fail(error_code::conflict, *why);
+    return to_error(*why);
   st.registry.reserve(
       who, self->clock().now() + std::chrono::milliseconds{request.hold_ms},
       now_of(self));

@@ -1,6 +1,5 @@
 #include "actors/cell/cell_transfers.hpp"
 
-#include "actors/cell/cell_peers.hpp"
 #include "actors/cell/state/coordinator_publish.hpp"
 #include "actors/cell/state/coordinator_timer.hpp"
 #include "actors/cell/state/node_whereabouts.hpp"
@@ -55,9 +54,8 @@ registration_switch order_for(const cell_coordinator_state& st,
   result.uuid = x.row.uuid;
   result.epoch = entry.row.identity.epoch;
   result.origin = origin;
-  for (const auto& [uuid, peer] : st.peers)
-    if (!x.row.to.empty() && peer.told && peer.standing.place.cell == x.row.to)
-      result.target = {peer.standing.place};
+  if (const auto* peer = st.peers.find_cell(x.row.to))
+    result.target = {peer->standing.place};
   return result;
 }
 
@@ -120,7 +118,7 @@ void reserve_target(self_pointer self, const std::string& id,
   if (x.row.to.empty())
     return next();
   const auto* entry = st.registry.find_uuid(x.row.uuid);
-  const auto* peer = find_peer(self, x.row.to);
+  const auto* peer = self->state.peers.find_cell(x.row.to);
   if (!entry || !peer)
     return call_off(self, id,
                     {error_code::unreachable,
@@ -206,7 +204,7 @@ std::optional<failure> objection(self_pointer self, const transfer_wish& wish,
         name + " is " + std::string{to_word(entry.row.state)}, "/node",
         entry.transfer.empty() ? "wait until it has joined"
                                : "its transfer is '" + entry.transfer + "'"};
-  if (!wish.target.empty() && !find_peer(self, wish.target))
+  if (!wish.target.empty() && !self->state.peers.find_cell(wish.target))
     return failure{error_code::unknown_cell,
                    "no coordinator of a cell '" + wish.target
                        + "' is within reach",
@@ -297,7 +295,7 @@ caf::result<node_transferred> transfer_node(self_pointer self,
                                             const node_transfer& request) {
   auto& st = self->state;
   auto promise = self->make_response_promise<node_transferred>();
-  auto* peer = find_peer_with(self, request.node);
+  const auto* peer = st.peers.find_holder(request.node);
   if (!st.registry.find_name(request.node) && peer && !request.forwarded) {
     auto forwarded = request;
     forwarded.forwarded = true;
@@ -325,7 +323,7 @@ caf::result<node_released> release_node(self_pointer self,
                                         const node_release& request) {
   auto& st = self->state;
   auto promise = self->make_response_promise<node_released>();
-  auto* peer = find_peer_with(self, request.node);
+  const auto* peer = st.peers.find_holder(request.node);
   if (!st.registry.find_name(request.node) && peer && !request.forwarded) {
     auto forwarded = request;
     forwarded.forwarded = true;

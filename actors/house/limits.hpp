@@ -324,14 +324,57 @@ constexpr milliseconds refusal_pause{30'000};
 /// How long a name stays with a node that is silent.
 constexpr milliseconds name_held = lease::span;
 
+/// The same for one that is expected back: longer than the pause between two
+/// of its attempts and the attempt itself.
+constexpr milliseconds expected_name_held{45'000};
+
+static_assert(retry::longest + search + registration < expected_name_held);
 static_assert(row < registration && registration < lease::span);
 static_assert(2 * session::peer_answer < place);
 static_assert(departure < leaving);
 
 } // namespace membership
 
+/// What anybody may announce on the public domain. Nobody who has not proved
+/// that he is of the site costs more than this.
+namespace strangers {
+
+/// Participants that one node listens to.
+constexpr size_t participants = 1024;
+
+/// What is repeated is told again this often, as whoever listens may have had
+/// no room for it.
+constexpr seconds retelling{60};
+
+/// Coordinators that are remembered; by a coordinator, and by a node that
+/// wants a place.
+constexpr size_t coordinators = 256;
+constexpr size_t place_givers = 64;
+
+/// Nodes in no cell that are remembered.
+constexpr size_t free_nodes = 1024;
+
+/// Connections that are being opened at a time: to coordinators, and to nodes
+/// that are to prove where they stand.
+constexpr size_t peer_calls = 6;
+constexpr size_t proof_calls = 2;
+
+/// One that failed keeps its slot this long, so that ever new addresses cost no
+/// more than the slots in that time.
+constexpr seconds slot_pause{1};
+
+/// A nonce goes there, a proof comes back.
+constexpr seconds proof{8};
+
+static_assert(peer_calls + proof_calls <= 8);
+
+} // namespace strangers
+
 /// How cells form and are evened out.
 namespace cell {
+
+/// Rows of one cell, whatever their state.
+constexpr size_t rows = 10'000;
 
 /// Time for a place's node to come: it has to find the server and open a
 /// session.
@@ -352,6 +395,7 @@ constexpr seconds invited_place{40};
 constexpr seconds settling{2};
 
 static_assert(registration_call < invitation);
+static_assert(registration_call < strangers::proof);
 static_assert(invitation + arrival < invited_place);
 
 } // namespace cell

@@ -195,7 +195,7 @@ membership_actor::behavior_type membership(self_pointer self, house context,
       [self](const membership_query&) { return answer(self->state); },
       [self](const join_cell& wish) { on_join(self, wish); },
       [self](const seek_cell&) { on_seek(self); },
-      [self](const registration_query&) { return make_challenge(self); },
+      [self](const registration_query& x) { return make_challenge(self, x); },
       [self](const registration_switch& order) {
         auto promise = self->make_response_promise<switch_accepted>();
         on_proven_switch(self, order,

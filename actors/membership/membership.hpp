@@ -4,6 +4,7 @@
 #include "actors/house/alarm.hpp"
 #include "actors/house/backoff.hpp"
 #include "actors/house/house.hpp"
+#include "actors/membership/coordinators_seen.hpp"
 #include "actors/session/lease.hpp"
 #include "actors/session/session_exchange.hpp"
 #include "messages/messages.hpp"
@@ -14,7 +15,6 @@
 #include <chrono>
 #include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -88,12 +88,10 @@ struct membership_status {
   join_origin origin = join_origin::given; ///< Why that one.
   bool seeking = false; ///< Wants a place wherever there is one.
 
-  /// The coordinators that are visible, by UUID, and those of them that did
-  /// not answer lately.
-  std::map<std::string, node_presence> coordinators;
-  std::set<std::string> silent;
-  std::string asked;                  ///< The one that is asked for a place.
-  std::optional<node_presence> shown; ///< What the node announces.
+  coordinators_seen coordinators;       ///< While the node announces itself.
+  std::optional<node_presence> hurried; ///< For whom a pause was cut short.
+  std::string asked;                    ///< The one that is asked for a place.
+  std::optional<node_presence> shown;   ///< What the node announces.
 
   registration_challenges challenges;
   std::optional<switch_attempt> switching;

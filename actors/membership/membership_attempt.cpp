@@ -193,7 +193,7 @@ void retreat(self_pointer self, const std::string& reason,
 void on_error(self_pointer self, const caf::error& err) {
   const auto why = to_failure(err);
   if (is_refusal(why.code))
-    attempt_refused(self, why.message);
+    attempt_refused(self, why.message, why.hint);
   else
     attempt_failed(self, why.message);
 }
@@ -267,15 +267,19 @@ void attempt_failed(self_pointer self, const std::string& reason) {
   retreat(self, reason, self->state.pause.next());
 }
 
-void attempt_refused(self_pointer self, const std::string& reason) {
+void attempt_refused(self_pointer self, const std::string& reason,
+                     const std::string& hint) {
   auto& st = self->state;
   if (give_up_switch(self, reason))
     return;
   if (st.standing == node_state::joining)
     st.standing = node_state::independent;
-  if (st.refusal != reason)
-    tell(self, "join_refused",
-         {{"reason", reason}, {"discovery_server", st.wanted}});
+  if (st.refusal != reason) {
+    json data{{"reason", reason}, {"discovery_server", st.wanted}};
+    if (!hint.empty())
+      data["hint"] = hint;
+    tell(self, "join_refused", std::move(data));
+  }
   st.refusal = reason;
   forget_place(self);
   retreat(self, reason, limits::membership::refusal_pause);

@@ -10,18 +10,10 @@ namespace {
 
 using phase = membership_phase;
 
-/// The one that hands out places: the lowest UUID, as every node computes it.
-const node_presence* place_giver(const membership_status& st) {
-  for (const auto& [uuid, who] : st.coordinators)
-    if (st.silent.count(uuid) == 0)
-      return &who;
-  return nullptr;
-}
-
 void on_granted(self_pointer self, const place_granted& reply) {
   auto& st = self->state;
   drop_session(self, "it has been given a place");
-  st.silent.clear();
+  st.coordinators.forgive();
   st.wanted = reply.place.discovery_server;
   st.origin = join_origin::discovered;
   begin_attempt(self);
@@ -54,7 +46,8 @@ void open_to(self_pointer self, const node_presence& giver) {
   if (st.standing == node_state::independent)
     st.standing = node_state::joining;
   self->request(st.parts.connector, limits::session::open,
-                open_session{giver.address, st.config.identity})
+                open_session{giver.address, st.config.identity,
+                             node_role::primary, giver.uuid})
       .then(
           [self, attempt = st.attempt](const session_opened& reply) {
             if (is_current(self, attempt, phase::asking))
@@ -81,8 +74,11 @@ void gather(self_pointer self) {
 void return_to(self_pointer self, const node_presence& who) {
   auto& st = self->state;
   st.wanted = who.discovery_server;
-  if (st.phase != phase::waiting)
+  // Each announcement cuts one pause short. Else a node that is thrown out
+  // again and again would come back as often.
+  if (st.phase != phase::waiting || st.hurried == who)
     return;
+  st.hurried = who;
   st.pause.reset();
   begin_attempt(self);
 }
@@ -111,7 +107,6 @@ void withdraw_presence_now(self_pointer self) {
   if (!std::exchange(st.shown, std::nullopt))
     return;
   st.coordinators.clear();
-  st.silent.clear();
   self->send(st.parts.discovery, withdraw_presence{});
 }
 
@@ -119,25 +114,26 @@ void on_presence_seen(self_pointer self, const node_presence& who) {
   auto& st = self->state;
   if (who.role != "coordinator" || !st.shown)
     return;
-  const auto [known, is_new] = st.coordinators.insert_or_assign(who.uuid, who);
-  st.silent.erase(known->first);
+  const bool news = st.coordinators.see(who);
   if (st.standing == node_state::orphaned && who.cell == st.cell)
     return_to(self, who);
-  else if (st.seeking && st.wanted.empty()
+  else if (news && st.seeking && st.wanted.empty()
            && (st.phase == phase::resting || st.phase == phase::waiting))
     gather(self);
 }
 
 void on_presence_gone(self_pointer self, const node_presence& who) {
-  self->state.coordinators.erase(who.uuid);
+  if (who.role == "coordinator")
+    self->state.coordinators.vanish(who.uuid);
 }
 
 void seek_place(self_pointer self) {
   auto& st = self->state;
   show_presence(self);
-  if (!st.coordinators.empty() && !place_giver(st))
-    st.silent.clear();
-  if (const auto* giver = place_giver(st); giver && st.seeking)
+  if (!st.coordinators.place_giver())
+    st.coordinators.forgive();
+  const auto* giver = st.coordinators.place_giver();
+  if (giver && st.seeking)
     return open_to(self, *giver);
   st.phase = phase::resting;
   if (st.standing == node_state::joining)
@@ -147,7 +143,7 @@ void seek_place(self_pointer self) {
 void forget_place(self_pointer self) {
   auto& st = self->state;
   if (!st.asked.empty() && st.phase == phase::asking)
-    st.silent.insert(st.asked);
+    st.coordinators.mark_silent(st.asked);
   st.asked.clear();
   // A node that has been in the cell goes on looking for it.
   if (st.seeking && st.standing != node_state::orphaned)

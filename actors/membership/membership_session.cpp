@@ -152,8 +152,10 @@ void on_session_lost(self_pointer self, const std::string& reason) {
   st.standing = node_state::orphaned;
   tell(self, "coordinator_lost", {{"cell", st.cell}, {"reason", reason}});
   // One that lasted ends the series of attempts before it.
-  if (self->clock().now() - st.joined_at >= limits::lease::span)
+  if (self->clock().now() - st.joined_at >= limits::lease::span) {
     st.pause.reset();
+    st.hurried.reset();
+  }
   attempt_failed(self, reason);
 }
 

@@ -29,7 +29,8 @@ void on_search_over(self_pointer self);
 /// The attempt came to nothing; the next one follows after a pause.
 void attempt_failed(self_pointer self, const std::string& reason);
 /// The coordinator does not want this node; asked again, but slowly.
-void attempt_refused(self_pointer self, const std::string& reason);
+void attempt_refused(self_pointer self, const std::string& reason,
+                     const std::string& hint = {});
 /// What is to be done once the time of `waiting` is over.
 void try_again(self_pointer self);
 /// The present attempt is over; the next one follows after `pause`.
@@ -55,7 +56,8 @@ void forget_place(self_pointer self);
 
 using switch_reply = std::function<void(caf::expected<switch_accepted>)>;
 
-registration_challenge make_challenge(self_pointer self);
+registration_challenge make_challenge(self_pointer self,
+                                      const registration_query& query);
 /// By the REST API, where it has to be proven.
 void on_proven_switch(self_pointer self, const registration_switch& order,
                       switch_reply reply);

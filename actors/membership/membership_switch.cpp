@@ -185,11 +185,21 @@ bool is_repetition(const membership_status& st,
 
 } // namespace
 
-registration_challenge make_challenge(self_pointer self) {
+registration_challenge make_challenge(self_pointer self,
+                                      const registration_query& query) {
   auto& st = self->state;
   const auto& me = st.config.identity;
-  return {me.name, me.uuid, me.epoch, std::string{to_word(st.standing)},
-          st.challenges.issue(self->clock().now())};
+  registration_challenge result;
+  result.node = me.name;
+  result.uuid = me.uuid;
+  result.epoch = me.epoch;
+  result.state = to_word(st.standing);
+  result.nonce = st.challenges.issue(self->clock().now());
+  if (!query.nonce.empty() && can_be_proven(st))
+    result.proof = prove(
+        standing_claim{query.nonce, me.name, me.uuid, me.epoch, result.state},
+        st.config.site_token);
+  return result;
 }
 
 void on_proven_switch(self_pointer self, const registration_switch& order,

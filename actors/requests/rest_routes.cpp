@@ -85,6 +85,13 @@ rest_route log_route(const http_request& request, const std::string& id) {
   return result;
 }
 
+rest_route registration_route(const http_request& request) {
+  json query{{"type", "registration_query"}};
+  if (const auto i = request.query.find("nonce"); i != request.query.end())
+    query["nonce"] = i->second;
+  return ask(std::move(query));
+}
+
 /// `/v1/tasks`, `/v1/tasks/{id}` and the like.
 rest_route query_route(const http_request& request,
                        const std::vector<std::string>& parts) {
@@ -103,7 +110,7 @@ rest_route query_route(const http_request& request,
     if (what == "skills")
       return ask({{"type", "skill_query"}});
     if (what == "registration")
-      return ask({{"type", "registration_query"}});
+      return registration_route(request);
     if (what == "events")
       return event_route(request);
   } else if (parts.size() == 3 && what == "tasks") {

@@ -35,12 +35,13 @@ node_answered to_message(uint64_t call, edge_result<http_reply> result) {
   return answer;
 }
 
-void send(self_pointer self, uint64_t call, const std::string& method,
+void send(self_pointer self, uint64_t call, const std::string& address,
+          const std::string& method, const std::string& path,
           const std::string& body) {
   auto& st = self->state;
-  const auto to = *parse_socket_address(st.calls.at(call).wish.address);
+  const auto to = *parse_socket_address(address);
   exchange_http(*st.config.io,
-                {to.address, to.port, method, registration_path, body,
+                {to.address, to.port, method, path, body,
                  limits::cell::registration_call},
                 [me = registration_client_actor{self},
                  call](edge_result<http_reply> result) {
@@ -89,13 +90,89 @@ void on_challenge(self_pointer self, uint64_t call,
   order.nonce = challenge.nonce;
   order.proof = prove(order_of(order), st.config.site_token);
   x.proven = true;
-  send(self, call, "POST", message_json(order).dump());
+  send(self, call, x.wish.address, "POST", registration_path,
+       message_json(order).dump());
+}
+
+/// Why nobody at that address may be asked, if so.
+std::optional<caf::error> address_refusal(const registration_client_state& st,
+                                          const std::string& address) {
+  const auto to = parse_socket_address(address);
+  if (!to)
+    return fail(error_code::unreachable,
+                "'" + address + "' is not an address like 10.0.0.1:8420");
+  if (auto why = check_token_for(st.config.site_token, to->address))
+    return fail(why->code, why->message, "", why->hint);
+  return std::nullopt;
+}
+
+caf::result<switch_accepted> call_node(self_pointer self,
+                                       const switch_node& wish) {
+  auto& st = self->state;
+  if (auto why = address_refusal(st, wish.address))
+    return *why;
+  auto promise = self->make_response_promise<switch_accepted>();
+  const auto call = ++st.last_call;
+  st.calls.emplace(call, registration_call{wish, false, promise});
+  send(self, call, wish.address, "GET", registration_path, "");
+  return promise;
+}
+
+// -- where a node stands ------------------------------------------------------
+
+/// What a node's answer proves of its standing, or why it does not.
+std::variant<standing_proved, failure>
+judge_standing(const node_answered& answer, const standing_call& call,
+               const std::string& site_token) {
+  const auto challenge = read<registration_challenge>(answer);
+  if (const auto* why = std::get_if<failure>(&challenge))
+    return *why;
+  const auto& x = std::get<registration_challenge>(challenge);
+  const standing_claim claim{call.nonce, x.node, x.uuid, x.epoch, x.state};
+  if (x.uuid != call.wish.uuid || x.node != call.wish.node
+      || !proves(claim, site_token, x.proof))
+    return failure{error_code::unauthorized,
+                   "what answers at " + call.wish.address
+                       + " does not prove that it is node '" + call.wish.node
+                       + "' with UUID " + call.wish.uuid};
+  standing_proved result;
+  result.identity = {x.node, x.uuid, x.epoch, call.wish.address};
+  // The schema knows the words.
+  result.state = json(x.state).get<node_state>();
+  return result;
+}
+
+void on_standing(self_pointer self, const node_answered& answer) {
+  auto node = self->state.questions.extract(answer.call);
+  if (node.empty())
+    return;
+  auto& call = node.mapped();
+  const auto verdict =
+      judge_standing(answer, call, self->state.config.site_token);
+  if (const auto* why = std::get_if<failure>(&verdict))
+    call.promise.deliver(to_error(*why));
+  else
+    call.promise.deliver(std::get<standing_proved>(verdict));
+}
+
+caf::result<standing_proved> ask_standing(self_pointer self,
+                                          const prove_standing& wish) {
+  auto& st = self->state;
+  if (auto why = address_refusal(st, wish.address))
+    return *why;
+  auto promise = self->make_response_promise<standing_proved>();
+  const auto call = ++st.last_call;
+  const auto nonce = make_nonce();
+  st.questions.emplace(call, standing_call{wish, nonce, promise});
+  send(self, call, wish.address, "GET",
+       std::string{registration_path} + "?nonce=" + nonce, "");
+  return promise;
 }
 
 void on_answer(self_pointer self, const node_answered& answer) {
   auto i = self->state.calls.find(answer.call);
   if (i == self->state.calls.end())
-    return;
+    return on_standing(self, answer);
   if (i->second.proven)
     return end(self, answer.call, read<switch_accepted>(answer));
   auto challenge = read<registration_challenge>(answer);
@@ -104,22 +181,6 @@ void on_answer(self_pointer self, const node_answered& answer) {
   else
     on_challenge(self, answer.call,
                  std::get<registration_challenge>(challenge));
-}
-
-caf::result<switch_accepted> call_node(self_pointer self,
-                                       const switch_node& wish) {
-  auto& st = self->state;
-  const auto to = parse_socket_address(wish.address);
-  if (!to)
-    return fail(error_code::unreachable,
-                "'" + wish.address + "' is not an address like 10.0.0.1:8420");
-  if (auto why = check_token_for(st.config.site_token, to->address))
-    return fail(why->code, why->message, "", why->hint);
-  auto promise = self->make_response_promise<switch_accepted>();
-  const auto call = ++st.last_call;
-  st.calls.emplace(call, registration_call{wish, false, promise});
-  send(self, call, "GET", "");
-  return promise;
 }
 
 } // namespace
@@ -131,9 +192,11 @@ registration_client(self_pointer self,
   return {
       [self](const state_query&) {
         return state_of({{"calls", self->state.last_call},
-                         {"pending", self->state.calls.size()}});
+                         {"pending", self->state.calls.size()
+                                         + self->state.questions.size()}});
       },
       [self](const switch_node& wish) { return call_node(self, wish); },
+      [self](const prove_standing& x) { return ask_standing(self, x); },
       [self](const node_answered& x) { on_answer(self, x); },
   };
 }

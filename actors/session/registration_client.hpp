@@ -24,16 +24,24 @@ struct registration_call {
   caf::typed_response_promise<switch_accepted> promise;
 };
 
+/// A node that is being asked to prove where it stands.
+struct standing_call {
+  prove_standing wish;
+  std::string nonce;
+  caf::typed_response_promise<standing_proved> promise;
+};
+
 struct registration_client_state {
   static constexpr const char* name = "registration-client";
 
   registration_client_config config;
   uint64_t last_call = 0;
   std::map<uint64_t, registration_call> calls;
+  std::map<uint64_t, standing_call> questions; ///< Numbered like the calls.
 };
 
 /// The REGISTRATION CLIENT. Messages: messages/peer.hpp. It asks a node for a
-/// nonce and sends it the switch with a proof.
+/// nonce and sends it the switch with a proof, or has it prove its standing.
 registration_client_actor::behavior_type registration_client(
     registration_client_actor::stateful_pointer<registration_client_state> self,
     const registration_client_config& config);

@@ -39,7 +39,7 @@ caf::result<session_opened> open(self_pointer self, const open_session& wish) {
   const auto attempt = ++st.attempts;
   auto promise = self->make_response_promise<session_opened>();
   st.pending.emplace(attempt, promise);
-  connect_session(*st.parts.io, {place->address, place->port, ""},
+  connect_session(*st.parts.io, {place->address, place->port, "", wish.uuid},
                   {wish.self.name, wish.self.uuid, wish.self.epoch,
                    wish.role == node_role::coordinator
                        ? std::string{to_word(wish.role)}

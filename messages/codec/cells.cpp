@@ -44,6 +44,8 @@ ROSCELL_CODEC(switch_accepted)
 ROSCELL_CODEC(registration_query)
 ROSCELL_CODEC(registration_challenge)
 ROSCELL_DESCRIBED(switch_node)
+ROSCELL_DESCRIBED(prove_standing)
+ROSCELL_DESCRIBED(standing_proved)
 ROSCELL_DESCRIBED(node_answered)
 
 } // namespace roscell

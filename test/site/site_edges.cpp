@@ -40,6 +40,8 @@ void finish_connecting(site* place, site_party* me, const open_session& wish,
   };
   if (!to || !place->reachable(me->index, to->index))
     return place->later(*me, silence_span, [refuse] { refuse("no answer"); });
+  if (!wish.uuid.empty() && wish.uuid != to->uuid)
+    return refuse("another node is there");
   auto link = to->coordinates ? place->connect(*me, *to) : nullptr;
   if (!link)
     return refuse("connection refused");
@@ -68,11 +70,11 @@ caf::result<session_opened> open(caf::event_based_actor* self, site* place,
 // -- REST --------------------------------------------------------------------
 
 /// Shared by all that may end a call; the first one does.
-using call_promise =
-    std::shared_ptr<caf::typed_response_promise<switch_accepted>>;
+template <class Reply>
+using call_promise = std::shared_ptr<caf::typed_response_promise<Reply>>;
 
-template <class T>
-void end_call(const call_promise& promise, const T& outcome) {
+template <class Reply, class T>
+void end_call(const call_promise<Reply>& promise, const T& outcome) {
   if (promise->pending())
     promise->deliver(outcome);
 }
@@ -97,8 +99,9 @@ void carry(site* place, site_party* from, site_party* to, const char* what,
 }
 
 /// What a caller hears of a call that is not answered.
+template <class Reply>
 std::function<void()> give_up(site* place, site_party* me,
-                              const call_promise& promise) {
+                              const call_promise<Reply>& promise) {
   return [=] {
     place->later(*me, silence_span, [promise] {
       end_call(promise, fail(error_code::timeout, "no answer"));
@@ -106,9 +109,9 @@ std::function<void()> give_up(site* place, site_party* me,
   };
 }
 
-template <class Reply, class Request>
+template <class Reply, class Request, class Outcome>
 void ask_node(site* place, site_party* me, site_party* node,
-              const Request& what, const call_promise& promise,
+              const Request& what, const call_promise<Outcome>& promise,
               const std::function<void(const Reply&)>& next) {
   if (!node->alive())
     return end_call(promise,
@@ -149,6 +152,28 @@ caf::result<switch_accepted> switch_over(caf::event_based_actor* self,
         [=](const switch_accepted& x) { end_call(promise, x); });
   };
   ask_node<registration_challenge>(place, me, node, registration_query{},
+                                   promise, on_challenge);
+  return reply;
+}
+
+/// The node proves where it stands, as the real REST API does.
+caf::result<standing_proved> ask_standing(caf::event_based_actor* self,
+                                          site* place, site_party* me,
+                                          const prove_standing& wish) {
+  auto* node = place->find_address(wish.address);
+  if (!node || node->coordinates)
+    return fail(error_code::unreachable, "no node is there");
+  auto reply = self->make_response_promise<standing_proved>();
+  auto promise = std::make_shared<decltype(reply)>(reply);
+  const std::string nonce(64, 'e');
+  const auto on_challenge = [=](const registration_challenge& x) {
+    const standing_claim claim{nonce, x.node, x.uuid, x.epoch, x.state};
+    if (x.uuid != wish.uuid || !proves(claim, site_token, x.proof))
+      return end_call(promise, fail(error_code::unauthorized, "no proof"));
+    end_call(promise, standing_proved{{x.node, x.uuid, x.epoch, wish.address},
+                                      json(x.state).get<node_state>()});
+  };
+  ask_node<registration_challenge>(place, me, node, registration_query{nonce},
                                    promise, on_challenge);
   return reply;
 }
@@ -204,6 +229,7 @@ caf::behavior site_edge(caf::event_based_actor* self, site* place,
       [=](const forget_coordinator&) { me->looking_for.clear(); },
       [=](const open_session& x) { return open(self, place, me, x); },
       [=](const switch_node& x) { return switch_over(self, place, me, x); },
+      [=](const prove_standing& x) { return ask_standing(self, place, me, x); },
       [=](const store_record& x) { return write(self, place, me, {{x}}); },
       [=](const store_records& x) { return write(self, place, me, x); },
       [=](caf::tick_atom, uint64_t number) { place->run_work(number); },

@@ -56,7 +56,7 @@ TEST_CASE(
   REQUIRE(complaint(place).empty());
   const auto joined = count(place, "cell_joined");
   const auto claim = [&](int64_t epoch) {
-    const auto& peer = base.cell_state().peers.at(other.uuid).actor;
+    const auto& peer = base.cell_state().peers.find(other.uuid)->actor;
     caf::anon_send(
         base.coordinator,
         peer_changed{peer, {2, {{node.name, node.uuid, epoch, true}}, {}}});

@@ -35,9 +35,8 @@ bool are_connected(const site& place, const site_party& x,
   if (!x.alive() || !y.alive() || !place.reachable(x.index, y.index))
     return false;
   const auto knows = [](const site_party& a, const site_party& b) {
-    const auto& peers = a.cell_state().peers;
-    const auto i = peers.find(b.uuid);
-    return i != peers.end() && i->second.actor && i->second.told;
+    const auto* entry = a.cell_state().peers.find(b.uuid);
+    return entry && entry->told;
   };
   if (!knows(x, y) || !knows(y, x))
     return false;

@@ -15,28 +15,6 @@ member_claim claim_of(const registry_row& row) {
           row.state == row_state::active};
 }
 
-std::optional<std::string>
-cell_registry::refusal(const node_identity& who,
-                       const registry_time& now) const {
-  if (auto i = by_uuid_.find(who.uuid); i != by_uuid_.end())
-    if (who.epoch < i->second.row.identity.epoch)
-      return "the registration of epoch " + std::to_string(who.epoch)
-             + " is older than epoch "
-             + std::to_string(i->second.row.identity.epoch)
-             + ", which has been seen";
-  const auto* namesake = find_name(who.name);
-  if (!namesake || namesake->row.identity.uuid == who.uuid)
-    return std::nullopt;
-  const auto& row = namesake->row;
-  const bool free =
-      row.state == row_state::lost
-      && now.steady - namesake->inactive_since > limits::membership::name_held;
-  if (free)
-    return std::nullopt;
-  return "the name '" + who.name + "' belongs to the node with UUID "
-         + row.identity.uuid + " at " + row.identity.address;
-}
-
 registry_entry&
 cell_registry::reserve(const node_identity& who,
                        std::chrono::steady_clock::time_point until,
@@ -47,6 +25,7 @@ cell_registry::reserve(const node_identity& who,
     entry.row.resources.name = who.name;
     entry.row.state = row_state::reserved;
     entry.row.since_unix_ms = now.unix_ms;
+    settle_owner(who.name);
   }
   entry.held_until = until;
   return entry;
@@ -59,7 +38,7 @@ cell_registry::drop_overdue(std::chrono::steady_clock::time_point now) {
     if (entry.row.state == row_state::reserved && entry.held_until <= now)
       result.push_back(uuid);
   for (const auto& uuid : result)
-    by_uuid_.erase(uuid);
+    erase(uuid);
   return result;
 }
 
@@ -78,7 +57,9 @@ void cell_registry::expect(const member_record& known,
   entry.row.resources.name = known.identity.name;
   entry.row.since_unix_ms = now.unix_ms;
   entry.row.reason = "not seen since the coordinator was started";
+  entry.inactive_since = now.steady;
   entry.origin = known.origin;
+  settle_owner(known.identity.name);
 }
 
 void cell_registry::depart(registry_entry& entry, std::string transfer,
@@ -97,15 +78,20 @@ void cell_registry::stay(registry_entry& entry, const registry_time& now) {
 
 registry_entry& cell_registry::activate(registry_entry entry,
                                         const registry_time& now) {
-  // A namesake that was given up makes way.
-  if (auto* old = find_name(entry.row.identity.name))
-    if (old->row.identity.uuid != entry.row.identity.uuid)
-      erase(old->row.identity.uuid);
+  const auto who = entry.row.identity;
+  std::vector<std::string> displaced;
+  for (const auto& [uuid, x] : by_uuid_)
+    if (uuid == who.uuid ? x.row.identity.name != who.name
+                         : x.row.identity.name == who.name)
+      displaced.push_back(uuid);
+  for (const auto& uuid : displaced)
+    erase(uuid);
   entry.row.state = row_state::active;
   entry.row.since_unix_ms = now.unix_ms;
   entry.row.reason.clear();
-  auto& place = by_uuid_[entry.row.identity.uuid];
+  auto& place = by_uuid_[who.uuid];
   place = std::move(entry);
+  owners_[who.name] = who.uuid;
   return place;
 }
 
@@ -120,15 +106,9 @@ registry_entry* cell_registry::find_uuid(const std::string& uuid) {
   return i == by_uuid_.end() ? nullptr : &i->second;
 }
 
-const registry_entry* cell_registry::find_name(const std::string& name) const {
-  for (const auto& [uuid, entry] : by_uuid_)
-    if (entry.row.identity.name == name)
-      return &entry;
-  return nullptr;
-}
-
-registry_entry* cell_registry::find_name(const std::string& name) {
-  return const_cast<registry_entry*>(std::as_const(*this).find_name(name));
+const registry_entry* cell_registry::find_uuid(const std::string& uuid) const {
+  const auto i = by_uuid_.find(uuid);
+  return i == by_uuid_.end() ? nullptr : &i->second;
 }
 
 void cell_registry::deactivate(registry_entry& entry, row_state state,
@@ -143,7 +123,8 @@ void cell_registry::deactivate(registry_entry& entry, row_state state,
 }
 
 void cell_registry::erase(const std::string& uuid) {
-  by_uuid_.erase(uuid);
+  if (const auto row = by_uuid_.extract(uuid))
+    settle_owner(row.mapped().row.identity.name);
 }
 
 void cell_registry::update_instance(const instance_row& instance) {

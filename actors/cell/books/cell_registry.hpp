@@ -1,6 +1,8 @@
 #pragma once
 
 #include "messages/coordination.hpp"
+#include "messages/failure.hpp"
+#include "messages/storage.hpp"
 
 #include <chrono>
 #include <functional>
@@ -44,13 +46,38 @@ struct member_record {
 member_claim claim_of(const registry_row& row);
 
 /// The coordinator's table of nodes. Pure: it decides nothing about tasks and
-/// sends nothing.
+/// sends nothing. What of it is durable is proposed first, and entered once it
+/// has been written down.
 class cell_registry {
 public:
-  /// Why a node cannot have a row now, if so: its name belongs to another
-  /// UUID, or its epoch is older than one already seen.
-  std::optional<std::string> refusal(const node_identity& who,
-                                     const registry_time& now) const;
+  /// Why a node cannot have a row now, if so: its UUID is in use at another
+  /// address, its name belongs to another UUID, its epoch is older than one
+  /// already seen, or there are too many rows.
+  std::optional<failure> refusal(const node_identity& who,
+                                 const registry_time& now) const;
+
+  // -- a registration ---------------------------------------------------------
+
+  /// Claims name and UUID for a row that is to be active, until one of the next
+  /// two. The records have to be written all at once: the node's own, and no
+  /// value for those that it displaces.
+  std::vector<store_record> propose(registry_entry entry);
+
+  /// The records are kept: makes the proposed row active. Null if another
+  /// registration has come after it.
+  registry_entry* accept(const std::string& uuid, const member_actor& member,
+                         const registry_time& now);
+
+  /// The registration comes to nothing.
+  void withdraw(const std::string& uuid, const member_actor& member);
+
+  /// The same, of whatever a member that has ended had proposed.
+  void withdraw(const caf::actor_addr& member);
+
+  /// Whether nothing but the epoch would change on disk.
+  bool is_known(const node_identity& who, join_origin origin) const;
+
+  // -- rows -------------------------------------------------------------------
 
   /// Keeps a place for a node until then; one that has a row keeps that.
   registry_entry& reserve(const node_identity& who,
@@ -74,7 +101,8 @@ public:
   /// Takes `depart` back.
   void stay(registry_entry& entry, const registry_time& now);
 
-  /// Makes the node's row active, replacing what was known of it.
+  /// Makes the node's row active, replacing what was known of it and of those
+  /// that had the name before.
   registry_entry& activate(registry_entry entry, const registry_time& now);
 
   /// Null unless the present member of that row is `member`.
@@ -82,6 +110,10 @@ public:
                               const member_actor& member);
 
   registry_entry* find_uuid(const std::string& uuid);
+  const registry_entry* find_uuid(const std::string& uuid) const;
+
+  /// The row that owns the name. Of several rows of one name an active one
+  /// does, else the one that came first.
   registry_entry* find_name(const std::string& name);
   const registry_entry* find_name(const std::string& name) const;
 
@@ -114,7 +146,16 @@ public:
   void for_each_active(const std::function<void(registry_entry&)>& visit);
 
 private:
+  bool gives_name_up(const registry_entry& x, const node_identity& to,
+                     const registry_time& now) const;
+  void settle_owner(const std::string& name);
+  std::optional<failure> copy_refusal(const node_identity& who) const;
+  std::optional<failure> name_refusal(const node_identity& who,
+                                      const registry_time& now) const;
+
   std::map<std::string, registry_entry> by_uuid_;
+  std::map<std::string, std::string> owners_; ///< UUID by name.
+  std::map<std::string, registry_entry> proposed_;
 };
 
 } // namespace roscell

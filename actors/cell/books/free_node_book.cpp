@@ -8,7 +8,7 @@ free_node_book::sighting free_node_book::see(const node_presence& who,
                                              time_point now) {
   const auto i = by_uuid_.find(who.uuid);
   if (i == by_uuid_.end()) {
-    if (by_uuid_.size() >= max_nodes)
+    if (by_uuid_.size() >= limits::strangers::free_nodes)
       return sighting::ignored;
     by_uuid_.emplace(who.uuid, who);
     return sighting::appeared;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "actors/cell/books/stranger_calls.hpp"
+#include "actors/house/limits.hpp"
 #include "messages/cell.hpp"
 #include "messages/link.hpp"
 
@@ -19,12 +20,6 @@ class free_node_book {
 public:
   using time_point = std::chrono::steady_clock::time_point;
   using doubt = std::function<bool(const node_presence&)>;
-
-  /// So many are remembered; more are taken note of once there is room.
-  static constexpr size_t max_nodes = 1024;
-
-  /// So many are being asked at a time.
-  static constexpr size_t max_questions = 2;
 
   enum class sighting { appeared, changed, repeated, ignored };
 
@@ -70,7 +65,7 @@ public:
 
 private:
   std::map<std::string, node_presence> by_uuid_;
-  stranger_calls calls_{max_questions};
+  stranger_calls calls_{limits::strangers::proof_calls};
 };
 
 } // namespace roscell

@@ -34,7 +34,7 @@ size_t peer_book::strangers() const {
 
 /// Who has failed most often makes room. Nobody does who has not been tried.
 bool peer_book::make_room() {
-  if (strangers() < max_strangers)
+  if (strangers() < limits::strangers::coordinators)
     return true;
   auto worst = by_uuid_.end();
   for (auto i = by_uuid_.begin(); i != by_uuid_.end(); ++i)
@@ -167,16 +167,24 @@ std::optional<peer_entry> peer_book::close(const std::string& uuid,
   return result;
 }
 
-peer_entry* peer_book::find_actor(const peer_actor& peer) {
-  for (auto& [uuid, x] : by_uuid_)
-    if (x.session.actor && x.session.actor == peer)
-      return &x.session;
-  return nullptr;
+std::string peer_book::find_uuid(const caf::actor_addr& peer) const {
+  for (const auto& [uuid, x] : by_uuid_)
+    if (x.session.actor && x.session.actor.address() == peer)
+      return uuid;
+  return {};
+}
+
+const peer_entry* peer_book::find_session(const peer_actor& peer) const {
+  return peer ? find(find_uuid(peer.address())) : nullptr;
+}
+
+peer_entry* peer_book::find_session(const peer_actor& peer) {
+  return const_cast<peer_entry*>(std::as_const(*this).find_session(peer));
 }
 
 peer_entry* peer_book::tell(const peer_actor& peer,
                             const cell_standing& standing) {
-  auto* entry = find_actor(peer);
+  auto* entry = find_session(peer);
   if (!entry)
     return nullptr;
   entry->told = true;
@@ -190,7 +198,7 @@ peer_entry* peer_book::tell(const peer_actor& peer,
 
 peer_entry* peer_book::tell(const peer_actor& peer,
                             const cell_changed& change) {
-  auto* entry = find_actor(peer);
+  auto* entry = find_session(peer);
   if (!entry || !entry->told)
     return nullptr;
   entry->standing.size = change.size;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "actors/cell/books/stranger_calls.hpp"
+#include "actors/house/limits.hpp"
 #include "messages/coordination.hpp"
 
 #include <chrono>
@@ -35,12 +36,6 @@ struct peer_entry {
 class peer_book {
 public:
   using time_point = std::chrono::steady_clock::time_point;
-
-  /// So many that have proved nothing are remembered.
-  static constexpr size_t max_strangers = 256;
-
-  /// So many sessions are being opened at a time.
-  static constexpr size_t max_attempts = 6;
 
   /// What an announcement was worth.
   enum class sighting {
@@ -95,6 +90,12 @@ public:
   /// The same. What has changed is entered if the standing has come before.
   peer_entry* tell(const peer_actor& peer, const cell_changed& change);
 
+  /// Null unless that is a present session.
+  const peer_entry* find_session(const peer_actor& peer) const;
+
+  /// The one whose present session that is; empty if none.
+  std::string find_uuid(const caf::actor_addr& peer) const;
+
   /// Null unless it has a session.
   peer_entry* find(const std::string& uuid);
   const peer_entry* find(const std::string& uuid) const;
@@ -127,11 +128,11 @@ private:
   bool is_wanted(const std::string& uuid, const known& x) const;
   bool make_room();
   void drop_if_gone(const std::string& uuid);
-  peer_entry* find_actor(const peer_actor& peer);
+  peer_entry* find_session(const peer_actor& peer);
 
   std::string self_;
   std::map<std::string, known> by_uuid_;
-  stranger_calls calls_{max_attempts};
+  stranger_calls calls_{limits::strangers::peer_calls};
 };
 
 } // namespace roscell

@@ -1,5 +1,7 @@
 #include "actors/cell/books/stranger_calls.hpp"
 
+#include "actors/house/limits.hpp"
+
 #include <algorithm>
 #include <functional>
 #include <iterator>
@@ -21,7 +23,7 @@ bool stranger_calls::begin(const std::string& key, time_point now) {
 bool stranger_calls::fail(const std::string& key, const std::string& reason,
                           time_point now) {
   if (const auto call = running_.extract(key); !call.empty()) {
-    cooling_.insert(now + slot_pause);
+    cooling_.insert(now + limits::strangers::slot_pause);
     if (!call.mapped())
       return false;
   }

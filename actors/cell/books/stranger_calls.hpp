@@ -16,10 +16,6 @@ class stranger_calls {
 public:
   using time_point = std::chrono::steady_clock::time_point;
 
-  /// A call that failed keeps its slot this long, so that a stranger with ever
-  /// new addresses costs no more than `limit` connections in that time.
-  static constexpr std::chrono::seconds slot_pause{1};
-
   /// @param limit how many calls there may be at a time.
   explicit stranger_calls(size_t limit) : limit_(limit) {
     // nop
@@ -29,7 +25,8 @@ public:
   /// or its pause is not over.
   bool begin(const std::string& key, time_point now);
 
-  /// The call came to nothing. True if the reason is another one than before.
+  /// The call came to nothing, and its slot rests for a while. True if the
+  /// reason is another one than before.
   bool fail(const std::string& key, const std::string& reason, time_point now);
 
   /// The one called has answered. False if nobody wants to know any more.

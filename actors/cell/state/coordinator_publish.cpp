@@ -14,9 +14,9 @@ void publish(coordinator_pointer self,
   for (const auto& uuid : changed_uuids)
     if (const auto* entry = st.registry.find_uuid(uuid))
       change.changed.push_back(claim_of(entry->row));
-  for (const auto& [uuid, peer] : st.peers)
-    if (peer.actor)
-      self->send(peer.actor, change);
+  st.peers.for_each_session([&](const std::string&, const peer_entry& peer) {
+    self->send(peer.actor, change);
+  });
 }
 
 void drop_row(coordinator_pointer self, const std::string& uuid) {

@@ -1,9 +1,10 @@
 #pragma once
 
 #include "actors/cell/books/cell_registry.hpp"
+#include "actors/cell/books/free_node_book.hpp"
+#include "actors/cell/books/peer_book.hpp"
 #include "actors/cell/books/task_table.hpp"
 #include "actors/house/alarm.hpp"
-#include "actors/house/backoff.hpp"
 #include "actors/house/house.hpp"
 #include "actors/placement/search_guard.hpp"
 #include "messages/messages.hpp"
@@ -15,7 +16,6 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -62,39 +62,6 @@ struct awaited_deployments {
   std::function<void()> done;
 };
 
-/// Another coordinator, as far as it is known.
-struct peer_entry {
-  peer_actor actor;  ///< Invalid while there is no session.
-  bool told = false; ///< Its standing has come.
-  cell_standing standing;
-  std::map<std::string, member_claim> members; ///< By UUID.
-  /// UUIDs of nodes that it is being asked to keep a place for.
-  std::multiset<std::string> promised;
-
-  /// What counts when a place is given out. A promise whose place has been told
-  /// already counts once.
-  int64_t size() const {
-    auto result = standing.size;
-    for (auto i = promised.begin(); i != promised.end();
-         i = promised.upper_bound(*i))
-      result += members.count(*i) == 0 ? 1 : 0;
-    return result;
-  }
-
-  void forget_promise(const std::string& node) {
-    if (const auto i = promised.find(node); i != promised.end())
-      promised.erase(i);
-  }
-};
-
-/// When a session to another coordinator is to be tried again.
-struct peer_attempt {
-  bool running = false;
-  std::chrono::steady_clock::time_point next;
-  backoff pause;
-  std::string trouble; ///< Why the last one failed.
-};
-
 /// A place that has been given out and not been taken yet.
 struct granted_place {
   std::string coordinator; ///< UUID.
@@ -131,11 +98,9 @@ struct cell_coordinator_state {
   std::deque<waiting_claim> waiting;
   std::vector<awaited_deployments> deployments_awaited;
 
-  /// By UUID: all coordinators and nodes in no cell that are visible.
-  std::map<std::string, node_presence> presences;
-  std::map<std::string, peer_entry> peers;      ///< By UUID of the coordinator.
-  std::map<std::string, peer_attempt> attempts; ///< The same.
-  std::map<std::string, granted_place> places;  ///< By UUID of the node.
+  peer_book peers;
+  free_node_book free_nodes;
+  std::map<std::string, granted_place> places; ///< By UUID of the node.
   std::map<std::string, cell_transfer> transfers;
   uint64_t last_transfer = 0;
   /// Who waits for a node to join, by UUID.

@@ -1,7 +1,7 @@
 #include "actors/cell/state/coordinator_timer.hpp"
 
 #include "actors/cell/state/arrivals.hpp"
-#include "actors/cell/state/peer_attempts.hpp"
+#include "actors/cell/state/doubts.hpp"
 #include "actors/house/limits.hpp"
 
 #include <algorithm>
@@ -24,9 +24,11 @@ time_point next_transfer_deadline(const cell_coordinator_state& st) {
 void set_timer(coordinator_pointer self) {
   auto& st = self->state;
   const auto balance = st.balancing > 0 ? time_point::max() : st.balance_due;
+  const auto next_peer =
+      st.setup.connector ? st.peers.next_due() : time_point::max();
   const auto when =
       std::min({st.registry.next_overdue(), next_transfer_deadline(st),
-                next_arrival_deadline(st), next_peer_attempt(st), balance});
+                next_arrival_deadline(st), next_peer, next_proof(st), balance});
   if (when != time_point::max())
     st.timer.set(self, when);
 }

@@ -1,5 +1,7 @@
 #include "actors/edge/dds/presence_table.hpp"
 
+#include "actors/house/limits.hpp"
+
 #include <algorithm>
 #include <utility>
 
@@ -36,7 +38,7 @@ presence_table::outcome presence_table::remember(const guid_prefix& who,
   outcome result;
   const auto i = known_.find(who);
   if (i == known_.end()) {
-    if (known_.size() >= max_known)
+    if (known_.size() >= limits::strangers::participants)
       return result;
     known_.emplace(who, entry{said, now});
     result.newcomer = true;
@@ -44,7 +46,7 @@ presence_table::outcome presence_table::remember(const guid_prefix& who,
     return result;
   }
   auto& x = i->second;
-  if (x.said == said && now - x.told < retell_period)
+  if (x.said == said && now - x.told < limits::strangers::retelling)
     return result;
   const auto former = std::exchange(x.said, said);
   x.told = now;

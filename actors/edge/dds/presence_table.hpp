@@ -16,13 +16,6 @@ class presence_table {
 public:
   using time_point = std::chrono::steady_clock::time_point;
 
-  /// So many participants are listened to; more are once some have gone.
-  static constexpr std::size_t max_known = 1024;
-
-  /// Who listens may have had no room for an announcement, so one that is
-  /// repeated is told again, not more often than this.
-  static constexpr std::chrono::seconds retell_period{60};
-
   struct change {
     bool gone = false; ///< Else it is seen.
     announcement said;

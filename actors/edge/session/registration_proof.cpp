@@ -26,6 +26,18 @@ digest sign(const registration_order& order, std::string_view site_token) {
       .sign(site_token);
 }
 
+constexpr std::string_view standing_label = "roscell standing v1";
+
+digest sign(const standing_claim& claim, std::string_view site_token) {
+  return transcript{standing_label}
+      .add(claim.nonce)
+      .add(claim.node)
+      .add(claim.uuid)
+      .add(claim.epoch)
+      .add(claim.state)
+      .sign(site_token);
+}
+
 } // namespace
 
 std::string prove(const registration_order& order,
@@ -36,6 +48,15 @@ std::string prove(const registration_order& order,
 bool proves(const registration_order& order, std::string_view site_token,
             std::string_view proof) {
   return is_proof(proof, sign(order, site_token));
+}
+
+std::string prove(const standing_claim& claim, std::string_view site_token) {
+  return to_hex(sign(claim, site_token));
+}
+
+bool proves(const standing_claim& claim, std::string_view site_token,
+            std::string_view proof) {
+  return is_proof(proof, sign(claim, site_token));
 }
 
 std::string registration_challenges::issue(time_point now) {

@@ -36,6 +36,20 @@ std::string prove(const registration_order& order, std::string_view site_token);
 bool proves(const registration_order& order, std::string_view site_token,
             std::string_view proof);
 
+/// What a node says when it is asked where it stands.
+struct standing_claim {
+  std::string nonce; ///< From whoever asks.
+  std::string node;
+  std::string uuid;
+  int64_t epoch = 0;
+  std::string state;
+};
+
+/// The same for a claim.
+std::string prove(const standing_claim& claim, std::string_view site_token);
+bool proves(const standing_claim& claim, std::string_view site_token,
+            std::string_view proof);
+
 /// The nonces that a node has handed out. Strangers may ask for them, so there
 /// are few.
 class registration_challenges {

@@ -30,7 +30,7 @@ public:
         target_(std::move(target)), token_(std::move(token)),
         callback_(std::move(callback)),
         handshake_(std::move(identity), token_, target_.expected_cell) {
-    // nop
+    handshake_.expect_uuid(target_.expected_uuid);
   }
 
   void run() {

@@ -203,6 +203,13 @@ handshake_step joiner_handshake::on_challenge(std::string_view frame) {
                      + challenge_.cell + "', not '" + expected_cell_ + "'",
                  ""},
                 true);
+  if (!expected_uuid_.empty() && challenge_.uuid != expected_uuid_)
+    return fail({error_code::unknown_node,
+                 "there is node '" + challenge_.node + "' with UUID "
+                     + challenge_.uuid + ", not the one with UUID "
+                     + expected_uuid_,
+                 ""},
+                true);
   state_ = state::wait_accepted;
   handshake_step step;
   step.reply = encode(session_proof{

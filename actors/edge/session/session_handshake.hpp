@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 /// The handshake of a session, without any input or output: each side feeds
 /// the frames it gets into its state machine and sends what comes out.
@@ -117,6 +118,11 @@ public:
                    std::string expected_cell = {},
                    std::string nonce = make_nonce());
 
+  /// Proves nothing to another node than this one.
+  void expect_uuid(std::string uuid) {
+    expected_uuid_ = std::move(uuid);
+  }
+
   /// The frame to send first.
   std::string hello() const;
 
@@ -141,6 +147,7 @@ private:
   state state_ = state::wait_challenge;
   std::string token_;
   std::string expected_cell_;
+  std::string expected_uuid_;
   session_hello hello_;
   session_challenge challenge_;
   session_agreement agreement_;

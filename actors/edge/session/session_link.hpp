@@ -110,7 +110,8 @@ struct session_acceptor {
 struct session_target {
   std::string address; ///< IPv4 address in dotted form.
   uint16_t port = 0;
-  std::string expected_cell; ///< Empty if any cell will do.
+  std::string expected_cell;   ///< Empty if any cell will do.
+  std::string expected_uuid{}; ///< The same of the coordination node.
 };
 
 using session_result = edge_result<established_session>;

@@ -61,6 +61,13 @@ TEST_CASE("The node's actors are listed when asked for", "[rest_routes]") {
   CHECK(asked(get("/v1/node", {{"actors", "false"}})).at("actors") == false);
 }
 
+TEST_CASE("Whoever asks for a proof of a registration gives a nonce",
+          "[rest_routes]") {
+  CHECK(asked(get("/v1/registration")) == json{{"type", "registration_query"}});
+  CHECK(asked(get("/v1/registration", {{"nonce", "ab"}}))
+        == json{{"type", "registration_query"}, {"nonce", "ab"}});
+}
+
 TEST_CASE("The event stream starts after a sequence number", "[rest_routes]") {
   auto since = [](const http_request& x) {
     return std::get<event_stream_request>(route_of(x)).since;

@@ -67,7 +67,8 @@ std::string journal_line(const event& e) {
   else if (e.what == "coordinator_lost")
     line = "lost cell " + quoted(text("cell")) + ": " + text("reason");
   else if (e.what == "join_refused")
-    line = "cannot join at " + text("discovery_server") + ": " + text("reason");
+    line = "cannot join at " + text("discovery_server") + ": " + text("reason")
+           + (text("hint").empty() ? "" : " (" + text("hint") + ")");
   else
     line = e.what + " " + quoted(e.subject) + " " + event_particulars(e);
   line = printable(line);

@@ -1,4 +1,5 @@
 #include "actors/edge/dds/discovery_setup.hpp"
+#include "actors/edge/host/descriptor_limit.hpp"
 #include "actors/house/limits.hpp"
 #include "actors/node/node_builder.hpp"
 #include "tools/roscell/daemon/interface_choice.hpp"
@@ -141,6 +142,7 @@ void stop(caf::actor_system& system, const running_node& node,
 int run_node(const node_options& options) {
   prepare_dds_environment();
   save_memory();
+  raise_descriptor_limit();
   std::signal(SIGPIPE, SIG_IGN);
   readiness starter{options.ready_fd};
   auto config = to_config(options);

@@ -1,6 +1,9 @@
 #include "actors/cell/books/cell_registry.hpp"
 
 #include <caf/actor_cast.hpp>
+#include <caf/actor_system.hpp>
+#include <caf/actor_system_config.hpp>
+#include <caf/scoped_actor.hpp>
 
 #include <catch2/catch.hpp>
 
@@ -47,9 +50,9 @@ TEST_CASE("A name belongs to one UUID while its row is active",
   CHECK_FALSE(registry.refusal({"leg", "u2", 1, ""}, at(0ms)));
   const auto why = registry.refusal({"arm", "u2", 1, ""}, at(24h));
   REQUIRE(why);
-  CHECK(why->find("'arm'") != std::string::npos);
-  CHECK(why->find("u1") != std::string::npos);
-  CHECK(why->find("10.0.0.2:8420") != std::string::npos);
+  CHECK(why->code == error_code::conflict);
+  CHECK(why->message
+        == "the name 'arm' belongs to the node with UUID u1 at 10.0.0.2:8420");
 }
 
 TEST_CASE("A lost node keeps its name for one lease", "[cell_registry]") {
@@ -73,11 +76,108 @@ TEST_CASE("Setting the clock frees no name", "[cell_registry]") {
   CHECK(registry.refusal({"arm", "u2", 1, ""}, later));
 }
 
-TEST_CASE("A node that is expected back keeps its name", "[cell_registry]") {
+TEST_CASE("A node that is expected back keeps its name for some attempts",
+          "[cell_registry]") {
   cell_registry registry;
   auto& row = registry.activate(node("arm", "u1"), at(0ms));
   registry.deactivate(row, row_state::expected, "shut down", at(0ms));
-  CHECK(registry.refusal({"arm", "u2", 1, ""}, at(24h)));
+  CHECK(registry.refusal({"arm", "u2", 1, ""}, at(45s)));
+  CHECK_FALSE(registry.refusal({"arm", "u2", 1, ""}, at(45'001ms)));
+}
+
+TEST_CASE("A node known from before gets its name back after a restart",
+          "[cell_registry]") {
+  cell_registry registry;
+  registry.expect({{"arm", "u1", 3, "10.0.0.2:8420"}}, at(1000ms));
+  CHECK(registry.refusal({"arm", "u2", 1, ""}, at(1000ms)));
+  CHECK_FALSE(registry.refusal({"arm", "u1", 4, ""}, at(1000ms)));
+  CHECK_FALSE(registry.refusal({"arm", "u2", 1, ""}, at(46'001ms)));
+}
+
+TEST_CASE("Of namesakes that are both expected whoever comes gets the name",
+          "[cell_registry]") {
+  for (const std::string living : {"u1", "u2"}) {
+    cell_registry registry;
+    registry.expect({{"arm", "u1", 3, ""}}, at(0ms));
+    registry.expect({{"arm", "u2", 3, ""}}, at(0ms));
+    CHECK_FALSE(registry.refusal({"arm", living, 4, ""}, at(0ms)));
+    const auto records = registry.propose(node("arm", living, 4));
+    REQUIRE(records.size() == 2);
+    CHECK(records[0].key != living);
+    CHECK(records[0].value.empty());
+    CHECK(records[1].key == living);
+    REQUIRE(registry.accept(living, {}, at(0ms)));
+    CHECK(registry.rows().size() == 1);
+    CHECK(registry.find_name("arm")->row.identity.uuid == living);
+  }
+}
+
+TEST_CASE("With the row of a displaced namesake goes its record",
+          "[cell_registry]") {
+  cell_registry registry;
+  auto& old = registry.activate(node("arm", "u1"), at(0ms));
+  registry.deactivate(old, row_state::lost, "silent", at(0ms));
+  const auto records = registry.propose(node("arm", "u2"));
+  // Nothing has happened as long as it is not written down.
+  CHECK(registry.find_uuid("u1"));
+  CHECK_FALSE(registry.find_uuid("u2"));
+  REQUIRE(records.size() == 2);
+  CHECK(records[0].table == "members");
+  CHECK(records[0].key == "u1");
+  CHECK(records[0].value.empty());
+  CHECK(json::parse(records[1].value).get<member_record>().identity.uuid
+        == "u2");
+  REQUIRE(registry.accept("u2", {}, at(0ms)));
+  CHECK_FALSE(registry.find_uuid("u1"));
+}
+
+TEST_CASE("A name is given to one of two that register at once",
+          "[cell_registry]") {
+  cell_registry registry;
+  registry.propose(node("arm", "u1"));
+  CHECK(registry.refusal({"arm", "u2", 1, ""}, at(0ms)));
+  CHECK_FALSE(registry.refusal({"arm", "u1", 2, ""}, at(0ms)));
+  registry.withdraw("u1", {});
+  CHECK_FALSE(registry.refusal({"arm", "u2", 1, ""}, at(0ms)));
+  CHECK_FALSE(registry.accept("u1", {}, at(0ms)));
+}
+
+TEST_CASE("A UUID in use at one address is refused at another",
+          "[cell_registry]") {
+  caf::actor_system_config config;
+  caf::actor_system system{config};
+  caf::scoped_actor session{system};
+  auto here = node("arm", "u1", 5);
+  here.member =
+      caf::actor_cast<member_actor>(caf::actor_cast<caf::actor>(session));
+  const node_identity copy{"copy", "u1", 9, "10.0.0.9:8420"};
+  cell_registry registry;
+  registry.propose(here);
+  CHECK(registry.refusal(copy, at(0ms)));
+  REQUIRE(registry.accept("u1", here.member, at(0ms)));
+  const auto why = registry.refusal(copy, at(24h));
+  REQUIRE(why);
+  CHECK(why->message
+        == "this UUID is in use at 10.0.0.2:8420: its data directory is a "
+           "copy");
+  CHECK(why->hint.find("--data-dir") != std::string::npos);
+  // A restart at its own address, and a move while nobody lives there.
+  CHECK_FALSE(registry.refusal({"arm", "u1", 6, "10.0.0.2:8420"}, at(0ms)));
+  registry.deactivate(*registry.find_uuid("u1"), row_state::lost, "", at(0ms));
+  CHECK_FALSE(registry.refusal(copy, at(0ms)));
+}
+
+TEST_CASE("A name that its owner leaves goes to the next row of that name",
+          "[cell_registry]") {
+  cell_registry registry;
+  registry.expect({{"arm", "u1", 3, ""}}, at(0ms));
+  registry.reserve({"arm", "u2", 1, ""}, at(5s).steady, at(1s));
+  CHECK(registry.find_name("arm")->row.identity.uuid == "u1");
+  registry.erase("u1");
+  REQUIRE(registry.find_name("arm"));
+  CHECK(registry.find_name("arm")->row.identity.uuid == "u2");
+  registry.drop_overdue(at(5s).steady);
+  CHECK_FALSE(registry.find_name("arm"));
 }
 
 TEST_CASE("A registration of an older epoch is refused", "[cell_registry]") {

@@ -83,10 +83,10 @@ TEST_CASE("A registration ends what was announced before it",
 
 TEST_CASE("Strangers fill no more than a bound", "[free_node_book]") {
   free_node_book book;
-  for (size_t i = 0; i < free_node_book::max_nodes; ++i)
+  for (size_t i = 0; i < limits::strangers::free_nodes; ++i)
     book.see(node("n", "u" + std::to_string(i)), start);
   CHECK(book.see(node("late", "late"), start) == sighting::ignored);
-  CHECK(book.size() == free_node_book::max_nodes);
+  CHECK(book.size() == limits::strangers::free_nodes);
   CHECK(book.see(node("n", "u5", 2), start) == sighting::changed);
   book.vanish(node("n", "u5", 2));
   CHECK(book.see(node("late", "late"), start) == sighting::appeared);
@@ -137,7 +137,7 @@ TEST_CASE("Few nodes are asked at a time", "[free_node_book]") {
   for (int i = 0; i < 10; ++i)
     book.see(node("n", "u" + std::to_string(i)), start);
   CHECK(book.begin_questions(always, start).size()
-        == free_node_book::max_questions);
+        == limits::strangers::proof_calls);
   CHECK(book.begin_questions(always, start).empty());
 }
 

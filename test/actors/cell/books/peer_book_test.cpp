@@ -71,7 +71,7 @@ TEST_CASE("Strangers get few connections at a time", "[peer_book]") {
   for (int i = 0; i < 50; ++i)
     book.see(coordinator("a" + std::to_string(i)), start);
   const auto due = book.begin_due(start);
-  CHECK(due.size() == peer_book::max_attempts);
+  CHECK(due.size() == limits::strangers::peer_calls);
   CHECK(book.begin_due(start + 1h).empty());
   for (const auto& x : due)
     book.attempt_failed(x.uuid, "refused", start);
@@ -99,20 +99,20 @@ TEST_CASE("A stranger under ever new UUIDs fills and costs no more",
     now += 1ms;
   }
   CHECK(book.strangers() == 0);
-  CHECK(attempts <= peer_book::max_attempts * 10);
+  CHECK(attempts <= limits::strangers::peer_calls * 10);
 }
 
 TEST_CASE("Who fails makes room for newcomers, who has not been tried does not",
           "[peer_book]") {
   peer_book book{"m"};
-  for (size_t i = 0; i < peer_book::max_strangers; ++i)
+  for (size_t i = 0; i < limits::strangers::coordinators; ++i)
     book.see(coordinator("a" + std::to_string(i)), start);
   CHECK(book.see(coordinator("b"), start) == sighting::ignored);
   const auto due = book.begin_due(start);
   book.attempt_failed(due[0].uuid, "refused", start);
   CHECK(book.see(coordinator("b"), start) == sighting::appeared);
   CHECK(book.see(coordinator("c"), start) == sighting::ignored);
-  CHECK(book.strangers() == peer_book::max_strangers);
+  CHECK(book.strangers() == limits::strangers::coordinators);
   CHECK(book.see(coordinator(due[0].uuid), start) == sighting::ignored);
 }
 
@@ -124,7 +124,7 @@ TEST_CASE("Strangers displace nobody who has proved himself", "[peer_book]") {
   CHECK(book.attempt_succeeded("a"));
   book.open("a", handles.first);
   book.close("a", handles.first, "cut off", start);
-  for (size_t i = 0; i < 2 * peer_book::max_strangers; ++i)
+  for (size_t i = 0; i < 2 * limits::strangers::coordinators; ++i)
     book.see(coordinator("0" + std::to_string(i)), start);
   const auto due = book.begin_due(start + 1s);
   REQUIRE_FALSE(due.empty());

@@ -1,4 +1,5 @@
 #include "actors/edge/dds/presence_table.hpp"
+#include "actors/house/limits.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -45,14 +46,14 @@ TEST_CASE("One participant is one announcement, whatever it says",
 TEST_CASE("More participants than a bound are not listened to",
           "[presence_table]") {
   presence_table table;
-  for (std::size_t i = 0; i < presence_table::max_known; ++i)
+  for (std::size_t i = 0; i < limits::strangers::participants; ++i)
     CHECK(table.remember(prefix(i), coordinator(std::to_string(i)), start)
               .newcomer);
   const auto late =
       table.remember(prefix(5000), coordinator("late"), start + 1h);
   CHECK_FALSE(late.newcomer);
   CHECK(late.changes.empty());
-  CHECK(table.size() == presence_table::max_known);
+  CHECK(table.size() == limits::strangers::participants);
   CHECK(table.forget(prefix(0), start + 1h).size() == 1);
   CHECK(table.remember(prefix(5000), coordinator("late"), start + 1h).newcomer);
 }

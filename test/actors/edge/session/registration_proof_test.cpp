@@ -52,6 +52,27 @@ TEST_CASE("the proof of an order is the one that is written down") {
         == "60692c6d6725068df7aea8a1b85dfb131f2bd525be5bcbcf02f23b6c00f564a9");
 }
 
+TEST_CASE("every part of what a node says of its standing is under its proof") {
+  const standing_claim claim{std::string(64, '0'), "robot-1", "0a1b", 7,
+                             "independent"};
+  const auto proof = prove(claim, token);
+  CHECK(proves(claim, token, proof));
+  CHECK_FALSE(proves(claim, "other", proof));
+  CHECK_FALSE(proves(claim, token, ""));
+  for (auto part : {&standing_claim::nonce, &standing_claim::node,
+                    &standing_claim::uuid, &standing_claim::state}) {
+    auto x = claim;
+    (x.*part).back() ^= 1;
+    CHECK_FALSE(proves(x, token, proof));
+  }
+  auto older = claim;
+  older.epoch = 6;
+  CHECK_FALSE(proves(older, token, proof));
+  // It is worth nothing as an order, nor the other way round.
+  CHECK_FALSE(proves(sample(), token, proof));
+  CHECK_FALSE(proves(claim, token, prove(sample(), token)));
+}
+
 TEST_CASE("every part of an order is under its proof") {
   const auto proof = prove(sample(), token);
   for (auto part :

@@ -234,6 +234,21 @@ TEST_CASE("a joiner that wants a certain cell takes no other") {
   }
 }
 
+TEST_CASE("a joiner that wants a certain node proves nothing to another one") {
+  for (const auto& uuid : {base.uuid, std::string{"another"}}) {
+    acceptor_handshake acceptor{base, token, loopback};
+    joiner_handshake joiner{robot, token};
+    joiner.expect_uuid(uuid);
+    const auto step = joiner.receive(acceptor.receive(joiner.hello()).reply);
+    if (uuid == base.uuid) {
+      CHECK_FALSE(step.failure);
+      continue;
+    }
+    check_refused(step, error_code::unknown_node);
+    CHECK_FALSE(acceptor.receive(step.reply).done);
+  }
+}
+
 TEST_CASE("without a site token a node speaks with its own host only") {
   CHECK_FALSE(check_token_for("", "127.0.0.1"));
   CHECK_FALSE(check_token_for("", "127.9.8.7"));

@@ -1,0 +1,167 @@
+#include "actors/cell/books/cell_registry.hpp"
+
+#include "actors/house/limits.hpp"
+
+#include <utility>
+
+/// Who gets a row: names, UUIDs, and registrations that are written down.
+namespace roscell {
+
+namespace {
+
+failure conflict(std::string message, std::string where, std::string hint) {
+  failure result;
+  result.code = error_code::conflict;
+  result.message = std::move(message);
+  result.where = std::move(where);
+  result.hint = std::move(hint);
+  return result;
+}
+
+} // namespace
+
+// -- who may have a row -------------------------------------------------------
+
+bool cell_registry::gives_name_up(const registry_entry& x,
+                                  const node_identity& to,
+                                  const registry_time& now) const {
+  // An earlier version kept records of namesakes: who lives counts.
+  const auto* heir = find_uuid(to.uuid);
+  if (x.row.state == row_state::expected && heir
+      && heir->row.state == row_state::expected
+      && heir->row.identity.name == to.name)
+    return true;
+  const auto away = now.steady - x.inactive_since;
+  return (x.row.state == row_state::lost
+          && away > limits::membership::name_held)
+         || (x.row.state == row_state::expected
+             && away > limits::membership::expected_name_held);
+}
+
+std::optional<failure>
+cell_registry::name_refusal(const node_identity& who,
+                            const registry_time& now) const {
+  const auto* owner = find_name(who.name);
+  if (owner
+      && (owner->row.identity.uuid == who.uuid
+          || gives_name_up(*owner, who, now)))
+    owner = nullptr;
+  for (const auto& [uuid, x] : proposed_)
+    if (uuid != who.uuid && x.row.identity.name == who.name)
+      owner = &x;
+  if (!owner)
+    return std::nullopt;
+  const auto& row = owner->row;
+  return conflict(
+      "the name '" + who.name + "' belongs to the node with UUID "
+          + row.identity.uuid + " at " + row.identity.address,
+      "/identity",
+      "give the node another --name, or wait until the other one has "
+      "been gone for a lease");
+}
+
+/// A copy of a data directory has the UUID of a node that lives elsewhere.
+std::optional<failure>
+cell_registry::copy_refusal(const node_identity& who) const {
+  const auto* known = find_uuid(who.uuid);
+  const auto proposed = proposed_.find(who.uuid);
+  if (proposed != proposed_.end())
+    known = &proposed->second;
+  if (!known || !known->member || who.address.empty()
+      || known->row.identity.address == who.address)
+    return std::nullopt;
+  return conflict("this UUID is in use at " + known->row.identity.address
+                      + ": its data directory is a copy",
+                  "/identity/uuid",
+                  "start this node with another --data-dir, or with this one "
+                  "emptied: then it makes a UUID of its own");
+}
+
+std::optional<failure> cell_registry::refusal(const node_identity& who,
+                                              const registry_time& now) const {
+  if (auto why = copy_refusal(who))
+    return why;
+  const auto* known = find_uuid(who.uuid);
+  if (!known && by_uuid_.size() >= limits::cell::rows)
+    return conflict("the cell has " + std::to_string(limits::cell::rows)
+                        + " rows, which is its limit",
+                    "", "release nodes that are gone, or form another cell");
+  if (known && who.epoch < known->row.identity.epoch)
+    return conflict("the registration of epoch " + std::to_string(who.epoch)
+                        + " is older than epoch "
+                        + std::to_string(known->row.identity.epoch)
+                        + ", which has been seen",
+                    "/identity/epoch", "");
+  return name_refusal(who, now);
+}
+
+// -- names --------------------------------------------------------------------
+
+void cell_registry::settle_owner(const std::string& name) {
+  const auto i = owners_.find(name);
+  if (i != owners_.end() && by_uuid_.count(i->second) > 0
+      && by_uuid_.at(i->second).row.identity.name == name)
+    return;
+  owners_.erase(name);
+  for (const auto& [uuid, x] : by_uuid_)
+    if (x.row.identity.name == name)
+      owners_.emplace(name, uuid);
+}
+
+const registry_entry* cell_registry::find_name(const std::string& name) const {
+  const auto i = owners_.find(name);
+  return i == owners_.end() ? nullptr : find_uuid(i->second);
+}
+
+registry_entry* cell_registry::find_name(const std::string& name) {
+  return const_cast<registry_entry*>(std::as_const(*this).find_name(name));
+}
+
+// -- a registration -----------------------------------------------------------
+
+std::vector<store_record> cell_registry::propose(registry_entry entry) {
+  const auto& who = entry.row.identity;
+  std::vector<store_record> result;
+  for (const auto& [uuid, x] : by_uuid_)
+    if (uuid != who.uuid && x.row.identity.name == who.name)
+      result.push_back({"members", uuid, ""});
+  result.push_back(
+      {"members", who.uuid, json(member_record{who, entry.origin}).dump()});
+  proposed_[who.uuid] = std::move(entry);
+  return result;
+}
+
+registry_entry* cell_registry::accept(const std::string& uuid,
+                                      const member_actor& member,
+                                      const registry_time& now) {
+  const auto i = proposed_.find(uuid);
+  if (i == proposed_.end() || i->second.member != member)
+    return nullptr;
+  auto entry = std::move(i->second);
+  proposed_.erase(i);
+  return &activate(std::move(entry), now);
+}
+
+void cell_registry::withdraw(const std::string& uuid,
+                             const member_actor& member) {
+  const auto i = proposed_.find(uuid);
+  if (i != proposed_.end() && i->second.member == member)
+    proposed_.erase(i);
+}
+
+void cell_registry::withdraw(const caf::actor_addr& member) {
+  for (auto i = proposed_.begin(); i != proposed_.end();)
+    if (i->second.member && i->second.member.address() == member)
+      i = proposed_.erase(i);
+    else
+      ++i;
+}
+
+bool cell_registry::is_known(const node_identity& who,
+                             join_origin origin) const {
+  const auto* x = find_uuid(who.uuid);
+  return x && x->row.state != row_state::reserved
+         && x->row.identity.name == who.name && x->origin == origin;
+}
+
+} // namespace roscell

@@ -1,0 +1,135 @@
+#include "actors/cell/cell_presences.hpp"
+
+#include "actors/cell/cell_peers.hpp"
+#include "actors/cell/state/coordinator_timer.hpp"
+#include "actors/cell/state/doubts.hpp"
+#include "actors/cell/state/node_whereabouts.hpp"
+#include "actors/house/limits.hpp"
+#include "messages/failure.hpp"
+
+#include <utility>
+
+namespace roscell {
+
+namespace {
+
+using self_pointer = coordinator_pointer;
+
+bool is_coordinator(const node_presence& who) {
+  return who.role == "coordinator";
+}
+
+void tell_name_conflict(self_pointer self, const node_presence& who) {
+  const auto& setup = self->state.setup;
+  if (who.cell == setup.cell)
+    self->state.context.tell("cell_name_conflict", who.cell,
+                             {{"coordinator", who.name},
+                              {"address", who.address},
+                              {"discovery_server", who.discovery_server}});
+}
+
+void on_coordinator_seen(self_pointer self, const node_presence& who) {
+  const auto what = self->state.peers.see(who, self->clock().now());
+  if (what == peer_book::sighting::appeared)
+    tell_name_conflict(self, who);
+  open_due_peers(self);
+  set_timer(self);
+}
+
+void on_free_node_seen(self_pointer self, const node_presence& who) {
+  auto& st = self->state;
+  const auto what = st.free_nodes.see(who, self->clock().now());
+  if (what == free_node_book::sighting::appeared)
+    st.context.tell("node_appeared", who.name,
+                    {{"role", who.role}, {"address", who.address}});
+  ask_due_proofs(self);
+  set_timer(self);
+}
+
+/// The node is in no cell, and has proved it.
+void on_proof(self_pointer self, const std::string& uuid,
+              const standing_proved& proof) {
+  auto& st = self->state;
+  const auto* who = st.free_nodes.find(uuid);
+  if (!st.free_nodes.question_answered(uuid) || !who || !is_in_doubt(st, *who))
+    return;
+  if (proof.state == node_state::independent)
+    return on_node_elsewhere(self, uuid, proof.identity.epoch, "");
+  st.free_nodes.question_failed(uuid, "it is in a cell, or on its way",
+                                self->clock().now());
+  set_timer(self);
+}
+
+void ask_for_proof(self_pointer self, const node_presence& who) {
+  self->request(self->state.setup.registration, limits::strangers::proof,
+                prove_standing{who.address, who.name, who.uuid})
+      .then([self, uuid = who.uuid](
+                const standing_proved& proof) { on_proof(self, uuid, proof); },
+            [self, uuid = who.uuid](const caf::error& why) {
+              self->state.free_nodes.question_failed(
+                  uuid, to_failure(why).message, self->clock().now());
+              set_timer(self);
+            });
+}
+
+} // namespace
+
+void appear(self_pointer self) {
+  const auto& setup = self->state.setup;
+  if (!setup.discovery)
+    return;
+  node_presence me;
+  me.role = "coordinator";
+  me.name = setup.self.name;
+  me.uuid = setup.self.uuid;
+  me.incarnation = setup.incarnation;
+  me.cell = setup.cell;
+  me.address = setup.self.address;
+  me.discovery_server = setup.discovery_server;
+  me.server_id = setup.server_id;
+  self->send(setup.discovery, announce_presence{std::move(me)});
+}
+
+void on_presence_seen(self_pointer self, const node_presence& who) {
+  if (who.uuid == self->state.setup.self.uuid)
+    return;
+  if (is_coordinator(who))
+    on_coordinator_seen(self, who);
+  else
+    on_free_node_seen(self, who);
+}
+
+void on_presence_gone(self_pointer self, const node_presence& who) {
+  auto& st = self->state;
+  if (is_coordinator(who)) {
+    if (st.peers.vanish(who))
+      st.context.tell("peer_vanished", who.cell);
+  } else if (st.free_nodes.vanish(who)) {
+    st.context.tell("node_vanished", who.name);
+  }
+}
+
+void ask_due_proofs(self_pointer self) {
+  auto& st = self->state;
+  if (!st.setup.registration)
+    return;
+  const auto due = st.free_nodes.begin_questions(
+      [&](const node_presence& who) { return is_in_doubt(st, who); },
+      self->clock().now());
+  for (const auto& who : due)
+    ask_for_proof(self, who);
+}
+
+std::vector<cell_row> list_cells(const cell_coordinator_state& st) {
+  const cell_row own{st.setup.cell,
+                     st.setup.self.name,
+                     st.setup.self.address,
+                     st.setup.discovery_server,
+                     static_cast<int64_t>(st.registry.active_count()),
+                     ""};
+  auto result = st.peers.rows(own);
+  result.insert(result.begin(), own);
+  return result;
+}
+
+} // namespace roscell
