@@ -1,4 +1,5 @@
 #include "actors/cell/books/stranger_calls.hpp"
+#include "actors/house/limits.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -46,12 +47,12 @@ TEST_CASE("Whoever does not answer is called ever more seldom",
     CHECK(calls.failures("a") == i + 1);
     const auto pause = std::chrono::duration_cast<std::chrono::milliseconds>(
         calls.next("a") - now);
-    CHECK(pause <= backoff::longest);
+    CHECK(pause <= limits::retry::longest);
     CHECK_FALSE(calls.begin("a", calls.next("a") - 1ms));
     last = pause;
     now = calls.next("a");
   }
-  CHECK(last >= backoff::longest / 2);
+  CHECK(last >= limits::retry::longest / 2);
   CHECK(calls.trouble("a") == "refused");
   REQUIRE(calls.begin("a", now));
   CHECK(calls.succeed("a"));
