@@ -102,6 +102,7 @@ export UBSAN_OPTIONS=print_stacktrace=1
 if wants lint; then
   check format format
   check law tools/check_law.sh
+  check rules tools/check_rules.py
 fi
 say "building with ASan and UBSan, warnings as errors"
 check build build_asan
