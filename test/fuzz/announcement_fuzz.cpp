@@ -15,7 +15,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
     return 0;
   auto written = roscell::encode(*read);
   auto again = roscell::decode(written);
-  if (written.size() <= limits::discovery::announcement_bytes && again != read)
+  if (written.size() <= roscell::limits::discovery::announcement_bytes
+      && again != read)
     std::abort();
   return 0;
 }
