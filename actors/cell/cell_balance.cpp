@@ -15,7 +15,6 @@ namespace roscell {
 
 namespace {
 
-using self_pointer = coordinator_pointer;
 using time_point = std::chrono::steady_clock::time_point;
 
 std::vector<cell_size> sizes_of(const cell_coordinator_state& st) {
@@ -42,7 +41,7 @@ std::string cell_of(const std::vector<cell_size>& cells,
 /// One cell has done what it could. Once all have, it is looked at again as
 /// long as something moves. What cannot be moved is not tried again soon, if
 /// something else wants the sizes looked at: it costs the member its session.
-void on_surrendered(self_pointer self, bool moved) {
+void on_surrendered(coordinator_pointer self, bool moved) {
   auto& st = self->state;
   --st.balancing;
   if (moved)
@@ -53,7 +52,7 @@ void on_surrendered(self_pointer self, bool moved) {
   set_timer(self);
 }
 
-void order_move(self_pointer self, const cell_move& move,
+void order_move(coordinator_pointer self, const cell_move& move,
                 const std::string& target) {
   auto& st = self->state;
   ++st.balancing;
@@ -80,7 +79,7 @@ bool is_movable(const cell_coordinator_state& st, const registry_entry& x) {
          && !has_instances(st, x.row.identity.name);
 }
 
-std::vector<std::string> movable(self_pointer self, size_t count) {
+std::vector<std::string> movable(coordinator_pointer self, size_t count) {
   std::vector<std::string> result;
   self->state.registry.for_each_active([&](registry_entry& x) {
     if (result.size() < count && is_movable(self->state, x))
@@ -119,7 +118,7 @@ std::vector<cell_move> plan_moves(std::vector<cell_size> cells) {
   return result;
 }
 
-void balance_if_due(self_pointer self) {
+void balance_if_due(coordinator_pointer self) {
   auto& st = self->state;
   if (self->clock().now() < st.balance_due || st.balancing > 0)
     return;
@@ -132,7 +131,7 @@ void balance_if_due(self_pointer self) {
 }
 
 caf::result<members_surrendered>
-surrender_members(self_pointer self, const member_surrender& request) {
+surrender_members(coordinator_pointer self, const member_surrender& request) {
   auto& st = self->state;
   if (!st.setup.rebalance)
     return fail(error_code::conflict,

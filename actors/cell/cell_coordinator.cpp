@@ -25,9 +25,7 @@ namespace roscell {
 
 namespace {
 
-using self_pointer = coordinator_pointer;
-
-cell_description describe(self_pointer self) {
+cell_description describe(coordinator_pointer self) {
   const auto& st = self->state;
   return {st.setup.cell,          st.setup.self.name,
           st.setup.self.address,  st.setup.discovery_server,
@@ -35,7 +33,8 @@ cell_description describe(self_pointer self) {
           describe_all_tasks(st), st.free_nodes.rows()};
 }
 
-caf::result<log_excerpt> fetch_log(self_pointer self, const log_query& query) {
+caf::result<log_excerpt> fetch_log(coordinator_pointer self,
+                                   const log_query& query) {
   auto& registry = self->state.registry;
   const auto instance = self->state.deployments.find_row(query.instance);
   if (!instance)
@@ -58,7 +57,7 @@ caf::result<log_excerpt> fetch_log(self_pointer self, const log_query& query) {
   return promise;
 }
 
-json summary(self_pointer self) {
+json summary(coordinator_pointer self) {
   const auto& st = self->state;
   return {{"cell", st.setup.cell},       {"incarnation", st.setup.incarnation},
           {"nodes", describe_nodes(st)}, {"tasks", describe_all_tasks(st)},
@@ -68,14 +67,15 @@ json summary(self_pointer self) {
           {"balancing", st.balancing}};
 }
 
-void on_session_admitted(self_pointer self, const session_admitted& fact) {
+void on_session_admitted(coordinator_pointer self,
+                         const session_admitted& fact) {
   if (fact.role == node_role::coordinator)
     on_peer_admitted(self, fact);
   else
     on_member_admitted(self, fact);
 }
 
-void on_tick(self_pointer self, uint64_t number) {
+void on_tick(coordinator_pointer self, uint64_t number) {
   if (!self->state.timer.rings(number))
     return;
   settle_overdue_places(self);
@@ -92,7 +92,7 @@ void on_tick(self_pointer self, uint64_t number) {
 } // namespace
 
 cell_coordinator_actor::behavior_type
-cell_coordinator(self_pointer self, const house& context,
+cell_coordinator(coordinator_pointer self, const house& context,
                  const coordinator_setup& setup) {
   self->state.context = context;
   self->state.setup = setup;

@@ -16,7 +16,6 @@ namespace roscell {
 
 namespace {
 
-using self_pointer = coordinator_pointer;
 using outcome_done = std::function<void(formation_outcome)>;
 
 formation_outcome failed(const std::string& node, const failure& why) {
@@ -37,7 +36,7 @@ formation_outcome joined(const std::string& node, const std::string& from) {
 }
 
 /// Answers when the node has a row that is active, or when it took too long.
-void answer_on_arrival(self_pointer self, const std::string& uuid,
+void answer_on_arrival(coordinator_pointer self, const std::string& uuid,
                        const formation_outcome& success,
                        const outcome_done& done) {
   await_arrival(self, uuid, [success, done](const failure* why) {
@@ -46,7 +45,7 @@ void answer_on_arrival(self_pointer self, const std::string& uuid,
 }
 
 /// Brings in a node that is in no cell, by its REST API.
-void bring_in_free(self_pointer self, const node_presence& who,
+void bring_in_free(coordinator_pointer self, const node_presence& who,
                    const outcome_done& done) {
   auto& st = self->state;
   auto kept = reserve_here(
@@ -78,7 +77,7 @@ void bring_in_free(self_pointer self, const node_presence& who,
 }
 
 /// Has another coordinator transfer a member of its cell to this one.
-void bring_over(self_pointer self, const peer_actor& holder,
+void bring_over(coordinator_pointer self, const peer_actor& holder,
                 const std::string& node, instance_policy policy,
                 const outcome_done& done) {
   node_transfer order;
@@ -95,7 +94,7 @@ void bring_over(self_pointer self, const peer_actor& holder,
 
 /// What becomes of a node that has a row here; false if it has none that
 /// settles it.
-bool settle_known(self_pointer self, const std::string& node,
+bool settle_known(coordinator_pointer self, const std::string& node,
                   const outcome_done& done) {
   auto& st = self->state;
   const auto* entry = st.registry.find_name(node);
@@ -152,7 +151,7 @@ failure is_ambiguous(const node_presence& who, const named_node& found) {
 }
 
 /// Brings in a node that has no row here.
-void bring_in_stranger(self_pointer self, const std::string& node,
+void bring_in_stranger(coordinator_pointer self, const std::string& node,
                        instance_policy policy, const outcome_done& done) {
   const auto& st = self->state;
   const auto found = find_elsewhere(st, node);
@@ -172,7 +171,7 @@ void bring_in_stranger(self_pointer self, const std::string& node,
   bring_over(self, found.holder, node, policy, done);
 }
 
-void bring_in(self_pointer self, const std::string& node,
+void bring_in(coordinator_pointer self, const std::string& node,
               instance_policy policy, const outcome_done& done) {
   const auto& st = self->state;
   if (settle_known(self, node, done))
@@ -191,7 +190,7 @@ void bring_in(self_pointer self, const std::string& node,
 
 } // namespace
 
-caf::result<cell_formed> form_cell(self_pointer self,
+caf::result<cell_formed> form_cell(coordinator_pointer self,
                                    const cell_formation& request) {
   struct tally {
     size_t open = 1;

@@ -19,8 +19,6 @@ namespace roscell {
 
 namespace {
 
-using self_pointer = coordinator_pointer;
-
 void stop_searches_on(const cell_coordinator_state& st,
                       const std::string& node) {
   if (st.setup.searches)
@@ -43,7 +41,7 @@ registry_entry entry_of(const register_node& request) {
 
 /// The row may be shown now.
 void on_registration_kept(
-    self_pointer self, const register_node& request,
+    coordinator_pointer self, const register_node& request,
     caf::typed_response_promise<node_registered> promise) {
   auto& st = self->state;
   const auto& node = request.registration;
@@ -77,14 +75,14 @@ void on_registration_kept(
 
 } // namespace
 
-void restore_members(self_pointer self) {
+void restore_members(coordinator_pointer self) {
   auto& st = self->state;
   for (const auto& known : st.setup.members)
     if (known.identity.uuid != st.setup.self.uuid)
       st.registry.expect(known, now_of(self));
 }
 
-void add_own_row(self_pointer self) {
+void add_own_row(coordinator_pointer self) {
   auto& st = self->state;
   registry_entry own;
   own.row.identity = st.setup.self;
@@ -96,7 +94,7 @@ void add_own_row(self_pointer self) {
   st.registry.activate(std::move(own), now_of(self));
 }
 
-void measure_own_node(self_pointer self) {
+void measure_own_node(coordinator_pointer self) {
   const auto& setup = self->state.setup;
   if (!setup.agent)
     return;
@@ -115,12 +113,13 @@ void measure_own_node(self_pointer self) {
           });
 }
 
-void on_member_admitted(self_pointer self, const session_admitted& fact) {
+void on_member_admitted(coordinator_pointer self,
+                        const session_admitted& fact) {
   spawn(self->system(), self->state.context, member, fact,
         cell_coordinator_actor{self});
 }
 
-caf::result<node_registered> register_member(self_pointer self,
+caf::result<node_registered> register_member(coordinator_pointer self,
                                              const register_node& request) {
   auto& st = self->state;
   const auto& who = request.registration.identity;
@@ -160,7 +159,7 @@ caf::result<node_registered> register_member(self_pointer self,
   return promise;
 }
 
-caf::result<node_departed> depart_member(self_pointer self,
+caf::result<node_departed> depart_member(coordinator_pointer self,
                                          const depart_node& request) {
   auto& st = self->state;
   auto* entry = st.registry.find_member(request.uuid, request.member);
@@ -182,7 +181,7 @@ caf::result<node_departed> depart_member(self_pointer self,
   return node_departed{};
 }
 
-void on_member_lost(self_pointer self, const member_lost& fact) {
+void on_member_lost(coordinator_pointer self, const member_lost& fact) {
   auto& st = self->state;
   auto* entry = st.registry.find_member(fact.uuid, fact.member);
   if (!entry)
@@ -202,7 +201,7 @@ void on_member_lost(self_pointer self, const member_lost& fact) {
   set_timer(self);
 }
 
-void on_member_down(self_pointer self, const caf::actor_addr& gone) {
+void on_member_down(coordinator_pointer self, const caf::actor_addr& gone) {
   self->state.registry.withdraw(gone);
   std::vector<member_lost> losses;
   self->state.registry.for_each([&](registry_entry& entry) {

@@ -13,8 +13,6 @@ namespace roscell {
 
 namespace {
 
-using self_pointer = coordinator_pointer;
-
 cell_standing standing_of(const cell_coordinator_state& st) {
   cell_standing result;
   result.place = own_address(st.setup);
@@ -27,13 +25,13 @@ cell_standing standing_of(const cell_coordinator_state& st) {
   return result;
 }
 
-void spawn_peer(self_pointer self, const session_actor& session,
+void spawn_peer(coordinator_pointer self, const session_actor& session,
                 const std::string& uuid, bool opened_here) {
   spawn(self->system(), self->state.context, peer,
         peer_setup{session, uuid, opened_here, cell_coordinator_actor{self}});
 }
 
-void on_attempt_failed(self_pointer self, const std::string& uuid,
+void on_attempt_failed(coordinator_pointer self, const std::string& uuid,
                        const std::string& reason) {
   auto& st = self->state;
   const auto cell = st.peers.attempt_failed(uuid, reason, self->clock().now());
@@ -42,7 +40,7 @@ void on_attempt_failed(self_pointer self, const std::string& uuid,
   set_timer(self);
 }
 
-void on_attempt_succeeded(self_pointer self, const std::string& uuid,
+void on_attempt_succeeded(coordinator_pointer self, const std::string& uuid,
                           const session_opened& opened) {
   if (self->state.peers.attempt_succeeded(uuid))
     spawn_peer(self, opened.session, uuid, true);
@@ -51,7 +49,7 @@ void on_attempt_succeeded(self_pointer self, const std::string& uuid,
   set_timer(self);
 }
 
-void open_peer(self_pointer self, const node_presence& who) {
+void open_peer(coordinator_pointer self, const node_presence& who) {
   auto& st = self->state;
   auto me = st.setup.self;
   me.epoch = st.setup.incarnation;
@@ -67,13 +65,13 @@ void open_peer(self_pointer self, const node_presence& who) {
 }
 
 /// The node stays, or has gone, elsewhere.
-void give_up_place(self_pointer self, const std::string& uuid) {
+void give_up_place(coordinator_pointer self, const std::string& uuid) {
   drop_row(self, uuid);
   arm_balance(self);
 }
 
 /// What another coordinator says of a node. The higher epoch is right.
-void weigh(self_pointer self, const peer_entry& from,
+void weigh(coordinator_pointer self, const peer_entry& from,
            const member_claim& claim) {
   auto& st = self->state;
   // Its place has been taken, there or elsewhere.
@@ -96,7 +94,7 @@ void weigh(self_pointer self, const peer_entry& from,
 
 } // namespace
 
-void open_due_peers(self_pointer self) {
+void open_due_peers(coordinator_pointer self) {
   auto& st = self->state;
   if (!st.setup.connector)
     return;
@@ -104,18 +102,18 @@ void open_due_peers(self_pointer self) {
     open_peer(self, who);
 }
 
-void on_peer_admitted(self_pointer self, const session_admitted& fact) {
+void on_peer_admitted(coordinator_pointer self, const session_admitted& fact) {
   spawn_peer(self, fact.session, fact.peer.uuid, false);
 }
 
-void on_peer_opened(self_pointer self, const peer_opened& fact) {
+void on_peer_opened(coordinator_pointer self, const peer_opened& fact) {
   if (const auto former = self->state.peers.open(fact.uuid, fact.peer))
     self->send(former, close_session{"a newer session has been opened"});
   self->monitor(fact.peer);
   self->send(fact.peer, standing_of(self->state));
 }
 
-void on_peer_lost(self_pointer self, const peer_lost& fact) {
+void on_peer_lost(coordinator_pointer self, const peer_lost& fact) {
   auto& st = self->state;
   const auto lost =
       st.peers.close(fact.uuid, fact.peer, fact.reason, self->clock().now());
@@ -128,14 +126,14 @@ void on_peer_lost(self_pointer self, const peer_lost& fact) {
   set_timer(self);
 }
 
-void on_peer_down(self_pointer self, const caf::actor_addr& gone) {
+void on_peer_down(coordinator_pointer self, const caf::actor_addr& gone) {
   const auto uuid = self->state.peers.find_uuid(gone);
   if (const auto* entry = self->state.peers.find(uuid))
     on_peer_lost(
         self, {entry->actor, uuid, "the part that spoke with it has failed"});
 }
 
-void on_peer_told(self_pointer self, const peer_told& fact) {
+void on_peer_told(coordinator_pointer self, const peer_told& fact) {
   auto& st = self->state;
   const auto* entry = st.peers.tell(fact.peer, fact.standing);
   if (!entry)
@@ -149,7 +147,7 @@ void on_peer_told(self_pointer self, const peer_told& fact) {
   arm_balance(self);
 }
 
-void on_peer_changed(self_pointer self, const peer_changed& fact) {
+void on_peer_changed(coordinator_pointer self, const peer_changed& fact) {
   auto& st = self->state;
   const auto* known = std::as_const(st.peers).find_session(fact.peer);
   const auto before = known ? known->standing.size : 0;

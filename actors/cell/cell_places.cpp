@@ -12,7 +12,6 @@ namespace roscell {
 
 namespace {
 
-using self_pointer = coordinator_pointer;
 using promise_type = caf::typed_response_promise<place_granted>;
 
 /// The UUID of the cell with the fewest nodes that is not `full`; empty if none
@@ -41,10 +40,10 @@ place_reservation reservation_for(const place_request& request) {
   return {request.name, request.uuid, request.epoch, span.count()};
 }
 
-void find_place(self_pointer self, const place_request& request,
+void find_place(coordinator_pointer self, const place_request& request,
                 std::set<std::string> full, promise_type promise);
 
-void place_here(self_pointer self, const place_request& request,
+void place_here(coordinator_pointer self, const place_request& request,
                 std::set<std::string> full, promise_type promise) {
   auto& st = self->state;
   auto kept = reserve_here(self, reservation_for(request));
@@ -56,7 +55,7 @@ void place_here(self_pointer self, const place_request& request,
   promise.deliver(place_granted{own_address(st.setup)});
 }
 
-void on_place_kept(self_pointer self, const std::string& uuid,
+void on_place_kept(coordinator_pointer self, const std::string& uuid,
                    const place_request& request, promise_type promise) {
   auto& st = self->state;
   const auto* holder = st.peers.find(uuid);
@@ -68,7 +67,7 @@ void on_place_kept(self_pointer self, const std::string& uuid,
   promise.deliver(place_granted{holder->standing.place});
 }
 
-void place_at(self_pointer self, const std::string& uuid,
+void place_at(coordinator_pointer self, const std::string& uuid,
               const place_request& request, std::set<std::string> full,
               promise_type promise) {
   auto& st = self->state;
@@ -88,7 +87,7 @@ void place_at(self_pointer self, const std::string& uuid,
           });
 }
 
-void find_place(self_pointer self, const place_request& request,
+void find_place(coordinator_pointer self, const place_request& request,
                 std::set<std::string> full, promise_type promise) {
   const auto uuid = smallest(self->state, full);
   if (uuid.empty())
@@ -103,7 +102,7 @@ void find_place(self_pointer self, const place_request& request,
 }
 
 /// The place that the node has been given already, if its cell is still there.
-std::string known_place(self_pointer self, const std::string& node) {
+std::string known_place(coordinator_pointer self, const std::string& node) {
   auto& st = self->state;
   const auto uuid = st.places.find(node, self->clock().now());
   const auto* peer = st.peers.find(uuid);
@@ -122,7 +121,7 @@ const peer_entry* place_giver(const cell_coordinator_state& st) {
   return result;
 }
 
-void ask_place_giver(self_pointer self, const peer_entry& giver,
+void ask_place_giver(coordinator_pointer self, const peer_entry& giver,
                      const place_request& request, promise_type promise) {
   self->request(giver.actor, limits::membership::place, request)
       .then([promise](place_granted& x) mutable { promise.deliver(x); },
@@ -131,7 +130,7 @@ void ask_place_giver(self_pointer self, const peer_entry& giver,
             });
 }
 
-void grant_now(self_pointer self, const place_request& request,
+void grant_now(coordinator_pointer self, const place_request& request,
                promise_type promise) {
   if (const auto* giver = place_giver(self->state))
     return ask_place_giver(self, *giver, request, std::move(promise));
@@ -158,7 +157,7 @@ int64_t size_of(const cell_coordinator_state& st, const std::string& uuid,
            });
 }
 
-caf::result<place_granted> grant_place(self_pointer self,
+caf::result<place_granted> grant_place(coordinator_pointer self,
                                        const place_request& request) {
   auto& st = self->state;
   const auto now = self->clock().now();
@@ -173,7 +172,7 @@ caf::result<place_granted> grant_place(self_pointer self,
   return promise;
 }
 
-void grant_awaited_places(self_pointer self) {
+void grant_awaited_places(coordinator_pointer self) {
   auto& st = self->state;
   if (st.peers.expects_standings(self->clock().now()))
     return;
@@ -181,7 +180,7 @@ void grant_awaited_places(self_pointer self) {
     x.done();
 }
 
-caf::expected<place_reserved> reserve_here(self_pointer self,
+caf::expected<place_reserved> reserve_here(coordinator_pointer self,
                                            const place_reservation& request) {
   auto& st = self->state;
   const node_identity who{request.name, request.uuid, request.epoch, ""};
@@ -199,7 +198,7 @@ caf::expected<place_reserved> reserve_here(self_pointer self,
   return place_reserved{static_cast<int64_t>(st.registry.size())};
 }
 
-caf::result<place_reserved> reserve_place(self_pointer self,
+caf::result<place_reserved> reserve_place(coordinator_pointer self,
                                           const place_reservation& request) {
   auto kept = reserve_here(self, request);
   if (!kept)
@@ -207,7 +206,7 @@ caf::result<place_reserved> reserve_place(self_pointer self,
   return *kept;
 }
 
-void settle_overdue_places(self_pointer self) {
+void settle_overdue_places(coordinator_pointer self) {
   auto& st = self->state;
   const auto now = self->clock().now();
   for (const auto& x : st.places.take_overdue_who_await_sizes(now))

@@ -13,13 +13,11 @@ namespace roscell {
 
 namespace {
 
-using self_pointer = coordinator_pointer;
-
 bool is_coordinator(const node_presence& who) {
   return who.role == "coordinator";
 }
 
-void tell_name_conflict(self_pointer self, const node_presence& who) {
+void tell_name_conflict(coordinator_pointer self, const node_presence& who) {
   const auto& setup = self->state.setup;
   if (who.cell == setup.cell)
     self->state.context.tell("cell_name_conflict", who.cell,
@@ -28,7 +26,7 @@ void tell_name_conflict(self_pointer self, const node_presence& who) {
                               {"discovery_server", who.discovery_server}});
 }
 
-void on_coordinator_seen(self_pointer self, const node_presence& who) {
+void on_coordinator_seen(coordinator_pointer self, const node_presence& who) {
   const auto what = self->state.peers.see(who, self->clock().now());
   if (what == peer_book::sighting::appeared)
     tell_name_conflict(self, who);
@@ -36,7 +34,7 @@ void on_coordinator_seen(self_pointer self, const node_presence& who) {
   set_timer(self);
 }
 
-void on_free_node_seen(self_pointer self, const node_presence& who) {
+void on_free_node_seen(coordinator_pointer self, const node_presence& who) {
   auto& st = self->state;
   const auto what = st.free_nodes.see(who, self->clock().now());
   if (what == free_node_book::sighting::appeared)
@@ -47,7 +45,7 @@ void on_free_node_seen(self_pointer self, const node_presence& who) {
 }
 
 /// The node is in no cell, and has proved it.
-void on_proof(self_pointer self, const std::string& uuid,
+void on_proof(coordinator_pointer self, const std::string& uuid,
               const standing_proved& proof) {
   auto& st = self->state;
   const auto* who = st.free_nodes.find(uuid);
@@ -60,7 +58,7 @@ void on_proof(self_pointer self, const std::string& uuid,
   set_timer(self);
 }
 
-void ask_for_proof(self_pointer self, const node_presence& who) {
+void ask_for_proof(coordinator_pointer self, const node_presence& who) {
   self->request(self->state.setup.registration, limits::strangers::proof,
                 prove_standing{who.address, who.name, who.uuid})
       .then([self, uuid = who.uuid](
@@ -74,7 +72,7 @@ void ask_for_proof(self_pointer self, const node_presence& who) {
 
 } // namespace
 
-void appear(self_pointer self) {
+void appear(coordinator_pointer self) {
   const auto& setup = self->state.setup;
   if (!setup.discovery)
     return;
@@ -91,7 +89,7 @@ void appear(self_pointer self) {
   self->send(setup.discovery, announce_presence{std::move(me)});
 }
 
-void on_presence_seen(self_pointer self, const node_presence& who) {
+void on_presence_seen(coordinator_pointer self, const node_presence& who) {
   if (who.uuid == self->state.setup.self.uuid)
     return;
   if (is_coordinator(who))
@@ -100,7 +98,7 @@ void on_presence_seen(self_pointer self, const node_presence& who) {
     on_free_node_seen(self, who);
 }
 
-void on_presence_gone(self_pointer self, const node_presence& who) {
+void on_presence_gone(coordinator_pointer self, const node_presence& who) {
   auto& st = self->state;
   if (is_coordinator(who)) {
     if (st.peers.vanish(who))
@@ -110,7 +108,7 @@ void on_presence_gone(self_pointer self, const node_presence& who) {
   }
 }
 
-void ask_due_proofs(self_pointer self) {
+void ask_due_proofs(coordinator_pointer self) {
   auto& st = self->state;
   if (!st.setup.registration)
     return;

@@ -13,8 +13,6 @@ namespace roscell {
 
 namespace {
 
-using self_pointer = coordinator_pointer;
-
 node_transferred reply_of(const node_transfer&, const cell_transfer& x) {
   return {x.row.node,     x.row.from,   x.row.to,
           x.row.transfer, x.terminated, x.rescheduled};
@@ -34,7 +32,7 @@ transfer_wish wish_of(const node_release& x) {
 
 /// Has the node's own coordinator carry the request out.
 template <class Reply, class Request>
-caf::result<Reply> forward_to_holder(self_pointer self,
+caf::result<Reply> forward_to_holder(coordinator_pointer self,
                                      const peer_actor& holder,
                                      Request request) {
   auto promise = self->make_response_promise<Reply>();
@@ -48,7 +46,7 @@ caf::result<Reply> forward_to_holder(self_pointer self,
 }
 
 template <class Reply, class Request>
-caf::result<Reply> let_go(self_pointer self, const Request& request) {
+caf::result<Reply> let_go(coordinator_pointer self, const Request& request) {
   if (!request.forwarded) {
     const auto found = find_named_node(self->state, request.node, request.cell);
     if (!found.why.message.empty())
@@ -70,7 +68,7 @@ caf::result<Reply> let_go(self_pointer self, const Request& request) {
 
 /// A node that was told to go and is not in this cell's reach any more is lost,
 /// so that its name is free after a lease and its row can be released.
-void lose_departed(self_pointer self, const transfer_row& row) {
+void lose_departed(coordinator_pointer self, const transfer_row& row) {
   auto& registry = self->state.registry;
   auto* entry = registry.find_uuid(row.uuid);
   if (!entry || entry->member || entry->row.state != row_state::departing)
@@ -85,7 +83,7 @@ void lose_departed(self_pointer self, const transfer_row& row) {
   arm_balance(self);
 }
 
-void settle_overdue(self_pointer self, cell_transfer& x) {
+void settle_overdue(coordinator_pointer self, cell_transfer& x) {
   const auto waiting = self->state.transfers.set_unresolved(
       x, "neither the node nor the other cell has said how it ended",
       now_of(self).unix_ms);
@@ -104,18 +102,18 @@ void settle_overdue(self_pointer self, cell_transfer& x) {
 
 } // namespace
 
-caf::result<node_transferred> transfer_node(self_pointer self,
+caf::result<node_transferred> transfer_node(coordinator_pointer self,
                                             const node_transfer& request) {
   return let_go<node_transferred>(self, request);
 }
 
-caf::result<node_released> release_node(self_pointer self,
+caf::result<node_released> release_node(coordinator_pointer self,
                                         const node_release& request) {
   return let_go<node_released>(self, request);
 }
 
 caf::result<transfer_description>
-describe_transfers(self_pointer self, const transfer_query& query) {
+describe_transfers(coordinator_pointer self, const transfer_query& query) {
   transfer_description result{self->state.transfers.rows(query.transfer)};
   if (!query.transfer.empty() && result.transfers.empty())
     return fail(error_code::unknown_task,
@@ -124,7 +122,7 @@ describe_transfers(self_pointer self, const transfer_query& query) {
   return result;
 }
 
-void restore_transfers(self_pointer self) {
+void restore_transfers(coordinator_pointer self) {
   auto& st = self->state;
   st.transfers = transfer_book{st.setup.cell, st.setup.incarnation};
   for (const auto& row : st.setup.transfers) {
@@ -141,7 +139,7 @@ void restore_transfers(self_pointer self) {
   }
 }
 
-void settle_overdue_transfers(self_pointer self) {
+void settle_overdue_transfers(coordinator_pointer self) {
   auto& book = self->state.transfers;
   for (const auto& id : book.overdue(self->clock().now()))
     if (auto* x = book.find_open(id))

@@ -18,10 +18,10 @@ namespace roscell {
 
 namespace {
 
-using self_pointer =
+using container_supervisor_self =
     container_supervisor_actor::stateful_pointer<container_supervisor_state>;
 
-void on_ended(self_pointer self, const std::string& instance,
+void on_ended(container_supervisor_self self, const std::string& instance,
               supervised_instance& x) {
   x.actor = nullptr;
   const auto error = to_error(deployment_failure(x.row));
@@ -33,7 +33,8 @@ void on_ended(self_pointer self, const std::string& instance,
     trim_ended(self);
 }
 
-void spawn_actor(self_pointer self, supervised_instance& x, bool adopt) {
+void spawn_actor(container_supervisor_self self, supervised_instance& x,
+                 bool adopt) {
   auto& st = self->state;
   skill_instance_config config{
       st.config.context,
@@ -51,7 +52,7 @@ void spawn_actor(self_pointer self, supervised_instance& x, bool adopt) {
 }
 
 /// Empty if the node can run such an instance.
-caf::error check(self_pointer self, const instance_spec& spec) {
+caf::error check(container_supervisor_self self, const instance_spec& spec) {
   const auto& st = self->state;
   if (!is_instance_id(spec.instance))
     return fail(error_code::schema_violation,
@@ -89,7 +90,7 @@ caf::error check(self_pointer self, const instance_spec& spec) {
   return {};
 }
 
-caf::result<instance_deployed> begin(self_pointer self,
+caf::result<instance_deployed> begin(container_supervisor_self self,
                                      const instance_spec& spec) {
   if (auto error = check(self, spec))
     return error;
@@ -104,7 +105,7 @@ caf::result<instance_deployed> begin(self_pointer self,
   return promise;
 }
 
-caf::result<instance_deployed> deploy(self_pointer self,
+caf::result<instance_deployed> deploy(container_supervisor_self self,
                                       const instance_spec& spec) {
   auto* x = find_instance(self, spec.instance);
   if (x == nullptr)
@@ -130,7 +131,7 @@ caf::result<instance_deployed> deploy(self_pointer self,
   }
 }
 
-caf::result<instance_description> describe(self_pointer self,
+caf::result<instance_description> describe(container_supervisor_self self,
                                            const instance_query& query) {
   instance_description result;
   for (const auto& [instance, x] : self->state.instances)
@@ -144,7 +145,8 @@ caf::result<instance_description> describe(self_pointer self,
   return result;
 }
 
-caf::result<log_excerpt> read_log(self_pointer self, const log_query& query) {
+caf::result<log_excerpt> read_log(container_supervisor_self self,
+                                  const log_query& query) {
   if (find_instance(self, query.instance) == nullptr)
     return fail(error_code::unknown_task,
                 "there is no instance '" + query.instance + "'", "/instance",
@@ -172,7 +174,7 @@ json summary(const container_supervisor_state& st) {
           {"runtime_trouble", st.trouble}};
 }
 
-void on_changed(self_pointer self, const instance_row& row) {
+void on_changed(container_supervisor_self self, const instance_row& row) {
   auto* x = find_instance(self, row.spec.instance);
   // What a killed actor has said is outdated: its successor looks for itself.
   if (x == nullptr || !x->actor || self->current_sender() != x->actor)
@@ -196,7 +198,8 @@ void on_changed(self_pointer self, const instance_row& row) {
   }
 }
 
-void on_notified(self_pointer self, const instance_notified& fact) {
+void on_notified(container_supervisor_self self,
+                 const instance_notified& fact) {
   auto* x = find_instance(self, fact.instance);
   if (x == nullptr || !x->actor)
     return;
@@ -205,12 +208,12 @@ void on_notified(self_pointer self, const instance_notified& fact) {
   self->send(x->actor, fact);
 }
 
-void on_exited(self_pointer self, const container_exited& fact) {
+void on_exited(container_supervisor_self self, const container_exited& fact) {
   if (auto* x = find_instance(self, fact.instance); x != nullptr && x->actor)
     self->send(x->actor, fact);
 }
 
-void on_troubled(self_pointer self, const std::string& trouble) {
+void on_troubled(container_supervisor_self self, const std::string& trouble) {
   auto& st = self->state;
   if (st.trouble == trouble)
     return;
@@ -224,8 +227,8 @@ void on_troubled(self_pointer self, const std::string& trouble) {
   }
 }
 
-void on_instance_died(self_pointer self, const std::string& instance,
-                      supervised_instance& x) {
+void on_instance_died(container_supervisor_self self,
+                      const std::string& instance, supervised_instance& x) {
   auto& st = self->state;
   st.config.context.tell("skill_instance_died", instance,
                          {{"deaths", x.deaths + 1}});
@@ -241,14 +244,14 @@ void on_instance_died(self_pointer self, const std::string& instance,
   on_ended(self, instance, x);
 }
 
-void start_runtime(self_pointer self) {
+void start_runtime(container_supervisor_self self) {
   auto& st = self->state;
   st.runtime =
       st.config.make_runtime(caf::actor_cast<container_listener_actor>(self));
   self->monitor(st.runtime);
 }
 
-void on_runtime_died(self_pointer self, const caf::error& reason) {
+void on_runtime_died(container_supervisor_self self, const caf::error& reason) {
   auto& st = self->state;
   if (++st.runtime_deaths > limits::instance::most_deaths)
     return self->quit(reason);
@@ -264,7 +267,7 @@ void on_runtime_died(self_pointer self, const caf::error& reason) {
   }
 }
 
-void on_down(self_pointer self, const caf::down_msg& down) {
+void on_down(container_supervisor_self self, const caf::down_msg& down) {
   auto& st = self->state;
   if (down.source == st.runtime.address())
     return on_runtime_died(self, down.reason);
@@ -276,7 +279,7 @@ void on_down(self_pointer self, const caf::down_msg& down) {
       return on_instance_died(self, instance, x);
 }
 
-void restore(self_pointer self) {
+void restore(container_supervisor_self self) {
   auto& st = self->state;
   for (auto& row : std::exchange(st.config.restored, {})) {
     if (!is_instance_id(row.spec.instance))
@@ -291,7 +294,7 @@ void restore(self_pointer self) {
 }
 
 /// Nobody could ever end them otherwise.
-void end_strays(self_pointer self) {
+void end_strays(container_supervisor_self self) {
   auto& st = self->state;
   for (const auto& instance : std::exchange(st.config.strays, {})) {
     if (!is_instance_id(instance))
@@ -313,7 +316,7 @@ void end_strays(self_pointer self) {
 } // namespace
 
 container_supervisor_actor::behavior_type
-container_supervisor(self_pointer self,
+container_supervisor(container_supervisor_self self,
                      const container_supervisor_config& config) {
   self->state.config = config;
   self->set_down_handler(

@@ -13,9 +13,7 @@ namespace roscell {
 
 namespace {
 
-using self_pointer = container_supervisor_pointer;
-
-void settle_removals(self_pointer self) {
+void settle_removals(container_supervisor_pointer self) {
   auto& xs = self->state.removals;
   for (auto i = xs.begin(); i != xs.end();) {
     if (!i->left.empty()) {
@@ -30,7 +28,7 @@ void settle_removals(self_pointer self) {
   }
 }
 
-void on_gone(self_pointer self, const std::string& instance) {
+void on_gone(container_supervisor_pointer self, const std::string& instance) {
   self->state.instances.erase(instance);
   for (auto& x : self->state.removals)
     if (x.left.erase(instance) > 0)
@@ -38,8 +36,8 @@ void on_gone(self_pointer self, const std::string& instance) {
   settle_removals(self);
 }
 
-void on_removal_failed(self_pointer self, const std::string& instance,
-                       const caf::error& error) {
+void on_removal_failed(container_supervisor_pointer self,
+                       const std::string& instance, const caf::error& error) {
   if (auto* x = find_instance(self, instance))
     x->removing = x->cleaning = false;
   for (auto& x : self->state.removals)
@@ -50,7 +48,7 @@ void on_removal_failed(self_pointer self, const std::string& instance,
 
 } // namespace
 
-supervised_instance* find_instance(self_pointer self,
+supervised_instance* find_instance(container_supervisor_pointer self,
                                    const std::string& instance) {
   auto& xs = self->state.instances;
   const auto i = xs.find(instance);
@@ -59,7 +57,8 @@ supervised_instance* find_instance(self_pointer self,
 
 // The record goes last: as long as it is there, a restarted node looks for
 // what is left.
-void clean_instance(self_pointer self, const std::string& instance) {
+void clean_instance(container_supervisor_pointer self,
+                    const std::string& instance) {
   auto* x = find_instance(self, instance);
   if (x == nullptr || std::exchange(x->cleaning, true))
     return;
@@ -80,7 +79,7 @@ void clean_instance(self_pointer self, const std::string& instance) {
 namespace {
 
 /// Ended instances by their ends, the newest first.
-std::vector<std::string> ended_instances(self_pointer self) {
+std::vector<std::string> ended_instances(container_supervisor_pointer self) {
   std::vector<std::pair<int64_t, std::string>> ended;
   for (const auto& [instance, x] : self->state.instances)
     if (!is_live(x.row.state) && !x.removing)
@@ -93,7 +92,7 @@ std::vector<std::string> ended_instances(self_pointer self) {
 }
 
 /// Removes an ended instance's log; its row stays.
-void drop_log(self_pointer self, const std::string& instance,
+void drop_log(container_supervisor_pointer self, const std::string& instance,
               supervised_instance& x) {
   if (std::exchange(x.log_dropped, true))
     return;
@@ -118,7 +117,7 @@ size_t bytes_of(const instance_row& row) {
 
 } // namespace
 
-void trim_ended(self_pointer self) {
+void trim_ended(container_supervisor_pointer self) {
   size_t kept = 0;
   size_t bytes = 0;
   for (const auto& instance : ended_instances(self)) {
@@ -136,7 +135,7 @@ void trim_ended(self_pointer self) {
   }
 }
 
-void acknowledge_ends(self_pointer self,
+void acknowledge_ends(container_supervisor_pointer self,
                       const std::vector<std::string>& instances) {
   for (const auto& instance : instances)
     if (auto* x = find_instance(self, instance);
@@ -145,8 +144,9 @@ void acknowledge_ends(self_pointer self,
   trim_ended(self);
 }
 
-caf::result<instances_removed> remove_instances(self_pointer self,
-                                                const instance_removal& wish) {
+caf::result<instances_removed>
+remove_instances(container_supervisor_pointer self,
+                 const instance_removal& wish) {
   auto& st = self->state;
   pending_removal removal;
   for (const auto& [instance, x] : st.instances)

@@ -11,16 +11,14 @@ namespace roscell {
 
 namespace {
 
-using self_pointer = skill_instance_pointer;
-
-void on_start(self_pointer self) {
+void on_start(skill_instance_pointer self) {
   auto& st = self->state;
   if (std::exchange(st.begun, true))
     return;
   st.config.adopt ? adopt(self) : begin_anew(self);
 }
 
-void on_stop(self_pointer self, const std::string& reason) {
+void on_stop(skill_instance_pointer self, const std::string& reason) {
   auto& st = self->state;
   const auto before_container = !st.config.adopt && st.row.container.empty()
                                 && st.row.state < instance_state::starting;
@@ -33,7 +31,7 @@ void on_stop(self_pointer self, const std::string& reason) {
     take_down(self, instance_state::stopped, reason);
 }
 
-void on_exited(self_pointer self, const container_exited& x) {
+void on_exited(skill_instance_pointer self, const container_exited& x) {
   auto& st = self->state;
   if (st.concluding || x.container != st.row.container)
     return;
@@ -50,7 +48,7 @@ void on_exited(self_pointer self, const container_exited& x) {
 
 /// The deadline has passed. Nobody is judged before what waits at its socket
 /// has been read: where this process was stopped or starved, words lie there.
-void listen_before_judging(self_pointer self) {
+void listen_before_judging(skill_instance_pointer self) {
   auto& st = self->state;
   st.listening = true;
   self->send(st.config.runtime, hear_container{st.row.spec.instance});
@@ -58,7 +56,7 @@ void listen_before_judging(self_pointer self) {
 }
 
 /// Nothing was to be heard.
-void judge(self_pointer self) {
+void judge(skill_instance_pointer self) {
   using std::to_string;
   auto& st = self->state;
   st.listening = false;
@@ -77,7 +75,7 @@ void judge(self_pointer self) {
                   + to_string(limits::instance::ready.count()) + " s");
 }
 
-void on_alarm(self_pointer self) {
+void on_alarm(skill_instance_pointer self) {
   auto& st = self->state;
   if (!st.deadline)
     return;
@@ -89,13 +87,13 @@ void on_alarm(self_pointer self) {
   listen_before_judging(self);
 }
 
-void on_sign_of_life(self_pointer self) {
+void on_sign_of_life(skill_instance_pointer self) {
   auto& st = self->state;
   st.listening = st.was_away = st.excused = false;
   limit(self, limits::instance::watchdog);
 }
 
-void on_notified(self_pointer self, const instance_notified& x) {
+void on_notified(skill_instance_pointer self, const instance_notified& x) {
   auto& st = self->state;
   if (st.concluding)
     return;
@@ -122,7 +120,8 @@ json describe(const skill_instance_state& st) {
 } // namespace
 
 skill_instance_actor::behavior_type
-skill_instance(self_pointer self, const skill_instance_config& config) {
+skill_instance(skill_instance_pointer self,
+               const skill_instance_config& config) {
   self->state.config = config;
   self->state.row = config.row;
   self->monitor(config.supervisor);

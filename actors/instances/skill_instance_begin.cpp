@@ -7,8 +7,6 @@
 
 namespace roscell {
 
-using self_pointer = skill_instance_pointer;
-
 namespace {
 
 const deployment_option* find_deployment(const skill_folder& folder,
@@ -21,7 +19,7 @@ const deployment_option* find_deployment(const skill_folder& folder,
   return nullptr;
 }
 
-void on_built(self_pointer self, const std::string& image,
+void on_built(skill_instance_pointer self, const std::string& image,
               const std::vector<std::string>& command,
               const deployment_option& option) {
   auto& st = self->state;
@@ -49,7 +47,7 @@ void on_built(self_pointer self, const std::string& image,
       });
 }
 
-void build(self_pointer self) {
+void build(skill_instance_pointer self) {
   auto& st = self->state;
   const auto* folder = st.config.skills->find(st.row.spec.skill);
   const auto* option =
@@ -78,7 +76,7 @@ void build(self_pointer self) {
 
 /// The intent is on disk before anything is started: a node that is restarted
 /// must know what to look for.
-void begin_anew(self_pointer self) {
+void begin_anew(skill_instance_pointer self) {
   enter(self, instance_state::pending);
   ask<record_stored>(
       self, self->state.config.store, limits::instance::disk,
@@ -91,7 +89,7 @@ void begin_anew(self_pointer self) {
 
 namespace {
 
-void resume(self_pointer self, const std::string& container) {
+void resume(skill_instance_pointer self, const std::string& container) {
   auto& st = self->state;
   ++st.phase;
   st.row.container = container;
@@ -111,7 +109,7 @@ void resume(self_pointer self, const std::string& container) {
   }
 }
 
-void on_found_ended(self_pointer self, const container_adopted& x) {
+void on_found_ended(skill_instance_pointer self, const container_adopted& x) {
   auto& st = self->state;
   st.row.exit_code = x.exit_code;
   if (st.row.state == instance_state::stopping)
@@ -124,7 +122,7 @@ void on_found_ended(self_pointer self, const container_adopted& x) {
                  + " while the node was away");
 }
 
-void on_adopted(self_pointer self, const container_adopted& x) {
+void on_adopted(skill_instance_pointer self, const container_adopted& x) {
   const auto& row = self->state.row;
   const bool was_started = !x.container.empty() || !row.container.empty()
                            || row.state >= instance_state::running;
@@ -138,7 +136,7 @@ void on_adopted(self_pointer self, const container_adopted& x) {
 
 } // namespace
 
-void adopt(self_pointer self) {
+void adopt(skill_instance_pointer self) {
   auto& st = self->state;
   ask<container_adopted>(
       self, st.config.runtime, limits::instance::start,

@@ -11,8 +11,6 @@
 
 namespace roscell {
 
-using self_pointer = skill_instance_pointer;
-
 std::string sentence(const caf::error& error) {
   const auto why = to_failure(error);
   return why.hint.empty() ? why.message : why.message + " (" + why.hint + ")";
@@ -23,7 +21,7 @@ std::string log_tail_of(const caf::error& error) {
   return details.is_object() ? details.value("log_tail", "") : std::string{};
 }
 
-void record_event(self_pointer self, const char* fact) {
+void record_event(skill_instance_pointer self, const char* fact) {
   const auto& st = self->state;
   const auto& row = st.row;
   json data{{"task", row.spec.task},
@@ -36,13 +34,13 @@ void record_event(self_pointer self, const char* fact) {
   st.config.context.tell(fact, row.spec.instance, data);
 }
 
-void report(self_pointer self) {
+void report(skill_instance_pointer self) {
   self->send(self->state.config.supervisor, instance_changed{self->state.row});
 }
 
 namespace {
 
-void set_state(self_pointer self, instance_state next,
+void set_state(skill_instance_pointer self, instance_state next,
                const std::string& reason) {
   auto& st = self->state;
   ++st.phase;
@@ -57,12 +55,13 @@ void set_state(self_pointer self, instance_state next,
 
 } // namespace
 
-void enter(self_pointer self, instance_state next, const std::string& reason) {
+void enter(skill_instance_pointer self, instance_state next,
+           const std::string& reason) {
   set_state(self, next, reason);
   report(self);
 }
 
-void limit(self_pointer self, std::chrono::milliseconds span) {
+void limit(skill_instance_pointer self, std::chrono::milliseconds span) {
   auto& st = self->state;
   st.deadline = self->clock().now() + span;
   st.timer.set(self, *st.deadline);
@@ -84,7 +83,8 @@ store_record later_record_of(const instance_row& row) {
   return result;
 }
 
-void finish(self_pointer self, instance_state last, const std::string& reason) {
+void finish(skill_instance_pointer self, instance_state last,
+            const std::string& reason) {
   set_state(self, last, reason);
   // Before the report, after which the supervisor may remove the record.
   // Without a sender: nobody is left to read the answer.
@@ -95,7 +95,7 @@ void finish(self_pointer self, instance_state last, const std::string& reason) {
 
 } // namespace
 
-void conclude(self_pointer self, instance_state last,
+void conclude(skill_instance_pointer self, instance_state last,
               const std::string& reason) {
   auto& st = self->state;
   ++st.phase;
@@ -116,7 +116,7 @@ void conclude(self_pointer self, instance_state last,
       [=](const caf::error&) { finish(self, last, reason); });
 }
 
-void take_down(self_pointer self, instance_state last,
+void take_down(skill_instance_pointer self, instance_state last,
                const std::string& reason, std::chrono::milliseconds grace) {
   auto& st = self->state;
   enter(self, instance_state::stopping, reason);
@@ -137,7 +137,7 @@ namespace {
 
 /// Writes how things stand. A restarted node finds the program without it,
 /// only less of its story, so a failure is no reason to end the program.
-void note(self_pointer self) {
+void note(skill_instance_pointer self) {
   auto& st = self->state;
   const auto context = st.config.context;
   const auto instance = st.row.spec.instance;
@@ -152,13 +152,13 @@ void note(self_pointer self) {
 
 } // namespace
 
-void on_running(self_pointer self) {
+void on_running(skill_instance_pointer self) {
   enter(self, instance_state::running);
   limit(self, limits::instance::watchdog);
   note(self);
 }
 
-void on_started(self_pointer self, const std::string& container) {
+void on_started(skill_instance_pointer self, const std::string& container) {
   self->state.row.container = container;
   if (self->state.ready)
     return on_running(self);

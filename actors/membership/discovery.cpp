@@ -14,7 +14,7 @@ namespace roscell {
 
 namespace {
 
-using self_pointer = discovery_actor::stateful_pointer<discovery_state>;
+using discovery_self = discovery_actor::stateful_pointer<discovery_state>;
 
 /// Whether this version can talk to who announces this. Coordinators of
 /// another version are told of as an event.
@@ -53,7 +53,7 @@ void on_server(const house& context, const discovery_listener_actor& listener,
                                              said->session, said->incarnation});
 }
 
-caf::result<caf::ok_atom> find(self_pointer self,
+caf::result<caf::ok_atom> find(discovery_self self,
                                const find_coordinator& wish) {
   auto& st = self->state;
   const auto server = parse_socket_address(wish.address);
@@ -91,7 +91,7 @@ caf::result<caf::ok_atom> find(self_pointer self,
   return caf::ok_atom_v;
 }
 
-void forget(self_pointer self) {
+void forget(discovery_self self) {
   self->state.client.reset();
   self->state.looking_for.clear();
 }
@@ -119,7 +119,7 @@ announcement to_announcement(const node_presence& x) {
 
 /// Opens the public participant. Who cannot announce itself goes on without:
 /// it can still join by an address.
-void appear(self_pointer self, const presence_listener_actor& listener) {
+void appear(discovery_self self, const presence_listener_actor& listener) {
   auto& st = self->state;
   presence_options options;
   options.address = st.config.address;
@@ -141,7 +141,7 @@ void appear(self_pointer self, const presence_listener_actor& listener) {
   st.presence = std::get<std::unique_ptr<public_presence>>(std::move(opened));
 }
 
-void announce(self_pointer self, const announce_presence& wish) {
+void announce(discovery_self self, const announce_presence& wish) {
   auto& st = self->state;
   st.announced = encode(to_announcement(wish.self));
   if (st.presence)
@@ -151,14 +151,14 @@ void announce(self_pointer self, const announce_presence& wish) {
            caf::actor_cast<presence_listener_actor>(self->current_sender()));
 }
 
-void withdraw(self_pointer self) {
+void withdraw(discovery_self self) {
   self->state.presence.reset();
   self->state.announced.clear();
 }
 
 } // namespace
 
-discovery_actor::behavior_type discovery(self_pointer self,
+discovery_actor::behavior_type discovery(discovery_self self,
                                          const house& context,
                                          const discovery_config& config) {
   self->state.context = context;

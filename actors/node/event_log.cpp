@@ -10,9 +10,9 @@ namespace roscell {
 
 namespace {
 
-using self_pointer = event_log_actor::stateful_pointer<event_log_state>;
+using event_log_self = event_log_actor::stateful_pointer<event_log_state>;
 
-void tell_listeners(self_pointer self, const record_event& fact) {
+void tell_listeners(event_log_self self, const record_event& fact) {
   auto& st = self->state;
   event x{++st.last_sequence, unix_now_ms(), fact.what, fact.subject,
           fact.data};
@@ -23,14 +23,14 @@ void tell_listeners(self_pointer self, const record_event& fact) {
     st.kept.pop_front();
 }
 
-void record(self_pointer self, const record_event& fact) {
+void record(event_log_self self, const record_event& fact) {
   auto& st = self->state;
   if (st.gate.lets_through(fact.what, fact.subject, self->clock().now()))
     return tell_listeners(self, fact);
   st.timer.set(self, *st.gate.next());
 }
 
-void tell_held_back(self_pointer self) {
+void tell_held_back(event_log_self self) {
   auto& st = self->state;
   for (const auto& x : st.gate.take_due(self->clock().now())) {
     const json data{{"more", x.more},
@@ -42,7 +42,7 @@ void tell_held_back(self_pointer self) {
     st.timer.set(self, *next);
 }
 
-void subscribe(self_pointer self, const subscribe_events& wish) {
+void subscribe(event_log_self self, const subscribe_events& wish) {
   for (const auto& x : self->state.kept)
     if (x.sequence > wish.since)
       self->send(wish.listener, x);
@@ -50,7 +50,7 @@ void subscribe(self_pointer self, const subscribe_events& wish) {
   self->state.listeners.push_back(wish.listener);
 }
 
-void forget(self_pointer self, const caf::actor_addr& gone) {
+void forget(event_log_self self, const caf::actor_addr& gone) {
   auto& xs = self->state.listeners;
   xs.erase(std::remove_if(xs.begin(), xs.end(),
                           [&](const auto& x) { return x.address() == gone; }),
@@ -59,7 +59,7 @@ void forget(self_pointer self, const caf::actor_addr& gone) {
 
 } // namespace
 
-event_log_actor::behavior_type event_log(self_pointer self) {
+event_log_actor::behavior_type event_log(event_log_self self) {
   self->set_down_handler(
       [self](const caf::down_msg& down) { forget(self, down.source); });
   return {

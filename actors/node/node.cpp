@@ -13,8 +13,6 @@ namespace roscell {
 
 namespace {
 
-using self_pointer = node_pointer;
-
 constexpr const char* version = "0.1.0";
 
 /// A description whose parts come from several actors.
@@ -31,7 +29,7 @@ struct description_draft {
 
 using shared_draft = std::shared_ptr<description_draft>;
 
-node_description first_draft(self_pointer self, const node_query& query) {
+node_description first_draft(node_pointer self, const node_query& query) {
   const auto& parts = self->state.parts;
   node_description result;
   result.identity = parts.identity;
@@ -52,7 +50,7 @@ node_description first_draft(self_pointer self, const node_query& query) {
   return result;
 }
 
-void ask_membership(self_pointer self, const shared_draft& draft) {
+void ask_membership(node_pointer self, const shared_draft& draft) {
   const auto& membership = self->state.parts.services->membership;
   if (!membership)
     return draft->finish_one();
@@ -68,7 +66,7 @@ void ask_membership(self_pointer self, const shared_draft& draft) {
           [draft](const caf::error&) { draft->finish_one(); });
 }
 
-caf::result<node_description> describe(self_pointer self,
+caf::result<node_description> describe(node_pointer self,
                                        const node_query& query) {
   auto draft = std::make_shared<description_draft>();
   draft->result = first_draft(self, query);
@@ -94,13 +92,13 @@ caf::result<node_description> describe(self_pointer self,
 }
 
 /// The last step: instances go on, everything else ends, and the node with it.
-void end_children(self_pointer self) {
+void end_children(node_pointer self) {
   auto& parts = self->state.parts;
   for (auto i = parts.children.rbegin(); i != parts.children.rend(); ++i)
     self->send_exit(*i, caf::exit_reason::user_shutdown);
 }
 
-void stop(self_pointer self) {
+void stop(node_pointer self) {
   auto& st = self->state;
   if (std::exchange(st.stopping, true))
     return;
@@ -117,7 +115,7 @@ void stop(self_pointer self) {
             [self](const caf::error&) { end_children(self); });
 }
 
-void on_child_down(self_pointer self, const caf::down_msg& down) {
+void on_child_down(node_pointer self, const caf::down_msg& down) {
   auto& st = self->state;
   if (--st.open_children == 0)
     return self->quit(st.end_reason);
@@ -130,7 +128,7 @@ void on_child_down(self_pointer self, const caf::down_msg& down) {
 
 } // namespace
 
-node_actor::behavior_type node(self_pointer self, const node_parts& parts) {
+node_actor::behavior_type node(node_pointer self, const node_parts& parts) {
   self->state.parts = parts;
   self->state.started_unix_ms = unix_now_ms();
   for (const auto& child : parts.children)

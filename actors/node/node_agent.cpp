@@ -19,11 +19,12 @@ namespace roscell {
 
 namespace {
 
-using self_pointer = node_agent_actor::stateful_pointer<node_agent_state>;
+using node_agent_self = node_agent_actor::stateful_pointer<node_agent_state>;
 
 /// Hands a request on and its answer back.
 template <class Reply, class Message>
-caf::result<Reply> forward(self_pointer self, std::chrono::milliseconds timeout,
+caf::result<Reply> forward(node_agent_self self,
+                           std::chrono::milliseconds timeout,
                            const Message& message) {
   auto promise = self->make_response_promise<Reply>();
   self->request(self->state.config.supervisor, timeout, message)
@@ -46,7 +47,7 @@ std::optional<int64_t> session_of(const instance_row& instance) {
 }
 
 /// An instance that the supervisor knows counts as such, whatever its state.
-void add_kept_rooms(self_pointer self,
+void add_kept_rooms(node_agent_self self,
                     const std::vector<instance_row>& instances,
                     resource_report& to) {
   std::set<std::string> known;
@@ -59,7 +60,7 @@ void add_kept_rooms(self_pointer self,
 }
 
 /// What the node has and what of it is in use, room that is kept included.
-resource_report complete(self_pointer self, node_resources resources,
+resource_report complete(node_agent_self self, node_resources resources,
                          const std::vector<instance_row>& instances) {
   const auto& config = self->state.config;
   resources.name = config.node;
@@ -80,7 +81,7 @@ resource_report complete(self_pointer self, node_resources resources,
 }
 
 /// Reads the host, then calls `done` with a report or an error.
-void measure(self_pointer self,
+void measure(node_agent_self self,
              const std::function<void(caf::expected<resource_report>)>& done) {
   auto on_error = [done](const caf::error& why) { done(why); };
   auto on_known = [self, done, on_error](instance_description& known) {
@@ -101,7 +102,7 @@ void measure(self_pointer self,
       .then(on_known, on_error);
 }
 
-caf::result<resource_report> report(self_pointer self) {
+caf::result<resource_report> report(node_agent_self self) {
   ++self->state.reports;
   auto promise = self->make_response_promise<resource_report>();
   measure(self, [promise](caf::expected<resource_report> x) mutable {
@@ -114,7 +115,7 @@ caf::result<resource_report> report(self_pointer self) {
 }
 
 /// Keeps room for an instance, if there is some; else says why not.
-std::optional<std::string> keep_room(self_pointer self, node_resources& node,
+std::optional<std::string> keep_room(node_agent_self self, node_resources& node,
                                      const instance_spec& spec) {
   const auto missing = shortages(node, spec.resources, spec.gpu);
   if (!missing.empty())
@@ -126,7 +127,7 @@ std::optional<std::string> keep_room(self_pointer self, node_resources& node,
 }
 
 /// What a task had before is given up, so that a repeated one counts once.
-caf::result<instances_reserved> keep(self_pointer self,
+caf::result<instances_reserved> keep(node_agent_self self,
                                      const instance_reservation& wish) {
   self->state.kept.give_up(wish.task, "");
   auto promise = self->make_response_promise<instances_reserved>();
@@ -148,7 +149,7 @@ caf::result<instances_reserved> keep(self_pointer self,
 
 /// Room is kept until the instance runs or has failed: from the supervisor's
 /// first word of it on, it counts there.
-caf::result<instance_deployed> deploy(self_pointer self,
+caf::result<instance_deployed> deploy(node_agent_self self,
                                       const instance_deployment& wish) {
   auto promise = self->make_response_promise<instance_deployed>();
   self->request(self->state.config.supervisor, limits::task::agent_deployment,
@@ -166,7 +167,7 @@ caf::result<instance_deployed> deploy(self_pointer self,
 
 } // namespace
 
-node_agent_actor::behavior_type node_agent(self_pointer self,
+node_agent_actor::behavior_type node_agent(node_agent_self self,
                                            const node_agent_config& config) {
   self->state.config = config;
   return {

@@ -10,19 +10,19 @@ namespace roscell {
 
 namespace {
 
-using self_pointer =
+using resource_probe_self =
     resource_probe_actor::stateful_pointer<resource_probe_state>;
 using clock = host_probe::clock;
 
 /// CPU seconds of our instances; nothing is read where there are none.
-process_usage instance_usage(self_pointer self) {
+process_usage instance_usage(resource_probe_self self) {
   const auto& st = self->state;
   if (st.sessions.empty())
     return {};
   return usage_of_sessions(st.sessions, st.config.host.root);
 }
 
-void mark(self_pointer self, clock::time_point now) {
+void mark(resource_probe_self self, clock::time_point now) {
   auto& st = self->state;
   if (!st.probe->sample(now))
     return;
@@ -57,7 +57,7 @@ node_resources convert(const host_resources& host) {
 
 /// Reads the host and takes off what our instances use: they count with what
 /// they have reserved instead.
-host_measured measure(self_pointer self, clock::time_point now) {
+host_measured measure(resource_probe_self self, clock::time_point now) {
   auto& st = self->state;
   ++st.measurements;
   const auto ours = instance_usage(self);
@@ -70,7 +70,7 @@ host_measured measure(self_pointer self, clock::time_point now) {
   return {convert(apply_bound(std::move(host), st.config.bound))};
 }
 
-host_measured answer(self_pointer self, const measure_host& wish) {
+host_measured answer(resource_probe_self self, const measure_host& wish) {
   const auto now = self->clock().now();
   self->state.sessions = {wish.sessions.begin(), wish.sessions.end()};
   auto result = measure(self, now);
@@ -81,7 +81,7 @@ host_measured answer(self_pointer self, const measure_host& wish) {
 } // namespace
 
 resource_probe_actor::behavior_type
-resource_probe(self_pointer self, const resource_probe_config& config) {
+resource_probe(resource_probe_self self, const resource_probe_config& config) {
   self->state.config = config;
   self->state.probe = std::make_unique<host_probe>(config.host);
   mark(self, self->clock().now());

@@ -15,7 +15,7 @@ namespace roscell {
 
 namespace {
 
-using self_pointer = state_store_actor::stateful_pointer<state_store_state>;
+using state_store_self = state_store_actor::stateful_pointer<state_store_state>;
 using changes = std::vector<sqlite_store::change>;
 
 sqlite_store::change change_of(const std::string& table, const std::string& key,
@@ -41,7 +41,7 @@ changes with_waiting(const state_store_state& st, const changes& fresh) {
   return result;
 }
 
-void on_caught_up(self_pointer self) {
+void on_caught_up(state_store_self self) {
   auto& st = self->state;
   if (st.waiting.empty())
     return;
@@ -53,7 +53,7 @@ void on_caught_up(self_pointer self) {
 
 /// Writes `fresh` and what waits; where there is no room for both, at least
 /// `fresh`.
-std::optional<edge_error> write(self_pointer self, const changes& fresh) {
+std::optional<edge_error> write(state_store_self self, const changes& fresh) {
   auto& st = self->state;
   auto error = st.database->write(with_waiting(st, fresh));
   if (!error) {
@@ -76,7 +76,8 @@ bool may_wait(const state_store_state& st,
                         [](const auto& x) { return x.may_wait; });
 }
 
-void keep_waiting(self_pointer self, const std::vector<store_record>& records,
+void keep_waiting(state_store_self self,
+                  const std::vector<store_record>& records,
                   const edge_error& why) {
   auto& st = self->state;
   if (st.waiting.empty()) {
@@ -90,7 +91,7 @@ void keep_waiting(self_pointer self, const std::vector<store_record>& records,
     st.waiting[{x.table, x.key}] = x.value;
 }
 
-caf::result<record_stored> store(self_pointer self,
+caf::result<record_stored> store(state_store_self self,
                                  const std::vector<store_record>& records) {
   auto& st = self->state;
   const auto error = write(self, changes_of(records));
@@ -107,7 +108,7 @@ caf::result<record_stored> store(self_pointer self,
 }
 
 /// The kernel tells nobody that there is room again, so it is tried.
-void on_alarm(self_pointer self) {
+void on_alarm(state_store_self self) {
   auto& st = self->state;
   if (!st.waiting.empty() && write(self, {}))
     st.timer.set(self, self->clock().now() + st.pause.next());
@@ -116,7 +117,7 @@ void on_alarm(self_pointer self) {
 } // namespace
 
 state_store_actor::behavior_type
-state_store(self_pointer self, const house& context,
+state_store(state_store_self self, const house& context,
             std::shared_ptr<sqlite_store> database) {
   self->state.context = context;
   self->state.database = std::move(database);

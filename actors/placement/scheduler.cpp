@@ -7,11 +7,11 @@ namespace roscell {
 
 namespace {
 
-using self_pointer = scheduler_actor::stateful_pointer<scheduler_state>;
+using scheduler_self = scheduler_actor::stateful_pointer<scheduler_state>;
 
 /// The searcher for live tasks or for plan queries. Nobody waits with a task's
 /// turn for a plan, so no node that leaves ends the search for one.
-const scheduler_actor& searcher_for(self_pointer self, bool trial) {
+const scheduler_actor& searcher_for(scheduler_self self, bool trial) {
   auto& st = self->state;
   auto& result = trial ? st.trial : st.live;
   if (!result) {
@@ -23,12 +23,13 @@ const scheduler_actor& searcher_for(self_pointer self, bool trial) {
   return result;
 }
 
-caf::result<task_plan> hand_on(self_pointer self, const allocate_task& asked) {
+caf::result<task_plan> hand_on(scheduler_self self,
+                               const allocate_task& asked) {
   ++(asked.trial ? self->state.trials : self->state.questions);
   return self->delegate(searcher_for(self, asked.trial), asked);
 }
 
-void on_searcher_down(self_pointer self, const caf::down_msg& down) {
+void on_searcher_down(scheduler_self self, const caf::down_msg& down) {
   auto& st = self->state;
   for (auto* x : {&st.live, &st.trial})
     if (*x && x->address() == down.source)
@@ -37,7 +38,7 @@ void on_searcher_down(self_pointer self, const caf::down_msg& down) {
 
 } // namespace
 
-scheduler_actor::behavior_type scheduler(self_pointer self,
+scheduler_actor::behavior_type scheduler(scheduler_self self,
                                          const scheduler_config& config) {
   self->state.config = config;
   self->set_down_handler(

@@ -12,9 +12,9 @@ namespace roscell {
 
 namespace {
 
-using self_pointer = scheduler_actor::stateful_pointer<searcher_state>;
+using searcher_self = scheduler_actor::stateful_pointer<searcher_state>;
 
-caf::result<task_plan> search(self_pointer self, const allocate_task& asked) {
+caf::result<task_plan> search(searcher_self self, const allocate_task& asked) {
   auto& guard = *self->state.guard;
   std::set<std::string> nodes;
   for (const auto& node : asked.nodes)
@@ -38,7 +38,7 @@ caf::result<task_plan> search(self_pointer self, const allocate_task& asked) {
 
 } // namespace
 
-scheduler_actor::behavior_type searcher(self_pointer self,
+scheduler_actor::behavior_type searcher(searcher_self self,
                                         std::shared_ptr<search_guard> guard,
                                         const scheduler_actor& owner) {
   self->state.guard = std::move(guard);

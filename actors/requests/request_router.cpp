@@ -14,18 +14,18 @@ namespace roscell {
 
 namespace {
 
-using self_pointer =
+using request_router_self =
     request_router_actor::stateful_pointer<request_router_state>;
 using promise_type = caf::typed_response_promise<request_routed>;
 
-request_routed refusal(self_pointer self, const failure& why) {
+request_routed refusal(request_router_self self, const failure& why) {
   ++self->state.refused;
   return {error_reply(why).dump(-1, ' ', false, json::error_handler_t::replace),
           to_string(why.code)};
 }
 
 /// Removes a remembered request and gives those who wait for it.
-std::vector<promise_type> forget_answer(self_pointer self,
+std::vector<promise_type> forget_answer(request_router_self self,
                                         const std::string& id) {
   auto& st = self->state;
   auto i = st.remembered.find(id);
@@ -40,7 +40,7 @@ std::vector<promise_type> forget_answer(self_pointer self,
 }
 
 /// Drops the oldest finished answers beyond the limit.
-void trim(self_pointer self) {
+void trim(request_router_self self) {
   auto& st = self->state;
   while (st.remembered.size() > limits::request::remembered
          || st.remembered_bytes > limits::request::remembered_bytes) {
@@ -54,7 +54,7 @@ void trim(self_pointer self) {
   }
 }
 
-void answer_request(self_pointer self, const std::string& id,
+void answer_request(request_router_self self, const std::string& id,
                     promise_type promise, const request_routed& reply) {
   promise.deliver(reply);
   if (id.empty())
@@ -75,7 +75,7 @@ void answer_request(self_pointer self, const std::string& id,
 }
 
 /// Answers the request of a pipeline, unless that has been done.
-void settle(self_pointer self, const caf::actor_addr& worker,
+void settle(request_router_self self, const caf::actor_addr& worker,
             const std::function<request_routed()>& reply) {
   auto& running = self->state.running;
   auto i = running.find(worker);
@@ -87,7 +87,7 @@ void settle(self_pointer self, const caf::actor_addr& worker,
 }
 
 /// A pipeline that is killed cannot answer: it is answered for.
-void on_pipeline_down(self_pointer self, const caf::down_msg& down) {
+void on_pipeline_down(request_router_self self, const caf::down_msg& down) {
   settle(self, down.source, [&] {
     const bool has_words = down.reason.category() == caf::atom("roscell");
     return refusal(self,
@@ -98,7 +98,7 @@ void on_pipeline_down(self_pointer self, const caf::down_msg& down) {
 }
 
 /// Gives each request a pipeline of its own.
-void dispatch(self_pointer self, const request_runner& run,
+void dispatch(request_router_self self, const request_runner& run,
               const std::string& id, json document, promise_type promise) {
   const auto& services = self->state.services;
   auto worker =
@@ -122,8 +122,8 @@ void dispatch(self_pointer self, const request_runner& run,
 }
 
 /// Handles a `request_id` that has been seen. True if that settles it.
-bool recall(self_pointer self, const std::string& id, const std::string& body,
-            promise_type& promise) {
+bool recall(request_router_self self, const std::string& id,
+            const std::string& body, promise_type& promise) {
   auto i = self->state.remembered.find(id);
   if (i == self->state.remembered.end())
     return false;
@@ -149,7 +149,7 @@ failure unknown_type(const std::string& type, bool coordinates) {
   return why;
 }
 
-caf::result<request_routed> route(self_pointer self,
+caf::result<request_routed> route(request_router_self self,
                                   const route_request& request) {
   auto& st = self->state;
   ++st.routed;
@@ -185,7 +185,7 @@ caf::result<request_routed> route(self_pointer self,
 } // namespace
 
 request_router_actor::behavior_type
-request_router(self_pointer self,
+request_router(request_router_self self,
                const std::shared_ptr<const request_registry>& registry,
                const std::shared_ptr<const node_services>& services) {
   self->state.registry = registry;

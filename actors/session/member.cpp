@@ -13,15 +13,15 @@ namespace roscell {
 
 namespace {
 
-using self_pointer = member_actor::stateful_pointer<member_state>;
+using member_self = member_actor::stateful_pointer<member_state>;
 
 using phase = member_phase;
 
-auto now(self_pointer self) {
+auto now(member_self self) {
   return self->clock().now();
 }
 
-void set_timer(self_pointer self) {
+void set_timer(member_self self) {
   auto& st = self->state;
   if (st.ended)
     return;
@@ -32,7 +32,7 @@ void set_timer(self_pointer self) {
 }
 
 /// Closes the session and ends the actor.
-void end_member(self_pointer self, const std::string& reason) {
+void end_member(member_self self, const std::string& reason) {
   auto& st = self->state;
   if (std::exchange(st.ended, true))
     return;
@@ -46,7 +46,7 @@ void end_member(self_pointer self, const std::string& reason) {
   self->quit();
 }
 
-void refuse_call(self_pointer self, uint64_t id, const failure& why) {
+void refuse_call(member_self self, uint64_t id, const failure& why) {
   self->state.frames.answer(id, error_reply(why));
 }
 
@@ -65,7 +65,7 @@ bool is_proven(const node_identity& claimed, const node_identity& proven) {
          && claimed.epoch == proven.epoch;
 }
 
-void on_row_refused(self_pointer self, uint64_t id, const caf::error& why) {
+void on_row_refused(member_self self, uint64_t id, const caf::error& why) {
   const auto reason = to_failure(why);
   refuse_call(self, id, reason);
   end_member(self, reason.message);
@@ -73,7 +73,7 @@ void on_row_refused(self_pointer self, uint64_t id, const caf::error& why) {
 
 /// The node does not have to hear of an instance twice if the session ends: it
 /// registers anew then.
-void on_late_start_failed(self_pointer self, const instance_spec& spec,
+void on_late_start_failed(member_self self, const instance_spec& spec,
                           const caf::error& error) {
   const auto why = to_failure(error);
   if (why.code == error_code::unreachable)
@@ -87,7 +87,7 @@ void on_late_start_failed(self_pointer self, const instance_spec& spec,
   self->send(self->state.coordinator, std::move(fact));
 }
 
-void start_late(self_pointer self, const instance_spec& spec) {
+void start_late(member_self self, const instance_spec& spec) {
   self->state.frames.call(message_json(instance_deployment{spec}),
                           now(self) + limits::task::deployment,
                           [self, spec](const caf::expected<json>& reply) {
@@ -97,7 +97,7 @@ void start_late(self_pointer self, const instance_spec& spec) {
   set_timer(self);
 }
 
-void on_row(self_pointer self, uint64_t id, node_registered reply) {
+void on_row(member_self self, uint64_t id, node_registered reply) {
   auto& st = self->state;
   st.phase = phase::active;
   const auto late = take_long_starts(reply);
@@ -106,7 +106,7 @@ void on_row(self_pointer self, uint64_t id, node_registered reply) {
     start_late(self, spec);
 }
 
-void ask_for_row(self_pointer self, uint64_t id, node_registration wish) {
+void ask_for_row(member_self self, uint64_t id, node_registration wish) {
   auto& st = self->state;
   st.phase = phase::registering;
   st.announced = true;
@@ -121,7 +121,7 @@ void ask_for_row(self_pointer self, uint64_t id, node_registration wish) {
           [self, id](const caf::error& why) { on_row_refused(self, id, why); });
 }
 
-void on_registration(self_pointer self, uint64_t id, const json& body) {
+void on_registration(member_self self, uint64_t id, const json& body) {
   auto& st = self->state;
   auto wish = decode<node_registration>(body);
   if (auto* why = std::get_if<failure>(&wish))
@@ -139,7 +139,7 @@ void on_registration(self_pointer self, uint64_t id, const json& body) {
   end_member(self, "it registered with another identity than it proved");
 }
 
-void on_departure(self_pointer self, uint64_t id, const json& body) {
+void on_departure(member_self self, uint64_t id, const json& body) {
   auto& st = self->state;
   const auto reason = body.value("reason", "");
   st.phase = phase::departing;
@@ -156,7 +156,7 @@ void on_departure(self_pointer self, uint64_t id, const json& body) {
 
 /// A node that is in no cell wants a place. It ends the session when it has
 /// been told.
-void on_place_request(self_pointer self, uint64_t id, const json& body) {
+void on_place_request(member_self self, uint64_t id, const json& body) {
   auto& st = self->state;
   auto wish = decode<place_request>(body);
   if (auto* why = std::get_if<failure>(&wish))
@@ -174,7 +174,7 @@ void on_place_request(self_pointer self, uint64_t id, const json& body) {
           });
 }
 
-void on_request(self_pointer self, uint64_t id, const session_inquiry& x) {
+void on_request(member_self self, uint64_t id, const session_inquiry& x) {
   const auto type = x.type();
   if (type == place_request::type && self->state.phase == phase::awaiting)
     return on_place_request(self, id, x.body);
@@ -194,7 +194,7 @@ void on_request(self_pointer self, uint64_t id, const session_inquiry& x) {
       {error_code::unknown_type, "a member may not ask for this", "/type"});
 }
 
-void on_notice(self_pointer self, const json& body) {
+void on_notice(member_self self, const json& body) {
   auto& st = self->state;
   if (body.value("type", "") != instance_changed::type
       || st.phase != phase::active)
@@ -208,12 +208,12 @@ void on_notice(self_pointer self, const json& body) {
 
 // -- what the session brings -------------------------------------------------
 
-bool is_from_session(self_pointer self) {
+bool is_from_session(member_self self) {
   const auto& sender = self->current_sender();
   return sender && sender->id() == self->state.session.id();
 }
 
-void on_frame(self_pointer self, const frame_received& frame) {
+void on_frame(member_self self, const frame_received& frame) {
   auto& st = self->state;
   if (st.ended || !is_from_session(self))
     return;
@@ -229,7 +229,7 @@ void on_frame(self_pointer self, const frame_received& frame) {
   set_timer(self);
 }
 
-void on_beat(self_pointer self, const beat_received& beat) {
+void on_beat(member_self self, const beat_received& beat) {
   auto& st = self->state;
   if (st.ended || !is_from_session(self))
     return;
@@ -237,7 +237,7 @@ void on_beat(self_pointer self, const beat_received& beat) {
     self->send(st.session, send_beat{*answer});
 }
 
-void on_tick(self_pointer self, uint64_t number) {
+void on_tick(member_self self, uint64_t number) {
   auto& st = self->state;
   if (st.ended || !st.timer.rings(number))
     return;
@@ -262,7 +262,7 @@ template <class Reply>
 using review = std::function<void(Reply&)>;
 
 template <class Reply, class Request>
-caf::result<Reply> ask_node(self_pointer self, const Request& what,
+caf::result<Reply> ask_node(member_self self, const Request& what,
                             std::chrono::milliseconds timeout,
                             const review<Reply>& look = nullptr) {
   auto& st = self->state;
@@ -284,7 +284,7 @@ caf::result<Reply> ask_node(self_pointer self, const Request& what,
   return promise;
 }
 
-actor_state describe(self_pointer self) {
+actor_state describe(member_self self) {
   const auto& st = self->state;
   const auto silence = now(self) - st.life.last_heard();
   return state_of(
@@ -298,7 +298,7 @@ actor_state describe(self_pointer self) {
             .count()}});
 }
 
-void take_over(self_pointer self, session_admitted accepted,
+void take_over(member_self self, session_admitted accepted,
                cell_coordinator_actor coordinator) {
   auto& st = self->state;
   st.session = std::move(accepted.session);
@@ -324,7 +324,7 @@ void take_over(self_pointer self, session_admitted accepted,
 
 } // namespace
 
-member_actor::behavior_type member(self_pointer self, session_admitted accepted,
+member_actor::behavior_type member(member_self self, session_admitted accepted,
                                    cell_coordinator_actor coordinator) {
   take_over(self, std::move(accepted), std::move(coordinator));
   return {

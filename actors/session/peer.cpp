@@ -12,13 +12,13 @@ namespace roscell {
 
 namespace {
 
-using self_pointer = peer_actor::stateful_pointer<peer_state>;
+using peer_self = peer_actor::stateful_pointer<peer_state>;
 
-auto now(self_pointer self) {
+auto now(peer_self self) {
   return self->clock().now();
 }
 
-void set_timer(self_pointer self) {
+void set_timer(peer_self self) {
   auto& st = self->state;
   if (!st.ended)
     st.timer.set(self,
@@ -26,7 +26,7 @@ void set_timer(self_pointer self) {
 }
 
 /// Closes the session and ends the actor.
-void end_peer(self_pointer self, const std::string& reason) {
+void end_peer(peer_self self, const std::string& reason) {
   auto& st = self->state;
   if (std::exchange(st.ended, true))
     return;
@@ -41,7 +41,7 @@ void end_peer(self_pointer self, const std::string& reason) {
 // -- what the other coordinator asks ------------------------------------------
 
 template <class Reply, class Request>
-void pass_on(self_pointer self, const session_inquiry& x,
+void pass_on(peer_self self, const session_inquiry& x,
              std::chrono::milliseconds timeout) {
   auto what = decode<Request>(x.body);
   if (auto* why = std::get_if<failure>(&what))
@@ -58,7 +58,7 @@ void pass_on(self_pointer self, const session_inquiry& x,
             });
 }
 
-void on_question(self_pointer self, const session_inquiry& x) {
+void on_question(peer_self self, const session_inquiry& x) {
   const auto type = x.type();
   if (type == place_request::type)
     pass_on<place_granted, place_request>(self, x, limits::membership::place);
@@ -79,7 +79,7 @@ void on_question(self_pointer self, const session_inquiry& x) {
                             "a coordinator may not ask for this", "/type"}));
 }
 
-void on_notice(self_pointer self, const json& body) {
+void on_notice(peer_self self, const json& body) {
   auto& st = self->state;
   const auto type = body.value("type", "");
   if (type == cell_standing::type) {
@@ -101,12 +101,12 @@ void on_notice(self_pointer self, const json& body) {
 // -- what the session brings
 // ---------------------------------------------------
 
-bool is_from_session(self_pointer self) {
+bool is_from_session(peer_self self) {
   const auto& sender = self->current_sender();
   return sender && sender->id() == self->state.setup.session.id();
 }
 
-void on_frame(self_pointer self, const frame_received& frame) {
+void on_frame(peer_self self, const frame_received& frame) {
   auto& st = self->state;
   if (st.ended || !is_from_session(self))
     return;
@@ -122,7 +122,7 @@ void on_frame(self_pointer self, const frame_received& frame) {
   set_timer(self);
 }
 
-void on_beat(self_pointer self, const beat_received& beat) {
+void on_beat(peer_self self, const beat_received& beat) {
   auto& st = self->state;
   if (st.ended || !is_from_session(self))
     return;
@@ -130,7 +130,7 @@ void on_beat(self_pointer self, const beat_received& beat) {
     self->send(st.setup.session, send_beat{*answer});
 }
 
-void on_tick(self_pointer self, uint64_t number) {
+void on_tick(peer_self self, uint64_t number) {
   auto& st = self->state;
   if (st.ended || !st.timer.rings(number))
     return;
@@ -150,7 +150,7 @@ void on_tick(self_pointer self, uint64_t number) {
 // ---------------------------------------------
 
 template <class Reply, class Request>
-caf::result<Reply> ask(self_pointer self, const Request& what,
+caf::result<Reply> ask(peer_self self, const Request& what,
                        std::chrono::milliseconds timeout) {
   auto promise = self->make_response_promise<Reply>();
   self->state.frames.call(message_json(what), now(self) + timeout,
@@ -167,12 +167,12 @@ caf::result<Reply> ask(self_pointer self, const Request& what,
 }
 
 template <class Fact>
-void tell(self_pointer self, const Fact& fact) {
+void tell(peer_self self, const Fact& fact) {
   if (!self->state.ended)
     self->state.frames.notify(message_json(fact));
 }
 
-actor_state describe(self_pointer self) {
+actor_state describe(peer_self self) {
   const auto& st = self->state;
   return state_of({{"cell", st.cell},
                    {"uuid", st.setup.uuid},
@@ -180,7 +180,7 @@ actor_state describe(self_pointer self) {
                    {"pending_calls", st.frames.calls().pending()}});
 }
 
-void take_over(self_pointer self, const peer_setup& setup) {
+void take_over(peer_self self, const peer_setup& setup) {
   auto& st = self->state;
   st.setup = setup;
   st.life =
@@ -205,7 +205,7 @@ void take_over(self_pointer self, const peer_setup& setup) {
 
 } // namespace
 
-peer_actor::behavior_type peer(self_pointer self, const peer_setup& setup) {
+peer_actor::behavior_type peer(peer_self self, const peer_setup& setup) {
   take_over(self, setup);
   return {
       [self](const state_query&) { return describe(self); },

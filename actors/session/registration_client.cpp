@@ -22,7 +22,7 @@ namespace roscell {
 
 namespace {
 
-using self_pointer =
+using registration_client_self =
     registration_client_actor::stateful_pointer<registration_client_state>;
 
 /// On the io thread: turns an outcome into a message.
@@ -38,9 +38,9 @@ node_answered to_message(uint64_t call, const http_call& what,
   return answer;
 }
 
-void send_to_node(self_pointer self, uint64_t call, const std::string& address,
-                  const std::string& method, const std::string& target,
-                  const std::string& body) {
+void send_to_node(registration_client_self self, uint64_t call,
+                  const std::string& address, const std::string& method,
+                  const std::string& target, const std::string& body) {
   auto& st = self->state;
   const auto to = *parse_socket_address(address);
   http_call what;
@@ -71,7 +71,7 @@ std::variant<Reply, failure> read(const node_answered& answer) {
   return decode<Reply>(document);
 }
 
-void end_registration_call(self_pointer self, uint64_t call,
+void end_registration_call(registration_client_self self, uint64_t call,
                            std::variant<switch_accepted, failure> outcome) {
   auto node = self->state.calls.extract(call);
   auto& promise = node.mapped().promise;
@@ -81,7 +81,7 @@ void end_registration_call(self_pointer self, uint64_t call,
     promise.deliver(std::get<switch_accepted>(outcome));
 }
 
-void on_challenge(self_pointer self, uint64_t call,
+void on_challenge(registration_client_self self, uint64_t call,
                   const registration_challenge& challenge) {
   auto& st = self->state;
   auto& x = st.calls.at(call);
@@ -114,7 +114,7 @@ std::optional<caf::error> address_refusal(const registration_client_state& st,
   return std::nullopt;
 }
 
-caf::result<switch_accepted> call_node(self_pointer self,
+caf::result<switch_accepted> call_node(registration_client_self self,
                                        const switch_node& wish) {
   auto& st = self->state;
   if (auto why = address_refusal(st, wish.address))
@@ -150,7 +150,7 @@ judge_standing(const node_answered& answer, const standing_call& call,
   return result;
 }
 
-void on_standing(self_pointer self, const node_answered& answer) {
+void on_standing(registration_client_self self, const node_answered& answer) {
   auto node = self->state.questions.extract(answer.call);
   if (node.empty())
     return;
@@ -163,7 +163,7 @@ void on_standing(self_pointer self, const node_answered& answer) {
     call.promise.deliver(std::get<standing_proved>(verdict));
 }
 
-caf::result<standing_proved> ask_standing(self_pointer self,
+caf::result<standing_proved> ask_standing(registration_client_self self,
                                           const prove_standing& wish) {
   auto& st = self->state;
   if (auto why = address_refusal(st, wish.address))
@@ -177,7 +177,7 @@ caf::result<standing_proved> ask_standing(self_pointer self,
   return promise;
 }
 
-void on_answer(self_pointer self, const node_answered& answer) {
+void on_answer(registration_client_self self, const node_answered& answer) {
   auto i = self->state.calls.find(answer.call);
   if (i == self->state.calls.end())
     return on_standing(self, answer);
@@ -195,7 +195,7 @@ void on_answer(self_pointer self, const node_answered& answer) {
 } // namespace
 
 registration_client_actor::behavior_type
-registration_client(self_pointer self,
+registration_client(registration_client_self self,
                     const registration_client_config& config) {
   self->state.config = config;
   return {

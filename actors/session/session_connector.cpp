@@ -11,7 +11,7 @@ namespace roscell {
 
 namespace {
 
-using self_pointer =
+using session_connector_self =
     session_connector_actor::stateful_pointer<session_connector_state>;
 
 /// On the io thread: turns the outcome of an attempt into a message.
@@ -30,7 +30,8 @@ session_settled settle(caf::actor_system& system, const house& context,
   return {attempt, std::move(opened), {}};
 }
 
-caf::result<session_opened> open(self_pointer self, const open_session& wish) {
+caf::result<session_opened> open(session_connector_self self,
+                                 const open_session& wish) {
   auto& st = self->state;
   const auto place = parse_socket_address(wish.address);
   if (!place)
@@ -54,7 +55,7 @@ caf::result<session_opened> open(self_pointer self, const open_session& wish) {
   return promise;
 }
 
-void on_settled(self_pointer self, const session_settled& fact) {
+void on_settled(session_connector_self self, const session_settled& fact) {
   auto i = self->state.pending.find(fact.attempt);
   if (i == self->state.pending.end())
     return;
@@ -69,7 +70,7 @@ void on_settled(self_pointer self, const session_settled& fact) {
 } // namespace
 
 session_connector_actor::behavior_type
-session_connector(self_pointer self, const house& context,
+session_connector(session_connector_self self, const house& context,
                   const connector_parts& parts) {
   self->state.context = context;
   self->state.parts = parts;

@@ -23,9 +23,9 @@ std::function<void()> session_wire::take_undone() {
 
 namespace {
 
-using self_pointer = session_actor::stateful_pointer<wire_session_state>;
+using session_self = session_actor::stateful_pointer<wire_session_state>;
 
-void end_wire_session(self_pointer self, const std::string& reason) {
+void end_wire_session(session_self self, const std::string& reason) {
   auto& st = self->state;
   if (st.owner)
     self->send(st.owner, session_closed{reason});
@@ -34,12 +34,12 @@ void end_wire_session(self_pointer self, const std::string& reason) {
 }
 
 /// Allows the connection to read one more frame.
-void let_read_on(self_pointer self) {
+void let_read_on(session_self self) {
   if (auto done = self->state.wire->take_undone())
     done();
 }
 
-void hand_over(self_pointer self, const frame_received& frame) {
+void hand_over(session_self self, const frame_received& frame) {
   self->request(self->state.owner, limits::session::owner, frame)
       .then([self] { let_read_on(self); },
             [self](const caf::error&) {
@@ -47,7 +47,7 @@ void hand_over(self_pointer self, const frame_received& frame) {
             });
 }
 
-void on_frame(self_pointer self, const frame_received& frame) {
+void on_frame(session_self self, const frame_received& frame) {
   ++self->state.frames_in;
   if (self->state.owner)
     hand_over(self, frame);
@@ -55,7 +55,7 @@ void on_frame(self_pointer self, const frame_received& frame) {
     self->state.early_frames.push_back(frame);
 }
 
-void take_owner(self_pointer self, const own_session& wish) {
+void take_owner(session_self self, const own_session& wish) {
   auto& st = self->state;
   st.owner = wish.owner;
   self->monitor(wish.owner);
@@ -63,7 +63,7 @@ void take_owner(self_pointer self, const own_session& wish) {
     hand_over(self, frame);
 }
 
-void send_text(self_pointer self, const send_frame& frame) {
+void send_text(session_self self, const send_frame& frame) {
   ++self->state.frames_out;
   self->state.wire->link->send(frame.text);
 }
@@ -71,7 +71,7 @@ void send_text(self_pointer self, const send_frame& frame) {
 } // namespace
 
 session_actor::behavior_type
-wire_session(self_pointer self, const std::shared_ptr<session_wire>& wire,
+wire_session(session_self self, const std::shared_ptr<session_wire>& wire,
              const std::string& peer) {
   self->state.wire = wire;
   self->state.peer = peer;

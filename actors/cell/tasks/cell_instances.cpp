@@ -13,8 +13,6 @@ namespace roscell {
 
 namespace {
 
-using self_pointer = coordinator_pointer;
-
 /// Whether a task wants the node to keep it.
 bool is_wanted(const cell_coordinator_state& st, const std::string& instance,
                const std::string& node) {
@@ -56,7 +54,7 @@ std::vector<instance_verdict> reconcile(const cell_coordinator_state& st,
 
 /// Carries out a verdict on the coordination node itself. How it went is told
 /// by the instance's own changes.
-void apply_here(self_pointer self, const node_registration& own,
+void apply_here(coordinator_pointer self, const node_registration& own,
                 const instance_verdict& x) {
   const auto ignore = [](const caf::error&) {};
   const auto& agent = self->state.setup.agent;
@@ -74,7 +72,7 @@ void apply_here(self_pointer self, const node_registration& own,
 }
 
 /// The node that speaks: a member speaks for its own only.
-std::optional<std::string> node_of_sender(self_pointer self) {
+std::optional<std::string> node_of_sender(coordinator_pointer self) {
   auto& st = self->state;
   const auto sender = self->current_sender();
   if (!sender)
@@ -89,7 +87,7 @@ std::optional<std::string> node_of_sender(self_pointer self) {
   return result;
 }
 
-void tell_change(self_pointer self, const instance_row& x,
+void tell_change(coordinator_pointer self, const instance_row& x,
                  const std::string& node) {
   json data{{"task", x.spec.task},
             {"step", x.spec.step},
@@ -104,7 +102,7 @@ void tell_change(self_pointer self, const instance_row& x,
 
 } // namespace
 
-void reconcile_own_node(self_pointer self) {
+void reconcile_own_node(coordinator_pointer self) {
   const auto& st = self->state;
   if (!st.setup.supervisor)
     return;
@@ -125,7 +123,7 @@ void reconcile_own_node(self_pointer self) {
           });
 }
 
-std::vector<instance_verdict> take_up_instances(self_pointer self,
+std::vector<instance_verdict> take_up_instances(coordinator_pointer self,
                                                 const node_registration& node) {
   auto& st = self->state;
   const auto& name = node.identity.name;
@@ -147,7 +145,8 @@ std::vector<instance_verdict> take_up_instances(self_pointer self,
   return verdicts;
 }
 
-void on_instance_changed(self_pointer self, const instance_changed& fact) {
+void on_instance_changed(coordinator_pointer self,
+                         const instance_changed& fact) {
   auto& st = self->state;
   const auto& x = fact.instance;
   const auto& id = x.spec.instance;

@@ -12,8 +12,6 @@ namespace roscell {
 
 namespace {
 
-using self_pointer = coordinator_pointer;
-
 /// Resources of one cell, as the answers come in.
 struct resource_tally {
   size_t open = 0;
@@ -22,7 +20,7 @@ struct resource_tally {
 };
 
 /// All have answered: what is held in the books is looked up now.
-void complete_tally(self_pointer self, resource_tally& tally) {
+void complete_tally(coordinator_pointer self, resource_tally& tally) {
   if (--tally.open > 0)
     return;
   const auto& st = self->state;
@@ -50,7 +48,7 @@ void add_held_room(const cell_coordinator_state& st,
       reserve(node, spec.resources, spec.gpu);
 }
 
-void on_report(self_pointer self, const std::string& uuid,
+void on_report(coordinator_pointer self, const std::string& uuid,
                resource_report report, resource_tally& tally) {
   auto* entry = self->state.registry.find_uuid(uuid);
   if (entry && entry->row.state == row_state::active) {
@@ -70,7 +68,7 @@ std::set<std::string> untold_ids(const cell_coordinator_state& st,
   return result;
 }
 
-void ask_for_resources(self_pointer self, const std::string& uuid,
+void ask_for_resources(coordinator_pointer self, const std::string& uuid,
                        const std::shared_ptr<resource_tally>& tally,
                        int rounds) {
   auto* entry = self->state.registry.find_uuid(uuid);
@@ -96,7 +94,8 @@ void ask_for_resources(self_pointer self, const std::string& uuid,
 } // namespace
 
 void collect_resources_of_cell(
-    self_pointer self, const std::function<void(cell_resources&&)>& done) {
+    coordinator_pointer self,
+    const std::function<void(cell_resources&&)>& done) {
   auto tally = std::make_shared<resource_tally>();
   tally->done = done;
   std::vector<std::string> uuids;
@@ -108,7 +107,7 @@ void collect_resources_of_cell(
   complete_tally(self, *tally);
 }
 
-caf::result<cell_resources> answer_resources(self_pointer self) {
+caf::result<cell_resources> answer_resources(coordinator_pointer self) {
   auto promise = self->make_response_promise<cell_resources>();
   collect_resources_of_cell(self, [promise](cell_resources&& found) mutable {
     promise.deliver(std::move(found));

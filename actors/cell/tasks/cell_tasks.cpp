@@ -18,7 +18,6 @@ namespace roscell {
 
 namespace {
 
-using self_pointer = coordinator_pointer;
 using claim_promise = caf::typed_response_promise<task_claimed>;
 
 task_claimed known_reply(const cell_coordinator_state& st,
@@ -32,7 +31,7 @@ caf::error refuse_crowd(const std::string& what) {
 }
 
 /// Answers a claim whose task is known. True if that settles it.
-bool answer_known(self_pointer self, const claim_task& request,
+bool answer_known(coordinator_pointer self, const claim_task& request,
                   claim_promise promise) {
   auto& st = self->state;
   const auto& task = request.task;
@@ -64,7 +63,7 @@ bool answer_known(self_pointer self, const claim_task& request,
 }
 
 /// The task is the claimant's; it is told what it can be placed on.
-void grant_turn(self_pointer self, const claim_task& request,
+void grant_turn(coordinator_pointer self, const claim_task& request,
                 const caf::actor_addr& owner, uint64_t turn,
                 claim_promise promise) {
   auto& st = self->state;
@@ -113,7 +112,7 @@ caf::error not_written_down(const std::string& task, const failure& why) {
 
 /// Answers an intent or the word that all runs, when the store did not keep it.
 template <class Reply>
-void refuse_unwritten(self_pointer self, const std::string& task,
+void refuse_unwritten(coordinator_pointer self, const std::string& task,
                       const failure& why, const std::vector<std::string>& nodes,
                       caf::typed_response_promise<Reply> promise) {
   if (!self->state.tasks.is_deploying(task)) {
@@ -126,7 +125,7 @@ void refuse_unwritten(self_pointer self, const std::string& task,
             });
 }
 
-void on_accepted(self_pointer self, const std::string& task,
+void on_accepted(coordinator_pointer self, const std::string& task,
                  caf::typed_response_promise<task_accepted> promise) {
   auto& st = self->state;
   if (!st.tasks.is_kept(task)) {
@@ -154,7 +153,7 @@ void complete_spec(const cell_coordinator_state& st, instance_spec& spec) {
     spec.environment[name] = value;
 }
 
-void restore_tasks(self_pointer self) {
+void restore_tasks(coordinator_pointer self) {
   auto& st = self->state;
   for (const auto& stored : st.setup.tasks) {
     const auto record = restored(stored);
@@ -167,7 +166,7 @@ void restore_tasks(self_pointer self) {
   }
 }
 
-caf::result<task_claimed> claim_task_turn(self_pointer self,
+caf::result<task_claimed> claim_task_turn(coordinator_pointer self,
                                           const claim_task& request) {
   auto& st = self->state;
   // The promise takes the message's sender, so it is looked at before.
@@ -191,7 +190,7 @@ caf::result<task_claimed> claim_task_turn(self_pointer self,
   return promise;
 }
 
-caf::result<intent_recorded> hold_placement(self_pointer self,
+caf::result<intent_recorded> hold_placement(coordinator_pointer self,
                                             const record_intent& intent) {
   auto& st = self->state;
   const auto& task = intent.task;
@@ -221,7 +220,7 @@ caf::result<intent_recorded> hold_placement(self_pointer self,
   return promise;
 }
 
-caf::result<task_accepted> accept_task(self_pointer self,
+caf::result<task_accepted> accept_task(coordinator_pointer self,
                                        const record_running& fact) {
   auto promise = self->make_response_promise<task_accepted>();
   pending_change change;
@@ -240,7 +239,7 @@ caf::result<task_accepted> accept_task(self_pointer self,
   return promise;
 }
 
-caf::result<task_rolled_back> undo_deployment(self_pointer self,
+caf::result<task_rolled_back> undo_deployment(coordinator_pointer self,
                                               const record_failure& fact) {
   // A task that was terminated meanwhile has been settled already.
   if (!self->state.tasks.is_deploying(fact.task))
@@ -251,7 +250,7 @@ caf::result<task_rolled_back> undo_deployment(self_pointer self,
   return promise;
 }
 
-void on_pipeline_down(self_pointer self, const caf::actor_addr& gone) {
+void on_pipeline_down(coordinator_pointer self, const caf::actor_addr& gone) {
   leave_line(self, gone);
   for (const auto& [task, waiters] : self->state.desk.waiters)
     if (waiters.owner && waiters.owner == gone)

@@ -14,8 +14,6 @@ namespace roscell {
 
 namespace {
 
-using self_pointer = coordinator_pointer;
-
 std::map<std::string, std::vector<replacement>> by_task(const task_move& move) {
   std::map<std::string, std::vector<replacement>> result;
   for (const auto& x : move.steps)
@@ -23,7 +21,8 @@ std::map<std::string, std::vector<replacement>> by_task(const task_move& move) {
   return result;
 }
 
-void tell_moved(self_pointer self, const task_move& move, const moved_step& x) {
+void tell_moved(coordinator_pointer self, const task_move& move,
+                const moved_step& x) {
   self->state.context.tell("instance_moved", x.change.spec.instance,
                            {{"task", x.task},
                             {"from", move.node},
@@ -33,7 +32,7 @@ void tell_moved(self_pointer self, const task_move& move, const moved_step& x) {
 
 /// Where the new one has taken the old one's place the old one goes, else the
 /// new one: its task was terminated, or the old one has done its work.
-void complete_move(self_pointer self, const move_ptr& move) {
+void complete_move(coordinator_pointer self, const move_ptr& move) {
   move->open = move->steps.size();
   const auto steps = move->steps;
   for (const auto& x : steps) {
@@ -54,7 +53,7 @@ void complete_move(self_pointer self, const move_ptr& move) {
   }
 }
 
-void forget_new(self_pointer self, const move_ptr& move) {
+void forget_new(coordinator_pointer self, const move_ptr& move) {
   for (const auto& [task, changes] : by_task(*move)) {
     std::vector<std::string> added;
     for (const auto& x : changes)
@@ -75,7 +74,7 @@ void forget_new(self_pointer self, const move_ptr& move) {
 }
 
 /// Writes a change of each task, then goes on.
-void change_tasks(self_pointer self, const move_ptr& move,
+void change_tasks(coordinator_pointer self, const move_ptr& move,
                   task_record (*make)(task_record,
                                       const std::vector<replacement>&),
                   move_stage next) {
@@ -97,11 +96,12 @@ void change_tasks(self_pointer self, const move_ptr& move,
   }
 }
 
-void replace_old(self_pointer self, const move_ptr& move) {
+void replace_old(coordinator_pointer self, const move_ptr& move) {
   change_tasks(self, move, with_replaced, complete_move);
 }
 
-void deploy_step(self_pointer self, const move_ptr& move, const moved_step& x) {
+void deploy_step(coordinator_pointer self, const move_ptr& move,
+                 const moved_step& x) {
   const auto& node = x.change.place.node;
   auto end_with = [self, move, node, task = x.task,
                    step = x.step.step.id](failure why) {
@@ -128,7 +128,7 @@ void deploy_step(self_pointer self, const move_ptr& move, const moved_step& x) {
 }
 
 /// The room is held in the books from here on, so the turn is over.
-void deploy_steps(self_pointer self, const move_ptr& move) {
+void deploy_steps(coordinator_pointer self, const move_ptr& move) {
   end_turn(self, std::exchange(move->turn, 0));
   move->open = move->steps.size();
   const auto steps = move->steps;
@@ -138,12 +138,13 @@ void deploy_steps(self_pointer self, const move_ptr& move) {
 
 } // namespace
 
-void fail_move(self_pointer self, const move_ptr& move, const failure& why) {
+void fail_move(coordinator_pointer self, const move_ptr& move,
+               const failure& why) {
   end_turn(self, move->turn);
   move->done(&why);
 }
 
-void end_part(self_pointer self, const move_ptr& move, move_stage next,
+void end_part(coordinator_pointer self, const move_ptr& move, move_stage next,
               move_stage otherwise) {
   if (--move->open > 0)
     return;
@@ -156,7 +157,7 @@ void add_problem(const move_ptr& move, failure why) {
 }
 
 /// Nothing has changed, but that room may have been kept for nothing.
-void undo_move(self_pointer self, const move_ptr& move) {
+void undo_move(coordinator_pointer self, const move_ptr& move) {
   for (const auto& x : move->steps)
     remove_instance(self, {x.change.place.node, x.task, x.change.spec.instance},
                     [] {});
@@ -164,7 +165,7 @@ void undo_move(self_pointer self, const move_ptr& move) {
   fail_move(self, move, *move->problem);
 }
 
-void hold_steps(self_pointer self, const move_ptr& move) {
+void hold_steps(coordinator_pointer self, const move_ptr& move) {
   change_tasks(self, move, with_tentative, deploy_steps);
 }
 

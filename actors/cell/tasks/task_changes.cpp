@@ -12,13 +12,12 @@ namespace roscell {
 
 namespace {
 
-using self_pointer = coordinator_pointer;
 using time_point = std::chrono::steady_clock::time_point;
 
-void write_next_change(self_pointer self, const std::string& task);
+void write_next_change(coordinator_pointer self, const std::string& task);
 
 /// The first change is over, one way or the other.
-void end_change(self_pointer self, const std::string& task,
+void end_change(coordinator_pointer self, const std::string& task,
                 const failure* why) {
   auto& line = self->state.desk.lines.at(task);
   line.writing = false;
@@ -30,7 +29,7 @@ void end_change(self_pointer self, const std::string& task,
   write_next_change(self, task);
 }
 
-void on_change_kept(self_pointer self, const std::string& task,
+void on_change_kept(coordinator_pointer self, const std::string& task,
                     const std::optional<task_record>& record) {
   auto& st = self->state;
   if (record) {
@@ -43,7 +42,7 @@ void on_change_kept(self_pointer self, const std::string& task,
   end_change(self, task, nullptr);
 }
 
-void on_change_not_kept(self_pointer self, const std::string& task,
+void on_change_not_kept(coordinator_pointer self, const std::string& task,
                         const failure& why) {
   auto& line = self->state.desk.lines.at(task);
   const auto& change = line.changes.front();
@@ -56,7 +55,7 @@ void on_change_not_kept(self_pointer self, const std::string& task,
     change.on_trouble(why);
 }
 
-void write_change(self_pointer self, const std::string& task,
+void write_change(coordinator_pointer self, const std::string& task,
                   const std::optional<task_record>& record) {
   keep_records(
       self, {{"tasks", task, record ? json(*record).dump() : std::string{}}},
@@ -67,7 +66,7 @@ void write_change(self_pointer self, const std::string& task,
 }
 
 /// A change that does not apply any more is not written.
-void write_next_change(self_pointer self, const std::string& task) {
+void write_next_change(coordinator_pointer self, const std::string& task) {
   auto& st = self->state;
   const auto i = st.desk.lines.find(task);
   if (i == st.desk.lines.end() || i->second.writing)
@@ -94,17 +93,17 @@ void write_next_change(self_pointer self, const std::string& task) {
 
 } // namespace
 
-void change_task(self_pointer self, const std::string& task,
+void change_task(coordinator_pointer self, const std::string& task,
                  pending_change change) {
   self->state.desk.lines[task].changes.push_back(std::move(change));
   write_next_change(self, task);
 }
 
-void retry_change(self_pointer self, const std::string& task) {
+void retry_change(coordinator_pointer self, const std::string& task) {
   write_next_change(self, task);
 }
 
-void retry_due_changes(self_pointer self) {
+void retry_due_changes(coordinator_pointer self) {
   std::vector<std::string> due;
   for (const auto& [task, line] : self->state.desk.lines)
     if (line.retry <= self->clock().now())

@@ -13,8 +13,6 @@ namespace roscell {
 
 namespace {
 
-using self_pointer = coordinator_pointer;
-
 /// Whether a task that is not running yet, or is being rolled back, has
 /// something on the node.
 bool is_deploying_on(const cell_coordinator_state& st,
@@ -37,7 +35,7 @@ bool has_waiting_ends(const cell_coordinator_state& st,
 }
 
 /// A task and what nodes have told of it are gone from the books.
-task_waiters take_waiters(self_pointer self, const std::string& task) {
+task_waiters take_waiters(coordinator_pointer self, const std::string& task) {
   auto& waiters = self->state.desk.waiters;
   auto result = std::move(waiters[task]);
   waiters.erase(task);
@@ -45,7 +43,7 @@ task_waiters take_waiters(self_pointer self, const std::string& task) {
   return result;
 }
 
-void tell_terminated(self_pointer self, const task_terminated& reply) {
+void tell_terminated(coordinator_pointer self, const task_terminated& reply) {
   auto& st = self->state;
   auto gone = take_waiters(self, reply.task);
   st.tasks.remember_terminated(reply);
@@ -60,8 +58,8 @@ void tell_terminated(self_pointer self, const task_terminated& reply) {
 
 /// Whoever waits for a termination hears that it is not on disk, and may ask
 /// again. The instances are gone.
-void refuse_waiting_terminations(self_pointer self, const std::string& task,
-                                 const failure& why) {
+void refuse_waiting_terminations(coordinator_pointer self,
+                                 const std::string& task, const failure& why) {
   auto& waiting = self->state.desk.waiters[task].terminations;
   for (auto& promise : std::exchange(waiting, {}))
     promise.deliver(fail(
@@ -74,7 +72,7 @@ void refuse_waiting_terminations(self_pointer self, const std::string& task,
 }
 
 /// Answers when the store has removed the record.
-void remove_record(self_pointer self, const task_terminated& reply) {
+void remove_record(coordinator_pointer self, const task_terminated& reply) {
   pending_change change;
   change.insistent = true;
   change.done = [self, reply](const failure*) { tell_terminated(self, reply); };
@@ -87,7 +85,7 @@ void remove_record(self_pointer self, const task_terminated& reply) {
 }
 
 /// Removes the instances of a task that no pipeline works on any more.
-void finish_termination(self_pointer self, const std::string& task) {
+void finish_termination(coordinator_pointer self, const std::string& task) {
   const auto& st = self->state;
   task_terminated reply{task, {}, {}};
   for (const auto& x : st.deployments.of_task(task))
@@ -98,7 +96,7 @@ void finish_termination(self_pointer self, const std::string& task) {
   });
 }
 
-void tell_rolled_back(self_pointer self, const std::string& task,
+void tell_rolled_back(coordinator_pointer self, const std::string& task,
                       const std::string& reason) {
   auto gone = take_waiters(self, task);
   for (auto& promise : gone.same_requests)
@@ -113,7 +111,7 @@ void tell_rolled_back(self_pointer self, const std::string& task,
 
 /// Writes down that a task is being ended. Without it a restart would take the
 /// task up again, which the removal of the record says better and later.
-void record_ending(self_pointer self, const std::string& task) {
+void record_ending(coordinator_pointer self, const std::string& task) {
   pending_change change;
   change.make = [](task_record record) {
     return with_state(std::move(record), task_state::terminating);
@@ -122,7 +120,7 @@ void record_ending(self_pointer self, const std::string& task) {
 }
 
 /// Ends a task that has no pipeline and that nobody waits for.
-void end_task(self_pointer self, const std::string& task) {
+void end_task(coordinator_pointer self, const std::string& task) {
   if (!self->state.tasks.begin_ending(task))
     return;
   record_ending(self, task);
@@ -136,7 +134,7 @@ caf::error terminated_meanwhile(const std::string& task) {
               "task '" + task + "' was terminated meanwhile", "/task");
 }
 
-caf::result<task_terminated> terminate_task(self_pointer self,
+caf::result<task_terminated> terminate_task(coordinator_pointer self,
                                             const task_termination& request) {
   auto& st = self->state;
   const auto& task = request.task;
@@ -165,7 +163,7 @@ caf::result<task_terminated> terminate_task(self_pointer self,
   return promise;
 }
 
-void roll_back(self_pointer self, const std::string& task,
+void roll_back(coordinator_pointer self, const std::string& task,
                const std::string& reason,
                const std::vector<std::string>& also_on,
                const std::function<void()>& done) {
@@ -187,7 +185,7 @@ void roll_back(self_pointer self, const std::string& task,
                     });
 }
 
-void on_owner_gone(self_pointer self, const std::string& task) {
+void on_owner_gone(coordinator_pointer self, const std::string& task) {
   auto& st = self->state;
   st.desk.waiters[task].owner = nullptr;
   if (st.tasks.is_deploying(task))
@@ -196,7 +194,7 @@ void on_owner_gone(self_pointer self, const std::string& task) {
     finish_termination(self, task);
 }
 
-void record_ends(self_pointer self, const std::string& task) {
+void record_ends(coordinator_pointer self, const std::string& task) {
   auto& st = self->state;
   if (!st.tasks.is_running(task) || st.deployments.untaken_ends(task).empty()
       || has_waiting_ends(st, task))
@@ -217,7 +215,7 @@ void record_ends(self_pointer self, const std::string& task) {
   change_task(self, task, std::move(change));
 }
 
-void settle_ended(self_pointer self, const std::string& task) {
+void settle_ended(coordinator_pointer self, const std::string& task) {
   auto& st = self->state;
   const auto* entry = st.tasks.find(task);
   if (!entry || entry->ending || !is_settled(entry->state))
@@ -233,13 +231,13 @@ void settle_ended(self_pointer self, const std::string& task) {
     end_task(self, old);
 }
 
-void after_deployments_on(self_pointer self, const std::string& node,
+void after_deployments_on(coordinator_pointer self, const std::string& node,
                           std::function<void()> done) {
   self->state.desk.deployments_awaited.push_back({node, std::move(done)});
   settle_awaited_deployments(self);
 }
 
-void settle_awaited_deployments(self_pointer self) {
+void settle_awaited_deployments(coordinator_pointer self) {
   auto& st = self->state;
   auto waiting = std::exchange(st.desk.deployments_awaited, {});
   for (auto& x : waiting)

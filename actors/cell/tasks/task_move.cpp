@@ -20,8 +20,6 @@ namespace roscell {
 
 namespace {
 
-using self_pointer = coordinator_pointer;
-
 std::optional<task_request> request_of(const task_entry& entry) {
   auto decoded = decode<task_request>(json::parse(entry.request));
   if (auto* request = std::get_if<task_request>(&decoded))
@@ -31,7 +29,7 @@ std::optional<task_request> request_of(const task_entry& entry) {
 
 /// The steps of a task that run on the node, resolved anew: the node's own
 /// version of a skill may be leaving with it.
-std::optional<failure> add_steps(self_pointer self, task_move& move,
+std::optional<failure> add_steps(coordinator_pointer self, task_move& move,
                                  const std::string& task) {
   const auto& st = self->state;
   const auto request = request_of(*st.tasks.find(task));
@@ -92,7 +90,7 @@ reservations_of(const task_move& move) {
   return result;
 }
 
-void reserve_room(self_pointer self, const move_ptr& move,
+void reserve_room(coordinator_pointer self, const move_ptr& move,
                   const std::string& node, const instance_reservation& wish) {
   const auto* entry = self->state.registry.find_name(node);
   auto end_with = [self, move, node](const std::string& why) {
@@ -115,7 +113,7 @@ void reserve_room(self_pointer self, const move_ptr& move,
           });
 }
 
-void reserve_steps(self_pointer self, const move_ptr& move) {
+void reserve_steps(coordinator_pointer self, const move_ptr& move) {
   const auto wishes = reservations_of(*move);
   move->open = 1;
   for (const auto& [node, list] : wishes)
@@ -126,7 +124,7 @@ void reserve_steps(self_pointer self, const move_ptr& move) {
   end_part(self, move, hold_steps, undo_move);
 }
 
-void adopt_plan(self_pointer self, const move_ptr& move,
+void adopt_plan(coordinator_pointer self, const move_ptr& move,
                 const task_plan& plan) {
   auto& st = self->state;
   for (size_t i = 0; i < move->steps.size(); ++i) {
@@ -144,7 +142,7 @@ void adopt_plan(self_pointer self, const move_ptr& move,
   reserve_steps(self, move);
 }
 
-void place_steps(self_pointer self, const move_ptr& move,
+void place_steps(coordinator_pointer self, const move_ptr& move,
                  std::vector<node_resources> nodes) {
   allocate_task question{move->node, {}, std::move(nodes)};
   for (size_t i = 0; i < move->steps.size(); ++i) {
@@ -162,7 +160,7 @@ void place_steps(self_pointer self, const move_ptr& move,
           });
 }
 
-void begin_move(self_pointer self, const move_ptr& move) {
+void begin_move(coordinator_pointer self, const move_ptr& move) {
   const auto& st = self->state;
   for (const auto& task : move->tasks)
     if (st.tasks.is_running(task))
@@ -179,7 +177,7 @@ void begin_move(self_pointer self, const move_ptr& move) {
 
 } // namespace
 
-void move_tasks(self_pointer self, const std::string& node,
+void move_tasks(coordinator_pointer self, const std::string& node,
                 const std::vector<std::string>& tasks,
                 const std::function<void(const failure*)>& done) {
   auto move = std::make_shared<task_move>();

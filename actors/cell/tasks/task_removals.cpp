@@ -10,8 +10,6 @@ namespace roscell {
 
 namespace {
 
-using self_pointer = coordinator_pointer;
-
 /// The nodes on which a task has something, and those on which room may be
 /// kept for it.
 std::set<std::string> nodes_of(const cell_coordinator_state& st,
@@ -24,7 +22,7 @@ std::set<std::string> nodes_of(const cell_coordinator_state& st,
 }
 
 /// A node that lives has not removed a task's instances in time.
-void remember_overdue(self_pointer self, const std::string& task,
+void remember_overdue(coordinator_pointer self, const std::string& task,
                       const std::string& node) {
   auto& st = self->state;
   for (const auto& x : st.deployments.of_task(task))
@@ -36,7 +34,7 @@ void remember_overdue(self_pointer self, const std::string& task,
 } // namespace
 
 void remove_everywhere(
-    self_pointer self, const std::string& task,
+    coordinator_pointer self, const std::string& task,
     const std::vector<std::string>& also_on,
     const std::function<void(const std::vector<std::string>& away)>& done) {
   struct tally {
@@ -67,7 +65,7 @@ void remove_everywhere(
   count_down();
 }
 
-void remove_instance(self_pointer self, const overdue_removal& what,
+void remove_instance(coordinator_pointer self, const overdue_removal& what,
                      const std::function<void()>& done) {
   const auto* entry = self->state.registry.find_name(what.node);
   // A node that is away is told what to stop when it registers.
@@ -89,7 +87,7 @@ void remove_instance(self_pointer self, const overdue_removal& what,
           });
 }
 
-void ask_overdue_removals(self_pointer self) {
+void ask_overdue_removals(coordinator_pointer self) {
   for (const auto& x : self->state.desk.removals.take_due(self->clock().now()))
     remove_instance(self, x, [] {});
 }

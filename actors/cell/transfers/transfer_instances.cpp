@@ -13,10 +13,8 @@ namespace roscell {
 
 namespace {
 
-using self_pointer = coordinator_pointer;
-
 /// Ends the tasks one after the other, then goes on.
-void terminate_tasks(self_pointer self, const std::string& id,
+void terminate_tasks(coordinator_pointer self, const std::string& id,
                      std::vector<std::string> tasks,
                      const std::function<void()>& next) {
   auto* x = self->state.transfers.find_open(id);
@@ -39,7 +37,7 @@ void terminate_tasks(self_pointer self, const std::string& id,
           });
 }
 
-void reschedule_tasks(self_pointer self, const std::string& id,
+void reschedule_tasks(coordinator_pointer self, const std::string& id,
                       const std::function<void()>& next) {
   auto& st = self->state;
   const auto* x = st.transfers.find_open(id);
@@ -60,7 +58,7 @@ void reschedule_tasks(self_pointer self, const std::string& id,
 
 } // namespace
 
-void clear_instances(self_pointer self, const std::string& id,
+void clear_instances(coordinator_pointer self, const std::string& id,
                      instance_policy policy,
                      const std::function<void()>& next) {
   auto& st = self->state;

@@ -13,13 +13,11 @@ namespace roscell {
 
 namespace {
 
-using self_pointer = coordinator_pointer;
-
 void refuse_transfer(const transfer_done& done, const failure& why) {
   done(cell_transfer{}, &why);
 }
 
-void withdraw_transfer(self_pointer self, const std::string& id,
+void withdraw_transfer(coordinator_pointer self, const std::string& id,
                        const failure& why) {
   for (const auto& done : self->state.transfers.withdraw(id))
     refuse_transfer(done, why);
@@ -33,7 +31,7 @@ failure came_back(const std::string& node) {
 
 /// The node is away and its row is let go. It comes back if it ever wants to:
 /// nobody can tell it.
-void drop_absent(self_pointer self, const std::string& id) {
+void drop_absent(coordinator_pointer self, const std::string& id) {
   auto& st = self->state;
   const auto* x = st.transfers.find_open(id);
   if (!x)
@@ -51,7 +49,7 @@ void drop_absent(self_pointer self, const std::string& id) {
 }
 
 /// Removes the record first: what cannot be written down is not done.
-void release_absent(self_pointer self, const std::string& id) {
+void release_absent(coordinator_pointer self, const std::string& id) {
   const auto* x = self->state.transfers.find_open(id);
   if (!x)
     return;
@@ -61,7 +59,7 @@ void release_absent(self_pointer self, const std::string& id) {
       [self, id](const failure& why) { call_off_transfer(self, id, why); });
 }
 
-void begin_departure(self_pointer self, const std::string& id,
+void begin_departure(coordinator_pointer self, const std::string& id,
                      const transfer_wish& wish, registry_entry& entry) {
   auto& st = self->state;
   st.registry.depart(entry, now_of(self));
@@ -75,7 +73,7 @@ void begin_departure(self_pointer self, const std::string& id,
 }
 
 /// An earlier transfer of a node that is away is given up for a new one.
-void end_unresolved(self_pointer self, const std::string& uuid) {
+void end_unresolved(coordinator_pointer self, const std::string& uuid) {
   const auto* x = self->state.transfers.find_open_of(uuid);
   if (!x)
     return;
@@ -88,7 +86,7 @@ void end_unresolved(self_pointer self, const std::string& uuid) {
 
 /// The proposed transfer is kept. What spoke against it is asked once more: the
 /// store took its time.
-void on_transfer_kept(self_pointer self, const std::string& id,
+void on_transfer_kept(coordinator_pointer self, const std::string& id,
                       const transfer_wish& wish) {
   auto& st = self->state;
   if (const auto* proposed = st.transfers.find_proposed(id))
@@ -112,7 +110,7 @@ void on_transfer_kept(self_pointer self, const std::string& id,
 
 } // namespace
 
-void start_transfer(self_pointer self, const transfer_wish& wish,
+void start_transfer(coordinator_pointer self, const transfer_wish& wish,
                     transfer_done done) {
   auto& st = self->state;
   if (auto why = objection_to(self, wish))

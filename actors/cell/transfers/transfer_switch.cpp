@@ -11,11 +11,10 @@ namespace roscell {
 
 namespace {
 
-using self_pointer = coordinator_pointer;
-
 /// The departing row of an open transfer whose node has a session; null if that
 /// is not so any more.
-registry_entry* find_departing(self_pointer self, const cell_transfer& x) {
+registry_entry* find_departing(coordinator_pointer self,
+                               const cell_transfer& x) {
   auto* entry = self->state.registry.find_uuid(x.row.uuid);
   return entry && entry->row.state == row_state::departing && entry->member
              ? entry
@@ -42,7 +41,7 @@ registration_switch order_for(const cell_coordinator_state& st,
   return result;
 }
 
-void on_switch_accepted(self_pointer self, const std::string& id) {
+void on_switch_accepted(coordinator_pointer self, const std::string& id) {
   const auto* x = self->state.transfers.find_open(id);
   // A released node has written down that it is, so it will not come back.
   if (x && x->row.to.empty())
@@ -51,13 +50,13 @@ void on_switch_accepted(self_pointer self, const std::string& id) {
 
 /// Nobody knows whether the node has heard that it shall go. Where it registers
 /// next tells, so it must not stay in a session that it may believe in.
-void ask_where_it_goes(self_pointer self, const cell_transfer& x) {
+void ask_where_it_goes(coordinator_pointer self, const cell_transfer& x) {
   if (const auto* entry = find_departing(self, x))
     self->send(entry->member,
                close_session{"it is not known whether the node goes"});
 }
 
-void on_switch_failed(self_pointer self, const std::string& id,
+void on_switch_failed(coordinator_pointer self, const std::string& id,
                       const failure& why) {
   const auto* x = self->state.transfers.find_open(id);
   if (!x)
@@ -69,7 +68,7 @@ void on_switch_failed(self_pointer self, const std::string& id,
 }
 
 /// The order may go out: it is on disk that the node may be anywhere.
-void send_order(self_pointer self, const std::string& id,
+void send_order(coordinator_pointer self, const std::string& id,
                 const transfer_row& row, join_origin origin) {
   auto& st = self->state;
   auto* x = st.transfers.find_open(id);
@@ -95,7 +94,7 @@ void send_order(self_pointer self, const std::string& id,
 
 } // namespace
 
-void reserve_target(self_pointer self, const std::string& id,
+void reserve_target(coordinator_pointer self, const std::string& id,
                     const std::function<void()>& next) {
   auto& st = self->state;
   const auto* x = st.transfers.find_open(id);
@@ -119,7 +118,7 @@ void reserve_target(self_pointer self, const std::string& id,
             });
 }
 
-void order_switch(self_pointer self, const std::string& id,
+void order_switch(coordinator_pointer self, const std::string& id,
                   join_origin origin) {
   auto& book = self->state.transfers;
   const auto* x = book.find_open(id);

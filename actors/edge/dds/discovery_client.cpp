@@ -20,7 +20,7 @@ namespace rtps = eprosima::fastrtps::rtps;
 
 /// How often a CLIENT repeats itself until its server is found. The answer
 /// normally comes within milliseconds; this is for a lost datagram.
-constexpr std::int32_t repeat_period_ns = 100'000'000;
+constexpr std::int32_t join_repeat_period_ns = 100'000'000;
 
 /// Where our participants start to look for a free port, counted as ROS 2
 /// counts them on one host: ROS 2 nodes that know each other by address alone
@@ -72,7 +72,7 @@ auto client_attributes(const cell_client_options& options, std::uint16_t port,
   auto result = make_attributes(to_settings(options), port);
   auto& discovery = result.builtin.discovery_config;
   discovery.discoveryProtocol = rtps::DiscoveryProtocol_t::CLIENT;
-  discovery.discoveryServer_client_syncperiod = {0, repeat_period_ns};
+  discovery.discoveryServer_client_syncperiod = {0, join_repeat_period_ns};
   eprosima::fastdds::rtps::RemoteServerAttributes remote;
   std::copy(server.begin(), server.end(), remote.guidPrefix.value);
   remote.metatrafficUnicastLocatorList.push_back(

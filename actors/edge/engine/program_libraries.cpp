@@ -24,7 +24,7 @@ namespace {
 /// Programs and libraries of one folder that are looked into.
 constexpr size_t max_programs = 256;
 constexpr size_t max_entries = 10'000;
-constexpr size_t max_words_bytes = 256 * 1024;
+constexpr size_t max_listing_bytes = 256 * 1024;
 
 /// The dynamic linker that runs this very program.
 fs::path own_linker() {
@@ -140,7 +140,7 @@ find_libraries(const fs::path& folder, const fs::path& program) {
   const auto linker = own_linker();
   for (const auto& path : programs_in(folder, program)) {
     const auto words = run_program({linker, {"--list", path.string()}, {}},
-                                   limits::engine::linker, max_words_bytes);
+                                   limits::engine::linker, max_listing_bytes);
     if (const auto* error = std::get_if<edge_error>(&words)) {
       // Other files may be made for other machines.
       if (path != program)

@@ -1,10 +1,10 @@
 #pragma once
 
+#include "actors/edge/io/socket_address.hpp"
+
 #include <boost/asio/generic/stream_protocol.hpp>
 
 #include <chrono>
-#include <cstdint>
-#include <string>
 
 /// INTERNAL to this folder: one type for TCP and Unix sockets, so that the
 /// code for connections is compiled once.
@@ -12,18 +12,14 @@ namespace roscell {
 
 using stream_socket = boost::asio::generic::stream_protocol::socket;
 
-struct socket_address {
-  std::string address; ///< Dotted IPv4; empty for a Unix socket.
-  uint16_t port = 0;
-};
-
 /// Opens a TCP socket that forked instances do not inherit.
 void open_tcp(stream_socket& socket);
 
 /// The same for a Unix socket.
 void open_unix(stream_socket& socket);
 
-/// The other end of a connected socket; empty if it is gone already.
+/// The other end of a connected socket; empty if it is gone already or is a
+/// Unix socket.
 socket_address peer_of(stream_socket& socket);
 
 /// For a TCP socket: does not hold small writes back.

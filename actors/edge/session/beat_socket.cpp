@@ -245,16 +245,16 @@ private:
   std::atomic<uint64_t> replayed_{0};
 };
 
-class link_handle : public beat_link {
+class beat_link_handle : public beat_link {
 public:
-  link_handle(std::shared_ptr<beat_core> socket,
-              std::shared_ptr<beat_session> session)
+  beat_link_handle(std::shared_ptr<beat_core> socket,
+                   std::shared_ptr<beat_session> session)
       : socket_(std::move(socket)), session_(std::move(session)) {
     socket_->core()->post(
         [socket = socket_, session = session_] { socket->add(session); });
   }
 
-  ~link_handle() override {
+  ~beat_link_handle() override {
     socket_->core()->post([socket = socket_, session = session_] {
       socket->remove(session.get());
     });
@@ -291,7 +291,7 @@ public:
 
   std::unique_ptr<beat_link>
   register_session(beat_registration registration) override {
-    return std::make_unique<link_handle>(
+    return std::make_unique<beat_link_handle>(
         socket_, std::make_shared<beat_session>(std::move(registration)));
   }
 

@@ -56,15 +56,15 @@ private:
 };
 
 /// What the owner of a session holds.
-class link_handle : public session_link {
+class websocket_link_handle : public session_link {
 public:
-  link_handle(std::shared_ptr<io_core> core,
-              std::shared_ptr<websocket_link> link)
+  websocket_link_handle(std::shared_ptr<io_core> core,
+                        std::shared_ptr<websocket_link> link)
       : core_(std::move(core)), link_(std::move(link)) {
     // nop
   }
 
-  ~link_handle() override {
+  ~websocket_link_handle() override {
     link_->close("the owner let go of the session");
   }
 
@@ -110,7 +110,8 @@ websocket_link::make(std::shared_ptr<io_core> core, websocket&& stream,
   auto link = std::make_shared<websocket_link>(
       core, std::move(stream), std::move(options), std::move(on_gone));
   core->adopt(link);
-  return std::make_shared<link_handle>(std::move(core), std::move(link));
+  return std::make_shared<websocket_link_handle>(std::move(core),
+                                                 std::move(link));
 }
 
 void websocket_link::start(session_callbacks callbacks) {

@@ -7,13 +7,12 @@ namespace roscell {
 
 namespace {
 
-using self_pointer = engine_runtime_pointer;
 using adoption_promise = caf::typed_response_promise<container_adopted>;
 
-void do_adopt(self_pointer self, const adopt_container& wish,
+void do_adopt(engine_runtime_pointer self, const adopt_container& wish,
               adoption_promise promise);
 
-void on_inspected(self_pointer self, const adopt_container& wish,
+void on_inspected(engine_runtime_pointer self, const adopt_container& wish,
                   const engine_answered& x, adoption_promise promise) {
   const auto& instance = wish.instance;
   auto* container = find_container(self, instance);
@@ -41,7 +40,7 @@ void on_inspected(self_pointer self, const adopt_container& wish,
   forget(self, instance);
 }
 
-void do_adopt(self_pointer self, const adopt_container& wish,
+void do_adopt(engine_runtime_pointer self, const adopt_container& wish,
               adoption_promise promise) {
   if (auto* known = find_container(self, wish.instance)) {
     if (known->settling)
@@ -59,7 +58,7 @@ void do_adopt(self_pointer self, const adopt_container& wish,
 
 } // namespace
 
-caf::result<container_adopted> adopt(self_pointer self,
+caf::result<container_adopted> adopt(engine_runtime_pointer self,
                                      const adopt_container& wish) {
   if (!is_instance_id(wish.instance))
     return bad_id(wish.instance);

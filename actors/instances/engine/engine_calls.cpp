@@ -13,13 +13,9 @@
 
 namespace roscell {
 
-namespace {
+namespace {} // namespace
 
-using self_pointer = engine_runtime_pointer;
-
-} // namespace
-
-uint64_t expect_answer(self_pointer self,
+uint64_t expect_answer(engine_runtime_pointer self,
                        engine_runtime_state::continuation then) {
   auto& st = self->state;
   const auto call = ++st.last_call;
@@ -40,7 +36,7 @@ engine_answered to_message(uint64_t call, engine_answer answer) {
   return result;
 }
 
-void ask_engine(self_pointer self, engine_request what,
+void ask_engine(engine_runtime_pointer self, engine_request what,
                 engine_runtime_state::continuation then) {
   const auto call = expect_answer(self, std::move(then));
   const auto target = caf::actor_cast<engine_runtime_actor>(self);
@@ -50,7 +46,7 @@ void ask_engine(self_pointer self, engine_request what,
       });
 }
 
-opened_call stream_lines(self_pointer self, engine_request what,
+opened_call stream_lines(engine_runtime_pointer self, engine_request what,
                          engine_runtime_state::continuation then) {
   opened_call result;
   const auto call = result.call = expect_answer(self, std::move(then));

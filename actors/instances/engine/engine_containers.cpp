@@ -16,27 +16,25 @@ namespace roscell {
 
 namespace fs = std::filesystem;
 
-using self_pointer = engine_runtime_pointer;
-
 caf::error bad_id(const std::string& instance) {
   return fail(error_code::engine_failed,
               "'" + instance + "' cannot be the name of a container");
 }
 
-engine_container* find_container(self_pointer self,
+engine_container* find_container(engine_runtime_pointer self,
                                  const std::string& instance) {
   auto& xs = self->state.containers;
   const auto i = xs.find(instance);
   return i != xs.end() ? &i->second : nullptr;
 }
 
-fs::path notify_dir(self_pointer self, const std::string& instance) {
+fs::path notify_dir(engine_runtime_pointer self, const std::string& instance) {
   constexpr size_t digits = 16;
   return self->state.config.data_dir / "notify"
          / to_hex(hmac_sha256("roscell instance", instance)).substr(0, digits);
 }
 
-caf::error open_words(self_pointer self, const std::string& instance,
+caf::error open_words(engine_runtime_pointer self, const std::string& instance,
                       engine_container& x) {
   const auto dir = notify_dir(self, instance);
   std::error_code problem;
@@ -57,7 +55,7 @@ caf::error open_words(self_pointer self, const std::string& instance,
   return {};
 }
 
-void hear(self_pointer self, const std::string& instance) {
+void hear(engine_runtime_pointer self, const std::string& instance) {
   const auto& st = self->state;
   const auto tell = [listener = st.listener, instance](const notification& n) {
     caf::anon_send(listener, instance_notified{instance, n.ready, n.alive,
@@ -69,7 +67,7 @@ void hear(self_pointer self, const std::string& instance) {
   hear_notifications(st.config.io, x->notify_socket, tell);
 }
 
-void forget(self_pointer self, const std::string& instance) {
+void forget(engine_runtime_pointer self, const std::string& instance) {
   auto& xs = self->state.containers;
   const auto i = xs.find(instance);
   if (i == xs.end())
@@ -80,7 +78,7 @@ void forget(self_pointer self, const std::string& instance) {
     request();
 }
 
-void settle(self_pointer self, const std::string& instance,
+void settle(engine_runtime_pointer self, const std::string& instance,
             const std::string& id) {
   auto* x = find_container(self, instance);
   if (x == nullptr)
@@ -120,13 +118,14 @@ bool is_running(const json& container) {
   return flag_at(object_at(container, "State"), "Running");
 }
 
-void clean_up(self_pointer self, const std::string& instance) {
+void clean_up(engine_runtime_pointer self, const std::string& instance) {
   std::error_code ignored;
   fs::remove_all(notify_dir(self, instance), ignored);
 }
 
-void on_container_ended(self_pointer self, const std::string& instance,
-                        const std::string& id, int exit_code) {
+void on_container_ended(engine_runtime_pointer self,
+                        const std::string& instance, const std::string& id,
+                        int exit_code) {
   auto& st = self->state;
   auto* x = find_container(self, instance);
   if (x == nullptr || (!x->id.empty() && x->id != id))

@@ -15,20 +15,19 @@ namespace roscell {
 
 namespace {
 
-using self_pointer = engine_runtime_pointer;
-
 std::string key_of(const prepare_image& wish) {
   return wish.skill + ' ' + wish.base_image;
 }
 
-image_work* find_work(self_pointer self, const std::string& key) {
+image_work* find_work(engine_runtime_pointer self, const std::string& key) {
   const auto i = self->state.works.find(key);
   return i != self->state.works.end() ? &i->second : nullptr;
 }
 
 /// The work is over, one way or the other.
 template <class Result>
-void conclude(self_pointer self, const std::string& key, const Result& result) {
+void conclude(engine_runtime_pointer self, const std::string& key,
+              const Result& result) {
   auto& works = self->state.works;
   const auto i = works.find(key);
   if (i == works.end())
@@ -69,9 +68,9 @@ caf::error build_failure(const image_work& work, const std::string& why,
        details.dump(-1, ' ', false, json::error_handler_t::replace)});
 }
 
-void look_for_image(self_pointer self, const std::string& key);
+void look_for_image(engine_runtime_pointer self, const std::string& key);
 
-void on_built(self_pointer self, const std::string& key,
+void on_built(engine_runtime_pointer self, const std::string& key,
               const engine_answered& x) {
   auto* work = find_work(self, key);
   if (work == nullptr)
@@ -93,7 +92,7 @@ void on_built(self_pointer self, const std::string& key,
   conclude(self, key, image_prepared{work->image});
 }
 
-void build(self_pointer self, const std::string& key) {
+void build(engine_runtime_pointer self, const std::string& key) {
   auto& work = *find_work(self, key);
   engine_request request;
   request.method = "POST";
@@ -113,7 +112,7 @@ void build(self_pointer self, const std::string& key) {
 
 /// A request to the packer whose answer is dropped when the work is over.
 template <class Reply, class Request, class F>
-void ask_packer(self_pointer self, const std::string& key,
+void ask_packer(engine_runtime_pointer self, const std::string& key,
                 std::chrono::milliseconds limit, const Request& what,
                 F on_reply) {
   self->request(find_work(self, key)->packer, limit, what)
@@ -125,7 +124,7 @@ void ask_packer(self_pointer self, const std::string& key,
           [=](const caf::error& error) { conclude(self, key, error); });
 }
 
-void pack(self_pointer self, const std::string& key) {
+void pack(engine_runtime_pointer self, const std::string& key) {
   ask_packer<image_packed>(self, key, limits::engine::pack, pack_image{},
                            [=](image_work& work, const image_packed& x) {
                              work.context = x.file;
@@ -133,7 +132,7 @@ void pack(self_pointer self, const std::string& key) {
                            });
 }
 
-void plan(self_pointer self, const std::string& key) {
+void plan(engine_runtime_pointer self, const std::string& key) {
   auto& st = self->state;
   auto& work = *find_work(self, key);
   work.packer =
@@ -148,7 +147,7 @@ void plan(self_pointer self, const std::string& key) {
 }
 
 /// Takes the image if it is there, and makes it if it is not.
-void look_for_image(self_pointer self, const std::string& key) {
+void look_for_image(engine_runtime_pointer self, const std::string& key) {
   auto& work = *find_work(self, key);
   work.image = self->state.plans.at(key);
   engine_request request;
@@ -181,7 +180,7 @@ bool is_step(const std::string& line) {
   return line.rfind(" --->", 0) != 0 && line.rfind("Removing ", 0) != 0;
 }
 
-void tell_step(self_pointer self, image_work& work) {
+void tell_step(engine_runtime_pointer self, image_work& work) {
   auto& st = self->state;
   const auto step = std::exchange(work.step, {});
   work.next_words = self->clock().now() + limits::engine::build_words;
@@ -193,7 +192,7 @@ void tell_step(self_pointer self, image_work& work) {
 
 } // namespace
 
-caf::result<image_prepared> prepare(self_pointer self,
+caf::result<image_prepared> prepare(engine_runtime_pointer self,
                                     const prepare_image& wish) {
   const auto key = key_of(wish);
   auto promise = self->make_response_promise<image_prepared>();
@@ -211,7 +210,7 @@ caf::result<image_prepared> prepare(self_pointer self,
   return promise;
 }
 
-void on_build_lines(self_pointer self, image_work& work,
+void on_build_lines(engine_runtime_pointer self, image_work& work,
                     const std::vector<std::string>& lines) {
   for (const auto& text : lines) {
     const auto line = json::parse(text, nullptr, false);
@@ -233,7 +232,7 @@ void on_build_lines(self_pointer self, image_work& work,
   tell_steps(self);
 }
 
-void tell_steps(self_pointer self) {
+void tell_steps(engine_runtime_pointer self) {
   const auto now = self->clock().now();
   for (auto& [key, work] : self->state.works) {
     if (!work.step.empty() && now >= work.next_words)

@@ -17,8 +17,6 @@ namespace roscell {
 
 namespace {
 
-using self_pointer = engine_runtime_pointer;
-
 caf::error no_log(const std::string& instance) {
   return fail(error_code::unknown_task,
               "there is no log of an instance '" + instance + "'", "/instance",
@@ -43,7 +41,7 @@ std::string log_target(const std::string& container, const log_query& query,
 }
 
 /// The follower leaves with its answer.
-void deliver(self_pointer self, uint64_t call, log_excerpt excerpt) {
+void deliver(engine_runtime_pointer self, uint64_t call, log_excerpt excerpt) {
   auto& st = self->state;
   const auto i = st.followers.find(call);
   if (i == st.followers.end())
@@ -56,7 +54,8 @@ void deliver(self_pointer self, uint64_t call, log_excerpt excerpt) {
 }
 
 /// The stream has ended, and nothing that was asked for was in it.
-void on_log_ended(self_pointer self, uint64_t call, const engine_answered& x) {
+void on_log_ended(engine_runtime_pointer self, uint64_t call,
+                  const engine_answered& x) {
   auto& st = self->state;
   const auto i = st.followers.find(call);
   if (i == st.followers.end())
@@ -80,7 +79,7 @@ struct log_reading {
 };
 
 /// Collects on the io thread, and tells of the first part that has text.
-engine_stream_callbacks collect(self_pointer self, uint64_t call,
+engine_stream_callbacks collect(engine_runtime_pointer self, uint64_t call,
                                 log_range range, bool follow) {
   const auto target = caf::actor_cast<engine_runtime_actor>(self);
   const auto reading =
@@ -104,7 +103,7 @@ engine_stream_callbacks collect(self_pointer self, uint64_t call,
   return calls;
 }
 
-void open_log(self_pointer self, const engine_answered& x,
+void open_log(engine_runtime_pointer self, const engine_answered& x,
               engine_log_follower follower) {
   auto& st = self->state;
   const auto found = object_of(x);
@@ -144,7 +143,8 @@ void open_log(self_pointer self, const engine_answered& x,
 
 } // namespace
 
-caf::result<log_excerpt> read_log(self_pointer self, const log_query& query) {
+caf::result<log_excerpt> read_log(engine_runtime_pointer self,
+                                  const log_query& query) {
   if (!is_instance_id(query.instance))
     return no_log(query.instance);
   auto follower = std::make_shared<engine_log_follower>();
@@ -160,7 +160,7 @@ caf::result<log_excerpt> read_log(self_pointer self, const log_query& query) {
   return promise;
 }
 
-void on_log_read(self_pointer self, const engine_log_read& part) {
+void on_log_read(engine_runtime_pointer self, const engine_log_read& part) {
   const auto i = self->state.followers.find(part.call);
   if (i == self->state.followers.end())
     return;
@@ -168,7 +168,7 @@ void on_log_read(self_pointer self, const engine_log_read& part) {
   deliver(self, part.call, {{}, part.text, part.next_offset, ended});
 }
 
-void release_followers(self_pointer self) {
+void release_followers(engine_runtime_pointer self) {
   auto& st = self->state;
   const auto now = self->clock().now();
   std::vector<uint64_t> due;

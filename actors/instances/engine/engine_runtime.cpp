@@ -10,9 +10,7 @@ namespace roscell {
 
 namespace {
 
-using self_pointer = engine_runtime_pointer;
-
-void on_answered(self_pointer self, const engine_answered& x) {
+void on_answered(engine_runtime_pointer self, const engine_answered& x) {
   auto& calls = self->state.calls;
   const auto i = calls.find(x.call);
   if (i == calls.end())
@@ -22,7 +20,7 @@ void on_answered(self_pointer self, const engine_answered& x) {
   then(x);
 }
 
-void on_streamed(self_pointer self, const engine_streamed& x) {
+void on_streamed(engine_runtime_pointer self, const engine_streamed& x) {
   auto& st = self->state;
   if (x.call == st.events_call)
     return on_event_lines(self, x.lines);
@@ -31,7 +29,7 @@ void on_streamed(self_pointer self, const engine_streamed& x) {
       return on_build_lines(self, work, x.lines);
 }
 
-void on_alarm(self_pointer self) {
+void on_alarm(engine_runtime_pointer self) {
   auto& st = self->state;
   const auto now = self->clock().now();
   if (st.next_attempt && now >= *st.next_attempt)
@@ -52,7 +50,7 @@ json describe(const engine_runtime_state& st) {
 } // namespace
 
 engine_runtime_actor::behavior_type
-engine_runtime(self_pointer self, const engine_runtime_config& config,
+engine_runtime(engine_runtime_pointer self, const engine_runtime_config& config,
                container_listener_actor listener) {
   auto& st = self->state;
   st.config = config;

@@ -15,8 +15,6 @@ namespace roscell {
 
 namespace {
 
-using self_pointer = engine_runtime_pointer;
-
 caf::error runs_already(const std::string& instance) {
   return fail(error_code::engine_failed,
               "the instance '" + instance + "' runs already");
@@ -33,7 +31,7 @@ struct start_attempt {
 using shared_attempt = std::shared_ptr<start_attempt>;
 
 /// Whether there is a container is not known if the engine went away.
-void give_up(self_pointer self, const shared_attempt& x, bool lost,
+void give_up(engine_runtime_pointer self, const shared_attempt& x, bool lost,
              const caf::error& why) {
   const auto& instance = x->wish.instance;
   if (lost)
@@ -42,9 +40,9 @@ void give_up(self_pointer self, const shared_attempt& x, bool lost,
   forget(self, instance);
 }
 
-void create(self_pointer self, const shared_attempt& x);
+void create(engine_runtime_pointer self, const shared_attempt& x);
 
-void on_started(self_pointer self, const shared_attempt& x,
+void on_started(engine_runtime_pointer self, const shared_attempt& x,
                 const std::string& id, const engine_answered& answer) {
   if (is_good(answer) || answer.status == 304) {
     x->promise.deliver(container_started{id});
@@ -60,7 +58,7 @@ void on_started(self_pointer self, const shared_attempt& x,
 }
 
 /// A container that has ended makes room for its successor.
-void make_room(self_pointer self, const shared_attempt& x) {
+void make_room(engine_runtime_pointer self, const shared_attempt& x) {
   const auto name = container_name(x->wish.instance);
   ask_engine(
       self, to_container("GET", name, "/json"), [=](const engine_answered& y) {
@@ -74,7 +72,7 @@ void make_room(self_pointer self, const shared_attempt& x) {
       });
 }
 
-void on_created(self_pointer self, const shared_attempt& x,
+void on_created(engine_runtime_pointer self, const shared_attempt& x,
                 const engine_answered& answer) {
   if (answer.status == 409 && !std::exchange(x->name_was_taken, true))
     return make_room(self, x);
@@ -88,7 +86,7 @@ void on_created(self_pointer self, const shared_attempt& x,
              [=](const engine_answered& y) { on_started(self, x, id, y); });
 }
 
-void create(self_pointer self, const shared_attempt& x) {
+void create(engine_runtime_pointer self, const shared_attempt& x) {
   engine_request request;
   request.method = "POST";
   request.target = "/containers/create?name="
@@ -101,7 +99,7 @@ void create(self_pointer self, const shared_attempt& x) {
 
 } // namespace
 
-caf::result<container_started> start(self_pointer self,
+caf::result<container_started> start(engine_runtime_pointer self,
                                      const start_container& wish) {
   if (!is_instance_id(wish.instance) || wish.command.empty())
     return bad_id(wish.instance);

@@ -11,11 +11,9 @@ namespace roscell {
 
 namespace {
 
-using self_pointer = engine_runtime_pointer;
-
 using stop_promise = caf::typed_response_promise<container_stopped>;
 
-void answer_stopped(self_pointer self, const std::string& target,
+void answer_stopped(engine_runtime_pointer self, const std::string& target,
                     stop_promise promise) {
   ask_engine(self, to_container("GET", target, "/json"),
              [promise](const engine_answered& x) mutable {
@@ -23,7 +21,7 @@ void answer_stopped(self_pointer self, const std::string& target,
              });
 }
 
-void do_stop(self_pointer self, const stop_container& wish,
+void do_stop(engine_runtime_pointer self, const stop_container& wish,
              stop_promise promise) {
   const auto target = target_of(wish.container, wish.instance);
   const auto grace_ms = std::clamp<int64_t>(
@@ -48,7 +46,7 @@ void do_stop(self_pointer self, const stop_container& wish,
 
 using removal_promise = caf::typed_response_promise<container_removed>;
 
-void do_remove(self_pointer self, const remove_container& wish,
+void do_remove(engine_runtime_pointer self, const remove_container& wish,
                removal_promise promise) {
   const auto target = target_of(wish.container, wish.instance);
   ask_engine(
@@ -75,7 +73,7 @@ void do_remove(self_pointer self, const remove_container& wish,
 
 } // namespace
 
-caf::result<container_stopped> stop(self_pointer self,
+caf::result<container_stopped> stop(engine_runtime_pointer self,
                                     const stop_container& wish) {
   if (!is_instance_id(wish.instance))
     return bad_id(wish.instance);
@@ -88,7 +86,7 @@ caf::result<container_stopped> stop(self_pointer self,
   return promise;
 }
 
-caf::result<container_removed> remove(self_pointer self,
+caf::result<container_removed> remove(engine_runtime_pointer self,
                                       const remove_container& wish) {
   if (!is_instance_id(wish.instance))
     return bad_id(wish.instance);
@@ -101,7 +99,7 @@ caf::result<container_removed> remove(self_pointer self,
   return promise;
 }
 
-void discard(self_pointer self, const std::string& instance) {
+void discard(engine_runtime_pointer self, const std::string& instance) {
   ask_engine(
       self,
       to_container("DELETE", container_name(instance), "?force=true&v=true"),

@@ -10,8 +10,6 @@ namespace roscell {
 
 namespace {
 
-using self_pointer = engine_runtime_pointer;
-
 /// To connect in vain to a socket of this host costs some microseconds.
 constexpr backoff::duration longest_pause{2'000};
 
@@ -21,7 +19,7 @@ std::string filter(const engine_runtime_state& st, json more) {
   return "filters=" + percent_encode(more.dump());
 }
 
-void trouble(self_pointer self, const std::string& why) {
+void trouble(engine_runtime_pointer self, const std::string& why) {
   auto& st = self->state;
   if (std::exchange(st.trouble, why) == why)
     return;
@@ -30,7 +28,7 @@ void trouble(self_pointer self, const std::string& why) {
   self->send(st.listener, runtime_troubled{why});
 }
 
-void on_events_ended(self_pointer self, const engine_answered& x) {
+void on_events_ended(engine_runtime_pointer self, const engine_answered& x) {
   auto& st = self->state;
   st.connected = false;
   st.events = {};
@@ -47,7 +45,7 @@ void on_events_ended(self_pointer self, const engine_answered& x) {
 }
 
 /// The exit of a container that ended while nobody listened.
-void learn_exit(self_pointer self, const std::string& instance,
+void learn_exit(engine_runtime_pointer self, const std::string& instance,
                 const std::string& id) {
   engine_request request;
   request.target = "/containers/" + id + "/json";
@@ -70,7 +68,7 @@ container_ids running_containers(const engine_runtime_state& st) {
 
 /// Compares what the engine has with what it should have had when it was
 /// asked.
-void reconcile(self_pointer self, const container_ids& expected,
+void reconcile(engine_runtime_pointer self, const container_ids& expected,
                const engine_answered& x) {
   auto& st = self->state;
   const auto list = json::parse(x.body, nullptr, false);
@@ -87,7 +85,7 @@ void reconcile(self_pointer self, const container_ids& expected,
     discard(self, instance);
 }
 
-void on_events_opened(self_pointer self) {
+void on_events_opened(engine_runtime_pointer self) {
   auto& st = self->state;
   st.connected = true;
   st.pause.reset();
@@ -103,7 +101,7 @@ void on_events_opened(self_pointer self) {
 
 } // namespace
 
-void watch_events(self_pointer self) {
+void watch_events(engine_runtime_pointer self) {
   auto& st = self->state;
   st.next_attempt.reset();
   engine_request request;
@@ -120,7 +118,8 @@ void watch_events(self_pointer self) {
   st.events = std::move(opened.stream);
 }
 
-void on_event_lines(self_pointer self, const std::vector<std::string>& lines) {
+void on_event_lines(engine_runtime_pointer self,
+                    const std::vector<std::string>& lines) {
   if (lines.empty())
     return on_events_opened(self);
   for (const auto& line : lines) {

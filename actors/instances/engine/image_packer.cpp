@@ -15,9 +15,11 @@ namespace roscell {
 
 namespace {
 
-using self_pointer = image_packer_actor::stateful_pointer<image_packer_state>;
+using image_packer_self =
+    image_packer_actor::stateful_pointer<image_packer_state>;
 
-caf::result<image_planned> plan(self_pointer self, const prepare_image& wish) {
+caf::result<image_planned> plan(image_packer_self self,
+                                const prepare_image& wish) {
   const auto program = find_program(wish.skill_dir, wish.entry_point);
   if (const auto* error = std::get_if<edge_error>(&program))
     return to_caf(*error);
@@ -37,7 +39,7 @@ caf::result<image_planned> plan(self_pointer self, const prepare_image& wish) {
                        content.dockerfile};
 }
 
-caf::result<image_packed> pack(self_pointer self) {
+caf::result<image_packed> pack(image_packer_self self) {
   const auto& st = self->state;
   if (st.content.dockerfile.empty())
     return fail(error_code::conflict, "no image has been planned");
@@ -58,7 +60,7 @@ caf::result<image_packed> pack(self_pointer self) {
 } // namespace
 
 image_packer_actor::behavior_type
-image_packer(self_pointer self, const std::filesystem::path& work_dir,
+image_packer(image_packer_self self, const std::filesystem::path& work_dir,
              const engine_runtime_actor& owner) {
   self->state.work_dir = work_dir;
   self->monitor(owner);

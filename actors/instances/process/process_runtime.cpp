@@ -20,14 +20,12 @@ namespace roscell {
 
 namespace {
 
-using self_pointer = process_runtime_pointer;
-
 caf::error bad_id(const std::string& instance) {
   return fail(error_code::engine_failed,
               "'" + instance + "' cannot be the name of a folder");
 }
 
-child_watch watch(self_pointer self, const std::string& instance,
+child_watch watch(process_runtime_pointer self, const std::string& instance,
                   const process_instance& x) {
   const auto target = caf::actor_cast<process_runtime_actor>(self);
   const auto listener = self->state.listener;
@@ -42,7 +40,7 @@ child_watch watch(self_pointer self, const std::string& instance,
   return {self->state.config.io, x.pidfd, x.notify_socket, std::move(calls)};
 }
 
-running_process& keep(self_pointer self, const std::string& instance,
+running_process& keep(process_runtime_pointer self, const std::string& instance,
                       process_instance x) {
   auto& result = self->state.processes[instance];
   result = running_process{};
@@ -53,7 +51,7 @@ running_process& keep(self_pointer self, const std::string& instance,
 }
 
 /// The instance, found on the host if it has not been asked about before.
-edge_result<running_process*> known(self_pointer self,
+edge_result<running_process*> known(process_runtime_pointer self,
                                     const std::string& instance,
                                     const std::string& container) {
   auto& xs = self->state.processes;
@@ -80,7 +78,7 @@ caf::result<image_prepared> prepare(const prepare_image& wish) {
   return image_prepared{wish.skill_dir};
 }
 
-caf::result<container_started> start(self_pointer self,
+caf::result<container_started> start(process_runtime_pointer self,
                                      const start_container& wish) {
   if (!is_instance_id(wish.instance) || wish.command.empty())
     return bad_id(wish.instance);
@@ -99,7 +97,7 @@ caf::result<container_started> start(self_pointer self,
   return container_started{x.process.container};
 }
 
-caf::result<container_adopted> adopt(self_pointer self,
+caf::result<container_adopted> adopt(process_runtime_pointer self,
                                      const adopt_container& wish) {
   if (!is_instance_id(wish.instance))
     return bad_id(wish.instance);
@@ -114,7 +112,7 @@ caf::result<container_adopted> adopt(self_pointer self,
 
 /// By the io thread, like all words of the instance, so that none overtakes
 /// another.
-void hear(self_pointer self, const std::string& instance) {
+void hear(process_runtime_pointer self, const std::string& instance) {
   const auto& st = self->state;
   const auto tell = [listener = st.listener, instance](const notification& n) {
     caf::anon_send(listener, instance_notified{instance, n.ready, n.alive,
@@ -132,7 +130,7 @@ void signal(const running_process& x, int number) {
 }
 
 /// Goes to the next stage of ending and says when the one after that begins.
-void end(self_pointer self, running_process& x, ending stage,
+void end(process_runtime_pointer self, running_process& x, ending stage,
          alarm::time_point::duration wait) {
   // The shim passes SIGTERM on and turns SIGQUIT into SIGKILL. Where it does
   // not react it is killed itself, and its command dies with it.
@@ -156,7 +154,7 @@ void give_up(const std::string& instance, running_process& x) {
   x.next_stage.reset();
 }
 
-void advance(self_pointer self, const std::string& instance,
+void advance(process_runtime_pointer self, const std::string& instance,
              running_process& x) {
   constexpr auto wait = limits::instance::force_interval;
   switch (x.stage) {
@@ -171,7 +169,7 @@ void advance(self_pointer self, const std::string& instance,
   }
 }
 
-caf::result<container_stopped> stop(self_pointer self,
+caf::result<container_stopped> stop(process_runtime_pointer self,
                                     const stop_container& wish) {
   if (!is_instance_id(wish.instance))
     return bad_id(wish.instance);
@@ -193,7 +191,7 @@ caf::result<container_stopped> stop(self_pointer self,
 }
 
 /// Nothing if all that was left is gone.
-caf::error forget(self_pointer self, const std::string& instance) {
+caf::error forget(process_runtime_pointer self, const std::string& instance) {
   const auto done = clean_up(self->state.config, instance);
   self->state.processes.erase(instance);
   serve_followers(self, instance);
@@ -203,7 +201,7 @@ caf::error forget(self_pointer self, const std::string& instance) {
   return {};
 }
 
-caf::result<container_removed> remove(self_pointer self,
+caf::result<container_removed> remove(process_runtime_pointer self,
                                       const remove_container& wish) {
   if (!is_instance_id(wish.instance))
     return bad_id(wish.instance);
@@ -225,7 +223,7 @@ caf::result<container_removed> remove(self_pointer self,
   return promise;
 }
 
-void on_end(self_pointer self, const program_ended& fact) {
+void on_end(process_runtime_pointer self, const program_ended& fact) {
   auto& st = self->state;
   const auto i = st.processes.find(fact.instance);
   if (i == st.processes.end() || !i->second.process.runs()
@@ -253,7 +251,7 @@ void on_end(self_pointer self, const program_ended& fact) {
       promise.deliver(container_removed{});
 }
 
-void on_alarm(self_pointer self) {
+void on_alarm(process_runtime_pointer self) {
   auto& st = self->state;
   const auto now = self->clock().now();
   for (auto& [instance, x] : st.processes) {
@@ -277,7 +275,8 @@ json describe(const process_runtime_state& st) {
 } // namespace
 
 process_runtime_actor::behavior_type
-process_runtime(self_pointer self, const process_runtime_config& config,
+process_runtime(process_runtime_pointer self,
+                const process_runtime_config& config,
                 container_listener_actor listener) {
   self->state.config = config;
   self->state.listener = std::move(listener);

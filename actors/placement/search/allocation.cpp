@@ -21,8 +21,6 @@ namespace roscell::allocation {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 /// Bounds the memory and the time that groups take: some 50 ms.
 constexpr std::size_t most_groups = 400'000;
 

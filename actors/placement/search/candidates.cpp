@@ -21,9 +21,10 @@ std::vector<std::int32_t> gpus_in_order(const node& host) {
   return order;
 }
 
-class finder {
+class candidate_finder {
 public:
-  finder(const problem& asked, std::vector<rejected_candidate>& rejected)
+  candidate_finder(const problem& asked,
+                   std::vector<rejected_candidate>& rejected)
       : asked_(asked), empty_(asked), rejected_(rejected) {}
 
   candidate_set run() {
@@ -134,7 +135,7 @@ std::vector<std::ptrdiff_t> find_twins(const problem& asked,
 
 candidate_set find_candidates(const problem& asked,
                               std::vector<rejected_candidate>& rejected) {
-  auto found = finder(asked, rejected).run();
+  auto found = candidate_finder(asked, rejected).run();
   found.twins = find_twins(asked, found);
   return found;
 }

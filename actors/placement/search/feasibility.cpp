@@ -22,7 +22,7 @@ amounts taken_by(const search_space& space, std::size_t step,
   return {way.cpu, way.memory_mib, way.disk_mib, way.gpu_memory_mib};
 }
 
-double free(const amount& of) {
+double left_of(const amount& of) {
   return std::max(0.0, of.capacity - of.used);
 }
 
@@ -96,11 +96,11 @@ private:
           }))
         continue;
       const auto& node = space_.asked.nodes[v];
-      free_[cpu] += free(node.cpu) + tolerance;
-      free_[memory] += free(node.memory_mib) + tolerance;
-      free_[disk] += free(node.disk_mib) + tolerance;
+      free_[cpu] += left_of(node.cpu) + tolerance;
+      free_[memory] += left_of(node.memory_mib) + tolerance;
+      free_[disk] += left_of(node.disk_mib) + tolerance;
       for (const auto& card : node.gpus)
-        free_[gpu_memory] += free(card.memory_mib) + tolerance;
+        free_[gpu_memory] += left_of(card.memory_mib) + tolerance;
     }
   }
 

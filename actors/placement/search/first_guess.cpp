@@ -1,12 +1,8 @@
 #include "actors/placement/search/first_guess.hpp"
 
-#include <limits>
-
 namespace roscell::allocation {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// The score so far if the step were placed like this as well; infinite when
 /// it does not fit.

@@ -11,8 +11,6 @@ namespace roscell::allocation {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 /// Groups looked at before a slice is split rather than searched on.
 constexpr std::size_t effort_per_slice = 20'000;
 

@@ -20,10 +20,10 @@ std::vector<std::vector<std::uint32_t>> kinds_of(const search_space& space) {
   return kinds;
 }
 
-class finder {
+class group_finder {
 public:
-  finder(const search_space& space, const std::vector<double>& least_cost,
-         double most_total, std::size_t most_groups, watch& until)
+  group_finder(const search_space& space, const std::vector<double>& least_cost,
+               double most_total, std::size_t most_groups, watch& until)
       : space_(space), least_cost_(least_cost), most_groups_(most_groups),
         until_(until), now_(space.empty) {
     auto least = std::accumulate(least_cost.begin(), least_cost.end(), 0.0);
@@ -122,7 +122,7 @@ std::optional<group_list> find_groups(const search_space& space,
                                       const std::vector<double>& least_cost,
                                       double most_total,
                                       std::size_t most_groups, watch& until) {
-  return finder(space, least_cost, most_total, most_groups, until).run();
+  return group_finder(space, least_cost, most_total, most_groups, until).run();
 }
 
 } // namespace roscell::allocation

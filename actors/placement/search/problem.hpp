@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <map>
 #include <set>
 #include <string>
@@ -11,6 +12,9 @@
 /// What an allocation is asked about: plain values, no actors and no JSON.
 /// docs/allocation.md gives the objective, the method and the tie rule.
 namespace roscell::allocation {
+
+/// The cost of what cannot be had.
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// What a resource offers and how much of it is taken. CPU is in cores, all
 /// memory and disk in MiB. `used` may exceed `capacity`, which counts as full.

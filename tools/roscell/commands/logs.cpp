@@ -14,7 +14,7 @@ namespace roscell::cli {
 namespace {
 
 /// The coordinator asks a member, which answers at once.
-constexpr std::chrono::seconds answer_limit{30};
+constexpr std::chrono::seconds excerpt_limit{30};
 
 struct logs_options {
   connection_options connection;
@@ -24,7 +24,7 @@ struct logs_options {
 };
 
 log_excerpt ask_for_log(const node_client& node, const log_query& query) {
-  return node.ask(message_json(query), answer_limit).get<log_excerpt>();
+  return node.ask(message_json(query), excerpt_limit).get<log_excerpt>();
 }
 
 /// Prints all that is kept now, part by part. What is logged meanwhile is left

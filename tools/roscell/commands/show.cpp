@@ -17,7 +17,7 @@ namespace roscell::cli {
 namespace {
 
 /// A coordinator answers at once.
-constexpr std::chrono::seconds answer_limit{10};
+constexpr std::chrono::seconds view_limit{10};
 
 /// What one of these commands asks and how it shows the answer.
 struct subject {
@@ -117,7 +117,7 @@ int show_transfers(const show_options& options) {
   const node_client node{options.connection};
   const auto query = message_json(transfer_query{options.argument});
   return show(
-      options, node, [&] { return node.ask(query, answer_limit); },
+      options, node, [&] { return node.ask(query, view_limit); },
       [](const json& reply) {
         return transfers_view(reply.get<transfer_description>(),
                               view_style_now());

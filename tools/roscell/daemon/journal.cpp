@@ -25,7 +25,7 @@ std::string quoted(const std::string& name) {
   return "'" + name + "'";
 }
 
-void write(const event& e) {
+void print(const event& e) {
   static constexpr spdlog::level::level_enum levels[] = {
       spdlog::level::debug, spdlog::level::info, spdlog::level::warn};
   spdlog::log(levels[static_cast<size_t>(loudness_of(e))], "{}",
@@ -36,7 +36,7 @@ event_listener_actor::behavior_type journal(event_listener_actor::pointer self,
                                             const event_log_actor& events) {
   self->monitor(events);
   self->set_down_handler([self](const caf::down_msg&) { self->quit(); });
-  return {[](const event& e) { write(e); }};
+  return {[](const event& e) { print(e); }};
 }
 
 } // namespace

@@ -25,8 +25,8 @@ void readiness::ready() {
     return;
   constexpr char line[] = "READY=1\n";
   // A reader that has gone does not want to know.
-  [[maybe_unused]] const auto written = write(fd_, line, sizeof line - 1);
-  close(std::exchange(fd_, -1));
+  [[maybe_unused]] const auto written = ::write(fd_, line, sizeof line - 1);
+  ::close(std::exchange(fd_, -1));
 }
 
 void readiness::stopping() {

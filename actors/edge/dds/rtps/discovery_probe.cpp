@@ -1,5 +1,7 @@
 #include "actors/edge/dds/rtps/discovery_probe.hpp"
 
+#include "actors/edge/dds/rtps/parameter_ids.hpp"
+
 #include <algorithm>
 #include <cstring>
 #include <random>
@@ -8,6 +10,8 @@
 namespace roscell {
 
 namespace {
+
+namespace parameter = parameter_id;
 
 using bytes = std::vector<std::uint8_t>;
 
@@ -18,22 +22,6 @@ constexpr std::array<std::uint8_t, 4> pdp_reader_entity{0, 1, 0, 0xc7};
 /// "RTPS", protocol 2.3, vendor eProsima: servers of Fast DDS take no other.
 constexpr std::array<std::uint8_t, 8> rtps_header{'R', 'T', 'P', 'S',
                                                   2,   3,   1,   0x0f};
-
-/// Parameter ids of RTPS 2.3, 9.6.2.2, and of Fast DDS.
-enum parameter : std::uint16_t {
-  sentinel = 0x01,
-  lease_duration = 0x02,
-  protocol_version = 0x15,
-  vendor_id = 0x16,
-  metatraffic_unicast_locator = 0x32,
-  participant_guid = 0x50,
-  builtin_endpoint_set = 0x58,
-  property_list = 0x59,
-  entity_name = 0x62,
-  key_hash = 0x70,
-  status_info = 0x71,
-  related_sample_identity = 0x800f,
-};
 
 template <class Range>
 void put_all(bytes& to, const Range& range) {
@@ -56,8 +44,8 @@ void put_text(bytes& to, std::string_view text) {
   while (to.size() % 4 != 0);
 }
 
-void put_parameter(bytes& to, parameter id, const bytes& value) {
-  put(to, static_cast<std::uint16_t>(id));
+void put_parameter(bytes& to, parameter::value which, const bytes& value) {
+  put(to, static_cast<std::uint16_t>(which));
   put(to, static_cast<std::uint16_t>(value.size()));
   put_all(to, value);
 }
@@ -94,24 +82,26 @@ bytes locator(const sockaddr_in& at) {
 
 bytes participant_data(const guid_prefix& self, const sockaddr_in& reply_to) {
   bytes result{0, 3, 0, 0}; // PL_CDR_LE
-  put_parameter(result, protocol_version, {2, 3, 0, 0});
-  put_parameter(result, vendor_id, {1, 0x0f, 0, 0});
-  put_parameter(result, participant_guid, guid_bytes(self, participant_entity));
-  put_parameter(result, metatraffic_unicast_locator, locator(reply_to));
+  put_parameter(result, parameter::protocol_version, {2, 3, 0, 0});
+  put_parameter(result, parameter::vendor_id, {1, 0x0f, 0, 0});
+  put_parameter(result, parameter::participant_guid,
+                guid_bytes(self, participant_entity));
+  put_parameter(result, parameter::metatraffic_unicast_locator,
+                locator(reply_to));
   bytes value;
   put(value, probe_lease_seconds);
   put(value, std::uint32_t{0});
-  put_parameter(result, lease_duration, value);
+  put_parameter(result, parameter::lease_duration, value);
   // It has a participant announcer (1) and a participant detector (2).
-  put_parameter(result, builtin_endpoint_set, {3, 0, 0, 0});
+  put_parameter(result, parameter::builtin_endpoint_set, {3, 0, 0, 0});
   value.clear();
   put_text(value, probe_name);
-  put_parameter(result, entity_name, value);
+  put_parameter(result, parameter::entity_name, value);
   value = {1, 0, 0, 0}; // One property.
   put_text(value, "PARTICIPANT_TYPE");
   put_text(value, "CLIENT");
-  put_parameter(result, property_list, value);
-  put_parameter(result, sentinel, {});
+  put_parameter(result, parameter::property_list, value);
+  put_parameter(result, parameter::sentinel, {});
   return result;
 }
 
@@ -172,18 +162,21 @@ guid_prefix make_probe_prefix() {
 std::vector<std::uint8_t> probe_question(const guid_prefix& self,
                                          const sockaddr_in& reply_to) {
   bytes qos;
-  put_parameter(qos, related_sample_identity, sample_identity(self, 1));
-  put_parameter(qos, sentinel, {});
+  put_parameter(qos, parameter::related_sample_identity,
+                sample_identity(self, 1));
+  put_parameter(qos, parameter::sentinel, {});
   return data_message(self, 1 | 2 | 4, 1, qos,
                       participant_data(self, reply_to));
 }
 
 std::vector<std::uint8_t> probe_farewell(const guid_prefix& self) {
   bytes qos;
-  put_parameter(qos, related_sample_identity, sample_identity(self, 2));
-  put_parameter(qos, key_hash, guid_bytes(self, participant_entity));
-  put_parameter(qos, status_info, {0, 0, 0, 3}); // Disposed, unregistered.
-  put_parameter(qos, sentinel, {});
+  put_parameter(qos, parameter::related_sample_identity,
+                sample_identity(self, 2));
+  put_parameter(qos, parameter::key_hash, guid_bytes(self, participant_entity));
+  put_parameter(qos, parameter::status_info,
+                {0, 0, 0, 3}); // Disposed, unregistered.
+  put_parameter(qos, parameter::sentinel, {});
   return data_message(self, 1 | 2, 2, qos, {});
 }
 

@@ -1,5 +1,7 @@
 #include "actors/edge/dds/rtps/discovery_wire.hpp"
 
+#include "actors/edge/dds/rtps/parameter_ids.hpp"
+
 #include <algorithm>
 #include <string_view>
 
@@ -7,39 +9,9 @@ namespace roscell {
 
 namespace {
 
-/// Parameter ids of RTPS 2.3, 9.6.2.2.2, DDS-XTypes 1.2, DDS Security 1.1 and
-/// Fast DDS whose values have lengths of their own.
-enum parameter : std::uint16_t {
-  padding = 0x0000,
-  sentinel = 0x0001,
-  topic_name = 0x0005,
-  type_name = 0x0007,
-  partition = 0x0029,
-  user_data = 0x002c,
-  group_data = 0x002d,
-  topic_data = 0x002e,
-  content_filter = 0x0035,
-  property_list = 0x0059,
-  entity_name = 0x0062,
-  type_id = 0x0069,
-  type_object = 0x0072,
-  data_representation = 0x0073,
-  type_information = 0x0075,
-  identity_token = 0x1001,
-  permissions_token = 0x1002,
-  data_tags = 0x1003,
-  identity_status_token = 0x1006,
-  data_sharing = 0x8006,
-};
+namespace parameter = parameter_id;
 
-/// Parameters whose value is the GUID that the list is about.
-constexpr std::uint16_t participant_guid = 0x0050;
-constexpr std::uint16_t endpoint_guid = 0x005a;
-constexpr std::uint16_t key_hash = 0x0070;
-
-/// Which discovery endpoints a participant has, and the bit of the one that
-/// takes other participants' data.
-constexpr std::uint16_t builtin_endpoint_set = 0x0058;
+/// The bit of a participant's endpoint set that takes other participants' data.
 constexpr std::uint8_t participant_detector = 2;
 
 /// The sizes of the values that have one. Fast DDS releases a list twice when
@@ -145,30 +117,30 @@ verdict if_true(bool good) {
 
 verdict judge(std::uint16_t id, const wire_cursor& value) {
   switch (id) {
-  case topic_name:
-  case type_name:
-  case entity_name:
+  case parameter::topic_name:
+  case parameter::type_name:
+  case parameter::entity_name:
     return if_true(is_text(value));
-  case user_data:
-  case group_data:
-  case topic_data:
+  case parameter::user_data:
+  case parameter::group_data:
+  case parameter::topic_data:
     return if_true(is_sequence(value, 1));
-  case data_representation:
+  case parameter::data_representation:
     return if_true(is_sequence(value, 2));
-  case data_sharing:
+  case parameter::data_sharing:
     return if_true(is_sequence(value, 8));
-  case partition:
+  case parameter::partition:
     return if_true(is_partition(value));
-  case property_list:
+  case parameter::property_list:
     return if_true(is_property_list(value));
-  case content_filter:
-  case type_id:
-  case type_object:
-  case type_information:
-  case identity_token:
-  case permissions_token:
-  case data_tags:
-  case identity_status_token:
+  case parameter::content_filter:
+  case parameter::type_id:
+  case parameter::type_object:
+  case parameter::type_information:
+  case parameter::identity_token:
+  case parameter::permissions_token:
+  case parameter::data_tags:
+  case parameter::identity_status_token:
     return verdict::hide;
   default:
     return if_true(has_right_size(id, value));
@@ -224,24 +196,25 @@ std::int64_t wire_cursor::sequence_number() {
 }
 
 bool parameter_guard::make_safe(wire_cursor& in) {
-  const auto own_key =
-      what_ == described_entity::participant ? participant_guid : endpoint_guid;
+  const auto own_key = what_ == described_entity::participant
+                           ? parameter::participant_guid
+                           : parameter::endpoint_guid;
   while (in.good()) {
     auto* at = in.position();
     auto id = in.u16();
     auto length = in.u16();
-    if (id == sentinel)
+    if (id == parameter::sentinel)
       return in.good();
     auto value = in.take(length);
     if (!in.good() || length % 4 != 0)
       return false;
     auto found = judge(id, value);
     if (found == verdict::refuse
-        || ((id == own_key || id == key_hash) && !is_key(value)))
+        || ((id == own_key || id == parameter::key_hash) && !is_key(value)))
       return false;
     if (found == verdict::hide)
-      std::fill_n(at, 2, std::uint8_t{padding});
-    if (id == builtin_endpoint_set && how_ == arrival::multicast)
+      std::fill_n(at, 2, std::uint8_t{parameter::padding});
+    if (id == parameter::builtin_endpoint_set && how_ == arrival::multicast)
       hide_detector(value);
   }
   return false;

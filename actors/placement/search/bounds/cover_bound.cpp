@@ -1,13 +1,10 @@
 #include "actors/placement/search/bounds/cover_bound.hpp"
 
 #include <algorithm>
-#include <limits>
 
 namespace roscell::allocation {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 std::size_t size_of(step_set steps) {
   std::size_t size = 0;

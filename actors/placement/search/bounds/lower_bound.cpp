@@ -3,13 +3,10 @@
 #include "actors/placement/search/bounds/spread.hpp"
 
 #include <algorithm>
-#include <limits>
 
 namespace roscell::allocation {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// A row holds the nodes for a step at one depth, one more than can host the
 /// steps before it, but no more than this many: when all of these host steps,
