@@ -19,12 +19,6 @@ failure why_not(const site_reply<Reply>& reply) {
   return to_failure((*reply)->error());
 }
 
-size_t count(const site& place, const std::string& what) {
-  return static_cast<size_t>(
-      std::count_if(place.facts.begin(), place.facts.end(),
-                    [&](const auto& x) { return x.what == what; }));
-}
-
 /// Two cells, each with a member.
 struct two_cells {
   virtual_time clock;
@@ -131,7 +125,7 @@ TEST_CASE("a transfer that cannot be written down changes nothing",
   CHECK(why_not(refused).message.find("disk is full") != std::string::npos);
   CHECK(x.row_of(x.left, x.arm)->row.state == row_state::active);
   CHECK(x.left.cell_state().transfers.rows().empty());
-  CHECK(count(x.place, "node_departing") == 0);
+  CHECK(x.place.count("node_departing") == 0);
   x.left.disk_full = false;
   const auto done = x.release(x.left, x.arm.name);
   x.place.pass(5s);
@@ -218,7 +212,7 @@ TEST_CASE("a node that leaves while a switch is written down goes nowhere",
   x.place.pass(20s);
   CHECK(x.arm.status().standing == node_state::independent);
   CHECK(x.arm.status().cell.empty());
-  CHECK(count(x.place, "switch_accepted") == 0);
+  CHECK(x.place.count("switch_accepted") == 0);
 }
 
 } // namespace

@@ -72,6 +72,12 @@ site::~site() {
   time.scheduler.clock().cancel_all();
 }
 
+size_t site::count(const std::string& fact) const {
+  return static_cast<size_t>(
+      std::count_if(facts.begin(), facts.end(),
+                    [&](const auto& x) { return x.what == fact; }));
+}
+
 void site::keep_facts(site_party& x) {
   fact_keepers_.push_back(time.system.spawn(
       [this, &x](caf::event_based_actor* self) -> caf::behavior {

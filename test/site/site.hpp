@@ -88,6 +88,9 @@ public:
   site_party& add_coordinator(const std::string& uuid);
   site_party& add_node(const std::string& configured = "");
 
+  /// How often something was told by anybody.
+  size_t count(const std::string& fact) const;
+
   void start(site_party& x);
   void kill(site_party& x);
   /// The machine loses its power: what runs on it ends too.

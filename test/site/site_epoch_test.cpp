@@ -11,12 +11,6 @@ namespace {
 using namespace roscell;
 using namespace roscell::test;
 
-size_t count(const site& place, const std::string& what) {
-  return static_cast<size_t>(
-      std::count_if(place.facts.begin(), place.facts.end(),
-                    [&](const auto& x) { return x.what == what; }));
-}
-
 TEST_CASE("a registration that a later one has overtaken changes nothing",
           "[epoch]") {
   virtual_time clock;
@@ -35,9 +29,9 @@ TEST_CASE("a registration that a later one has overtaken changes nothing",
   place.start(node);
   place.pass(20s);
   CHECK(held);
-  CHECK(count(place, "cell_joined") == 1);
-  CHECK(count(place, "node_joined") == 1);
-  CHECK(count(place, "coordinator_lost") == 0);
+  CHECK(place.count("cell_joined") == 1);
+  CHECK(place.count("node_joined") == 1);
+  CHECK(place.count("coordinator_lost") == 0);
   CHECK(complaint(place).empty());
 }
 
@@ -54,7 +48,7 @@ TEST_CASE(
   place.start(node);
   place.pass(20s);
   REQUIRE(complaint(place).empty());
-  const auto joined = count(place, "cell_joined");
+  const auto joined = place.count("cell_joined");
   const auto claim = [&](int64_t epoch) {
     const auto& peer = base.cell_state().peers.find(other.uuid)->actor;
     caf::anon_send(
@@ -64,12 +58,12 @@ TEST_CASE(
   };
   const auto epoch = node.status().config.identity.epoch;
   claim(epoch - 1);
-  CHECK(count(place, "node_left") == 0);
-  CHECK(count(place, "coordinator_lost") == 0);
-  CHECK(count(place, "cell_joined") == joined);
+  CHECK(place.count("node_left") == 0);
+  CHECK(place.count("coordinator_lost") == 0);
+  CHECK(place.count("cell_joined") == joined);
   claim(epoch + 1);
-  CHECK(count(place, "node_left") == 1);
-  CHECK(count(place, "coordinator_lost") == 1);
+  CHECK(place.count("node_left") == 1);
+  CHECK(place.count("coordinator_lost") == 1);
 }
 
 TEST_CASE("an order for an earlier epoch of a node is refused", "[epoch]") {

@@ -16,8 +16,8 @@ namespace {
 using words = std::vector<std::string>;
 
 /// A real supervisor with real skill instances over a fake runtime and store.
-struct bench : virtual_time {
-  bench() {
+struct supervisor_bench : virtual_time {
+  supervisor_bench() {
     config.context = context;
     config.node = "n";
     config.skills = catalogue.skills;
@@ -29,7 +29,7 @@ struct bench : virtual_time {
     listener = fake_listener(system, told);
   }
 
-  ~bench() {
+  ~supervisor_bench() {
     // First, because it would replace a runtime that has ended.
     if (supervisor)
       kill(supervisor);
@@ -120,7 +120,7 @@ auto reply(const T& answer) {
 } // namespace
 
 TEST_CASE("a deployment is answered once the instance is ready") {
-  bench b;
+  supervisor_bench b;
   b.start();
   const auto answer = b.deploy("i");
   CHECK_FALSE(*answer);
@@ -132,7 +132,7 @@ TEST_CASE("a deployment is answered once the instance is ready") {
 }
 
 TEST_CASE("the same deployment again joins the wait and starts nothing") {
-  bench b;
+  supervisor_bench b;
   b.start();
   const auto first = b.deploy("i");
   const auto second = b.deploy("i");
@@ -144,7 +144,7 @@ TEST_CASE("the same deployment again joins the wait and starts nothing") {
 }
 
 TEST_CASE("an instance id with another spec is a conflict") {
-  bench b;
+  supervisor_bench b;
   b.start();
   b.deploy("i");
   b.say("i");
@@ -153,7 +153,7 @@ TEST_CASE("an instance id with another spec is a conflict") {
 }
 
 TEST_CASE("what the node cannot run is refused by name") {
-  bench b;
+  supervisor_bench b;
   b.start();
   auto spec = echo_spec(b.catalogue.hash, "i");
   auto expected = error_code::internal;
@@ -182,7 +182,7 @@ TEST_CASE("what the node cannot run is refused by name") {
 }
 
 TEST_CASE("a failed start is told with node, exit code and last lines") {
-  bench b;
+  supervisor_bench b;
   b.start();
   const auto answer = b.deploy("i");
   b.exit_of("i", "c1", 127);
@@ -198,7 +198,7 @@ TEST_CASE("a failed start is told with node, exit code and last lines") {
 }
 
 TEST_CASE("a failed instance is started anew by the same deployment") {
-  bench b;
+  supervisor_bench b;
   b.start();
   b.deploy("i");
   b.exit_of("i", "c1", 1);
@@ -210,7 +210,7 @@ TEST_CASE("a failed instance is started anew by the same deployment") {
 }
 
 TEST_CASE("an instance that has finished is not run twice") {
-  bench b;
+  supervisor_bench b;
   b.start();
   b.deploy("i");
   b.say("i");
@@ -220,7 +220,7 @@ TEST_CASE("an instance that has finished is not run twice") {
 }
 
 TEST_CASE("removing a task leaves nothing of its instances") {
-  bench b;
+  supervisor_bench b;
   b.start();
   b.deploy("a", "t");
   b.deploy("b", "t");
@@ -236,7 +236,7 @@ TEST_CASE("removing a task leaves nothing of its instances") {
 }
 
 TEST_CASE("removing one instance leaves the others of its task") {
-  bench b;
+  supervisor_bench b;
   b.start();
   b.deploy("a", "t");
   b.deploy("b", "t");
@@ -250,13 +250,13 @@ TEST_CASE("removing one instance leaves the others of its task") {
 }
 
 TEST_CASE("removing an unknown task removes nothing and is no error") {
-  bench b;
+  supervisor_bench b;
   b.start();
   CHECK(reply(b.remove("nothing")).instances.empty());
 }
 
 TEST_CASE("a removal during the start ends it and refuses the deployment") {
-  bench b;
+  supervisor_bench b;
   b.start();
   b.runtime->silent = true;
   const auto deployment = b.deploy("i");
@@ -267,7 +267,7 @@ TEST_CASE("a removal during the start ends it and refuses the deployment") {
 }
 
 TEST_CASE("removals of one task join, deployments wait until they are over") {
-  bench b;
+  supervisor_bench b;
   b.start();
   b.deploy("i");
   b.say("i");
@@ -285,7 +285,7 @@ TEST_CASE("removals of one task join, deployments wait until they are over") {
 }
 
 TEST_CASE("a removal that fails says so and can be repeated") {
-  bench b;
+  supervisor_bench b;
   b.start();
   b.deploy("i");
   b.say("i");
@@ -297,7 +297,7 @@ TEST_CASE("a removal that fails says so and can be repeated") {
 }
 
 TEST_CASE("a killed skill instance loses neither container nor answer") {
-  bench b;
+  supervisor_bench b;
   b.start();
   const auto answer = b.deploy("i");
   b.runtime->adoption = {true, "c1", -1};
@@ -319,7 +319,7 @@ TEST_CASE("a killed skill instance loses neither container nor answer") {
 }
 
 TEST_CASE("a killed skill instance does not lose a removal either") {
-  bench b;
+  supervisor_bench b;
   b.start();
   b.deploy("i");
   b.say("i");
@@ -332,7 +332,7 @@ TEST_CASE("a killed skill instance does not lose a removal either") {
 }
 
 TEST_CASE("an actor that dies again and again takes its program along") {
-  bench b;
+  supervisor_bench b;
   b.start();
   const auto answer = b.deploy("i");
   b.runtime->adoption = {true, "c1", -1};
@@ -345,7 +345,7 @@ TEST_CASE("an actor that dies again and again takes its program along") {
 }
 
 TEST_CASE("a runtime that dies is spawned anew and adopts what runs") {
-  bench b;
+  supervisor_bench b;
   b.start();
   b.deploy("i");
   b.say("i");
@@ -359,7 +359,7 @@ TEST_CASE("a runtime that dies is spawned anew and adopts what runs") {
 }
 
 TEST_CASE("instances of an earlier run are adopted at the start") {
-  bench b;
+  supervisor_bench b;
   instance_row running;
   running.spec = echo_spec(b.catalogue.hash, "r", "t");
   running.state = instance_state::running;
@@ -377,7 +377,7 @@ TEST_CASE("instances of an earlier run are adopted at the start") {
 }
 
 TEST_CASE("the listener hears of each state once") {
-  bench b;
+  supervisor_bench b;
   b.start();
   b.deploy("i");
   b.say("i", "loading");
@@ -388,7 +388,7 @@ TEST_CASE("the listener hears of each state once") {
 }
 
 TEST_CASE("the log of an instance is the runtime's, of others there is none") {
-  bench b;
+  supervisor_bench b;
   b.start();
   b.deploy("i");
   log_query query;
@@ -402,7 +402,7 @@ TEST_CASE("the log of an instance is the runtime's, of others there is none") {
 }
 
 TEST_CASE("queries choose by task and by instance") {
-  bench b;
+  supervisor_bench b;
   b.start();
   b.deploy("a", "t");
   b.deploy("b", "u");
@@ -416,7 +416,7 @@ TEST_CASE("queries choose by task and by instance") {
 }
 
 TEST_CASE("live instances are bounded") {
-  bench b;
+  supervisor_bench b;
   b.start();
   const auto live = limits::instance::most;
   for (size_t i = 0; i < live; ++i)
@@ -425,7 +425,7 @@ TEST_CASE("live instances are bounded") {
 }
 
 TEST_CASE("what has ended stays known until the coordinator keeps it") {
-  bench b;
+  supervisor_bench b;
   b.start();
   const auto kept = limits::instance::most_ended;
   std::vector<std::string> ended;
@@ -445,7 +445,7 @@ TEST_CASE("what has ended stays known until the coordinator keeps it") {
 }
 
 TEST_CASE("what nobody acknowledges is bounded, and so are its bytes") {
-  bench b;
+  supervisor_bench b;
   const auto kept = limits::instance::most_ended;
   size_t most = 0;
   size_t parameters = 0;
@@ -476,7 +476,7 @@ TEST_CASE("what nobody acknowledges is bounded, and so are its bytes") {
 }
 
 TEST_CASE("an engine's trouble is told of every live instance, and its end") {
-  bench b;
+  supervisor_bench b;
   b.start();
   b.deploy("i");
   b.say("i");
@@ -494,7 +494,7 @@ TEST_CASE("an engine's trouble is told of every live instance, and its end") {
 }
 
 TEST_CASE("what an earlier run has left and no record knows is ended") {
-  bench b;
+  supervisor_bench b;
   b.config.strays = {"t-a-1", "../not an instance"};
   b.start();
   REQUIRE(b.runtime->removed.size() == 1);

@@ -16,8 +16,8 @@ namespace {
 using words = std::vector<std::string>;
 
 /// One real skill instance between a fake runtime, store and supervisor.
-struct bench : virtual_time {
-  bench() {
+struct instance_bench : virtual_time {
+  instance_bench() {
     config.context = context;
     config.supervisor = fake_supervisor(system, told);
     config.runtime = fake_runtime(system, runtime);
@@ -27,7 +27,7 @@ struct bench : virtual_time {
     config.row.node = "n";
   }
 
-  ~bench() {
+  ~instance_bench() {
     kill(config.supervisor);
     kill(config.runtime);
     kill(config.store);
@@ -112,7 +112,7 @@ bool contains(const std::string& text, const std::string& part) {
 } // namespace
 
 TEST_CASE("the intent is on disk before anything is started") {
-  bench b;
+  instance_bench b;
   b.store->error = fail(error_code::internal, "disk full");
   b.start();
   CHECK(b.state() == instance_state::failed);
@@ -122,7 +122,7 @@ TEST_CASE("the intent is on disk before anything is started") {
 }
 
 TEST_CASE("an instance goes from intent to running in the order drawn") {
-  bench b;
+  instance_bench b;
   b.start_ready();
   CHECK(b.told->states()
         == words{"pending", "building", "starting", "starting", "running"});
@@ -131,7 +131,7 @@ TEST_CASE("an instance goes from intent to running in the order drawn") {
 }
 
 TEST_CASE("a program that is ready before the runtime answers is running") {
-  bench b;
+  instance_bench b;
   b.runtime->silent = true;
   b.start_ready();
   CHECK(b.state() == instance_state::starting);
@@ -141,7 +141,7 @@ TEST_CASE("a program that is ready before the runtime answers is running") {
 }
 
 TEST_CASE("an image that cannot be made ends the instance without a start") {
-  bench b;
+  instance_bench b;
   b.runtime->prepare_error = fail(error_code::engine_failed, "no base image");
   b.start();
   CHECK(b.state() == instance_state::failed);
@@ -150,7 +150,7 @@ TEST_CASE("an image that cannot be made ends the instance without a start") {
 }
 
 TEST_CASE("the end of a failed build's log goes along with the failure") {
-  bench b;
+  instance_bench b;
   b.runtime->prepare_error =
       to_error({error_code::engine_failed,
                 "the build failed",
@@ -164,7 +164,7 @@ TEST_CASE("the end of a failed build's log goes along with the failure") {
 }
 
 TEST_CASE("a start that fails is cleaned up and told") {
-  bench b;
+  instance_bench b;
   b.runtime->start_error = fail(error_code::engine_failed, "no such file");
   b.start();
   CHECK(b.state() == instance_state::failed);
@@ -173,7 +173,7 @@ TEST_CASE("a start that fails is cleaned up and told") {
 }
 
 TEST_CASE("a runtime that does not answer a start is given up") {
-  bench b;
+  instance_bench b;
   b.runtime->silent = true;
   b.start();
   b.advance(29s);
@@ -184,7 +184,7 @@ TEST_CASE("a runtime that does not answer a start is given up") {
 }
 
 TEST_CASE("a program that is not ready in time is ended and its log told") {
-  bench b;
+  instance_bench b;
   b.start();
   b.advance(29s);
   CHECK(b.state() == instance_state::starting);
@@ -195,7 +195,7 @@ TEST_CASE("a program that is not ready in time is ended and its log told") {
 }
 
 TEST_CASE("signs of life keep a program, silence ends it by force at once") {
-  bench b;
+  instance_bench b;
   b.start_ready();
   for (int i = 0; i < 5; ++i) {
     b.advance(limits::instance::watchdog - 1s);
@@ -211,7 +211,7 @@ TEST_CASE("signs of life keep a program, silence ends it by force at once") {
 }
 
 TEST_CASE("words that wait at the socket are heard before a skill is judged") {
-  bench b;
+  instance_bench b;
   b.start_ready();
   b.runtime->words.alive = true;
   b.advance(limits::instance::watchdog + 1s);
@@ -223,7 +223,7 @@ TEST_CASE("words that wait at the socket are heard before a skill is judged") {
 }
 
 TEST_CASE("a node that was stopped does not take that for a skill's silence") {
-  bench b;
+  instance_bench b;
   b.start_ready();
   b.jump(30s);
   SECTION("the skill goes on, too: its words come soon") {
@@ -242,7 +242,7 @@ TEST_CASE("a node that was stopped does not take that for a skill's silence") {
 }
 
 TEST_CASE("a runtime that cannot be asked says nothing about a skill") {
-  bench b;
+  instance_bench b;
   b.start_ready();
   b.runtime->deaf = true;
   b.advance(60s);
@@ -253,7 +253,7 @@ TEST_CASE("a runtime that cannot be asked says nothing about a skill") {
 }
 
 TEST_CASE("a skill whose READY=1 waits at the socket is ready") {
-  bench b;
+  instance_bench b;
   b.start();
   b.runtime->words.ready = true;
   b.advance(limits::instance::ready + 1s);
@@ -261,7 +261,7 @@ TEST_CASE("a skill whose READY=1 waits at the socket is ready") {
 }
 
 TEST_CASE("what a program's end means depends on its state and code") {
-  bench b;
+  instance_bench b;
   auto last = instance_state::failed;
   SECTION("running, 0: it has finished") {
     b.start_ready();
@@ -284,14 +284,14 @@ TEST_CASE("what a program's end means depends on its state and code") {
 }
 
 TEST_CASE("the end of an earlier container is not this one's") {
-  bench b;
+  instance_bench b;
   b.start_ready();
   b.exits(1, "c0");
   CHECK(b.state() == instance_state::running);
 }
 
 TEST_CASE("a stop before the container exists starts nothing") {
-  bench b;
+  instance_bench b;
   b.instance = roscell::spawn(b.system, b.context, skill_instance, b.config);
   b.stop();
   CHECK(b.state() == instance_state::stopped);
@@ -300,7 +300,7 @@ TEST_CASE("a stop before the container exists starts nothing") {
 }
 
 TEST_CASE("a stop during the start ends what the start has made") {
-  bench b;
+  instance_bench b;
   b.runtime->silent = true;
   b.start();
   b.stop();
@@ -313,7 +313,7 @@ TEST_CASE("a stop during the start ends what the start has made") {
 }
 
 TEST_CASE("a stop is polite, and repeated ones are the same stop") {
-  bench b;
+  instance_bench b;
   b.start_ready();
   b.runtime->stops_never = true;
   b.stop("task ended");
@@ -327,7 +327,7 @@ TEST_CASE("a stop is polite, and repeated ones are the same stop") {
 }
 
 TEST_CASE("a program that cannot be ended is told as failed") {
-  bench b;
+  instance_bench b;
   b.start_ready();
   b.runtime->stop_error = fail(error_code::engine_failed, "it is a zombie");
   b.stop();
@@ -336,7 +336,7 @@ TEST_CASE("a program that cannot be ended is told as failed") {
 }
 
 TEST_CASE("a running program is adopted without a restart") {
-  bench b;
+  instance_bench b;
   b.adopt_as(instance_state::running, {true, "c1", -1});
   CHECK(b.state() == instance_state::running);
   CHECK(b.runtime->prepared.empty());
@@ -345,7 +345,7 @@ TEST_CASE("a running program is adopted without a restart") {
 }
 
 TEST_CASE("a program adopted while it starts is running once it says so") {
-  bench b;
+  instance_bench b;
   b.adopt_as(instance_state::starting, {true, "c1", -1});
   CHECK(b.state() == instance_state::starting);
   b.ready();
@@ -354,14 +354,14 @@ TEST_CASE("a program adopted while it starts is running once it says so") {
 }
 
 TEST_CASE("a stop that a restart has interrupted is carried on") {
-  bench b;
+  instance_bench b;
   b.adopt_as(instance_state::stopping, {true, "c1", -1});
   CHECK(b.state() == instance_state::stopped);
   CHECK(b.runtime->stopped.size() == 1);
 }
 
 TEST_CASE("a program that ended while the node was away is told by its code") {
-  bench b;
+  instance_bench b;
   SECTION("well") {
     b.adopt_as(instance_state::running, {false, "c1", 0});
     CHECK(b.state() == instance_state::stopped);
@@ -375,7 +375,7 @@ TEST_CASE("a program that ended while the node was away is told by its code") {
 }
 
 TEST_CASE("an intent without a program is begun anew") {
-  bench b;
+  instance_bench b;
   b.adopt_as(instance_state::pending, {});
   b.ready();
   CHECK(b.state() == instance_state::running);
@@ -383,7 +383,7 @@ TEST_CASE("an intent without a program is begun anew") {
 }
 
 TEST_CASE("a skill that has gone is told, and nothing is started") {
-  bench b;
+  instance_bench b;
   b.config.row.spec.skill = std::string(64, 'a');
   b.start();
   CHECK(b.state() == instance_state::failed);
@@ -392,7 +392,7 @@ TEST_CASE("a skill that has gone is told, and nothing is started") {
 }
 
 TEST_CASE("the program outlives the supervisor of its instance") {
-  bench b;
+  instance_bench b;
   b.start_ready();
   b.kill(b.config.supervisor);
   CHECK(b.runtime->stopped.empty());

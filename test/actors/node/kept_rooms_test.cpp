@@ -2,13 +2,13 @@
 
 #include "actors/house/limits.hpp"
 
+#include "test/time_zero.hpp"
+
 #include <catch2/catch.hpp>
 
 namespace roscell::test {
 
 namespace {
-
-const kept_rooms::time_point start{std::chrono::hours{1}};
 
 instance_spec spec_of(const std::string& task, const std::string& instance) {
   instance_spec result;
@@ -30,17 +30,17 @@ using words = std::vector<std::string>;
 
 TEST_CASE("Room is kept until an instance is known", "[kept_rooms]") {
   kept_rooms rooms;
-  CHECK_FALSE(rooms.keep(spec_of("t", "t-a-1"), start));
-  CHECK_FALSE(rooms.keep(spec_of("t", "t-b-1"), start));
-  CHECK(names(rooms.open(start, {})) == words{"t-a-1", "t-b-1"});
-  CHECK(names(rooms.open(start, {"t-a-1"})) == words{"t-b-1"});
+  CHECK_FALSE(rooms.keep(spec_of("t", "t-a-1"), time_zero));
+  CHECK_FALSE(rooms.keep(spec_of("t", "t-b-1"), time_zero));
+  CHECK(names(rooms.open(time_zero, {})) == words{"t-a-1", "t-b-1"});
+  CHECK(names(rooms.open(time_zero, {"t-a-1"})) == words{"t-b-1"});
 }
 
 TEST_CASE("Room is kept for the time of a reservation", "[kept_rooms]") {
   using std::chrono::milliseconds;
   kept_rooms rooms;
-  CHECK_FALSE(rooms.keep(spec_of("t", "t-a-1"), start));
-  const auto end = start + limits::task::longest_reservation;
+  CHECK_FALSE(rooms.keep(spec_of("t", "t-a-1"), time_zero));
+  const auto end = time_zero + limits::task::longest_reservation;
   CHECK(rooms.open(end - milliseconds{1}, {}).size() == 1);
   CHECK(rooms.open(end, {}).empty());
   CHECK(rooms.size() == 0);
@@ -49,34 +49,35 @@ TEST_CASE("Room is kept for the time of a reservation", "[kept_rooms]") {
 TEST_CASE("A reservation that is repeated counts once and anew",
           "[kept_rooms]") {
   kept_rooms rooms;
-  const auto later = start + limits::task::longest_reservation / 2;
-  CHECK_FALSE(rooms.keep(spec_of("t", "t-a-1"), start));
+  const auto later = time_zero + limits::task::longest_reservation / 2;
+  CHECK_FALSE(rooms.keep(spec_of("t", "t-a-1"), time_zero));
   CHECK_FALSE(rooms.keep(spec_of("t", "t-a-1"), later));
   CHECK(rooms.size() == 1);
-  CHECK(rooms.open(start + limits::task::longest_reservation, {}).size() == 1);
+  CHECK(rooms.open(time_zero + limits::task::longest_reservation, {}).size()
+        == 1);
 }
 
 TEST_CASE("A task's room is given up as a whole or for one instance",
           "[kept_rooms]") {
   kept_rooms rooms;
   for (const auto* instance : {"t-a-1", "t-b-1"})
-    CHECK_FALSE(rooms.keep(spec_of("t", instance), start));
-  CHECK_FALSE(rooms.keep(spec_of("u", "u-a-1"), start));
+    CHECK_FALSE(rooms.keep(spec_of("t", instance), time_zero));
+  CHECK_FALSE(rooms.keep(spec_of("u", "u-a-1"), time_zero));
   rooms.give_up("t", "t-b-1");
   rooms.give_up("t", "u-a-1");
-  CHECK(names(rooms.open(start, {})) == words{"t-a-1", "u-a-1"});
+  CHECK(names(rooms.open(time_zero, {})) == words{"t-a-1", "u-a-1"});
   rooms.give_up("t", "");
-  CHECK(names(rooms.open(start, {})) == words{"u-a-1"});
+  CHECK(names(rooms.open(time_zero, {})) == words{"u-a-1"});
 }
 
 TEST_CASE("Room is kept for no more instances than a node runs",
           "[kept_rooms]") {
   kept_rooms rooms;
   for (size_t i = 0; i < limits::instance::most; ++i)
-    CHECK_FALSE(rooms.keep(spec_of("t", std::to_string(i)), start));
-  CHECK(rooms.keep(spec_of("t", "one more"), start));
-  CHECK_FALSE(rooms.keep(spec_of("t", "0"), start));
-  const auto later = start + limits::task::longest_reservation;
+    CHECK_FALSE(rooms.keep(spec_of("t", std::to_string(i)), time_zero));
+  CHECK(rooms.keep(spec_of("t", "one more"), time_zero));
+  CHECK_FALSE(rooms.keep(spec_of("t", "0"), time_zero));
+  const auto later = time_zero + limits::task::longest_reservation;
   CHECK_FALSE(rooms.keep(spec_of("t", "one more"), later));
 }
 

@@ -1,19 +1,19 @@
 #include "actors/house/limits.hpp"
 #include "actors/node/refusal_gate.hpp"
 
+#include "test/time_zero.hpp"
+
 #include <catch2/catch.hpp>
 
 namespace roscell {
 
 namespace {
 
-const refusal_gate::time_point start{};
-
 int told(refusal_gate& x, int times, const std::string& what,
          const std::string& subject = "") {
   int result = 0;
   for (int i = 0; i < times; ++i)
-    result += x.lets_through(what, subject, start) ? 1 : 0;
+    result += x.lets_through(what, subject, time_zero) ? 1 : 0;
   return result;
 }
 
@@ -50,7 +50,7 @@ TEST_CASE("after its span a kind is told again") {
   CHECK(told(x, 5, "session_refused") == 5);
   CHECK_FALSE(x.next());
   CHECK(x.lets_through("session_refused", "",
-                       start + limits::event::refusal_window));
+                       time_zero + limits::event::refusal_window));
   CHECK(told(x, 4, "session_refused") == 4);
 }
 

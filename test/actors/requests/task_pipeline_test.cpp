@@ -6,7 +6,7 @@ namespace roscell::test {
 
 namespace {
 
-json error_in(const json& reply) {
+json error_body(const json& reply) {
   REQUIRE(error_of(reply) != "");
   return reply.at("error");
 }
@@ -120,7 +120,7 @@ TEST_CASE_METHOD(three_nodes, "A task id with another body is refused",
                  "[task_pipeline]") {
   request(both("t"));
   const auto other = echo_task("t", {echo_step("s0", 1)});
-  auto error = error_in(request(other));
+  auto error = error_body(request(other));
   CHECK(error.at("code") == "task_exists");
   CHECK(error.at("where") == "/task");
   CHECK(running() == 2);
@@ -136,7 +136,7 @@ TEST_CASE_METHOD(three_nodes,
                  "If one step fails to start, the others are rolled back",
                  "[task_pipeline]") {
   right.mood = temper::broken;
-  const auto error = error_in(request(both("t")));
+  const auto error = error_body(request(both("t")));
   CHECK(error.at("code") == "engine_failed");
   CHECK(error.at("where") == "/pipeline/1");
   const auto message = text_in(error, "message");
@@ -179,7 +179,7 @@ TEST_CASE_METHOD(three_nodes,
   left.fail_starting("no such program");
   time.settle();
   CHECK(error_of(reply_of(first)) == "engine_failed");
-  const auto error = error_in(reply_of(second));
+  const auto error = error_body(reply_of(second));
   CHECK(has(text_in(error, "message"), "no such program"));
   CHECK(has(text_in(error, "hint"), "again"));
 }
@@ -328,7 +328,7 @@ TEST_CASE_METHOD(three_nodes,
                  "[task_pipeline]") {
   left.has.cpu.used = 1.5;
   const auto error =
-      error_in(request(echo_task("t", {echo_step("s0", 3, "left")})));
+      error_body(request(echo_task("t", {echo_step("s0", 3, "left")})));
   CHECK(error.at("code") == "no_feasible_allocation");
   std::set<std::string> nodes;
   for (const auto& x : error.at("rejected")) {
@@ -348,21 +348,21 @@ TEST_CASE_METHOD(
     "[task_pipeline]") {
   auto task = both("t");
   task["pipeline"][1]["operation"] = "dance";
-  auto error = error_in(request(task));
+  auto error = error_body(request(task));
   CHECK(error.at("code") == "unknown_operation");
   CHECK(error.at("where") == "/pipeline/1/operation");
   CHECK(has(text_in(error, "hint"), "echo"));
 
   task = both("t");
   task["pipeline"][0]["model"] = "fancy";
-  error = error_in(request(task));
+  error = error_body(request(task));
   CHECK(error.at("code") == "unknown_model");
   CHECK(error.at("where") == "/pipeline/0/model");
   CHECK(has(text_in(error, "hint"), "plain"));
 
   task = both("t");
   task["pipeline"][0]["deployment"] = "tpu";
-  error = error_in(request(task));
+  error = error_body(request(task));
   CHECK(error.at("code") == "unknown_deployment");
   CHECK(has(text_in(error, "hint"), "cpu-4"));
 
@@ -370,7 +370,7 @@ TEST_CASE_METHOD(
   task["pipeline"][0]["output"] = {{"protocol", "ros2"},
                                    {"endpoint", "/topic"},
                                    {"data_type", "text/plain"}};
-  error = error_in(request(task));
+  error = error_body(request(task));
   CHECK(error.at("code") == "schema_violation");
   CHECK(error.at("where") == "/pipeline/0/output/protocol");
   CHECK(has(text_in(error, "hint"), "file"));

@@ -1,6 +1,8 @@
 #include "actors/house/limits.hpp"
 #include "actors/session/lease.hpp"
 
+#include "test/time_zero.hpp"
+
 #include <catch2/catch.hpp>
 
 #include <map>
@@ -15,8 +17,6 @@ using namespace std::chrono_literals;
 
 using time_point = lease::time_point;
 
-const time_point start{};
-
 /// Two leases and what flies between them, on virtual time.
 struct pair_of_leases {
   struct packet {
@@ -24,9 +24,9 @@ struct pair_of_leases {
     beat_kind kind;
   };
 
-  lease member{lease_side::member, start};
-  lease coordinator{lease_side::coordinator, start};
-  time_point now = start;
+  lease member{lease_side::member, time_zero};
+  lease coordinator{lease_side::coordinator, time_zero};
+  time_point now = time_zero;
   std::multimap<time_point, packet> flying;
   std::mt19937 random;
   double loss = 0;
@@ -102,7 +102,7 @@ struct pair_of_leases {
 
 TEST_CASE("an idle pair wakes for its beat only") {
   pair_of_leases x{1};
-  x.run(start + 400s);
+  x.run(time_zero + 400s);
   CHECK_FALSE(x.member_lost);
   CHECK_FALSE(x.coordinator_lost);
   // One beat and one ack each 4 s.
@@ -117,10 +117,10 @@ TEST_CASE("a silent member is lost one lease after it was last heard") {
   for (unsigned seed = 1; seed <= 200; ++seed) {
     CAPTURE(seed);
     pair_of_leases x{seed};
-    x.run(start + std::chrono::milliseconds{x.random() % 30'000});
+    x.run(time_zero + std::chrono::milliseconds{x.random() % 30'000});
     x.member_dead = true;
     const auto died = x.now;
-    x.run(start + 100s);
+    x.run(time_zero + 100s);
     CHECK(x.member_lost);
     // What flew when it died still counts.
     CHECK(x.now - died <= limits::lease::span + 40ms);
@@ -133,10 +133,10 @@ TEST_CASE("a silent coordinator is lost one lease after it was last heard") {
   for (unsigned seed = 1; seed <= 200; ++seed) {
     CAPTURE(seed);
     pair_of_leases x{seed};
-    x.run(start + std::chrono::milliseconds{x.random() % 30'000});
+    x.run(time_zero + std::chrono::milliseconds{x.random() % 30'000});
     x.coordinator_dead = true;
     const auto died = x.now;
-    x.run(start + 100s);
+    x.run(time_zero + 100s);
     CHECK(x.coordinator_lost);
     CHECK(x.now - died <= limits::lease::span + 40ms);
     CHECK(x.now - died
@@ -148,7 +148,7 @@ TEST_CASE("an outage of less than the lease without a beat is not noticed") {
   for (unsigned seed = 1; seed <= 200; ++seed) {
     CAPTURE(seed);
     pair_of_leases x{seed};
-    x.run(start + std::chrono::milliseconds{x.random() % 30'000});
+    x.run(time_zero + std::chrono::milliseconds{x.random() % 30'000});
     x.loss = 1;
     x.run(x.now + limits::lease::span - limits::lease::beat_period
           - 2 * limits::lease::urgent_probe_interval);
@@ -165,44 +165,44 @@ TEST_CASE("a loss of 20 % in each direction never costs a member") {
   pair_of_leases x{seed};
   x.loss = 0.2;
   constexpr auto simulated = 3000h;
-  x.run(start + simulated);
-  INFO("after " << std::chrono::duration<double>(x.now - start).count()
+  x.run(time_zero + simulated);
+  INFO("after " << std::chrono::duration<double>(x.now - time_zero).count()
                 << " s");
   CHECK_FALSE(x.member_lost);
   CHECK_FALSE(x.coordinator_lost);
 }
 
 TEST_CASE("a probe is answered with a beat and a beat with an ack") {
-  lease x{lease_side::coordinator, start};
-  CHECK(x.heard_beat(beat_kind::beat, start) == beat_kind::ack);
-  CHECK(x.heard_beat(beat_kind::probe, start) == beat_kind::beat);
-  CHECK(x.heard_beat(beat_kind::ack, start) == std::nullopt);
+  lease x{lease_side::coordinator, time_zero};
+  CHECK(x.heard_beat(beat_kind::beat, time_zero) == beat_kind::ack);
+  CHECK(x.heard_beat(beat_kind::probe, time_zero) == beat_kind::beat);
+  CHECK(x.heard_beat(beat_kind::ack, time_zero) == std::nullopt);
 }
 
 TEST_CASE("after a miss the peer is asked until the lease is over") {
-  lease x{lease_side::coordinator, start};
+  lease x{lease_side::coordinator, time_zero};
   std::vector<std::chrono::milliseconds> asked;
   lease::step todo;
-  auto now = start;
+  auto now = time_zero;
   while (!todo.over) {
     now = x.next();
     todo = x.due(now);
     if (todo.send == beat_kind::probe)
-      asked.push_back(
-          std::chrono::duration_cast<std::chrono::milliseconds>(now - start));
+      asked.push_back(std::chrono::duration_cast<std::chrono::milliseconds>(
+          now - time_zero));
   }
   REQUIRE(asked.size() > 2);
   CHECK(asked[0] == limits::lease::beat_period + limits::lease::probe_interval);
   CHECK(asked[1] == asked[0] + limits::lease::probe_interval);
   CHECK(asked.back()
         == limits::lease::span - limits::lease::urgent_probe_interval);
-  CHECK(now - start == limits::lease::span);
+  CHECK(now - time_zero == limits::lease::span);
 }
 
 TEST_CASE("any frame counts as a sign of life") {
-  lease member{lease_side::member, start};
-  lease coordinator{lease_side::coordinator, start};
-  for (auto now = start; now < start + 60s; now += 3s) {
+  lease member{lease_side::member, time_zero};
+  lease coordinator{lease_side::coordinator, time_zero};
+  for (auto now = time_zero; now < time_zero + 60s; now += 3s) {
     member.heard(now);
     coordinator.heard(now);
     CHECK_FALSE(member.due(now).over);

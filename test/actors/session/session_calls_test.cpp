@@ -5,14 +5,14 @@
 #include "actors/session/session_exchange.hpp"
 #include "messages/session.hpp"
 
+#include "test/time_zero.hpp"
+
 #include <catch2/catch.hpp>
 
 namespace {
 
 using namespace roscell;
 using namespace std::chrono_literals;
-
-const session_calls::time_point start{};
 
 /// Keeps how one call ended.
 struct outcome {
@@ -40,8 +40,8 @@ TEST_CASE("each reply goes to the call that it answers") {
   session_calls calls;
   outcome first;
   outcome second;
-  auto a = calls.begin(departure, start + 1s, first.keep());
-  auto b = calls.begin(departure, start + 1s, second.keep());
+  auto a = calls.begin(departure, time_zero + 1s, first.keep());
+  auto b = calls.begin(departure, time_zero + 1s, second.keep());
   CHECK(calls.finish(reply_to(b, departed)));
   CHECK(first.results.empty());
   REQUIRE(second.results.size() == 1);
@@ -54,7 +54,7 @@ TEST_CASE("each reply goes to the call that it answers") {
 TEST_CASE("a reply that comes again, or to nothing, is refused") {
   session_calls calls;
   outcome it;
-  auto a = calls.begin(departure, start + 1s, it.keep());
+  auto a = calls.begin(departure, time_zero + 1s, it.keep());
   const auto reply = reply_to(a, departed);
   CHECK(calls.finish(reply));
   CHECK_FALSE(calls.finish(reply));
@@ -67,7 +67,7 @@ TEST_CASE("a reply that comes again, or to nothing, is refused") {
 TEST_CASE("an error reply becomes the error that it tells of") {
   session_calls calls;
   outcome it;
-  auto a = calls.begin(departure, start + 1s, it.keep());
+  auto a = calls.begin(departure, time_zero + 1s, it.keep());
   const failure why{error_code::engine_failed, "exit code 1", "/spec", "look",
                     R"({"log_tail":"oops"})"};
   calls.finish(reply_to(a, error_reply(why)));
@@ -78,7 +78,7 @@ TEST_CASE("an error reply becomes the error that it tells of") {
 TEST_CASE("a reply that breaks its schema fails the call") {
   session_calls calls;
   outcome it;
-  auto a = calls.begin(departure, start + 1s, it.keep());
+  auto a = calls.begin(departure, time_zero + 1s, it.keep());
   calls.finish(reply_to(a, {{"type", "instance_deployed"}}));
   REQUIRE(it.results.size() == 1);
   CHECK(it.code() == error_code::internal);
@@ -94,16 +94,16 @@ TEST_CASE("a call is given up at its deadline and not before") {
   session_calls calls;
   outcome early;
   outcome late;
-  auto a = calls.begin(departure, start + 1s, early.keep());
-  calls.begin(departure, start + 9s, late.keep());
-  CHECK(calls.next_deadline() == start + 1s);
-  calls.expire(start + 999ms);
+  auto a = calls.begin(departure, time_zero + 1s, early.keep());
+  calls.begin(departure, time_zero + 9s, late.keep());
+  CHECK(calls.next_deadline() == time_zero + 1s);
+  calls.expire(time_zero + 999ms);
   CHECK(early.results.empty());
-  calls.expire(start + 1s);
+  calls.expire(time_zero + 1s);
   REQUIRE(early.results.size() == 1);
   CHECK(early.code() == error_code::timeout);
   CHECK(late.results.empty());
-  CHECK(calls.next_deadline() == start + 9s);
+  CHECK(calls.next_deadline() == time_zero + 9s);
   // Its reply comes too late.
   CHECK_FALSE(calls.finish(reply_to(a, departed)));
 }
@@ -112,8 +112,8 @@ TEST_CASE("the end of a session fails every call at once") {
   session_calls calls;
   outcome first;
   outcome second;
-  calls.begin(departure, start + 1s, first.keep());
-  calls.begin(departure, start + 1s, second.keep());
+  calls.begin(departure, time_zero + 1s, first.keep());
+  calls.begin(departure, time_zero + 1s, second.keep());
   calls.fail_all("connection closed");
   REQUIRE(first.results.size() == 1);
   REQUIRE(second.results.size() == 1);
@@ -125,14 +125,14 @@ TEST_CASE("the calls that wait are bounded in number and size") {
   session_calls calls;
   outcome it;
   for (size_t i = 0; i < limits::session::pending_calls; ++i)
-    CHECK(calls.begin(departure, start, [](const caf::expected<json>&) {}));
-  CHECK_FALSE(calls.begin(departure, start, it.keep()));
+    CHECK(calls.begin(departure, time_zero, [](const caf::expected<json>&) {}));
+  CHECK_FALSE(calls.begin(departure, time_zero, it.keep()));
   CHECK(it.code() == error_code::conflict);
   session_calls others;
   outcome huge;
   const auto text = std::string(limits::session::frame_bytes, 'x');
   CHECK_FALSE(
-      others.begin(message_json(node_departure{text}), start, huge.keep()));
+      others.begin(message_json(node_departure{text}), time_zero, huge.keep()));
   CHECK(huge.code() == error_code::conflict);
   CHECK(others.pending() == 0);
 }
@@ -140,10 +140,10 @@ TEST_CASE("the calls that wait are bounded in number and size") {
 TEST_CASE("a call may begin another one while it ends") {
   session_calls calls;
   outcome it;
-  calls.begin(departure, start, [&](const caf::expected<json>&) {
-    calls.begin(departure, start + 9s, it.keep());
+  calls.begin(departure, time_zero, [&](const caf::expected<json>&) {
+    calls.begin(departure, time_zero + 9s, it.keep());
   });
-  calls.expire(start);
+  calls.expire(time_zero);
   CHECK(it.results.empty());
   CHECK(calls.pending() == 1);
 }

@@ -1,5 +1,7 @@
 #include "actors/cell/books/free_node_book.hpp"
 
+#include "test/time_zero.hpp"
+
 #include <catch2/catch.hpp>
 
 namespace roscell::test {
@@ -7,12 +9,10 @@ namespace roscell::test {
 namespace {
 
 using namespace std::chrono_literals;
-using sighting = free_node_book::sighting;
 
-const free_node_book::time_point start{100h};
-
-node_presence node(const std::string& name, const std::string& uuid,
-                   int64_t epoch = 1, const std::string& role = "independent") {
+node_presence seen_node(const std::string& name, const std::string& uuid,
+                        int64_t epoch = 1,
+                        const std::string& role = "independent") {
   node_presence result;
   result.role = role;
   result.name = name;
@@ -31,9 +31,12 @@ bool always(const node_presence&) {
 TEST_CASE("A free node is told as it announced itself last",
           "[free_node_book]") {
   free_node_book book;
-  CHECK(book.see(node("arm", "u1"), start) == sighting::appeared);
-  CHECK(book.see(node("arm", "u1"), start) == sighting::repeated);
-  CHECK(book.see(node("arm", "u1", 2, "orphaned"), start) == sighting::changed);
+  CHECK(book.see(seen_node("arm", "u1"), time_zero)
+        == free_node_book::sighting::appeared);
+  CHECK(book.see(seen_node("arm", "u1"), time_zero)
+        == free_node_book::sighting::repeated);
+  CHECK(book.see(seen_node("arm", "u1", 2, "orphaned"), time_zero)
+        == free_node_book::sighting::changed);
   const auto rows = book.rows();
   REQUIRE(rows.size() == 1);
   CHECK(rows[0].name == "arm");
@@ -42,12 +45,12 @@ TEST_CASE("A free node is told as it announced itself last",
 
 TEST_CASE("A farewell of an earlier life drops nobody", "[free_node_book]") {
   free_node_book book;
-  book.see(node("arm", "u1", 2), start);
-  CHECK_FALSE(book.vanish(node("arm", "u1", 1)));
-  CHECK_FALSE(book.vanish(node("arm", "u1", 2, "orphaned")));
-  CHECK_FALSE(book.vanish(node("leg", "u2", 2)));
+  book.see(seen_node("arm", "u1", 2), time_zero);
+  CHECK_FALSE(book.vanish(seen_node("arm", "u1", 1)));
+  CHECK_FALSE(book.vanish(seen_node("arm", "u1", 2, "orphaned")));
+  CHECK_FALSE(book.vanish(seen_node("leg", "u2", 2)));
   CHECK(book.find("u1"));
-  CHECK(book.vanish(node("arm", "u1", 2)));
+  CHECK(book.vanish(seen_node("arm", "u1", 2)));
   CHECK_FALSE(book.find("u1"));
 }
 
@@ -56,7 +59,7 @@ TEST_CASE("Looking for a node that announced nothing makes none",
   free_node_book book;
   CHECK_FALSE(book.find("u1"));
   book.forget("u1");
-  book.question_failed("u1", "silent", start);
+  book.question_failed("u1", "silent", time_zero);
   book.registered({"arm", "u1", 1, ""});
   CHECK(book.rows().empty());
 }
@@ -64,8 +67,8 @@ TEST_CASE("Looking for a node that announced nothing makes none",
 TEST_CASE("Of two nodes with one name the newer epoch counts",
           "[free_node_book]") {
   free_node_book book;
-  book.see(node("arm", "u1", 5), start);
-  book.see(node("arm", "u2", 3), start);
+  book.see(seen_node("arm", "u1", 5), time_zero);
+  book.see(seen_node("arm", "u2", 3), time_zero);
   REQUIRE(book.find_name("arm"));
   CHECK(book.find_name("arm")->uuid == "u1");
   CHECK_FALSE(book.find_name("leg"));
@@ -74,7 +77,7 @@ TEST_CASE("Of two nodes with one name the newer epoch counts",
 TEST_CASE("A registration ends what was announced before it",
           "[free_node_book]") {
   free_node_book book;
-  book.see(node("arm", "u1", 5), start);
+  book.see(seen_node("arm", "u1", 5), time_zero);
   book.registered({"arm", "u1", 5, ""});
   CHECK(book.find("u1"));
   book.registered({"arm", "u1", 6, ""});
@@ -84,61 +87,64 @@ TEST_CASE("A registration ends what was announced before it",
 TEST_CASE("Strangers fill no more than a bound", "[free_node_book]") {
   free_node_book book;
   for (size_t i = 0; i < limits::strangers::free_nodes; ++i)
-    book.see(node("n", "u" + std::to_string(i)), start);
-  CHECK(book.see(node("late", "late"), start) == sighting::ignored);
+    book.see(seen_node("n", "u" + std::to_string(i)), time_zero);
+  CHECK(book.see(seen_node("late", "late"), time_zero)
+        == free_node_book::sighting::ignored);
   CHECK(book.size() == limits::strangers::free_nodes);
-  CHECK(book.see(node("n", "u5", 2), start) == sighting::changed);
-  book.vanish(node("n", "u5", 2));
-  CHECK(book.see(node("late", "late"), start) == sighting::appeared);
+  CHECK(book.see(seen_node("n", "u5", 2), time_zero)
+        == free_node_book::sighting::changed);
+  book.vanish(seen_node("n", "u5", 2));
+  CHECK(book.see(seen_node("late", "late"), time_zero)
+        == free_node_book::sighting::appeared);
 }
 
 TEST_CASE("A node is asked for a proof only where something hangs on its word",
           "[free_node_book]") {
   free_node_book book;
-  book.see(node("arm", "u1"), start);
-  book.see(node("leg", "u2"), start);
+  book.see(seen_node("arm", "u1"), time_zero);
+  book.see(seen_node("leg", "u2"), time_zero);
   const auto only_leg = [](const node_presence& x) { return x.name == "leg"; };
-  CHECK(book.next_question(only_leg) <= start);
-  const auto asked = book.begin_questions(only_leg, start);
+  CHECK(book.next_question(only_leg) <= time_zero);
+  const auto asked = book.begin_questions(only_leg, time_zero);
   REQUIRE(asked.size() == 1);
   CHECK(asked[0].uuid == "u2");
-  CHECK(book.begin_questions(only_leg, start).empty());
+  CHECK(book.begin_questions(only_leg, time_zero).empty());
   CHECK(book.question_answered("u2"));
 }
 
 TEST_CASE("A node that gives no proof is asked ever more seldom",
           "[free_node_book]") {
   free_node_book book;
-  book.see(node("arm", "u1"), start);
-  auto now = start;
+  book.see(seen_node("arm", "u1"), time_zero);
+  auto now = time_zero;
   for (int i = 0; i < 10; ++i) {
     REQUIRE(book.begin_questions(always, now).size() == 1);
     book.question_failed("u1", "no proof", now);
     now = book.next_question(always);
   }
-  CHECK(now - start > 60s);
+  CHECK(now - time_zero > 60s);
   CHECK(book.begin_questions(always, now - 1ms).empty());
   // Something new is worth a question.
-  book.see(node("arm", "u1", 2), now - 1ms);
+  book.see(seen_node("arm", "u1", 2), now - 1ms);
   CHECK(book.begin_questions(always, now - 1ms).size() == 1);
 }
 
 TEST_CASE("The answer of a node that has gone meanwhile counts for nothing",
           "[free_node_book]") {
   free_node_book book;
-  book.see(node("arm", "u1"), start);
-  REQUIRE(book.begin_questions(always, start).size() == 1);
-  book.vanish(node("arm", "u1"));
+  book.see(seen_node("arm", "u1"), time_zero);
+  REQUIRE(book.begin_questions(always, time_zero).size() == 1);
+  book.vanish(seen_node("arm", "u1"));
   CHECK_FALSE(book.question_answered("u1"));
 }
 
 TEST_CASE("Few nodes are asked at a time", "[free_node_book]") {
   free_node_book book;
   for (int i = 0; i < 10; ++i)
-    book.see(node("n", "u" + std::to_string(i)), start);
-  CHECK(book.begin_questions(always, start).size()
+    book.see(seen_node("n", "u" + std::to_string(i)), time_zero);
+  CHECK(book.begin_questions(always, time_zero).size()
         == limits::strangers::proof_calls);
-  CHECK(book.begin_questions(always, start).empty());
+  CHECK(book.begin_questions(always, time_zero).empty());
 }
 
 } // namespace roscell::test

@@ -8,6 +8,8 @@
 #include <caf/event_based_actor.hpp>
 #include <caf/scoped_actor.hpp>
 
+#include "test/time_zero.hpp"
+
 #include <catch2/catch.hpp>
 
 namespace roscell::test {
@@ -16,8 +18,6 @@ namespace {
 
 using namespace std::chrono_literals;
 using sighting = peer_book::sighting;
-
-const peer_book::time_point start{100h};
 
 /// Stands for sessions, which are only compared here.
 struct peer_handles {
@@ -59,28 +59,28 @@ cell_standing standing(const std::string& uuid, const std::string& cell,
 TEST_CASE("Of two coordinators the one with the higher UUID opens the session",
           "[peer_book]") {
   peer_book book{"m"};
-  CHECK(book.see(coordinator("a"), start) == sighting::appeared);
-  CHECK(book.see(coordinator("z"), start) == sighting::appeared);
-  CHECK(book.see(coordinator("m"), start) == sighting::ignored);
-  const auto due = book.begin_due(start);
+  CHECK(book.see(coordinator("a"), time_zero) == sighting::appeared);
+  CHECK(book.see(coordinator("z"), time_zero) == sighting::appeared);
+  CHECK(book.see(coordinator("m"), time_zero) == sighting::ignored);
+  const auto due = book.begin_due(time_zero);
   REQUIRE(due.size() == 1);
   CHECK(due[0].uuid == "a");
-  CHECK(book.begin_due(start).empty());
+  CHECK(book.begin_due(time_zero).empty());
 }
 
 TEST_CASE("Strangers get few connections at a time", "[peer_book]") {
   peer_book book{"m"};
   for (int i = 0; i < 50; ++i)
-    book.see(coordinator("a" + std::to_string(i)), start);
-  const auto due = book.begin_due(start);
+    book.see(coordinator("a" + std::to_string(i)), time_zero);
+  const auto due = book.begin_due(time_zero);
   CHECK(due.size() == limits::strangers::peer_calls);
-  CHECK(book.begin_due(start + 1h).empty());
+  CHECK(book.begin_due(time_zero + 1h).empty());
   for (const auto& x : due)
-    book.attempt_failed(x.uuid, "refused", start);
-  CHECK(book.begin_due(start + 999ms).empty());
-  CHECK(book.next_due() == start + 1s);
+    book.attempt_failed(x.uuid, "refused", time_zero);
+  CHECK(book.begin_due(time_zero + 999ms).empty());
+  CHECK(book.next_due() == time_zero + 1s);
   // Those that have not been tried come first.
-  for (const auto& x : book.begin_due(start + 1s))
+  for (const auto& x : book.begin_due(time_zero + 1s))
     CHECK(std::none_of(due.begin(), due.end(),
                        [&](const auto& y) { return x.uuid == y.uuid; }));
 }
@@ -89,7 +89,7 @@ TEST_CASE("A stranger under ever new UUIDs fills and costs no more",
           "[peer_book]") {
   peer_book book{"m"};
   size_t attempts = 0;
-  auto now = start;
+  auto now = time_zero;
   for (int i = 0; i < 10'000; ++i) {
     const auto who = coordinator("a" + std::to_string(i));
     book.see(who, now);
@@ -108,35 +108,35 @@ TEST_CASE("Who fails makes room for newcomers, who has not been tried does not",
           "[peer_book]") {
   peer_book book{"m"};
   for (size_t i = 0; i < limits::strangers::coordinators; ++i)
-    book.see(coordinator("a" + std::to_string(i)), start);
-  CHECK(book.see(coordinator("b"), start) == sighting::ignored);
-  const auto due = book.begin_due(start);
-  book.attempt_failed(due[0].uuid, "refused", start);
-  CHECK(book.see(coordinator("b"), start) == sighting::appeared);
-  CHECK(book.see(coordinator("c"), start) == sighting::ignored);
+    book.see(coordinator("a" + std::to_string(i)), time_zero);
+  CHECK(book.see(coordinator("b"), time_zero) == sighting::ignored);
+  const auto due = book.begin_due(time_zero);
+  book.attempt_failed(due[0].uuid, "refused", time_zero);
+  CHECK(book.see(coordinator("b"), time_zero) == sighting::appeared);
+  CHECK(book.see(coordinator("c"), time_zero) == sighting::ignored);
   CHECK(book.strangers() == limits::strangers::coordinators);
-  CHECK(book.see(coordinator(due[0].uuid), start) == sighting::ignored);
+  CHECK(book.see(coordinator(due[0].uuid), time_zero) == sighting::ignored);
 }
 
 TEST_CASE("Strangers displace nobody who has proved himself", "[peer_book]") {
   peer_handles handles;
   peer_book book{"m"};
-  book.see(coordinator("a"), start);
-  REQUIRE(book.begin_due(start).size() == 1);
+  book.see(coordinator("a"), time_zero);
+  REQUIRE(book.begin_due(time_zero).size() == 1);
   CHECK(book.attempt_succeeded("a"));
   book.open("a", handles.first);
-  book.close("a", handles.first, "cut off", start);
+  book.close("a", handles.first, "cut off", time_zero);
   for (size_t i = 0; i < 2 * limits::strangers::coordinators; ++i)
-    book.see(coordinator("0" + std::to_string(i)), start);
-  const auto due = book.begin_due(start + 1s);
+    book.see(coordinator("0" + std::to_string(i)), time_zero);
+  const auto due = book.begin_due(time_zero + 1s);
   REQUIRE_FALSE(due.empty());
   CHECK(due[0].uuid == "a");
 }
 
 TEST_CASE("The first failure for a reason is told", "[peer_book]") {
   peer_book book{"m"};
-  book.see(coordinator("a", "yard"), start);
-  auto now = start;
+  book.see(coordinator("a", "yard"), time_zero);
+  auto now = time_zero;
   const auto fail = [&](const std::string& reason) {
     now = std::max(now, book.next_due());
     REQUIRE(book.begin_due(now).size() == 1);
@@ -153,10 +153,10 @@ TEST_CASE("The first failure for a reason is told", "[peer_book]") {
 TEST_CASE("A failure of one who announces himself no more makes no presence",
           "[peer_book]") {
   peer_book book{"m"};
-  book.see(coordinator("a"), start);
-  REQUIRE(book.begin_due(start).size() == 1);
+  book.see(coordinator("a"), time_zero);
+  REQUIRE(book.begin_due(time_zero).size() == 1);
   CHECK(book.vanish(coordinator("a")));
-  CHECK_FALSE(book.attempt_failed("a", "refused", start));
+  CHECK_FALSE(book.attempt_failed("a", "refused", time_zero));
   CHECK(book.rows({}).empty());
   CHECK_FALSE(book.attempt_succeeded("a"));
 }
@@ -164,8 +164,8 @@ TEST_CASE("A failure of one who announces himself no more makes no presence",
 TEST_CASE("A session is tried again at once when the coordinator starts anew",
           "[peer_book]") {
   peer_book book{"m"};
-  book.see(coordinator("a"), start);
-  auto now = start;
+  book.see(coordinator("a"), time_zero);
+  auto now = time_zero;
   for (int i = 0; i < 10; ++i) {
     REQUIRE(book.begin_due(now).size() == 1);
     book.attempt_failed("a", "refused", now);
@@ -185,9 +185,9 @@ TEST_CASE("A newer session replaces the former one", "[peer_book]") {
   CHECK(book.open("a", handles.second) == handles.first);
   CHECK_FALSE(book.find_cell("yard"));
   CHECK_FALSE(book.tell(handles.first, standing("a", "yard", 3)));
-  CHECK_FALSE(book.close("a", handles.first, "closed", start));
+  CHECK_FALSE(book.close("a", handles.first, "closed", time_zero));
   CHECK(book.find("a"));
-  CHECK(book.close("a", handles.second, "closed", start));
+  CHECK(book.close("a", handles.second, "closed", time_zero));
   CHECK_FALSE(book.find("a"));
 }
 
@@ -195,13 +195,13 @@ TEST_CASE("What a session has told counts more than what is announced",
           "[peer_book]") {
   peer_handles handles;
   peer_book book{"m"};
-  book.see(coordinator("a", "yard"), start);
+  book.see(coordinator("a", "yard"), time_zero);
   book.open("a", handles.first);
   book.tell(handles.first, standing("a", "yard", 3));
   // A stranger claims to be that coordinator, and then says farewell.
   auto lie = coordinator("a", "trap");
   lie.address = "10.6.6.6:666";
-  book.see(lie, start);
+  book.see(lie, time_zero);
   auto rows = book.rows({"lab", "base", "", "", 1, ""});
   REQUIRE(rows.size() == 1);
   CHECK(rows[0].cell == "yard");
@@ -210,7 +210,7 @@ TEST_CASE("What a session has told counts more than what is announced",
   book.vanish(lie);
   CHECK(book.find_cell("yard"));
   CHECK(book.rows({}).size() == 1);
-  CHECK(book.begin_due(start + 1h).empty());
+  CHECK(book.begin_due(time_zero + 1h).empty());
 }
 
 TEST_CASE("The newest claim tells who has a node", "[peer_book]") {
@@ -237,28 +237,28 @@ TEST_CASE("A coordinator that has just appeared is expected to tell its size",
           "[peer_book]") {
   peer_handles handles;
   peer_book book{"c-5"};
-  CHECK_FALSE(book.expects_standings(start));
-  book.see(coordinator("c-1"), start);
-  CHECK(book.expects_standings(start + 1s));
-  CHECK_FALSE(book.expects_standings(start + limits::cell::sizes));
+  CHECK_FALSE(book.expects_standings(time_zero));
+  book.see(coordinator("c-1"), time_zero);
+  CHECK(book.expects_standings(time_zero + 1s));
+  CHECK_FALSE(book.expects_standings(time_zero + limits::cell::sizes));
   book.open("c-1", handles.first);
-  CHECK(book.expects_standings(start + 1s));
+  CHECK(book.expects_standings(time_zero + 1s));
   book.tell(handles.first, standing("c-1", "lab", 3));
-  CHECK_FALSE(book.expects_standings(start + 1s));
+  CHECK_FALSE(book.expects_standings(time_zero + 1s));
 }
 
 TEST_CASE("A coordinator that cannot be reached is not expected to tell",
           "[peer_book]") {
   peer_book book{"c-5"};
-  book.see(coordinator("c-1"), start);
-  REQUIRE(book.begin_due(start).size() == 1);
-  book.attempt_failed("c-1", "nobody answers", start);
-  CHECK_FALSE(book.expects_standings(start));
+  book.see(coordinator("c-1"), time_zero);
+  REQUIRE(book.begin_due(time_zero).size() == 1);
+  book.attempt_failed("c-1", "nobody answers", time_zero);
+  CHECK_FALSE(book.expects_standings(time_zero));
 }
 
 TEST_CASE("Two cells of one name are shown with that trouble", "[peer_book]") {
   peer_book book{"m"};
-  book.see(coordinator("a", "lab"), start);
+  book.see(coordinator("a", "lab"), time_zero);
   const auto rows = book.rows({"lab", "base", "", "", 1, ""});
   REQUIRE(rows.size() == 1);
   CHECK(rows[0].trouble == "it claims the same name as the cell of 'base'");

@@ -2,6 +2,8 @@
 
 #include "actors/house/limits.hpp"
 
+#include "test/time_zero.hpp"
+
 #include <catch2/catch.hpp>
 
 namespace roscell::test {
@@ -10,15 +12,13 @@ namespace {
 
 using namespace std::chrono_literals;
 
-const removal_book::time_point start{};
-
 } // namespace
 
 TEST_CASE("A removal is asked for again after ever longer pauses",
           "[removal_book]") {
   removal_book book;
   CHECK(book.next_due() == removal_book::time_point::max());
-  auto now = start;
+  auto now = time_zero;
   auto before = 0ms;
   for (int i = 0; i < 4; ++i) {
     book.add({"n", "t", "t-0"}, now);
@@ -36,13 +36,13 @@ TEST_CASE("A removal is asked for again after ever longer pauses",
 
 TEST_CASE("What was removed is asked for no more", "[removal_book]") {
   removal_book book;
-  book.add({"n", "t", "t-0"}, start);
-  book.add({"n", "t", "t-1"}, start);
-  book.add({"m", "t", "t-2"}, start);
+  book.add({"n", "t", "t-0"}, time_zero);
+  book.add({"n", "t", "t-1"}, time_zero);
+  book.add({"m", "t", "t-2"}, time_zero);
   book.settle({"n", "t", "t-0"});
   CHECK(book.size() == 2);
   book.forget_node("n");
-  const auto left = book.take_due(start + 1h);
+  const auto left = book.take_due(time_zero + 1h);
   REQUIRE(left.size() == 1);
   CHECK(left[0].node == "m");
   CHECK(left[0].task == "t");
@@ -52,7 +52,7 @@ TEST_CASE("What was removed is asked for no more", "[removal_book]") {
 TEST_CASE("Overdue removals are bounded", "[removal_book]") {
   removal_book book;
   for (size_t i = 0; i < limits::task::overdue_removals + 10; ++i)
-    book.add({"n", "t", std::to_string(i)}, start);
+    book.add({"n", "t", std::to_string(i)}, time_zero);
   CHECK(book.size() == limits::task::overdue_removals);
 }
 

@@ -1,6 +1,8 @@
 #include "actors/cell/books/stranger_calls.hpp"
 #include "actors/house/limits.hpp"
 
+#include "test/time_zero.hpp"
+
 #include <catch2/catch.hpp>
 
 namespace roscell::test {
@@ -9,37 +11,35 @@ namespace {
 
 using namespace std::chrono_literals;
 
-const stranger_calls::time_point start{100h};
-
 } // namespace
 
 TEST_CASE("No more strangers are called at a time than there are slots",
           "[stranger_calls]") {
   stranger_calls calls{2};
-  CHECK(calls.begin("a", start));
-  CHECK_FALSE(calls.begin("a", start));
-  CHECK(calls.begin("b", start));
-  CHECK_FALSE(calls.begin("c", start));
+  CHECK(calls.begin("a", time_zero));
+  CHECK_FALSE(calls.begin("a", time_zero));
+  CHECK(calls.begin("b", time_zero));
+  CHECK_FALSE(calls.begin("c", time_zero));
   CHECK(calls.next("c") == stranger_calls::time_point::max());
   CHECK(calls.succeed("a"));
-  CHECK(calls.next("c") <= start);
-  CHECK(calls.begin("c", start));
+  CHECK(calls.next("c") <= time_zero);
+  CHECK(calls.begin("c", time_zero));
   CHECK(calls.running() == 2);
 }
 
 TEST_CASE("A failed call keeps its slot for a second", "[stranger_calls]") {
   stranger_calls calls{1};
-  REQUIRE(calls.begin("a", start));
-  calls.fail("a", "refused", start);
-  CHECK_FALSE(calls.begin("b", start + 999ms));
-  CHECK(calls.next("b") == start + 1s);
-  CHECK(calls.begin("b", start + 1s));
+  REQUIRE(calls.begin("a", time_zero));
+  calls.fail("a", "refused", time_zero);
+  CHECK_FALSE(calls.begin("b", time_zero + 999ms));
+  CHECK(calls.next("b") == time_zero + 1s);
+  CHECK(calls.begin("b", time_zero + 1s));
 }
 
 TEST_CASE("Whoever does not answer is called ever more seldom",
           "[stranger_calls]") {
   stranger_calls calls{8};
-  auto now = start;
+  auto now = time_zero;
   auto last = 0ms;
   for (unsigned i = 0; i < 12; ++i) {
     REQUIRE(calls.begin("a", now));
@@ -61,23 +61,23 @@ TEST_CASE("Whoever does not answer is called ever more seldom",
 
 TEST_CASE("News of a stranger end its pause", "[stranger_calls]") {
   stranger_calls calls{8};
-  REQUIRE(calls.begin("a", start));
-  calls.fail("a", "refused", start);
-  calls.hurry("a", start);
-  CHECK(calls.begin("a", start));
+  REQUIRE(calls.begin("a", time_zero));
+  calls.fail("a", "refused", time_zero);
+  calls.hurry("a", time_zero);
+  CHECK(calls.begin("a", time_zero));
   CHECK(calls.failures("a") == 1);
 }
 
 TEST_CASE("Of a stranger that was forgotten nothing is kept",
           "[stranger_calls]") {
   stranger_calls calls{1};
-  REQUIRE(calls.begin("a", start));
+  REQUIRE(calls.begin("a", time_zero));
   calls.forget("a");
   // The connection is still being opened.
-  CHECK_FALSE(calls.begin("b", start));
-  CHECK_FALSE(calls.fail("a", "refused", start));
+  CHECK_FALSE(calls.begin("b", time_zero));
+  CHECK_FALSE(calls.fail("a", "refused", time_zero));
   CHECK(calls.failures("a") == 0);
-  CHECK(calls.begin("b", start + 1s));
+  CHECK(calls.begin("b", time_zero + 1s));
   calls.forget("b");
   CHECK_FALSE(calls.succeed("b"));
 }
@@ -85,9 +85,9 @@ TEST_CASE("Of a stranger that was forgotten nothing is kept",
 TEST_CASE("Who is announced again while it is called is wanted again",
           "[stranger_calls]") {
   stranger_calls calls{1};
-  REQUIRE(calls.begin("a", start));
+  REQUIRE(calls.begin("a", time_zero));
   calls.forget("a");
-  calls.hurry("a", start);
+  calls.hurry("a", time_zero);
   CHECK(calls.succeed("a"));
 }
 

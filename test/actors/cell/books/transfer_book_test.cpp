@@ -2,6 +2,8 @@
 
 #include "actors/house/limits.hpp"
 
+#include "test/time_zero.hpp"
+
 #include <catch2/catch.hpp>
 
 namespace roscell::test {
@@ -9,8 +11,6 @@ namespace roscell::test {
 namespace {
 
 using namespace std::chrono_literals;
-
-const transfer_book::time_point start{100h};
 
 struct open_transfer {
   transfer_book book{"lab", 7};
@@ -89,20 +89,20 @@ TEST_CASE_METHOD(open_transfer, "A transfer ends once", "[transfer_book]") {
 TEST_CASE_METHOD(open_transfer, "A node that was told to go has its time",
                  "[transfer_book]") {
   CHECK(book.next_deadline() == transfer_book::time_point::max());
-  switch_at(start);
-  CHECK(book.next_deadline() == start + limits::transfer::arrival);
-  CHECK(book.overdue(start + 24s).empty());
-  CHECK(book.overdue(start + 25s) == std::vector{id});
+  switch_at(time_zero);
+  CHECK(book.next_deadline() == time_zero + limits::transfer::arrival);
+  CHECK(book.overdue(time_zero + 24s).empty());
+  CHECK(book.overdue(time_zero + 25s) == std::vector{id});
 }
 
 TEST_CASE_METHOD(open_transfer, "What is unresolved is open, and answered",
                  "[transfer_book]") {
-  switch_at(start);
+  switch_at(time_zero);
   auto* x = book.find_open(id);
   x->waiting.push_back([](const cell_transfer&, const failure*) {});
   CHECK(book.set_unresolved(*x, "nothing is known", 9).size() == 1);
   CHECK(x->waiting.empty());
-  CHECK(book.overdue(start + 1h).empty());
+  CHECK(book.overdue(time_zero + 1h).empty());
   CHECK(book.next_deadline() == transfer_book::time_point::max());
   CHECK(book.holder_of("uuid-of-arm") == id);
   CHECK_FALSE(book.is_busy("uuid-of-arm"));
@@ -150,7 +150,7 @@ TEST_CASE_METHOD(open_transfer,
 
 TEST_CASE_METHOD(open_transfer, "A stored transfer is read as it was written",
                  "[transfer_book]") {
-  switch_at(start);
+  switch_at(time_zero);
   const auto record = record_of(book.rows(id)[0]);
   CHECK(record.table == "transfers");
   CHECK(record.key == id);

@@ -12,7 +12,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-const std::string token = "site-token";
+const std::string known_token = "site-token";
 
 registration_order sample() {
   registration_order x;
@@ -34,47 +34,47 @@ const registration_challenges::time_point start{100h};
 } // namespace
 
 TEST_CASE("who knows the site token can give an order, nobody else") {
-  const auto proof = prove(sample(), token);
+  const auto proof = prove(sample(), known_token);
   CHECK(proof.size() == 64);
-  CHECK(proves(sample(), token, proof));
+  CHECK(proves(sample(), known_token, proof));
   CHECK_FALSE(proves(sample(), "other", proof));
-  CHECK_FALSE(proves(sample(), token, prove(sample(), "other")));
+  CHECK_FALSE(proves(sample(), known_token, prove(sample(), "other")));
   for (const auto& damaged :
        {std::string{}, std::string(64, '0'), std::string(64, 'x'),
         proof.substr(0, 62), proof + "00", proof.substr(1)})
-    CHECK_FALSE(proves(sample(), token, damaged));
+    CHECK_FALSE(proves(sample(), known_token, damaged));
 }
 
 TEST_CASE("the proof of an order is the one that is written down") {
   // HMAC-SHA256 by Python's hmac over label and fields, each after its length
   // in four bytes, the highest first.
-  CHECK(prove(sample(), token)
+  CHECK(prove(sample(), known_token)
         == "60692c6d6725068df7aea8a1b85dfb131f2bd525be5bcbcf02f23b6c00f564a9");
 }
 
 TEST_CASE("every part of what a node says of its standing is under its proof") {
   const standing_claim claim{std::string(64, '0'), "robot-1", "0a1b", 7,
                              "independent"};
-  const auto proof = prove(claim, token);
-  CHECK(proves(claim, token, proof));
+  const auto proof = prove(claim, known_token);
+  CHECK(proves(claim, known_token, proof));
   CHECK_FALSE(proves(claim, "other", proof));
-  CHECK_FALSE(proves(claim, token, ""));
+  CHECK_FALSE(proves(claim, known_token, ""));
   for (auto part : {&standing_claim::nonce, &standing_claim::node,
                     &standing_claim::uuid, &standing_claim::state}) {
     auto x = claim;
     (x.*part).back() ^= 1;
-    CHECK_FALSE(proves(x, token, proof));
+    CHECK_FALSE(proves(x, known_token, proof));
   }
   auto older = claim;
   older.epoch = 6;
-  CHECK_FALSE(proves(older, token, proof));
+  CHECK_FALSE(proves(older, known_token, proof));
   // It is worth nothing as an order, nor the other way round.
-  CHECK_FALSE(proves(sample(), token, proof));
-  CHECK_FALSE(proves(claim, token, prove(sample(), token)));
+  CHECK_FALSE(proves(sample(), known_token, proof));
+  CHECK_FALSE(proves(claim, known_token, prove(sample(), known_token)));
 }
 
 TEST_CASE("every part of an order is under its proof") {
-  const auto proof = prove(sample(), token);
+  const auto proof = prove(sample(), known_token);
   for (auto part :
        {&registration_order::nonce, &registration_order::node,
         &registration_order::uuid, &registration_order::cell,
@@ -82,16 +82,16 @@ TEST_CASE("every part of an order is under its proof") {
         &registration_order::address, &registration_order::transfer}) {
     auto x = sample();
     (x.*part).back() ^= 1;
-    CHECK_FALSE(proves(x, token, proof));
+    CHECK_FALSE(proves(x, known_token, proof));
   }
   auto older = sample();
   older.epoch = 6;
-  CHECK_FALSE(proves(older, token, proof));
+  CHECK_FALSE(proves(older, known_token, proof));
   // The border between two parts counts.
   auto shifted = sample();
   shifted.node = "robot-";
   shifted.uuid = "10a1b";
-  CHECK_FALSE(proves(shifted, token, proof));
+  CHECK_FALSE(proves(shifted, known_token, proof));
 }
 
 TEST_CASE("a nonce is good for one switch") {

@@ -3,15 +3,12 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
-#include <limits>
 #include <map>
 #include <random>
 
 using namespace roscell::allocation;
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 using weights = std::map<step_set, double>;
 

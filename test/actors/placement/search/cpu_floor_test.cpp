@@ -14,9 +14,9 @@ using namespace roscell::allocation::test;
 namespace {
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr int default_cases = 1000;
+constexpr int default_busy_cases = 1000;
 #else
-constexpr int default_cases = 3000;
+constexpr int default_busy_cases = 3000;
 #endif
 
 /// A node of two cores, all taken by others, who would share 0.5 of them.
@@ -32,14 +32,6 @@ problem busy_node() {
 void make_busy(oracle::instance& in, double left) {
   for (auto& x : in.machines)
     x.cpu.u = std::max(x.cpu.u, x.cpu.c - left);
-}
-
-std::vector<oracle::pick> picks(const result& answer) {
-  std::vector<oracle::pick> all;
-  for (const auto& one : answer.placements)
-    all.push_back({static_cast<int>(one.node), static_cast<int>(one.deployment),
-                   one.gpu});
-  return all;
 }
 
 } // namespace
@@ -101,7 +93,7 @@ TEST_CASE("both readings equal those of a brute force on random cases") {
   int strict = 0;
   int floored = 0;
   int neither = 0;
-  auto cases = case_count(default_cases);
+  auto cases = case_count(default_busy_cases);
   for (int seed = 1; seed <= cases; ++seed) {
     INFO("seed " << seed);
     auto in = random_instance(static_cast<std::uint32_t>(seed));

@@ -192,6 +192,14 @@ problem translated(const oracle::instance& in) {
   return made;
 }
 
+std::vector<oracle::pick> picks(const result& answer) {
+  std::vector<oracle::pick> all;
+  for (const auto& one : answer.placements)
+    all.push_back({static_cast<int>(one.node), static_cast<int>(one.deployment),
+                   one.gpu});
+  return all;
+}
+
 int case_count(int otherwise) {
   const char* given = std::getenv("ROSCELL_ALLOCATION_CASES");
   return given ? std::atoi(given) : otherwise;

@@ -4,6 +4,7 @@
 #include "brute_force.hpp"
 
 #include <cstdint>
+#include <vector>
 
 namespace roscell::allocation::test {
 
@@ -13,6 +14,9 @@ oracle::instance random_instance(std::uint32_t seed);
 
 /// The same instance in the library's terms.
 problem translated(const oracle::instance& in);
+
+/// An answer in the oracle's terms.
+std::vector<oracle::pick> picks(const result& answer);
 
 /// How many random cases to run: ROSCELL_ALLOCATION_CASES, or the given.
 int case_count(int otherwise);

@@ -24,14 +24,6 @@ bool near(double left, double right) {
   return std::abs(left - right) <= exact * std::max(1.0, std::abs(right));
 }
 
-std::vector<oracle::pick> picks(const result& answer) {
-  std::vector<oracle::pick> all;
-  for (const auto& one : answer.placements)
-    all.push_back({static_cast<int>(one.node), static_cast<int>(one.deployment),
-                   one.gpu});
-  return all;
-}
-
 bool same_details(const placement& made, const oracle::details& wanted) {
   bool same = near(made.variance, wanted.variance)
               && near(made.shares.cpu, wanted.f[0])

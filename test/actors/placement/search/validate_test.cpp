@@ -14,7 +14,6 @@ using Catch::Matchers::StartsWith;
 namespace {
 
 constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 problem good() {
   problem asked;
