@@ -151,8 +151,10 @@ caf::result<node_registered> register_member(coordinator_pointer self,
         // What is on disk will do: only the epoch there is an older one.
         if (known)
           return on_registration_kept(self, request, promise);
-        self->state.registry.withdraw(request.registration.identity.uuid,
-                                      request.member);
+        const auto& uuid = request.registration.identity.uuid;
+        self->state.registry.withdraw(uuid, request.member);
+        if (!self->state.registry.expects(uuid))
+          forget_refused(self, "members", uuid);
         auto answer = promise;
         answer.deliver(to_error(why));
       });

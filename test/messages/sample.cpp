@@ -8,6 +8,7 @@ namespace {
 /// letters 'N', 'H' and 'S' in it, N becomes the number, H 64 and S 16 digits.
 constexpr std::pair<std::string_view, std::string_view> forms[] = {
     {"uuid", "00000000-0000-4000-8000-00000000000N"},
+    {"cell_uuid", "00000000-0000-4000-8000-00000000000N"},
     {"address", "10.0.0.7:N"},
     {"discovery_server", "10.0.0.8:N"},
     {"node_description.coordinator", "10.0.0.9:N"},

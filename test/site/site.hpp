@@ -99,6 +99,9 @@ public:
   /// there, and SIGCONT.
   void freeze(site_party& x);
   void thaw(site_party& x);
+  bool is_frozen(const site_party& x) const {
+    return frozen_.count(x.index) > 0;
+  }
 
   /// Asks a coordinator that lives.
   template <class Reply, class Request>

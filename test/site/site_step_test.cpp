@@ -116,7 +116,8 @@ size_t count_messages(virtual_time& clock, const procedure& what) {
 }
 
 bool ends_well(step_site& x, const std::string& what) {
-  const auto left = calm_down(x.place) + old_registrations(x.place);
+  auto left = calm_down(x.place);
+  left += old_registrations(x.place);
   const auto lie = x.watch.longest_lie();
   const auto limit = limits::lease::span + site_watch::period
                      + limits::membership::registration + 1s;

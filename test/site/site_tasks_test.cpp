@@ -53,7 +53,8 @@ struct task_site {
 
   /// What is wrong in the end, once every task has been ended.
   std::string verdict() {
-    auto result = calm_down(place) + end_all_tasks(place);
+    auto result = calm_down(place);
+    result += end_all_tasks(place);
     for (const auto& x : place.violations)
       result += x + "; ";
     return result;

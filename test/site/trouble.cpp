@@ -293,8 +293,10 @@ std::string trouble::verdict() {
   auto result = calm_down(place_);
   result += old_registrations(place_);
   result += broken_limits();
-  if (result.empty())
-    result = release_retired(place_) + end_all_tasks(place_);
+  if (result.empty()) {
+    result += release_retired(place_);
+    result += end_all_tasks(place_);
+  }
   for (const auto& x : place_.violations)
     result += x + "; ";
   return result;

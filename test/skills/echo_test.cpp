@@ -93,6 +93,6 @@ TEST_CASE("the folder of echo is a complete skill") {
   CHECK(descriptor["operation"] == "echo");
   CHECK(descriptor["entry_point"] == json{"bin/echo"});
   CHECK(names_in(folder_of_echo)
-        == std::vector<std::string>{"bin", "skill.json"});
+        == std::vector<std::string>{"bin", "skill.json", "skill.version"});
   CHECK(names_in(folder_of_echo + "/bin") == std::vector<std::string>{"echo"});
 }

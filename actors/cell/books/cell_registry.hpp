@@ -71,6 +71,9 @@ public:
   /// The registration comes to nothing.
   void withdraw(const std::string& uuid, const member_actor& member);
 
+  /// Whether a row of this node is there or about to be.
+  bool expects(const std::string& uuid) const;
+
   /// The same, of whatever a member that has ended had proposed.
   void withdraw(const caf::actor_addr& member);
 

@@ -157,6 +157,10 @@ void cell_registry::withdraw(const caf::actor_addr& member) {
       ++i;
 }
 
+bool cell_registry::expects(const std::string& uuid) const {
+  return find_uuid(uuid) != nullptr || proposed_.count(uuid) > 0;
+}
+
 bool cell_registry::is_known(const node_identity& who,
                              join_origin origin) const {
   const auto* x = find_uuid(who.uuid);

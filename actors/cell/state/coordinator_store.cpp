@@ -26,6 +26,11 @@ void keep_records(coordinator_pointer self, std::vector<store_record> records,
             });
 }
 
+void forget_refused(coordinator_pointer self, std::string table,
+                    std::string key) {
+  record_fact(self, {std::move(table), std::move(key), ""});
+}
+
 void record_fact(coordinator_pointer self, store_record record) {
   keep_records(
       self, {std::move(record)}, [] {}, [](const failure&) {});

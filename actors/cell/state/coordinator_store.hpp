@@ -16,6 +16,11 @@ void keep_records(coordinator_pointer self, std::vector<store_record> records,
                   std::function<void()> kept,
                   std::function<void(const failure&)> not_kept);
 
+/// Removes a new record that was refused: a write whose answer did not come in
+/// time may still be carried out, and the store writes in order.
+void forget_refused(coordinator_pointer self, std::string table,
+                    std::string key);
+
 /// Writes down what has happened already and cannot be refused any more. A
 /// store that fails is told of.
 void record_fact(coordinator_pointer self, store_record record);

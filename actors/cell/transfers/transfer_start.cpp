@@ -21,6 +21,7 @@ void withdraw_transfer(coordinator_pointer self, const std::string& id,
                        const failure& why) {
   for (const auto& done : self->state.transfers.withdraw(id))
     refuse_transfer(done, why);
+  forget_refused(self, "transfers", id);
 }
 
 failure came_back(const std::string& node) {

@@ -157,7 +157,9 @@ sqlite_store::run(const char* sql, const std::vector<std::string>& values,
         != SQLITE_OK)
       return explain();
   for (;;) {
+    errno = 0;
     const int code = sqlite3_step(made);
+    step_errno_ = errno;
     if (code == SQLITE_DONE)
       return std::nullopt;
     if (code != SQLITE_ROW)
@@ -228,7 +230,9 @@ void sqlite_store::count_written() {
 /// the process are some too.
 bool sqlite_store::lacks_room() const {
   const int code = sqlite3_errcode(db_.get()) & 0xff;
-  const int number = sqlite3_system_errno(db_.get());
+  // SQLite forgets it when a commit fails.
+  const int told = sqlite3_system_errno(db_.get());
+  const int number = told != 0 ? told : step_errno_;
   return code == SQLITE_FULL
          || ((code == SQLITE_IOERR || code == SQLITE_CANTOPEN)
              && (number == EDQUOT || number == EFBIG || number == ENOSPC));

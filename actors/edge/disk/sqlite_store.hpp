@@ -75,6 +75,7 @@ private:
 
   std::filesystem::path file_;
   std::unique_ptr<sqlite3, closer> db_;
+  int step_errno_ = 0; ///< What the system said in the last step.
   /// The store moves, and others read this meanwhile.
   std::shared_ptr<std::atomic<uint64_t>> written_ =
       std::make_shared<std::atomic<uint64_t>>(0);

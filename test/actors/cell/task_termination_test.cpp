@@ -1,3 +1,4 @@
+#include "actors/house/limits.hpp"
 #include "test/actors/fakes/coordinator_fakes.hpp"
 
 namespace roscell::test {
@@ -186,12 +187,12 @@ TEST_CASE_METHOD(two_nodes,
 }
 
 TEST_CASE_METHOD(two_nodes,
-                 "A node that does not end its instances in 40 s is pending",
+                 "A node that does not end its instances in time is pending",
                  "[task_termination]") {
   request(both());
   right.slow_removals = true;
   const auto reply = post(termination("t"));
-  time.advance(39s);
+  time.advance(limits::task::removal_answer - 1s);
   CHECK_FALSE(*reply);
   time.advance(2s);
   REQUIRE(*reply);

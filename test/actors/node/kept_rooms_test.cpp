@@ -49,7 +49,9 @@ TEST_CASE("Room is kept for the time of a reservation", "[kept_rooms]") {
 TEST_CASE("A reservation that is repeated counts once and anew",
           "[kept_rooms]") {
   kept_rooms rooms;
-  const auto later = time_zero + limits::task::longest_reservation / 2;
+  const auto later =
+      time_zero
+      + std::chrono::milliseconds{limits::task::longest_reservation} / 2;
   CHECK_FALSE(rooms.keep(spec_of("t", "t-a-1"), time_zero));
   CHECK_FALSE(rooms.keep(spec_of("t", "t-a-1"), later));
   CHECK(rooms.size() == 1);

@@ -116,11 +116,13 @@ TEST_CASE_METHOD(data_fixture,
                  "[node_data]") {
   open();
   put("tasks", "t", R"({"of":"another version"})");
-  const auto data = open();
-  CHECK(data.tasks.empty());
-  REQUIRE(data.unread.size() == 1);
-  CHECK(data.unread[0].table == "tasks");
-  CHECK(data.unread[0].key == "t");
+  {
+    const auto data = open();
+    CHECK(data.tasks.empty());
+    REQUIRE(data.unread.size() == 1);
+    CHECK(data.unread[0].table == "tasks");
+    CHECK(data.unread[0].key == "t");
+  }
   CHECK(open().unread.size() == 1);
 }
 

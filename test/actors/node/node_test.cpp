@@ -37,6 +37,7 @@ struct node_fixture {
   std::optional<caf::error> end;
   std::optional<caf::error> router_end;
   std::vector<caf::response_promise> leaving;
+  std::function<void()> leave; ///< Lets the membership answer.
   node_actor actor;
 
   node_fixture() {
@@ -69,9 +70,14 @@ struct node_fixture {
   void add_membership() {
     const auto member = time.system.spawn([this](caf::event_based_actor* self) {
       return caf::behavior{[this, self](const leave_cell&) {
-        leaving.push_back(self->make_response_promise());
-      }};
+                             leaving.push_back(self->make_response_promise());
+                           },
+                           [this](caf::ok_atom) {
+                             for (auto& promise : leaving)
+                               promise.deliver(node_departed{});
+                           }};
     });
+    leave = [member] { caf::anon_send(member, caf::ok_atom::value); };
     parts.services->membership = caf::actor_cast<membership_actor>(member);
     parts.children.push_back(member);
   }
@@ -122,7 +128,7 @@ TEST_CASE_METHOD(node_fixture,
   CHECK(router_end);
   CHECK_FALSE(end);
   REQUIRE(leaving.size() == 1);
-  leaving[0].deliver(node_departed{});
+  leave();
   time.settle();
   REQUIRE(end);
   CHECK_FALSE(*end);

@@ -112,6 +112,7 @@ TEST_CASE("what may not wait is refused while the disk is full") {
   full_disk disk;
   const auto answer = store.tell(store_record{"tasks", "t", "1"});
   REQUIRE_FALSE(answer);
+  INFO(to_failure(answer.error()).message);
   CHECK(to_failure(answer.error()).message.find("no room is left")
         != std::string::npos);
   CHECK_FALSE(

@@ -242,11 +242,14 @@ TEST_CASE("A cell whose cores are busy is read with the floor, and says so",
   const auto document = std::get<plan_document>(decode<plan_document>(text));
   resolved_step step;
   step.step = document.request.pipeline[0];
-  step.builds = {{"h1", document.skills[0].models[0], {"a", "g"}}};
+  step.builds = {
+      {std::string(64, 'a'), document.skills[0].models[0], {"a", "g"}}};
   const auto result = allocate({"t", {step}, document.nodes});
   REQUIRE(std::holds_alternative<task_plan>(result));
   const auto reply = message_json(std::get<task_plan>(result));
-  CHECK_FALSE(validate_message(reply));
+  const auto why = validate_message(reply);
+  INFO((why ? why->message + " " + why->where : ""));
+  CHECK_FALSE(why);
   CHECK(reply.at("cpu_floor") == true);
   CHECK(reply.at("warnings").size() == 1);
   // What is used stays what it is.

@@ -229,7 +229,8 @@ void site_watch::look() {
     for (const auto& c : place_.parties) {
       if (!c->coordinates)
         continue;
-      const bool shown = is_active(*c, *node);
+      // Who stands still can neither learn nor tell anything.
+      const bool shown = is_active(*c, *node) && !place_.is_frozen(*c);
       if (shown)
         active.push_back(c.get());
       measure(lies_, {c->index, node->index}, shown && !believes(*node, *c),
