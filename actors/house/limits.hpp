@@ -38,7 +38,8 @@ static_assert(beat_period + probe_interval < span - urgent_span);
 
 } // namespace lease
 
-/// Pauses between attempts, each twice the one before.
+/// Pauses between attempts of a node to join, of a coordinator to reach a peer
+/// and the like, each twice the one before.
 namespace retry {
 
 constexpr milliseconds first{250};
@@ -515,6 +516,7 @@ namespace http {
 /// Request line and header fields together; more is answered with 431.
 constexpr size_t header_bytes = 8 * kib;
 /// A request's body; more is answered with 413 before it is read.
+/// `document_limits` (schemas/document.hpp) takes JSON of this size.
 constexpr size_t body_bytes = mib;
 /// The same for strangers, on the few paths that are open to them: more than
 /// the longest registration switch.

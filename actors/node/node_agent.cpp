@@ -172,9 +172,11 @@ node_agent_actor::behavior_type node_agent(node_agent_self self,
   self->state.config = config;
   return {
       [self](const state_query&) {
-        return state_of({{"node", self->state.config.node},
-                         {"reports", self->state.reports},
-                         {"rooms_kept", self->state.kept.size()}});
+        return state_of(
+            {{"node", self->state.config.node},
+             {"reports", self->state.reports},
+             {"rooms_kept",
+              self->state.kept.open(self->clock().now(), {}).size()}});
       },
       [self](const resource_query&) { return report(self); },
       [self](const instance_reservation& x) { return keep(self, x); },

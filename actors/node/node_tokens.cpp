@@ -66,13 +66,15 @@ caf::expected<std::string> load_site_token(const fs::path& file) {
   if (!text)
     return fail(error_code::unauthorized,
                 "cannot read the site token in '" + file.string() + "'", "",
-                "give --site-token a file of at most 4096 bytes that this user "
-                "can read");
+                "give --site-token a file of at most "
+                    + std::to_string(limits::token::most_bytes)
+                    + " bytes that this user can read");
   auto token = trim(*text);
   if (token.size() < limits::token::least_site_bytes)
     return fail(error_code::unauthorized,
-                "the site token in '" + file.string()
-                    + "' is shorter than 16 characters",
+                "the site token in '" + file.string() + "' is shorter than "
+                    + std::to_string(limits::token::least_site_bytes)
+                    + " characters",
                 "", "make one: head -c 32 /dev/urandom | xxd -p -c 64");
   return token;
 }

@@ -1,7 +1,7 @@
 #include "actors/placement/reservation.hpp"
 
+#include "actors/placement/search/constraints.hpp"
 #include "actors/placement/search/occupancy.hpp"
-#include "actors/placement/search/report/reasons.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -153,6 +153,7 @@ caf::result<request_routed> route(request_router_self self,
                                   const route_request& request) {
   auto& st = self->state;
   ++st.routed;
+  static_assert(document_limits{}.max_bytes == limits::http::body_bytes);
   auto parsed = parse_document(request.text);
   if (auto* why = std::get_if<failure>(&parsed))
     return refusal(self, *why);

@@ -226,9 +226,9 @@ test_a_skill_that_exits_at_once_is_told_with_its_code_and_last_lines() {
 test_a_missing_entry_point_is_named() {
   broken_skill ''
   start_alone
-  expect "code" "$(refusal "$(echo_task a)")" engine_failed
-  jq -r .error.message "$scratch/refusal.json" | grep -q 'bin/echo' \
-    || fail "$(cat "$scratch/refusal.json")"
+  await head '.event == "skill_refused" and .data.where == "/entry_point/0"
+    and (.data.message | contains("bin/echo"))' > /dev/null
+  expect "code" "$(refusal "$(echo_task a)")" unknown_operation
   still_up
 }
 

@@ -1,6 +1,6 @@
 #include "actors/placement/search/candidates.hpp"
 
-#include "actors/placement/search/report/reasons.hpp"
+#include "actors/placement/search/constraints.hpp"
 
 #include <algorithm>
 #include <map>

@@ -140,8 +140,9 @@ namespace {
 
 size_t rooms_kept(const site_party& x) {
   using pointer = node_agent_actor::stateful_pointer<node_agent_state>;
-  auto* actor = caf::actor_cast<caf::abstract_actor*>(x.agent);
-  return dynamic_cast<pointer>(actor)->state.kept.size();
+  auto* actor =
+      dynamic_cast<pointer>(caf::actor_cast<caf::abstract_actor*>(x.agent));
+  return actor->state.kept.open(actor->clock().now(), {}).size();
 }
 
 std::string remains(site_party& x) {

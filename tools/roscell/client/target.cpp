@@ -1,5 +1,6 @@
 #include "tools/roscell/client/target.hpp"
 
+#include "actors/house/limits.hpp"
 #include "tools/roscell/exit_code.hpp"
 
 #include <netdb.h>
@@ -93,7 +94,7 @@ bool is_this_machine(const std::string& host) {
 
 std::string checked(std::string token, const std::string& source) {
   const bool bad =
-      token.size() > 4096
+      token.size() > limits::token::most_bytes
       || token.find_first_not_of("0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZ"
                                  "abcdefghijklmnopqrstuvwxyz-._~+/=")
              != token.npos;

@@ -1,6 +1,6 @@
 #include "actors/placement/search/report/explain.hpp"
 
-#include "actors/placement/search/report/reasons.hpp"
+#include "actors/placement/search/constraints.hpp"
 #include "actors/placement/search/report/text.hpp"
 
 #include <algorithm>
