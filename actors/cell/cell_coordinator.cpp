@@ -89,6 +89,17 @@ void on_tick(coordinator_pointer self, uint64_t number) {
   set_timer(self);
 }
 
+/// Takes up what the cell was at its coordinator's last end.
+void begin(coordinator_pointer self) {
+  add_own_row(self);
+  restore_members(self);
+  restore_transfers(self);
+  restore_tasks(self);
+  reconcile_own_node(self);
+  measure_own_node(self);
+  appear(self);
+}
+
 } // namespace
 
 cell_coordinator_actor::behavior_type
@@ -97,13 +108,7 @@ cell_coordinator(coordinator_pointer self, const house& context,
   self->state.context = context;
   self->state.setup = setup;
   self->state.peers = peer_book{setup.self.uuid};
-  add_own_row(self);
-  restore_members(self);
-  restore_transfers(self);
-  restore_tasks(self);
-  reconcile_own_node(self);
-  measure_own_node(self);
-  appear(self);
+  begin(self);
   self->set_down_handler([self](const caf::down_msg& down) {
     on_pipeline_down(self, down.source);
     on_member_down(self, down.source);

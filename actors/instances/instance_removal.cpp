@@ -86,6 +86,7 @@ std::vector<std::string> ended_instances(container_supervisor_pointer self) {
       ended.emplace_back(x.row.since_unix_ms, instance);
   std::sort(ended.rbegin(), ended.rend());
   std::vector<std::string> result;
+  result.reserve(ended.size());
   for (auto& x : ended)
     result.push_back(std::move(x.second));
   return result;

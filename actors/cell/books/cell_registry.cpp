@@ -183,6 +183,7 @@ cell_registry::skills(const std::string& operation) const {
         add_build(by_hash, skill, entry.row.identity.name);
   }
   std::vector<skill_row> result;
+  result.reserve(by_hash.size());
   for (auto& [hash, row] : by_hash)
     result.push_back(std::move(row));
   return result;

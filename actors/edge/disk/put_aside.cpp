@@ -10,7 +10,7 @@ namespace {
 
 fs::path free_name(const fs::path& file) {
   for (int i = 1;; ++i) {
-    const fs::path result = file.string() + ".aside-" + std::to_string(i);
+    fs::path result = file.string() + ".aside-" + std::to_string(i);
     std::error_code ignored;
     if (!fs::exists(fs::symlink_status(result, ignored)))
       return result;
