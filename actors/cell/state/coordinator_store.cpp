@@ -32,6 +32,7 @@ void forget_refused(coordinator_pointer self, std::string table,
 }
 
 void record_fact(coordinator_pointer self, store_record record) {
+  record.may_wait = true;
   keep_records(
       self, {std::move(record)}, [] {}, [](const failure&) {});
 }

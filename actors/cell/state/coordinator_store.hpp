@@ -21,8 +21,8 @@ void keep_records(coordinator_pointer self, std::vector<store_record> records,
 void forget_refused(coordinator_pointer self, std::string table,
                     std::string key);
 
-/// Writes down what has happened already and cannot be refused any more. A
-/// store that fails is told of.
+/// Writes down what has happened already and cannot be refused any more: a full
+/// disk is written when it has room. A store that fails otherwise is told of.
 void record_fact(coordinator_pointer self, store_record record);
 
 } // namespace roscell

@@ -1,5 +1,6 @@
 #include "actors/cell/tasks/task_endings.hpp"
 
+#include "actors/cell/state/coordinator_store.hpp"
 #include "actors/cell/tasks/task_changes.hpp"
 #include "actors/cell/tasks/task_removals.hpp"
 #include "actors/cell/tasks/task_turns.hpp"
@@ -170,19 +171,21 @@ void roll_back(coordinator_pointer self, const std::string& task,
   auto& st = self->state;
   st.tasks.begin_ending(task);
   st.desk.waiters[task].owner = nullptr;
-  remove_everywhere(self, task, also_on,
-                    [self, task, reason, done](const auto&) {
-                      pending_change change;
-                      // A record that stays is that of a task which was being
-                      // deployed: the next start drops it.
-                      change.done = [self, task, reason, done](const failure*) {
-                        self->state.tasks.forget(task);
-                        self->state.deployments.forget_task(task);
-                        tell_rolled_back(self, task, reason);
-                        done();
-                      };
-                      change_task(self, task, std::move(change));
-                    });
+  remove_everywhere(
+      self, task, also_on, [self, task, reason, done](const auto&) {
+        pending_change change;
+        // Its record goes when there is room; the next start
+        // drops it, too.
+        change.done = [self, task, reason, done](const failure* why) {
+          if (why)
+            forget_refused(self, "tasks", task);
+          self->state.tasks.forget(task);
+          self->state.deployments.forget_task(task);
+          tell_rolled_back(self, task, reason);
+          done();
+        };
+        change_task(self, task, std::move(change));
+      });
 }
 
 void on_owner_gone(coordinator_pointer self, const std::string& task) {

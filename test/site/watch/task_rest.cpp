@@ -158,6 +158,8 @@ std::string remains(site_party& x) {
     return result;
   add(tasks_of(x).size(), "tasks");
   add(x.disk["tasks"].size(), "records of tasks");
+  for (const auto& [task, record] : x.disk["tasks"])
+    result += "(" + task + ") ";
   add(instances_shown(x), "rows of instances");
   return result;
 }
