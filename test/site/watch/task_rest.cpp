@@ -145,21 +145,31 @@ size_t rooms_kept(const site_party& x) {
   return actor->state.kept.open(actor->clock().now(), {}).size();
 }
 
-std::string remains(site_party& x) {
+size_t running_programs(const site& place, const site_party& x) {
+  return static_cast<size_t>(
+      std::count_if(x.programs.begin(), x.programs.end(), [&](const auto& p) {
+        return p.second.runs(place.now());
+      }));
+}
+
+std::string remains(const site& place, site_party& x) {
   std::string result;
   const auto add = [&](size_t count, const char* what) {
     if (count > 0)
       result += x.name + " has " + std::to_string(count) + " " + what + "; ";
   };
-  add(x.programs.size(), "programs");
-  add(x.disk["instances"].size(), "records of instances");
+  // A node outside all cells keeps what has ended, for whoever looks at it,
+  // until it is in a cell again.
+  if (x.coordinates || x.status().standing == node_state::member) {
+    add(x.programs.size(), "programs");
+    add(x.disk["instances"].size(), "records of instances");
+  }
+  add(running_programs(place, x), "programs that run");
   add(rooms_kept(x), "rooms that it keeps");
   if (!x.coordinates)
     return result;
   add(tasks_of(x).size(), "tasks");
   add(x.disk["tasks"].size(), "records of tasks");
-  for (const auto& [task, record] : x.disk["tasks"])
-    result += "(" + task + ") ";
   add(instances_shown(x), "rows of instances");
   return result;
 }
@@ -192,7 +202,7 @@ std::string end_all_tasks(site& place) {
   for (const auto& x : place.parties) {
     if (is_away(*x))
       continue;
-    result += remains(*x);
+    result += remains(place, *x);
     if (x->coordinates)
       result += held_room(place, *x);
   }
