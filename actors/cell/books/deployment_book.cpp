@@ -12,7 +12,12 @@ ROSCELL_CODEC(instance_end)
 
 void deployment_book::place(const std::string& task,
                             std::vector<deployment> steps) {
-  by_task_[task] = std::move(steps);
+  const auto before = std::exchange(by_task_[task], std::move(steps));
+  for (const auto& x : before) {
+    const auto* row = told(x.node, x.spec.instance);
+    if (row && !is_live(row->state) && !find(x.spec.instance, x.node))
+      forget_told(x.node, x.spec.instance);
+  }
 }
 
 void deployment_book::forget_task(const std::string& task) {

@@ -134,6 +134,18 @@ TEST_CASE("A task that is forgotten takes along what was told of it",
   CHECK_FALSE(book.find("t-0"));
 }
 
+TEST_CASE("What has ended and is placed no more is forgotten",
+          "[deployment_book]") {
+  deployment_book book;
+  book.place("t", {on("a", "t-0", "t"), on("b", "t-1", "t")});
+  book.tell("a", told("t-0", "t"));
+  book.tell("b", told("t-1", "t", instance_state::failed));
+  // A move to b is undone; a runs on, until it says otherwise.
+  book.place("t", {});
+  CHECK(book.rows_on("a").size() == 1);
+  CHECK(book.rows_on("b").empty());
+}
+
 TEST_CASE("What one node tells is bounded", "[deployment_book]") {
   deployment_book book;
   for (size_t i = 0; i < limits::instance::told; ++i)
