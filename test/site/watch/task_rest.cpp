@@ -147,9 +147,8 @@ size_t rooms_kept(const site_party& x) {
 
 size_t running_programs(const site& place, const site_party& x) {
   return static_cast<size_t>(
-      std::count_if(x.programs.begin(), x.programs.end(), [&](const auto& p) {
-        return p.second.runs(place.now());
-      }));
+      std::count_if(x.programs.begin(), x.programs.end(),
+                    [&](const auto& p) { return p.second.runs(place.now()); }));
 }
 
 std::string remains(const site& place, site_party& x) {
