@@ -20,13 +20,12 @@ struct allocation_score {
   double gap = 0;         ///< How far the total is above it; 0 when optimal.
 
   static constexpr auto fields() {
-    return std::make_tuple(
-        required("total", &allocation_score::total),
-        required("balance", &allocation_score::balance),
-        required("load", &allocation_score::load),
-        required("alpha", &allocation_score::alpha),
-        required("lower_bound", &allocation_score::lower_bound),
-        required("gap", &allocation_score::gap));
+    return field_list{required("total", &allocation_score::total),
+                      required("balance", &allocation_score::balance),
+                      required("load", &allocation_score::load),
+                      required("alpha", &allocation_score::alpha),
+                      required("lower_bound", &allocation_score::lower_bound),
+                      required("gap", &allocation_score::gap)};
   }
 };
 
@@ -38,11 +37,10 @@ struct resource_fractions {
   double gpu_memory = -1; ///< Negative: not in R_i.
 
   static constexpr auto fields() {
-    return std::make_tuple(
-        required("cpu", &resource_fractions::cpu),
-        required("memory", &resource_fractions::memory),
-        required("disk", &resource_fractions::disk),
-        optional("gpu_memory", &resource_fractions::gpu_memory));
+    return field_list{required("cpu", &resource_fractions::cpu),
+                      required("memory", &resource_fractions::memory),
+                      required("disk", &resource_fractions::disk),
+                      optional("gpu_memory", &resource_fractions::gpu_memory)};
   }
 };
 
@@ -57,14 +55,14 @@ struct step_allocation {
   std::string build; ///< Hash of the skill's build; empty on paper.
 
   static constexpr auto fields() {
-    return std::make_tuple(required("step", &step_allocation::step),
-                           required("node", &step_allocation::node),
-                           required("deployment", &step_allocation::deployment),
-                           nullable("gpu", &step_allocation::gpu),
-                           required("fractions", &step_allocation::fractions),
-                           required("variance", &step_allocation::variance),
-                           required("bonus", &step_allocation::bonus),
-                           optional("build", &step_allocation::build));
+    return field_list{required("step", &step_allocation::step),
+                      required("node", &step_allocation::node),
+                      required("deployment", &step_allocation::deployment),
+                      nullable("gpu", &step_allocation::gpu),
+                      required("fractions", &step_allocation::fractions),
+                      required("variance", &step_allocation::variance),
+                      required("bonus", &step_allocation::bonus),
+                      optional("build", &step_allocation::build)};
   }
 };
 
@@ -77,10 +75,10 @@ struct rejection_cause {
   double short_by = 0;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("kind", &rejection_cause::kind),
-                           required("needed", &rejection_cause::needed),
-                           required("free", &rejection_cause::free),
-                           required("short_by", &rejection_cause::short_by));
+    return field_list{required("kind", &rejection_cause::kind),
+                      required("needed", &rejection_cause::needed),
+                      required("free", &rejection_cause::free),
+                      required("short_by", &rejection_cause::short_by)};
   }
 };
 
@@ -93,13 +91,12 @@ struct rejected_candidate {
   int gpu = -1;                        ///< Negative: none.
 
   static constexpr auto fields() {
-    return std::make_tuple(
-        required("step", &rejected_candidate::step),
-        required("node", &rejected_candidate::node),
-        required("deployment", &rejected_candidate::deployment),
-        required("reasons", &rejected_candidate::reasons),
-        optional("causes", &rejected_candidate::causes),
-        optional("gpu", &rejected_candidate::gpu));
+    return field_list{required("step", &rejected_candidate::step),
+                      required("node", &rejected_candidate::node),
+                      required("deployment", &rejected_candidate::deployment),
+                      required("reasons", &rejected_candidate::reasons),
+                      optional("causes", &rejected_candidate::causes),
+                      optional("gpu", &rejected_candidate::gpu)};
   }
 };
 
@@ -114,13 +111,12 @@ struct excluded_candidate {
   bool cpu_floor = false;
 
   static constexpr auto fields() {
-    return std::make_tuple(
-        required("step", &excluded_candidate::step),
-        required("node", &excluded_candidate::node),
-        required("deployment", &excluded_candidate::deployment),
-        nullable("gpu", &excluded_candidate::gpu),
-        required("reason", &excluded_candidate::reason),
-        optional("cpu_floor", &excluded_candidate::cpu_floor));
+    return field_list{required("step", &excluded_candidate::step),
+                      required("node", &excluded_candidate::node),
+                      required("deployment", &excluded_candidate::deployment),
+                      nullable("gpu", &excluded_candidate::gpu),
+                      required("reason", &excluded_candidate::reason),
+                      optional("cpu_floor", &excluded_candidate::cpu_floor)};
   }
 };
 
@@ -134,11 +130,11 @@ struct resource_use {
   double after = 0;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("node", &resource_use::node),
-                           required("resource", &resource_use::resource),
-                           required("capacity", &resource_use::capacity),
-                           required("before", &resource_use::before),
-                           required("after", &resource_use::after));
+    return field_list{required("node", &resource_use::node),
+                      required("resource", &resource_use::resource),
+                      required("capacity", &resource_use::capacity),
+                      required("before", &resource_use::before),
+                      required("after", &resource_use::after)};
   }
 };
 
@@ -152,13 +148,12 @@ struct step_alternative {
   std::vector<step_allocation> allocations;
 
   static constexpr auto fields() {
-    return std::make_tuple(
-        required("step", &step_alternative::step),
-        required("optimal", &step_alternative::optimal),
-        required("extra", &step_alternative::extra),
-        optional("obstacle", &step_alternative::obstacle),
-        required("score", &step_alternative::score),
-        required("allocations", &step_alternative::allocations));
+    return field_list{required("step", &step_alternative::step),
+                      required("optimal", &step_alternative::optimal),
+                      required("extra", &step_alternative::extra),
+                      optional("obstacle", &step_alternative::obstacle),
+                      required("score", &step_alternative::score),
+                      required("allocations", &step_alternative::allocations)};
   }
 };
 
@@ -178,16 +173,16 @@ struct task_plan {
   bool cpu_floor = false;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("task", &task_plan::task),
-                           required("optimal", &task_plan::optimal),
-                           required("score", &task_plan::score),
-                           required("allocations", &task_plan::allocations),
-                           required("rejected", &task_plan::rejected),
-                           optional("warnings", &task_plan::warnings),
-                           optional("states", &task_plan::states),
-                           optional("use", &task_plan::use),
-                           optional("alternatives", &task_plan::alternatives),
-                           optional("cpu_floor", &task_plan::cpu_floor));
+    return field_list{required("task", &task_plan::task),
+                      required("optimal", &task_plan::optimal),
+                      required("score", &task_plan::score),
+                      required("allocations", &task_plan::allocations),
+                      required("rejected", &task_plan::rejected),
+                      optional("warnings", &task_plan::warnings),
+                      optional("states", &task_plan::states),
+                      optional("use", &task_plan::use),
+                      optional("alternatives", &task_plan::alternatives),
+                      optional("cpu_floor", &task_plan::cpu_floor)};
   }
 };
 
@@ -203,12 +198,12 @@ struct task_accepted {
   std::vector<excluded_candidate> refused;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("task", &task_accepted::task),
-                           required("optimal", &task_accepted::optimal),
-                           required("score", &task_accepted::score),
-                           required("allocations", &task_accepted::allocations),
-                           required("instances", &task_accepted::instances),
-                           optional("refused", &task_accepted::refused));
+    return field_list{required("task", &task_accepted::task),
+                      required("optimal", &task_accepted::optimal),
+                      required("score", &task_accepted::score),
+                      required("allocations", &task_accepted::allocations),
+                      required("instances", &task_accepted::instances),
+                      optional("refused", &task_accepted::refused)};
   }
 };
 
@@ -219,9 +214,9 @@ struct plan_document {
   task_request request;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("nodes", &plan_document::nodes),
-                           required("skills", &plan_document::skills),
-                           required("request", &plan_document::request));
+    return field_list{required("nodes", &plan_document::nodes),
+                      required("skills", &plan_document::skills),
+                      required("request", &plan_document::request)};
   }
 };
 

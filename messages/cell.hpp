@@ -28,14 +28,13 @@ struct registry_row {
   std::vector<instance_row> instances;
 
   static constexpr auto fields() {
-    return std::make_tuple(
-        required("identity", &registry_row::identity),
-        required("role", &registry_row::role),
-        required("state", &registry_row::state),
-        required("since_unix_ms", &registry_row::since_unix_ms),
-        optional("reason", &registry_row::reason),
-        required("resources", &registry_row::resources),
-        required("instances", &registry_row::instances));
+    return field_list{required("identity", &registry_row::identity),
+                      required("role", &registry_row::role),
+                      required("state", &registry_row::state),
+                      required("since_unix_ms", &registry_row::since_unix_ms),
+                      optional("reason", &registry_row::reason),
+                      required("resources", &registry_row::resources),
+                      required("instances", &registry_row::instances)};
   }
 };
 
@@ -48,11 +47,11 @@ struct free_node {
   std::string cell; ///< That it was in last.
 
   static constexpr auto fields() {
-    return std::make_tuple(required("name", &free_node::name),
-                           required("uuid", &free_node::uuid),
-                           required("address", &free_node::address),
-                           required("state", &free_node::state),
-                           optional("cell", &free_node::cell));
+    return field_list{required("name", &free_node::name),
+                      required("uuid", &free_node::uuid),
+                      required("address", &free_node::address),
+                      required("state", &free_node::state),
+                      optional("cell", &free_node::cell)};
   }
 };
 
@@ -60,7 +59,7 @@ struct cell_query {
   static constexpr const char* type = "cell_query";
 
   static constexpr auto fields() {
-    return std::make_tuple();
+    return field_list{};
   }
 };
 
@@ -76,7 +75,7 @@ struct cell_description {
   std::vector<free_node> free; ///< Visible nodes that are in no cell.
 
   static constexpr auto fields() {
-    return std::make_tuple(
+    return field_list{
         required("cell", &cell_description::cell),
         required("coordinator", &cell_description::coordinator),
         required("address", &cell_description::address),
@@ -84,7 +83,7 @@ struct cell_description {
         required("incarnation", &cell_description::incarnation),
         required("nodes", &cell_description::nodes),
         required("tasks", &cell_description::tasks),
-        optional("free", &cell_description::free));
+        optional("free", &cell_description::free)};
   }
 };
 
@@ -92,7 +91,7 @@ struct cell_list_query {
   static constexpr const char* type = "cell_list_query";
 
   static constexpr auto fields() {
-    return std::make_tuple();
+    return field_list{};
   }
 };
 
@@ -107,13 +106,12 @@ struct cell_row {
   std::string trouble;
 
   static constexpr auto fields() {
-    return std::make_tuple(
-        required("cell", &cell_row::cell),
-        required("coordinator", &cell_row::coordinator),
-        required("address", &cell_row::address),
-        required("discovery_server", &cell_row::discovery_server),
-        required("size", &cell_row::size),
-        optional("trouble", &cell_row::trouble));
+    return field_list{required("cell", &cell_row::cell),
+                      required("coordinator", &cell_row::coordinator),
+                      required("address", &cell_row::address),
+                      required("discovery_server", &cell_row::discovery_server),
+                      required("size", &cell_row::size),
+                      optional("trouble", &cell_row::trouble)};
   }
 };
 
@@ -122,7 +120,7 @@ struct cell_list {
   std::vector<cell_row> cells;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("cells", &cell_list::cells));
+    return field_list{required("cells", &cell_list::cells)};
   }
 };
 

@@ -19,11 +19,11 @@ struct event {
   std::string data;    ///< JSON object with the particulars, may be empty.
 
   static constexpr auto fields() {
-    return std::make_tuple(required("sequence", &event::sequence),
-                           required("time_unix_ms", &event::time_unix_ms),
-                           required("event", &event::what),
-                           required("subject", &event::subject),
-                           raw_json("data", &event::data));
+    return field_list{required("sequence", &event::sequence),
+                      required("time_unix_ms", &event::time_unix_ms),
+                      required("event", &event::what),
+                      required("subject", &event::subject),
+                      raw_json("data", &event::data)};
   }
 };
 

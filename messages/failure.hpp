@@ -20,11 +20,11 @@ struct failure {
   std::string details; ///< JSON object merged into `error`, may be empty.
 
   static constexpr auto fields() {
-    return std::make_tuple(required("code", &failure::code),
-                           required("message", &failure::message),
-                           required("where", &failure::where),
-                           required("hint", &failure::hint),
-                           raw_json("details", &failure::details));
+    return field_list{required("code", &failure::code),
+                      required("message", &failure::message),
+                      required("where", &failure::where),
+                      required("hint", &failure::hint),
+                      raw_json("details", &failure::details)};
   }
 };
 

@@ -29,8 +29,8 @@ struct cell_formation {
   instance_policy instances = instance_policy::refuse;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("members", &cell_formation::members),
-                           optional("instances", &cell_formation::instances));
+    return field_list{required("members", &cell_formation::members),
+                      optional("instances", &cell_formation::instances)};
   }
 };
 
@@ -50,12 +50,12 @@ struct formation_outcome {
   std::string hint;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("node", &formation_outcome::node),
-                           required("result", &formation_outcome::result),
-                           optional("from", &formation_outcome::from),
-                           optional("code", &formation_outcome::code),
-                           optional("message", &formation_outcome::message),
-                           optional("hint", &formation_outcome::hint));
+    return field_list{required("node", &formation_outcome::node),
+                      required("result", &formation_outcome::result),
+                      optional("from", &formation_outcome::from),
+                      optional("code", &formation_outcome::code),
+                      optional("message", &formation_outcome::message),
+                      optional("hint", &formation_outcome::hint)};
   }
 };
 
@@ -65,8 +65,8 @@ struct cell_formed {
   std::vector<formation_outcome> outcomes; ///< In the order of the request.
 
   static constexpr auto fields() {
-    return std::make_tuple(required("cell", &cell_formed::cell),
-                           required("outcomes", &cell_formed::outcomes));
+    return field_list{required("cell", &cell_formed::cell),
+                      required("outcomes", &cell_formed::outcomes)};
   }
 };
 
@@ -79,10 +79,10 @@ struct node_release {
   std::string cell;       ///< That the node is in; empty: not named.
 
   static constexpr auto fields() {
-    return std::make_tuple(required("node", &node_release::node),
-                           optional("instances", &node_release::instances),
-                           optional("forwarded", &node_release::forwarded),
-                           optional("cell", &node_release::cell));
+    return field_list{required("node", &node_release::node),
+                      optional("instances", &node_release::instances),
+                      optional("forwarded", &node_release::forwarded),
+                      optional("cell", &node_release::cell)};
   }
 };
 
@@ -95,12 +95,11 @@ struct node_released {
   std::vector<std::string> rescheduled; ///< Tasks.
 
   static constexpr auto fields() {
-    return std::make_tuple(
-        required("node", &node_released::node),
-        required("cell", &node_released::cell),
-        required("transfer", &node_released::transfer),
-        optional("terminated", &node_released::terminated),
-        optional("rescheduled", &node_released::rescheduled));
+    return field_list{required("node", &node_released::node),
+                      required("cell", &node_released::cell),
+                      required("transfer", &node_released::transfer),
+                      optional("terminated", &node_released::terminated),
+                      optional("rescheduled", &node_released::rescheduled)};
   }
 };
 
@@ -114,11 +113,11 @@ struct node_transfer {
   std::string cell;       ///< That the node is in; empty: not named.
 
   static constexpr auto fields() {
-    return std::make_tuple(required("node", &node_transfer::node),
-                           required("target", &node_transfer::target),
-                           optional("instances", &node_transfer::instances),
-                           optional("forwarded", &node_transfer::forwarded),
-                           optional("cell", &node_transfer::cell));
+    return field_list{required("node", &node_transfer::node),
+                      required("target", &node_transfer::target),
+                      optional("instances", &node_transfer::instances),
+                      optional("forwarded", &node_transfer::forwarded),
+                      optional("cell", &node_transfer::cell)};
   }
 };
 
@@ -132,13 +131,12 @@ struct node_transferred {
   std::vector<std::string> rescheduled; ///< Tasks.
 
   static constexpr auto fields() {
-    return std::make_tuple(
-        required("node", &node_transferred::node),
-        required("from", &node_transferred::from),
-        required("to", &node_transferred::to),
-        required("transfer", &node_transferred::transfer),
-        optional("terminated", &node_transferred::terminated),
-        optional("rescheduled", &node_transferred::rescheduled));
+    return field_list{required("node", &node_transferred::node),
+                      required("from", &node_transferred::from),
+                      required("to", &node_transferred::to),
+                      required("transfer", &node_transferred::transfer),
+                      optional("terminated", &node_transferred::terminated),
+                      optional("rescheduled", &node_transferred::rescheduled)};
   }
 };
 
@@ -167,15 +165,14 @@ struct transfer_row {
   int64_t since_unix_ms = 0; ///< When `state` was entered.
 
   static constexpr auto fields() {
-    return std::make_tuple(
-        required("transfer", &transfer_row::transfer),
-        required("node", &transfer_row::node),
-        required("uuid", &transfer_row::uuid),
-        required("from", &transfer_row::from),
-        optional("to", &transfer_row::to),
-        required("state", &transfer_row::state),
-        optional("reason", &transfer_row::reason),
-        required("since_unix_ms", &transfer_row::since_unix_ms));
+    return field_list{required("transfer", &transfer_row::transfer),
+                      required("node", &transfer_row::node),
+                      required("uuid", &transfer_row::uuid),
+                      required("from", &transfer_row::from),
+                      optional("to", &transfer_row::to),
+                      required("state", &transfer_row::state),
+                      optional("reason", &transfer_row::reason),
+                      required("since_unix_ms", &transfer_row::since_unix_ms)};
   }
 };
 
@@ -184,7 +181,7 @@ struct transfer_query {
   std::string transfer; ///< Empty: all that are remembered.
 
   static constexpr auto fields() {
-    return std::make_tuple(optional("transfer", &transfer_query::transfer));
+    return field_list{optional("transfer", &transfer_query::transfer)};
   }
 };
 
@@ -193,8 +190,7 @@ struct transfer_description {
   std::vector<transfer_row> transfers;
 
   static constexpr auto fields() {
-    return std::make_tuple(
-        required("transfers", &transfer_description::transfers));
+    return field_list{required("transfers", &transfer_description::transfers)};
   }
 };
 

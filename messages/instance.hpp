@@ -18,9 +18,9 @@ struct io_endpoint {
   std::string data_type; ///< "sensor_msgs/msg/Image", "image/png".
 
   static constexpr auto fields() {
-    return std::make_tuple(required("protocol", &io_endpoint::protocol),
-                           required("endpoint", &io_endpoint::endpoint),
-                           required("data_type", &io_endpoint::data_type));
+    return field_list{required("protocol", &io_endpoint::protocol),
+                      required("endpoint", &io_endpoint::endpoint),
+                      required("data_type", &io_endpoint::data_type)};
   }
 };
 
@@ -43,20 +43,20 @@ struct instance_spec {
   resource_request resources;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("instance", &instance_spec::instance),
-                           required("task", &instance_spec::task),
-                           required("step", &instance_spec::step),
-                           required("operation", &instance_spec::operation),
-                           required("model", &instance_spec::model),
-                           required("deployment", &instance_spec::deployment),
-                           required("skill", &instance_spec::skill),
-                           required("cell", &instance_spec::cell),
-                           nullable("gpu", &instance_spec::gpu),
-                           one_or_many("input", &instance_spec::input),
-                           one_or_many("output", &instance_spec::output),
-                           raw_json("parameters", &instance_spec::parameters),
-                           optional("environment", &instance_spec::environment),
-                           required("resources", &instance_spec::resources));
+    return field_list{required("instance", &instance_spec::instance),
+                      required("task", &instance_spec::task),
+                      required("step", &instance_spec::step),
+                      required("operation", &instance_spec::operation),
+                      required("model", &instance_spec::model),
+                      required("deployment", &instance_spec::deployment),
+                      required("skill", &instance_spec::skill),
+                      required("cell", &instance_spec::cell),
+                      nullable("gpu", &instance_spec::gpu),
+                      one_or_many("input", &instance_spec::input),
+                      one_or_many("output", &instance_spec::output),
+                      raw_json("parameters", &instance_spec::parameters),
+                      optional("environment", &instance_spec::environment),
+                      required("resources", &instance_spec::resources)};
   }
 };
 
@@ -103,20 +103,19 @@ struct instance_row {
   int64_t unknown_since_unix_ms = 0;
 
   static constexpr auto fields() {
-    return std::make_tuple(
-        required("spec", &instance_row::spec),
-        required("node", &instance_row::node),
-        required("state", &instance_row::state),
-        required("since_unix_ms", &instance_row::since_unix_ms),
-        optional("status", &instance_row::status),
-        optional("trouble", &instance_row::trouble),
-        optional("container", &instance_row::container),
-        optional("image", &instance_row::image),
-        nullable("exit_code", &instance_row::exit_code),
-        optional("reason", &instance_row::reason),
-        optional("log_tail", &instance_row::log_tail),
-        optional("unknown_since_unix_ms",
-                 &instance_row::unknown_since_unix_ms));
+    return field_list{required("spec", &instance_row::spec),
+                      required("node", &instance_row::node),
+                      required("state", &instance_row::state),
+                      required("since_unix_ms", &instance_row::since_unix_ms),
+                      optional("status", &instance_row::status),
+                      optional("trouble", &instance_row::trouble),
+                      optional("container", &instance_row::container),
+                      optional("image", &instance_row::image),
+                      nullable("exit_code", &instance_row::exit_code),
+                      optional("reason", &instance_row::reason),
+                      optional("log_tail", &instance_row::log_tail),
+                      optional("unknown_since_unix_ms",
+                               &instance_row::unknown_since_unix_ms)};
   }
 };
 
@@ -126,8 +125,8 @@ struct instance_query {
   std::string task;     ///< Empty: of every task.
 
   static constexpr auto fields() {
-    return std::make_tuple(optional("instance", &instance_query::instance),
-                           optional("task", &instance_query::task));
+    return field_list{optional("instance", &instance_query::instance),
+                      optional("task", &instance_query::task)};
   }
 };
 
@@ -136,8 +135,7 @@ struct instance_description {
   std::vector<instance_row> instances;
 
   static constexpr auto fields() {
-    return std::make_tuple(
-        required("instances", &instance_description::instances));
+    return field_list{required("instances", &instance_description::instances)};
   }
 };
 
@@ -151,10 +149,10 @@ struct log_query {
   int64_t wait_ms = 0;    ///< At most 20,000.
 
   static constexpr auto fields() {
-    return std::make_tuple(required("instance", &log_query::instance),
-                           optional("offset", &log_query::offset),
-                           optional("tail_lines", &log_query::tail_lines),
-                           optional("wait_ms", &log_query::wait_ms));
+    return field_list{required("instance", &log_query::instance),
+                      optional("offset", &log_query::offset),
+                      optional("tail_lines", &log_query::tail_lines),
+                      optional("wait_ms", &log_query::wait_ms)};
   }
 };
 
@@ -170,10 +168,10 @@ struct log_excerpt {
   bool ended = false;      ///< Nothing will follow after `next_offset`.
 
   static constexpr auto fields() {
-    return std::make_tuple(required("instance", &log_excerpt::instance),
-                           required("text", &log_excerpt::text),
-                           required("next_offset", &log_excerpt::next_offset),
-                           required("ended", &log_excerpt::ended));
+    return field_list{required("instance", &log_excerpt::instance),
+                      required("text", &log_excerpt::text),
+                      required("next_offset", &log_excerpt::next_offset),
+                      required("ended", &log_excerpt::ended)};
   }
 };
 

@@ -32,10 +32,10 @@ struct node_identity {
   std::string address; ///< "ip:port" of its HTTP port.
 
   static constexpr auto fields() {
-    return std::make_tuple(required("name", &node_identity::name),
-                           required("uuid", &node_identity::uuid),
-                           required("epoch", &node_identity::epoch),
-                           required("address", &node_identity::address));
+    return field_list{required("name", &node_identity::name),
+                      required("uuid", &node_identity::uuid),
+                      required("epoch", &node_identity::epoch),
+                      required("address", &node_identity::address)};
   }
 };
 
@@ -49,12 +49,12 @@ struct actor_row {
   uint64_t longest_us = 0; ///< Longest handling time.
 
   static constexpr auto fields() {
-    return std::make_tuple(required("name", &actor_row::name),
-                           required("id", &actor_row::id),
-                           required("messages", &actor_row::messages),
-                           required("mailbox", &actor_row::mailbox),
-                           required("busy_us", &actor_row::busy_us),
-                           required("longest_us", &actor_row::longest_us));
+    return field_list{required("name", &actor_row::name),
+                      required("id", &actor_row::id),
+                      required("messages", &actor_row::messages),
+                      required("mailbox", &actor_row::mailbox),
+                      required("busy_us", &actor_row::busy_us),
+                      required("longest_us", &actor_row::longest_us)};
   }
 };
 
@@ -63,7 +63,7 @@ struct node_query {
   bool actors = false; ///< Also list the node's actors with their counters.
 
   static constexpr auto fields() {
-    return std::make_tuple(optional("actors", &node_query::actors));
+    return field_list{optional("actors", &node_query::actors)};
   }
 };
 
@@ -85,7 +85,7 @@ struct node_description {
   std::vector<skill_problem> refused_skills; ///< The first of them.
 
   static constexpr auto fields() {
-    return std::make_tuple(
+    return field_list{
         required("identity", &node_description::identity),
         required("role", &node_description::role),
         required("state", &node_description::state),
@@ -99,7 +99,7 @@ struct node_description {
         required("instances", &node_description::instances),
         optional("actors", &node_description::actors),
         optional("stored_bytes", &node_description::stored_bytes),
-        optional("refused_skills", &node_description::refused_skills));
+        optional("refused_skills", &node_description::refused_skills)};
   }
 };
 

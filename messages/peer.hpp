@@ -31,11 +31,11 @@ struct cell_address {
   std::string discovery_server; ///< "ip:port"
 
   static constexpr auto fields() {
-    return std::make_tuple(
+    return field_list{
         required("cell", &cell_address::cell),
         required("coordinator", &cell_address::coordinator),
         required("address", &cell_address::address),
-        required("discovery_server", &cell_address::discovery_server));
+        required("discovery_server", &cell_address::discovery_server)};
   }
 };
 
@@ -48,10 +48,10 @@ struct member_claim {
   bool active = false;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("name", &member_claim::name),
-                           required("uuid", &member_claim::uuid),
-                           required("epoch", &member_claim::epoch),
-                           required("active", &member_claim::active));
+    return field_list{required("name", &member_claim::name),
+                      required("uuid", &member_claim::uuid),
+                      required("epoch", &member_claim::epoch),
+                      required("active", &member_claim::active)};
   }
 };
 
@@ -67,13 +67,13 @@ struct cell_standing {
   std::string cell_uuid; ///< Of the cell.
 
   static constexpr auto fields() {
-    return std::make_tuple(required("place", &cell_standing::place),
-                           required("uuid", &cell_standing::uuid),
-                           required("incarnation", &cell_standing::incarnation),
-                           required("size", &cell_standing::size),
-                           required("rebalance", &cell_standing::rebalance),
-                           required("members", &cell_standing::members),
-                           optional("cell_uuid", &cell_standing::cell_uuid));
+    return field_list{required("place", &cell_standing::place),
+                      required("uuid", &cell_standing::uuid),
+                      required("incarnation", &cell_standing::incarnation),
+                      required("size", &cell_standing::size),
+                      required("rebalance", &cell_standing::rebalance),
+                      required("members", &cell_standing::members),
+                      optional("cell_uuid", &cell_standing::cell_uuid)};
   }
 };
 
@@ -85,9 +85,9 @@ struct cell_changed {
   std::vector<std::string> gone; ///< UUIDs.
 
   static constexpr auto fields() {
-    return std::make_tuple(required("size", &cell_changed::size),
-                           optional("changed", &cell_changed::changed),
-                           optional("gone", &cell_changed::gone));
+    return field_list{required("size", &cell_changed::size),
+                      optional("changed", &cell_changed::changed),
+                      optional("gone", &cell_changed::gone)};
   }
 };
 
@@ -100,9 +100,9 @@ struct place_request {
   int64_t epoch = 0;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("name", &place_request::name),
-                           required("uuid", &place_request::uuid),
-                           required("epoch", &place_request::epoch));
+    return field_list{required("name", &place_request::name),
+                      required("uuid", &place_request::uuid),
+                      required("epoch", &place_request::epoch)};
   }
 };
 
@@ -111,7 +111,7 @@ struct place_granted {
   cell_address place;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("place", &place_granted::place));
+    return field_list{required("place", &place_granted::place)};
   }
 };
 
@@ -124,10 +124,10 @@ struct place_reservation {
   int64_t hold_ms = 0; ///< For so long.
 
   static constexpr auto fields() {
-    return std::make_tuple(required("name", &place_reservation::name),
-                           required("uuid", &place_reservation::uuid),
-                           required("epoch", &place_reservation::epoch),
-                           required("hold_ms", &place_reservation::hold_ms));
+    return field_list{required("name", &place_reservation::name),
+                      required("uuid", &place_reservation::uuid),
+                      required("epoch", &place_reservation::epoch),
+                      required("hold_ms", &place_reservation::hold_ms)};
   }
 };
 
@@ -136,7 +136,7 @@ struct place_reserved {
   int64_t size = 0; ///< Of the cell, with this place.
 
   static constexpr auto fields() {
-    return std::make_tuple(required("size", &place_reserved::size));
+    return field_list{required("size", &place_reserved::size)};
   }
 };
 
@@ -148,8 +148,8 @@ struct member_surrender {
   int64_t count = 0;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("target", &member_surrender::target),
-                           required("count", &member_surrender::count));
+    return field_list{required("target", &member_surrender::target),
+                      required("count", &member_surrender::count)};
   }
 };
 
@@ -158,7 +158,7 @@ struct members_surrendered {
   std::vector<std::string> nodes; ///< That have moved.
 
   static constexpr auto fields() {
-    return std::make_tuple(required("nodes", &members_surrendered::nodes));
+    return field_list{required("nodes", &members_surrendered::nodes)};
   }
 };
 
@@ -177,14 +177,14 @@ struct registration_switch {
   std::string proof;                ///< REST only.
 
   static constexpr auto fields() {
-    return std::make_tuple(required("transfer", &registration_switch::transfer),
-                           required("node", &registration_switch::node),
-                           required("uuid", &registration_switch::uuid),
-                           required("epoch", &registration_switch::epoch),
-                           required("origin", &registration_switch::origin),
-                           one_or_many("target", &registration_switch::target),
-                           optional("nonce", &registration_switch::nonce),
-                           optional("proof", &registration_switch::proof));
+    return field_list{required("transfer", &registration_switch::transfer),
+                      required("node", &registration_switch::node),
+                      required("uuid", &registration_switch::uuid),
+                      required("epoch", &registration_switch::epoch),
+                      required("origin", &registration_switch::origin),
+                      one_or_many("target", &registration_switch::target),
+                      optional("nonce", &registration_switch::nonce),
+                      optional("proof", &registration_switch::proof)};
   }
 };
 
@@ -194,7 +194,7 @@ struct switch_accepted {
   int64_t epoch = 0; ///< Raised.
 
   static constexpr auto fields() {
-    return std::make_tuple(required("epoch", &switch_accepted::epoch));
+    return field_list{required("epoch", &switch_accepted::epoch)};
   }
 };
 
@@ -204,7 +204,7 @@ struct registration_query {
   std::string nonce; ///< Of who asks for a proof of the standing, if any.
 
   static constexpr auto fields() {
-    return std::make_tuple(optional("nonce", &registration_query::nonce));
+    return field_list{optional("nonce", &registration_query::nonce)};
   }
 };
 
@@ -219,12 +219,12 @@ struct registration_challenge {
       proof; ///< Of node, UUID, epoch and state, over the asker's nonce.
 
   static constexpr auto fields() {
-    return std::make_tuple(required("node", &registration_challenge::node),
-                           required("uuid", &registration_challenge::uuid),
-                           required("epoch", &registration_challenge::epoch),
-                           required("state", &registration_challenge::state),
-                           required("nonce", &registration_challenge::nonce),
-                           optional("proof", &registration_challenge::proof));
+    return field_list{required("node", &registration_challenge::node),
+                      required("uuid", &registration_challenge::uuid),
+                      required("epoch", &registration_challenge::epoch),
+                      required("state", &registration_challenge::state),
+                      required("nonce", &registration_challenge::nonce),
+                      optional("proof", &registration_challenge::proof)};
   }
 };
 
@@ -234,8 +234,8 @@ struct switch_node {
   registration_switch order;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("address", &switch_node::address),
-                           required("order", &switch_node::order));
+    return field_list{required("address", &switch_node::address),
+                      required("order", &switch_node::order)};
   }
 };
 
@@ -246,9 +246,9 @@ struct prove_standing {
   std::string uuid;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("address", &prove_standing::address),
-                           required("node", &prove_standing::node),
-                           required("uuid", &prove_standing::uuid));
+    return field_list{required("address", &prove_standing::address),
+                      required("node", &prove_standing::node),
+                      required("uuid", &prove_standing::uuid)};
   }
 };
 
@@ -258,8 +258,8 @@ struct standing_proved {
   node_state state = node_state::independent;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("identity", &standing_proved::identity),
-                           required("state", &standing_proved::state));
+    return field_list{required("identity", &standing_proved::identity),
+                      required("state", &standing_proved::state)};
   }
 };
 
@@ -270,9 +270,9 @@ struct node_answered {
   failure problem;  ///< Why there is none.
 
   static constexpr auto fields() {
-    return std::make_tuple(required("call", &node_answered::call),
-                           required("body", &node_answered::body),
-                           required("problem", &node_answered::problem));
+    return field_list{required("call", &node_answered::call),
+                      required("body", &node_answered::body),
+                      required("problem", &node_answered::problem)};
   }
 };
 

@@ -19,10 +19,9 @@ struct instance_reservation {
   bool cpu_floor = false;
 
   static constexpr auto fields() {
-    return std::make_tuple(
-        required("task", &instance_reservation::task),
-        required("specs", &instance_reservation::specs),
-        optional("cpu_floor", &instance_reservation::cpu_floor));
+    return field_list{required("task", &instance_reservation::task),
+                      required("specs", &instance_reservation::specs),
+                      optional("cpu_floor", &instance_reservation::cpu_floor)};
   }
 };
 
@@ -32,8 +31,8 @@ struct refused_instance {
   std::string reason;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("instance", &refused_instance::instance),
-                           required("reason", &refused_instance::reason));
+    return field_list{required("instance", &refused_instance::instance),
+                      required("reason", &refused_instance::reason)};
   }
 };
 
@@ -43,7 +42,7 @@ struct instances_reserved {
   std::vector<refused_instance> refused;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("refused", &instances_reserved::refused));
+    return field_list{required("refused", &instances_reserved::refused)};
   }
 };
 

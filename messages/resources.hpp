@@ -15,8 +15,8 @@ struct amount {
   double used = 0;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("capacity", &amount::capacity),
-                           required("used", &amount::used));
+    return field_list{required("capacity", &amount::capacity),
+                      required("used", &amount::used)};
   }
 };
 
@@ -26,9 +26,9 @@ struct gpu_resources {
   amount memory_mib; ///< Zero on a unified-memory node: the pool is the node's.
 
   static constexpr auto fields() {
-    return std::make_tuple(required("index", &gpu_resources::index),
-                           optional("name", &gpu_resources::name),
-                           optional("memory_mib", &gpu_resources::memory_mib));
+    return field_list{required("index", &gpu_resources::index),
+                      optional("name", &gpu_resources::name),
+                      optional("memory_mib", &gpu_resources::memory_mib)};
   }
 };
 
@@ -49,7 +49,7 @@ struct node_resources {
   double cpu_compressible = 0;
 
   static constexpr auto fields() {
-    return std::make_tuple(
+    return field_list{
         required("name", &node_resources::name),
         required("architecture", &node_resources::architecture),
         required("unified_memory", &node_resources::unified_memory),
@@ -59,7 +59,7 @@ struct node_resources {
         required("gpus", &node_resources::gpus),
         required("labels", &node_resources::labels),
         required("devices", &node_resources::devices),
-        optional("cpu_compressible", &node_resources::cpu_compressible));
+        optional("cpu_compressible", &node_resources::cpu_compressible)};
   }
 };
 
@@ -75,11 +75,11 @@ struct resource_request {
   }
 
   static constexpr auto fields() {
-    return std::make_tuple(
+    return field_list{
         required("cpu", &resource_request::cpu),
         required("memory_mib", &resource_request::memory_mib),
         required("disk_mib", &resource_request::disk_mib),
-        optional("gpu_memory_mib", &resource_request::gpu_memory_mib));
+        optional("gpu_memory_mib", &resource_request::gpu_memory_mib)};
   }
 };
 

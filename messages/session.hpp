@@ -21,8 +21,8 @@ struct session_request {
   std::string body; ///< JSON of one message.
 
   static constexpr auto fields() {
-    return std::make_tuple(required("id", &session_request::id),
-                           raw_json("body", &session_request::body));
+    return field_list{required("id", &session_request::id),
+                      raw_json("body", &session_request::body)};
   }
 };
 
@@ -32,8 +32,8 @@ struct session_reply {
   std::string body;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("id", &session_reply::id),
-                           raw_json("body", &session_reply::body));
+    return field_list{required("id", &session_reply::id),
+                      raw_json("body", &session_reply::body)};
   }
 };
 
@@ -42,7 +42,7 @@ struct session_notice {
   std::string body;
 
   static constexpr auto fields() {
-    return std::make_tuple(raw_json("body", &session_notice::body));
+    return field_list{raw_json("body", &session_notice::body)};
   }
 };
 
@@ -61,7 +61,7 @@ struct node_registration {
   std::string cell_uuid;
 
   static constexpr auto fields() {
-    return std::make_tuple(
+    return field_list{
         required("identity", &node_registration::identity),
         required("incarnation", &node_registration::incarnation),
         required("resources", &node_registration::resources),
@@ -70,7 +70,7 @@ struct node_registration {
         optional("origin", &node_registration::origin),
         optional("transfer", &node_registration::transfer),
         optional("refused_skills", &node_registration::refused_skills),
-        optional("cell_uuid", &node_registration::cell_uuid));
+        optional("cell_uuid", &node_registration::cell_uuid)};
   }
 };
 
@@ -87,9 +87,9 @@ struct instance_verdict {
   std::vector<instance_spec> spec; ///< One element for `start`, else none.
 
   static constexpr auto fields() {
-    return std::make_tuple(required("instance", &instance_verdict::instance),
-                           required("verdict", &instance_verdict::what),
-                           one_or_many("spec", &instance_verdict::spec));
+    return field_list{required("instance", &instance_verdict::instance),
+                      required("verdict", &instance_verdict::what),
+                      one_or_many("spec", &instance_verdict::spec)};
   }
 };
 
@@ -103,12 +103,11 @@ struct node_registered {
   std::string cell_uuid; ///< Empty: an older coordinator, which has none.
 
   static constexpr auto fields() {
-    return std::make_tuple(
-        required("cell", &node_registered::cell),
-        required("coordinator", &node_registered::coordinator),
-        required("incarnation", &node_registered::incarnation),
-        required("verdicts", &node_registered::verdicts),
-        optional("cell_uuid", &node_registered::cell_uuid));
+    return field_list{required("cell", &node_registered::cell),
+                      required("coordinator", &node_registered::coordinator),
+                      required("incarnation", &node_registered::incarnation),
+                      required("verdicts", &node_registered::verdicts),
+                      optional("cell_uuid", &node_registered::cell_uuid)};
   }
 };
 
@@ -118,7 +117,7 @@ struct node_departure {
   std::string reason;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("reason", &node_departure::reason));
+    return field_list{required("reason", &node_departure::reason)};
   }
 };
 
@@ -126,7 +125,7 @@ struct node_departed {
   static constexpr const char* type = "node_departed";
 
   static constexpr auto fields() {
-    return std::make_tuple();
+    return field_list{};
   }
 };
 
@@ -135,7 +134,7 @@ struct resource_query {
   static constexpr const char* type = "resource_query";
 
   static constexpr auto fields() {
-    return std::make_tuple();
+    return field_list{};
   }
 };
 
@@ -146,8 +145,8 @@ struct resource_report {
   std::vector<std::string> reserved;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("resources", &resource_report::resources),
-                           optional("reserved", &resource_report::reserved));
+    return field_list{required("resources", &resource_report::resources),
+                      optional("reserved", &resource_report::reserved)};
   }
 };
 
@@ -157,7 +156,7 @@ struct instance_deployment {
   instance_spec spec;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("spec", &instance_deployment::spec));
+    return field_list{required("spec", &instance_deployment::spec)};
   }
 };
 
@@ -167,7 +166,7 @@ struct instance_deployed {
   instance_row instance;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("instance", &instance_deployed::instance));
+    return field_list{required("instance", &instance_deployed::instance)};
   }
 };
 
@@ -178,8 +177,8 @@ struct instance_removal {
   std::string instance; ///< Empty: all of the task.
 
   static constexpr auto fields() {
-    return std::make_tuple(required("task", &instance_removal::task),
-                           optional("instance", &instance_removal::instance));
+    return field_list{required("task", &instance_removal::task),
+                      optional("instance", &instance_removal::instance)};
   }
 };
 
@@ -189,8 +188,7 @@ struct instances_removed {
   std::vector<std::string> instances;
 
   static constexpr auto fields() {
-    return std::make_tuple(
-        required("instances", &instances_removed::instances));
+    return field_list{required("instances", &instances_removed::instances)};
   }
 };
 
@@ -200,7 +198,7 @@ struct instance_changed {
   instance_row instance;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("instance", &instance_changed::instance));
+    return field_list{required("instance", &instance_changed::instance)};
   }
 };
 

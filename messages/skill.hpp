@@ -21,12 +21,12 @@ struct installed_skill {
   int64_t added_unix_ms = 0; ///< When the folder last changed on its node.
 
   static constexpr auto fields() {
-    return std::make_tuple(
+    return field_list{
         required("hash", &installed_skill::hash),
         required("descriptor", &installed_skill::descriptor),
         optional("version", &installed_skill::version),
         optional("architectures", &installed_skill::architectures),
-        optional("added_unix_ms", &installed_skill::added_unix_ms));
+        optional("added_unix_ms", &installed_skill::added_unix_ms)};
   }
 };
 
@@ -37,9 +37,9 @@ struct skill_problem {
   std::string message; ///< What is wrong, one sentence.
 
   static constexpr auto fields() {
-    return std::make_tuple(required("path", &skill_problem::path),
-                           optional("where", &skill_problem::where),
-                           required("message", &skill_problem::message));
+    return field_list{required("path", &skill_problem::path),
+                      optional("where", &skill_problem::where),
+                      required("message", &skill_problem::message)};
   }
 };
 
@@ -49,7 +49,7 @@ struct skill_query {
   std::string operation; ///< Empty: all.
 
   static constexpr auto fields() {
-    return std::make_tuple(optional("operation", &skill_query::operation));
+    return field_list{optional("operation", &skill_query::operation)};
   }
 };
 
@@ -61,10 +61,9 @@ struct skill_row {
   std::vector<int64_t> added_unix_ms;
 
   static constexpr auto fields() {
-    return std::make_tuple(
-        required("skill", &skill_row::skill),
-        required("nodes", &skill_row::nodes),
-        optional("added_unix_ms", &skill_row::added_unix_ms));
+    return field_list{required("skill", &skill_row::skill),
+                      required("nodes", &skill_row::nodes),
+                      optional("added_unix_ms", &skill_row::added_unix_ms)};
   }
 };
 
@@ -74,8 +73,8 @@ struct refused_skill {
   skill_problem problem;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("node", &refused_skill::node),
-                           required("problem", &refused_skill::problem));
+    return field_list{required("node", &refused_skill::node),
+                      required("problem", &refused_skill::problem)};
   }
 };
 
@@ -85,8 +84,8 @@ struct skill_list {
   std::vector<refused_skill> refused; ///< In the order of the nodes.
 
   static constexpr auto fields() {
-    return std::make_tuple(required("skills", &skill_list::skills),
-                           optional("refused", &skill_list::refused));
+    return field_list{required("skills", &skill_list::skills),
+                      optional("refused", &skill_list::refused)};
   }
 };
 

@@ -15,9 +15,8 @@ struct port_description {
   std::vector<std::string> protocols;  ///< "ros2", "file", "video".
 
   static constexpr auto fields() {
-    return std::make_tuple(
-        required("data_types", &port_description::data_types),
-        required("protocols", &port_description::protocols));
+    return field_list{required("data_types", &port_description::data_types),
+                      required("protocols", &port_description::protocols)};
   }
 };
 
@@ -33,7 +32,7 @@ struct deployment_option {
   std::vector<std::string> volumes; ///< "/host/path:/container/path[:ro]".
 
   static constexpr auto fields() {
-    return std::make_tuple(
+    return field_list{
         required("name", &deployment_option::name),
         required("base_image", &deployment_option::base_image),
         required("architectures", &deployment_option::architectures),
@@ -41,7 +40,7 @@ struct deployment_option {
         optional("devices", &deployment_option::devices),
         optional("labels", &deployment_option::labels),
         optional("environment", &deployment_option::environment),
-        optional("volumes", &deployment_option::volumes));
+        optional("volumes", &deployment_option::volumes)};
   }
 };
 
@@ -52,10 +51,10 @@ struct implementation_model {
   std::vector<deployment_option> deployments;
 
   static constexpr auto fields() {
-    return std::make_tuple(
+    return field_list{
         required("name", &implementation_model::name),
         raw_json("parameters", &implementation_model::parameters),
-        required("deployments", &implementation_model::deployments));
+        required("deployments", &implementation_model::deployments)};
   }
 };
 
@@ -71,14 +70,13 @@ struct skill_descriptor {
   std::vector<implementation_model> models;
 
   static constexpr auto fields() {
-    return std::make_tuple(
-        required("operation", &skill_descriptor::operation),
-        optional("version", &skill_descriptor::version),
-        required("engine", &skill_descriptor::engine),
-        required("entry_point", &skill_descriptor::entry_point),
-        required("input", &skill_descriptor::input),
-        required("output", &skill_descriptor::output),
-        required("models", &skill_descriptor::models));
+    return field_list{required("operation", &skill_descriptor::operation),
+                      optional("version", &skill_descriptor::version),
+                      required("engine", &skill_descriptor::engine),
+                      required("entry_point", &skill_descriptor::entry_point),
+                      required("input", &skill_descriptor::input),
+                      required("output", &skill_descriptor::output),
+                      required("models", &skill_descriptor::models)};
   }
 };
 

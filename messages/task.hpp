@@ -23,15 +23,15 @@ struct task_step {
   std::map<std::string, std::string> labels; ///< Labels the node must have.
 
   static constexpr auto fields() {
-    return std::make_tuple(required("id", &task_step::id),
-                           required("operation", &task_step::operation),
-                           required("model", &task_step::model),
-                           optional("deployment", &task_step::deployment),
-                           optional("build", &task_step::build),
-                           one_or_many("input", &task_step::input),
-                           one_or_many("output", &task_step::output),
-                           raw_json("parameters", &task_step::parameters),
-                           optional("labels", &task_step::labels));
+    return field_list{required("id", &task_step::id),
+                      required("operation", &task_step::operation),
+                      required("model", &task_step::model),
+                      optional("deployment", &task_step::deployment),
+                      optional("build", &task_step::build),
+                      one_or_many("input", &task_step::input),
+                      one_or_many("output", &task_step::output),
+                      raw_json("parameters", &task_step::parameters),
+                      optional("labels", &task_step::labels)};
   }
 };
 
@@ -43,8 +43,8 @@ struct task_request {
   std::vector<task_step> pipeline;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("task", &task_request::task),
-                           required("pipeline", &task_request::pipeline));
+    return field_list{required("task", &task_request::task),
+                      required("pipeline", &task_request::pipeline)};
   }
 };
 
@@ -59,11 +59,11 @@ struct task_plan_query {
   std::string why; ///< A step whose best alternative is asked for.
 
   static constexpr auto fields() {
-    return std::make_tuple(required("task", &task_plan_query::task),
-                           required("pipeline", &task_plan_query::pipeline),
-                           optional("without", &task_plan_query::without),
-                           optional("with", &task_plan_query::with),
-                           optional("why", &task_plan_query::why));
+    return field_list{required("task", &task_plan_query::task),
+                      required("pipeline", &task_plan_query::pipeline),
+                      optional("without", &task_plan_query::without),
+                      optional("with", &task_plan_query::with),
+                      optional("why", &task_plan_query::why)};
   }
 };
 
@@ -74,9 +74,9 @@ struct placed_instance {
   std::string node;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("step", &placed_instance::step),
-                           required("instance", &placed_instance::instance),
-                           required("node", &placed_instance::node));
+    return field_list{required("step", &placed_instance::step),
+                      required("instance", &placed_instance::instance),
+                      required("node", &placed_instance::node)};
   }
 };
 
@@ -86,7 +86,7 @@ struct task_termination {
   std::string task;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("task", &task_termination::task));
+    return field_list{required("task", &task_termination::task)};
   }
 };
 
@@ -98,10 +98,10 @@ struct task_terminated {
   std::vector<std::string> pending_nodes;
 
   static constexpr auto fields() {
-    return std::make_tuple(
+    return field_list{
         required("task", &task_terminated::task),
         required("instances", &task_terminated::instances),
-        optional("pending_nodes", &task_terminated::pending_nodes));
+        optional("pending_nodes", &task_terminated::pending_nodes)};
   }
 };
 
@@ -127,10 +127,10 @@ struct task_row {
   std::vector<instance_row> instances;
 
   static constexpr auto fields() {
-    return std::make_tuple(
+    return field_list{
         required("task", &task_row::task), required("state", &task_row::state),
         required("submitted_unix_ms", &task_row::submitted_unix_ms),
-        required("instances", &task_row::instances));
+        required("instances", &task_row::instances)};
   }
 };
 
@@ -139,7 +139,7 @@ struct task_query {
   std::string task; ///< Empty: all.
 
   static constexpr auto fields() {
-    return std::make_tuple(optional("task", &task_query::task));
+    return field_list{optional("task", &task_query::task)};
   }
 };
 
@@ -148,7 +148,7 @@ struct task_description {
   std::vector<task_row> tasks;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("tasks", &task_description::tasks));
+    return field_list{required("tasks", &task_description::tasks)};
   }
 };
 

@@ -46,7 +46,7 @@ struct wire {
   bool silent = false;
   std::array<bool, 2> mute{}; ///< The same for what this end sends.
   bool open = true;
-  bool lossy = false; ///< A frame has been lost.
+  bool lossy = false; ///< A frame has been lost or overtaken.
   /// Frames that wait for the end of the silence, with their receivers.
   std::vector<std::pair<size_t, std::string>> held;
   size_t frames = 0;
@@ -119,7 +119,9 @@ inline void pass(self_pointer self, const std::string& text,
   const auto other = 1 - self->state.index;
   const auto now = self->clock().now();
   auto when = now + link.delay() + extra;
-  if (!link.faults.reorder)
+  if (link.faults.reorder)
+    link.lossy |= when < link.last_arrival[other];
+  else
     when = std::max(when, link.last_arrival[other]);
   link.last_arrival[other] = std::max(when, link.last_arrival[other]);
   self->delayed_send(link.ends[other], when - now, frame_received{text});
@@ -231,13 +233,21 @@ inline void cut(wire& x) {
     caf::anon_send(end, session_closed{"the connection broke"});
 }
 
+/// Lets a frame arrive that was held back, not before what was sent earlier.
+inline void pass_on(wire& x, size_t receiver, std::string text) {
+  const auto now = x.ends[receiver].home_system().clock().now();
+  caf::delayed_anon_send(x.ends[receiver],
+                         std::max(now, x.last_arrival[receiver]) - now,
+                         frame_received{std::move(text)});
+}
+
 /// Lets arrive what was held back of what these ends have sent, and the news
 /// that the other end has gone.
 inline void release(wire& x, const std::array<bool, 2>& senders) {
   decltype(x.held) still;
   for (auto& [receiver, text] : std::exchange(x.held, {})) {
     if (senders[1 - receiver])
-      caf::anon_send(x.ends[receiver], frame_received{std::move(text)});
+      pass_on(x, receiver, std::move(text));
     else
       still.emplace_back(receiver, std::move(text));
   }

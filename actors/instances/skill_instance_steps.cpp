@@ -116,23 +116,6 @@ void conclude(skill_instance_pointer self, instance_state last,
       [=](const caf::error&) { finish(self, last, reason); });
 }
 
-void take_down(skill_instance_pointer self, instance_state last,
-               const std::string& reason, std::chrono::milliseconds grace) {
-  auto& st = self->state;
-  enter(self, instance_state::stopping, reason);
-  ask<container_stopped>(
-      self, st.config.runtime, grace + limits::instance::stop,
-      stop_container{st.row.spec.instance, st.row.container, grace.count()},
-      [=](const container_stopped& x) {
-        self->state.row.exit_code = x.exit_code;
-        conclude(self, last, reason);
-      },
-      [=](const caf::error& error) {
-        conclude(self, instance_state::failed,
-                 reason + "; it could not be ended: " + sentence(error));
-      });
-}
-
 namespace {
 
 /// Writes how things stand. A restarted node finds the program without it,
@@ -151,6 +134,26 @@ void note(skill_instance_pointer self) {
 }
 
 } // namespace
+
+void take_down(skill_instance_pointer self, instance_state last,
+               const std::string& reason, std::chrono::milliseconds grace) {
+  auto& st = self->state;
+  enter(self, instance_state::stopping, reason);
+  // Whoever wanted it may be out of reach when the node is started again.
+  if (last == instance_state::stopped)
+    note(self);
+  ask<container_stopped>(
+      self, st.config.runtime, grace + limits::instance::stop,
+      stop_container{st.row.spec.instance, st.row.container, grace.count()},
+      [=](const container_stopped& x) {
+        self->state.row.exit_code = x.exit_code;
+        conclude(self, last, reason);
+      },
+      [=](const caf::error& error) {
+        conclude(self, instance_state::failed,
+                 reason + "; it could not be ended: " + sentence(error));
+      });
+}
 
 void on_running(skill_instance_pointer self) {
   enter(self, instance_state::running);

@@ -22,6 +22,22 @@ std::string names_of(const Range& range, Name name) {
   return result.empty() ? "none" : result;
 }
 
+/// Of a few folders that nodes have refused: the skill may be in one of them.
+std::string refusals_of(const skill_list& known) {
+  constexpr size_t most_shown = 3;
+  std::string result;
+  for (size_t i = 0; i < known.refused.size() && i < most_shown; ++i) {
+    const auto& [node, problem] = known.refused[i];
+    result += "; node '" + node + "' refuses " + problem.path + ": ";
+    if (!problem.where.empty())
+      result += "at " + problem.where + ": ";
+    result += problem.message;
+  }
+  if (known.refused.size() > most_shown)
+    result += "; `roscell skills` shows more";
+  return result;
+}
+
 const implementation_model* find_model(const skill_descriptor& descriptor,
                                        const std::string& name) {
   for (const auto& model : descriptor.models)
@@ -49,7 +65,7 @@ struct fitting_build {
 /// leaves none, it says why.
 class step_resolver {
 public:
-  step_resolver(const task_step& step, const std::vector<skill_row>& skills,
+  step_resolver(const task_step& step, const skill_list& skills,
                 std::string pointer)
       : step_(step), pointer_(std::move(pointer)) {
     keep_operation(skills);
@@ -82,8 +98,8 @@ private:
         candidates_.end());
   }
 
-  void keep_operation(const std::vector<skill_row>& skills) {
-    for (const auto& row : skills)
+  void keep_operation(const skill_list& known) {
+    for (const auto& row : known.skills)
       if (row.skill.descriptor.operation == step_.operation)
         candidates_.push_back({&row, {}});
     std::stable_sort(candidates_.begin(), candidates_.end(),
@@ -93,9 +109,12 @@ private:
     if (candidates_.empty())
       refuse(error_code::unknown_operation, "/operation",
              "no skill of this cell does '" + step_.operation + "'",
-             "the operations are: " + names_of(skills, [](const skill_row& x) {
-               return x.skill.descriptor.operation;
-             }));
+             "the operations are: "
+                 + names_of(known.skills,
+                            [](const skill_row& x) {
+                              return x.skill.descriptor.operation;
+                            })
+                 + refusals_of(known));
   }
 
   void keep_build() {
@@ -233,8 +252,7 @@ private:
 } // namespace
 
 std::variant<std::vector<resolved_step>, failure>
-resolve_steps(const std::vector<task_step>& pipeline,
-              const std::vector<skill_row>& skills,
+resolve_steps(const std::vector<task_step>& pipeline, const skill_list& skills,
               const std::string& pointer) {
   std::vector<resolved_step> result;
   for (size_t i = 0; i < pipeline.size(); ++i) {

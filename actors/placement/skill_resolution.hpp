@@ -15,11 +15,11 @@ namespace roscell {
 /// points below `pointer`, the JSON pointer of the pipeline.
 ///
 /// Errors: unknown_operation (also where no build has the digits that the step
-/// names), unknown_model, unknown_deployment, and schema_violation for a
-/// protocol or data type that the skill does not take.
+/// names; the hint tells what nodes have refused), unknown_model,
+/// unknown_deployment, and schema_violation for a protocol or data type that
+/// the skill does not take.
 std::variant<std::vector<resolved_step>, failure>
-resolve_steps(const std::vector<task_step>& pipeline,
-              const std::vector<skill_row>& skills,
+resolve_steps(const std::vector<task_step>& pipeline, const skill_list& skills,
               const std::string& pointer = "/pipeline");
 
 } // namespace roscell

@@ -241,16 +241,16 @@ allocate(const allocate_task& asked, std::chrono::milliseconds budget,
 
 std::variant<task_plan, failure> allocate_offline(const plan_document& document,
                                                   const std::string& why) {
-  std::vector<skill_row> skills;
+  skill_list known;
   for (const auto& descriptor : document.skills) {
     skill_row row;
     row.skill.descriptor = descriptor;
     for (const auto& node : document.nodes)
       row.nodes.push_back(node.name);
-    skills.push_back(std::move(row));
+    known.skills.push_back(std::move(row));
   }
   auto steps =
-      resolve_steps(document.request.pipeline, skills, "/request/pipeline");
+      resolve_steps(document.request.pipeline, known, "/request/pipeline");
   if (auto* problem = std::get_if<failure>(&steps))
     return std::move(*problem);
   allocate_task asked{document.request.task,

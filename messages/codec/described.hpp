@@ -4,7 +4,6 @@
 #include <caf/sec.hpp>
 
 #include <cstddef>
-#include <tuple>
 #include <type_traits>
 #include <utility>
 
@@ -13,8 +12,8 @@
 /// cannot be forgotten in one of them. A described struct says
 ///
 ///     static constexpr auto fields() {
-///       return std::make_tuple(required("task", &task_query::task),
-///                              optional("limit", &task_query::limit));
+///       return field_list{required("task", &task_query::task),
+///                         optional("limit", &task_query::limit)};
 ///     }
 namespace roscell {
 
@@ -60,6 +59,39 @@ constexpr auto raw_json(const char* name, M S::*member) {
   return field<presence::raw_json, S, M>{name, member};
 }
 
+/// The fields of a struct in their order: an aggregate, which has nothing to
+/// instantiate in the many sources that only see a struct, as a tuple has.
+template <class... Fields>
+struct field_list;
+
+template <>
+struct field_list<> {
+  static constexpr std::size_t size = 0;
+
+  template <class Visitor>
+  constexpr void visit(Visitor&) const {
+    // nop
+  }
+};
+
+template <class Field, class... Fields>
+struct field_list<Field, Fields...> {
+  static constexpr std::size_t size = 1 + sizeof...(Fields);
+
+  Field first;
+  field_list<Fields...> rest;
+
+  /// Calls `visitor(field)` for each.
+  template <class Visitor>
+  constexpr void visit(Visitor& visitor) const {
+    visitor(first);
+    rest.visit(visitor);
+  }
+};
+
+template <class... Fields>
+field_list(Fields...) -> field_list<Fields...>;
+
 template <class T, class = void>
 struct is_described : std::false_type {};
 
@@ -72,7 +104,7 @@ using if_described = std::enable_if_t<is_described<std::decay_t<T>>::value>;
 /// Calls `visit(field)` for each field of `T`, in order.
 template <class T, class Visitor>
 void for_each_field(Visitor&& visit) {
-  std::apply([&](const auto&... f) { (visit(f), ...); }, T::fields());
+  T::fields().visit(visit);
 }
 
 /// CAF's view of a described struct. Messages never leave the process as CAF's

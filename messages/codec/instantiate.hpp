@@ -87,11 +87,11 @@ void from_json(const json& j, T& x) {
 
 template <class T, class>
 bool operator==(const T& x, const T& y) {
-  return std::apply(
-      [&](const auto&... fs) {
-        return ((x.*(fs.member) == y.*(fs.member)) && ...);
-      },
-      T::fields());
+  bool result = true;
+  for_each_field<T>([&](const auto& f) {
+    result = result && x.*(f.member) == y.*(f.member);
+  });
+  return result;
 }
 
 } // namespace roscell

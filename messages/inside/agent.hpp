@@ -12,7 +12,7 @@ struct measure_host {
   std::vector<int64_t> sessions; ///< Session leaders of our instances.
 
   static constexpr auto fields() {
-    return std::make_tuple(required("sessions", &measure_host::sessions));
+    return field_list{required("sessions", &measure_host::sessions)};
   }
 };
 
@@ -20,7 +20,7 @@ struct host_measured {
   node_resources resources; ///< `used` leaves our instances out.
 
   static constexpr auto fields() {
-    return std::make_tuple(required("resources", &host_measured::resources));
+    return field_list{required("resources", &host_measured::resources)};
   }
 };
 
@@ -28,7 +28,7 @@ struct host_measured {
 /// Sent along with work that is done anyway, such as a beat.
 struct mark_sample {
   static constexpr auto fields() {
-    return std::make_tuple();
+    return field_list{};
   }
 };
 

@@ -23,9 +23,8 @@ struct register_node {
   member_actor member;
 
   static constexpr auto fields() {
-    return std::make_tuple(
-        required("registration", &register_node::registration),
-        required("member", &register_node::member));
+    return field_list{required("registration", &register_node::registration),
+                      required("member", &register_node::member)};
   }
 };
 
@@ -36,9 +35,9 @@ struct depart_node {
   std::string reason;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("uuid", &depart_node::uuid),
-                           required("member", &depart_node::member),
-                           required("reason", &depart_node::reason));
+    return field_list{required("uuid", &depart_node::uuid),
+                      required("member", &depart_node::member),
+                      required("reason", &depart_node::reason)};
   }
 };
 
@@ -49,9 +48,9 @@ struct member_lost {
   std::string reason;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("uuid", &member_lost::uuid),
-                           required("member", &member_lost::member),
-                           required("reason", &member_lost::reason));
+    return field_list{required("uuid", &member_lost::uuid),
+                      required("member", &member_lost::member),
+                      required("reason", &member_lost::reason)};
   }
 };
 
@@ -63,9 +62,9 @@ struct peer_opened {
   bool opened_here = true; ///< Else the other one came to us.
 
   static constexpr auto fields() {
-    return std::make_tuple(required("peer", &peer_opened::peer),
-                           required("uuid", &peer_opened::uuid),
-                           required("opened_here", &peer_opened::opened_here));
+    return field_list{required("peer", &peer_opened::peer),
+                      required("uuid", &peer_opened::uuid),
+                      required("opened_here", &peer_opened::opened_here)};
   }
 };
 
@@ -76,9 +75,9 @@ struct peer_lost {
   std::string reason;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("peer", &peer_lost::peer),
-                           required("uuid", &peer_lost::uuid),
-                           required("reason", &peer_lost::reason));
+    return field_list{required("peer", &peer_lost::peer),
+                      required("uuid", &peer_lost::uuid),
+                      required("reason", &peer_lost::reason)};
   }
 };
 
@@ -88,8 +87,8 @@ struct peer_told {
   cell_standing standing;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("peer", &peer_told::peer),
-                           required("standing", &peer_told::standing));
+    return field_list{required("peer", &peer_told::peer),
+                      required("standing", &peer_told::standing)};
   }
 };
 
@@ -99,30 +98,30 @@ struct peer_changed {
   cell_changed change;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("peer", &peer_changed::peer),
-                           required("change", &peer_changed::change));
+    return field_list{required("peer", &peer_changed::peer),
+                      required("change", &peer_changed::change)};
   }
 };
 
 /// Asks what the cell has to place something on, of all active members.
 struct collect_resources {
   static constexpr auto fields() {
-    return std::make_tuple();
+    return field_list{};
   }
 };
 
 /// All that a placement starts from.
 struct cell_resources {
   std::string cell;
-  std::vector<skill_row> skills;
+  skill_list skills;
   std::vector<node_resources> nodes;    ///< In the order of their names.
   std::vector<node_agent_actor> agents; ///< One of each node.
 
   static constexpr auto fields() {
-    return std::make_tuple(required("cell", &cell_resources::cell),
-                           required("skills", &cell_resources::skills),
-                           required("nodes", &cell_resources::nodes),
-                           required("agents", &cell_resources::agents));
+    return field_list{required("cell", &cell_resources::cell),
+                      required("skills", &cell_resources::skills),
+                      required("nodes", &cell_resources::nodes),
+                      required("agents", &cell_resources::agents)};
   }
 };
 
@@ -133,9 +132,9 @@ struct skill_build {
   std::vector<std::string> nodes; ///< Those on which it is the candidate.
 
   static constexpr auto fields() {
-    return std::make_tuple(required("hash", &skill_build::hash),
-                           required("model", &skill_build::model),
-                           required("nodes", &skill_build::nodes));
+    return field_list{required("hash", &skill_build::hash),
+                      required("model", &skill_build::model),
+                      required("nodes", &skill_build::nodes)};
   }
 };
 
@@ -146,8 +145,8 @@ struct resolved_step {
   std::vector<skill_build> builds;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("step", &resolved_step::step),
-                           required("builds", &resolved_step::builds));
+    return field_list{required("step", &resolved_step::step),
+                      required("builds", &resolved_step::builds)};
   }
 };
 
@@ -161,12 +160,12 @@ struct allocate_task {
   bool trial = false; ///< Nothing will come of it but the plan.
 
   static constexpr auto fields() {
-    return std::make_tuple(required("task", &allocate_task::task),
-                           required("steps", &allocate_task::steps),
-                           required("nodes", &allocate_task::nodes),
-                           required("excluded", &allocate_task::excluded),
-                           required("why", &allocate_task::why),
-                           required("trial", &allocate_task::trial));
+    return field_list{required("task", &allocate_task::task),
+                      required("steps", &allocate_task::steps),
+                      required("nodes", &allocate_task::nodes),
+                      required("excluded", &allocate_task::excluded),
+                      required("why", &allocate_task::why),
+                      required("trial", &allocate_task::trial)};
   }
 };
 
@@ -178,10 +177,10 @@ struct record_intent {
   task_accepted decision;         ///< Why so; without the instances.
 
   static constexpr auto fields() {
-    return std::make_tuple(required("task", &record_intent::task),
-                           required("specs", &record_intent::specs),
-                           required("nodes", &record_intent::nodes),
-                           required("decision", &record_intent::decision));
+    return field_list{required("task", &record_intent::task),
+                      required("specs", &record_intent::specs),
+                      required("nodes", &record_intent::nodes),
+                      required("decision", &record_intent::decision)};
   }
 };
 
@@ -190,8 +189,8 @@ struct intent_recorded {
   std::vector<node_agent_actor> agents; ///< Agent of each spec's node.
 
   static constexpr auto fields() {
-    return std::make_tuple(required("specs", &intent_recorded::specs),
-                           required("agents", &intent_recorded::agents));
+    return field_list{required("specs", &intent_recorded::specs),
+                      required("agents", &intent_recorded::agents)};
   }
 };
 
@@ -200,7 +199,7 @@ struct record_running {
   std::string task;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("task", &record_running::task));
+    return field_list{required("task", &record_running::task)};
   }
 };
 
@@ -210,14 +209,14 @@ struct record_failure {
   std::string reason;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("task", &record_failure::task),
-                           required("reason", &record_failure::reason));
+    return field_list{required("task", &record_failure::task),
+                      required("reason", &record_failure::reason)};
   }
 };
 
 struct task_rolled_back {
   static constexpr auto fields() {
-    return std::make_tuple();
+    return field_list{};
   }
 };
 
@@ -228,8 +227,8 @@ struct claim_task {
   std::string request; ///< JSON of the task request.
 
   static constexpr auto fields() {
-    return std::make_tuple(required("task", &claim_task::task),
-                           required("request", &claim_task::request));
+    return field_list{required("task", &claim_task::task),
+                      required("request", &claim_task::request)};
   }
 };
 
@@ -239,9 +238,9 @@ struct task_claimed {
   cell_resources cell;    ///< Else what the task may be placed on.
 
   static constexpr auto fields() {
-    return std::make_tuple(required("known", &task_claimed::known),
-                           required("accepted", &task_claimed::accepted),
-                           required("cell", &task_claimed::cell));
+    return field_list{required("known", &task_claimed::known),
+                      required("accepted", &task_claimed::accepted),
+                      required("cell", &task_claimed::cell)};
   }
 };
 
@@ -251,8 +250,8 @@ struct route_request {
   std::string only; ///< The one type that is allowed; empty: any.
 
   static constexpr auto fields() {
-    return std::make_tuple(required("text", &route_request::text),
-                           required("only", &route_request::only));
+    return field_list{required("text", &route_request::text),
+                      required("only", &route_request::only)};
   }
 };
 
@@ -263,15 +262,15 @@ struct request_routed {
   std::string refusal;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("text", &request_routed::text),
-                           required("refusal", &request_routed::refusal));
+    return field_list{required("text", &request_routed::text),
+                      required("refusal", &request_routed::refusal)};
   }
 };
 
 /// Begins the work on the request that the pipeline was made for.
 struct process_request {
   static constexpr auto fields() {
-    return std::make_tuple();
+    return field_list{};
   }
 };
 
@@ -279,14 +278,14 @@ struct request_processed {
   std::string text; ///< JSON of the reply.
 
   static constexpr auto fields() {
-    return std::make_tuple(required("text", &request_processed::text));
+    return field_list{required("text", &request_processed::text)};
   }
 };
 
 /// Ends the node in order: leaves the cell, closes the edges, keeps instances.
 struct stop_node {
   static constexpr auto fields() {
-    return std::make_tuple();
+    return field_list{};
   }
 };
 

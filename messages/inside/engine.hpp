@@ -18,10 +18,10 @@ struct engine_answered {
   failure why;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("call", &engine_answered::call),
-                           required("status", &engine_answered::status),
-                           required("body", &engine_answered::body),
-                           required("why", &engine_answered::why));
+    return field_list{required("call", &engine_answered::call),
+                      required("status", &engine_answered::status),
+                      required("body", &engine_answered::body),
+                      required("why", &engine_answered::why)};
   }
 };
 
@@ -31,8 +31,8 @@ struct engine_streamed {
   std::vector<std::string> lines;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("call", &engine_streamed::call),
-                           required("lines", &engine_streamed::lines));
+    return field_list{required("call", &engine_streamed::call),
+                      required("lines", &engine_streamed::lines)};
   }
 };
 
@@ -44,11 +44,10 @@ struct engine_log_read {
   bool is_whole = true; ///< It is all that is there.
 
   static constexpr auto fields() {
-    return std::make_tuple(
-        required("call", &engine_log_read::call),
-        required("text", &engine_log_read::text),
-        required("next_offset", &engine_log_read::next_offset),
-        required("is_whole", &engine_log_read::is_whole));
+    return field_list{required("call", &engine_log_read::call),
+                      required("text", &engine_log_read::text),
+                      required("next_offset", &engine_log_read::next_offset),
+                      required("is_whole", &engine_log_read::is_whole)};
   }
 };
 
@@ -58,15 +57,15 @@ struct image_planned {
   std::string dockerfile;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("image", &image_planned::image),
-                           required("dockerfile", &image_planned::dockerfile));
+    return field_list{required("image", &image_planned::image),
+                      required("dockerfile", &image_planned::dockerfile)};
   }
 };
 
 /// Writes the build context of the image that was planned last.
 struct pack_image {
   static constexpr auto fields() {
-    return std::make_tuple();
+    return field_list{};
   }
 };
 
@@ -74,7 +73,7 @@ struct image_packed {
   std::string file; ///< A tar file, which the receiver removes.
 
   static constexpr auto fields() {
-    return std::make_tuple(required("file", &image_packed::file));
+    return field_list{required("file", &image_packed::file)};
   }
 };
 

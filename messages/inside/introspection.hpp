@@ -11,7 +11,7 @@ namespace roscell {
 /// Asks an actor what it knows. Every actor of the house answers.
 struct state_query {
   static constexpr auto fields() {
-    return std::make_tuple();
+    return field_list{};
   }
 };
 
@@ -20,7 +20,7 @@ struct actor_state {
   std::string json_text;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("state", &actor_state::json_text));
+    return field_list{required("state", &actor_state::json_text)};
   }
 };
 
@@ -31,9 +31,9 @@ struct record_event {
   std::string data;    ///< JSON object, may be empty.
 
   static constexpr auto fields() {
-    return std::make_tuple(required("what", &record_event::what),
-                           required("subject", &record_event::subject),
-                           required("data", &record_event::data));
+    return field_list{required("what", &record_event::what),
+                      required("subject", &record_event::subject),
+                      required("data", &record_event::data)};
   }
 };
 
@@ -43,8 +43,8 @@ struct subscribe_events {
   uint64_t since = 0;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("listener", &subscribe_events::listener),
-                           required("since", &subscribe_events::since));
+    return field_list{required("listener", &subscribe_events::listener),
+                      required("since", &subscribe_events::since)};
   }
 };
 

@@ -18,7 +18,7 @@ struct send_frame {
   std::string text;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("text", &send_frame::text));
+    return field_list{required("text", &send_frame::text)};
   }
 };
 
@@ -26,7 +26,7 @@ struct frame_received {
   std::string text;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("text", &frame_received::text));
+    return field_list{required("text", &frame_received::text)};
   }
 };
 
@@ -34,7 +34,7 @@ struct send_beat {
   beat_kind kind = beat_kind::beat;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("kind", &send_beat::kind));
+    return field_list{required("kind", &send_beat::kind)};
   }
 };
 
@@ -42,7 +42,7 @@ struct beat_received {
   beat_kind kind = beat_kind::beat;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("kind", &beat_received::kind));
+    return field_list{required("kind", &beat_received::kind)};
   }
 };
 
@@ -50,7 +50,7 @@ struct close_session {
   std::string reason;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("reason", &close_session::reason));
+    return field_list{required("reason", &close_session::reason)};
   }
 };
 
@@ -59,7 +59,7 @@ struct session_closed {
   std::string reason;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("reason", &session_closed::reason));
+    return field_list{required("reason", &session_closed::reason)};
   }
 };
 
@@ -67,7 +67,7 @@ struct own_session {
   session_owner_actor owner;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("owner", &own_session::owner));
+    return field_list{required("owner", &own_session::owner)};
   }
 };
 
@@ -78,9 +78,9 @@ struct session_admitted {
   node_role role = node_role::primary; ///< A coordinator is a peer.
 
   static constexpr auto fields() {
-    return std::make_tuple(required("session", &session_admitted::session),
-                           required("peer", &session_admitted::peer),
-                           required("role", &session_admitted::role));
+    return field_list{required("session", &session_admitted::session),
+                      required("peer", &session_admitted::peer),
+                      required("role", &session_admitted::role)};
   }
 };
 
@@ -92,10 +92,10 @@ struct open_session {
   std::string uuid; ///< The only node that may answer there; empty: any.
 
   static constexpr auto fields() {
-    return std::make_tuple(required("address", &open_session::address),
-                           required("self", &open_session::self),
-                           required("role", &open_session::role),
-                           required("uuid", &open_session::uuid));
+    return field_list{required("address", &open_session::address),
+                      required("self", &open_session::self),
+                      required("role", &open_session::role),
+                      required("uuid", &open_session::uuid)};
   }
 };
 
@@ -106,11 +106,10 @@ struct session_opened {
   int64_t incarnation = 0;
 
   static constexpr auto fields() {
-    return std::make_tuple(
-        required("session", &session_opened::session),
-        required("cell", &session_opened::cell),
-        required("coordinator", &session_opened::coordinator),
-        required("incarnation", &session_opened::incarnation));
+    return field_list{required("session", &session_opened::session),
+                      required("cell", &session_opened::cell),
+                      required("coordinator", &session_opened::coordinator),
+                      required("incarnation", &session_opened::incarnation)};
   }
 };
 
@@ -121,9 +120,9 @@ struct session_settled {
   failure problem;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("attempt", &session_settled::attempt),
-                           required("opened", &session_settled::opened),
-                           required("problem", &session_settled::problem));
+    return field_list{required("attempt", &session_settled::attempt),
+                      required("opened", &session_settled::opened),
+                      required("problem", &session_settled::problem)};
   }
 };
 
@@ -132,14 +131,14 @@ struct find_coordinator {
   std::string address; ///< "ip:port"
 
   static constexpr auto fields() {
-    return std::make_tuple(required("address", &find_coordinator::address));
+    return field_list{required("address", &find_coordinator::address)};
   }
 };
 
 /// Deletes the CLIENT participant: from here on nobody is looked for.
 struct forget_coordinator {
   static constexpr auto fields() {
-    return std::make_tuple();
+    return field_list{};
   }
 };
 
@@ -151,11 +150,10 @@ struct coordinator_found {
   int64_t incarnation = 0;
 
   static constexpr auto fields() {
-    return std::make_tuple(
-        required("cell", &coordinator_found::cell),
-        required("coordinator", &coordinator_found::coordinator),
-        required("address", &coordinator_found::address),
-        required("incarnation", &coordinator_found::incarnation));
+    return field_list{required("cell", &coordinator_found::cell),
+                      required("coordinator", &coordinator_found::coordinator),
+                      required("address", &coordinator_found::address),
+                      required("incarnation", &coordinator_found::incarnation)};
   }
 };
 
@@ -173,7 +171,7 @@ struct node_presence {
   std::string cell_uuid;        ///< Of the cell; not of an independent node.
 
   static constexpr auto fields() {
-    return std::make_tuple(
+    return field_list{
         required("role", &node_presence::role),
         required("name", &node_presence::name),
         required("uuid", &node_presence::uuid),
@@ -183,7 +181,7 @@ struct node_presence {
         required("address", &node_presence::address),
         required("discovery_server", &node_presence::discovery_server),
         required("server_id", &node_presence::server_id),
-        optional("cell_uuid", &node_presence::cell_uuid));
+        optional("cell_uuid", &node_presence::cell_uuid)};
   }
 };
 
@@ -192,14 +190,14 @@ struct announce_presence {
   node_presence self;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("self", &announce_presence::self));
+    return field_list{required("self", &announce_presence::self)};
   }
 };
 
 /// Deletes the public participant: nobody sees the node, and it sees nobody.
 struct withdraw_presence {
   static constexpr auto fields() {
-    return std::make_tuple();
+    return field_list{};
   }
 };
 
@@ -208,7 +206,7 @@ struct presence_seen {
   node_presence who;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("who", &presence_seen::who));
+    return field_list{required("who", &presence_seen::who)};
   }
 };
 
@@ -217,7 +215,7 @@ struct presence_gone {
   node_presence who; ///< As announced last.
 
   static constexpr auto fields() {
-    return std::make_tuple(required("who", &presence_gone::who));
+    return field_list{required("who", &presence_gone::who)};
   }
 };
 

@@ -11,7 +11,7 @@ namespace roscell {
 /// Asks where the node stands.
 struct membership_query {
   static constexpr auto fields() {
-    return std::make_tuple();
+    return field_list{};
   }
 };
 
@@ -22,11 +22,10 @@ struct membership_state {
   std::string coordinator; ///< Address of the coordinator's HTTP port.
 
   static constexpr auto fields() {
-    return std::make_tuple(
-        required("identity", &membership_state::identity),
-        required("state", &membership_state::state),
-        required("cell", &membership_state::cell),
-        required("coordinator", &membership_state::coordinator));
+    return field_list{required("identity", &membership_state::identity),
+                      required("state", &membership_state::state),
+                      required("cell", &membership_state::cell),
+                      required("coordinator", &membership_state::coordinator)};
   }
 };
 
@@ -35,8 +34,8 @@ struct join_cell {
   std::string discovery_server; ///< "ip:port"
 
   static constexpr auto fields() {
-    return std::make_tuple(
-        required("discovery_server", &join_cell::discovery_server));
+    return field_list{
+        required("discovery_server", &join_cell::discovery_server)};
   }
 };
 
@@ -44,7 +43,7 @@ struct join_cell {
 /// appears, until the node is in a cell.
 struct seek_cell {
   static constexpr auto fields() {
-    return std::make_tuple();
+    return field_list{};
   }
 };
 
@@ -59,12 +58,12 @@ struct membership_record {
   std::string cell_uuid; ///< Empty: its coordinator has not told it.
 
   static constexpr auto fields() {
-    return std::make_tuple(
+    return field_list{
         required("configured", &membership_record::configured),
         required("discovery_server", &membership_record::discovery_server),
         required("cell", &membership_record::cell),
         required("origin", &membership_record::origin),
-        optional("cell_uuid", &membership_record::cell_uuid));
+        optional("cell_uuid", &membership_record::cell_uuid)};
   }
 };
 
@@ -73,7 +72,7 @@ struct leave_cell {
   std::string reason;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("reason", &leave_cell::reason));
+    return field_list{required("reason", &leave_cell::reason)};
   }
 };
 

@@ -24,13 +24,13 @@ struct prepare_image {
   std::string base_image; ///< Ignored by the process runtime.
 
   static constexpr auto fields() {
-    return std::make_tuple(required("instance", &prepare_image::instance),
-                           required("operation", &prepare_image::operation),
-                           required("skill_dir", &prepare_image::skill_dir),
-                           required("skill", &prepare_image::skill),
-                           optional("look", &prepare_image::look),
-                           required("entry_point", &prepare_image::entry_point),
-                           required("base_image", &prepare_image::base_image));
+    return field_list{required("instance", &prepare_image::instance),
+                      required("operation", &prepare_image::operation),
+                      required("skill_dir", &prepare_image::skill_dir),
+                      required("skill", &prepare_image::skill),
+                      optional("look", &prepare_image::look),
+                      required("entry_point", &prepare_image::entry_point),
+                      required("base_image", &prepare_image::base_image)};
   }
 };
 
@@ -38,7 +38,7 @@ struct image_prepared {
   std::string image; ///< What `start_container` takes.
 
   static constexpr auto fields() {
-    return std::make_tuple(required("image", &image_prepared::image));
+    return field_list{required("image", &image_prepared::image)};
   }
 };
 
@@ -56,18 +56,17 @@ struct start_container {
   std::vector<std::string> volumes; ///< "/host/path:/container/path[:ro]".
 
   static constexpr auto fields() {
-    return std::make_tuple(
-        required("instance", &start_container::instance),
-        required("image", &start_container::image),
-        required("command", &start_container::command),
-        required("environment", &start_container::environment),
-        required("labels", &start_container::labels),
-        required("limits", &start_container::limits),
-        nullable("gpu", &start_container::gpu),
-        one_or_many("input", &start_container::input),
-        one_or_many("output", &start_container::output),
-        required("devices", &start_container::devices),
-        required("volumes", &start_container::volumes));
+    return field_list{required("instance", &start_container::instance),
+                      required("image", &start_container::image),
+                      required("command", &start_container::command),
+                      required("environment", &start_container::environment),
+                      required("labels", &start_container::labels),
+                      required("limits", &start_container::limits),
+                      nullable("gpu", &start_container::gpu),
+                      one_or_many("input", &start_container::input),
+                      one_or_many("output", &start_container::output),
+                      required("devices", &start_container::devices),
+                      required("volumes", &start_container::volumes)};
   }
 };
 
@@ -75,8 +74,7 @@ struct container_started {
   std::string container; ///< The runtime's id of it, kept for adoption.
 
   static constexpr auto fields() {
-    return std::make_tuple(
-        required("container", &container_started::container));
+    return field_list{required("container", &container_started::container)};
   }
 };
 
@@ -87,9 +85,9 @@ struct stop_container {
   int64_t grace_ms = 5000;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("instance", &stop_container::instance),
-                           required("container", &stop_container::container),
-                           required("grace_ms", &stop_container::grace_ms));
+    return field_list{required("instance", &stop_container::instance),
+                      required("container", &stop_container::container),
+                      required("grace_ms", &stop_container::grace_ms)};
   }
 };
 
@@ -98,8 +96,7 @@ struct container_stopped {
   int exit_code = -1; ///< 128 + n after signal n; negative: not known.
 
   static constexpr auto fields() {
-    return std::make_tuple(
-        required("exit_code", &container_stopped::exit_code));
+    return field_list{required("exit_code", &container_stopped::exit_code)};
   }
 };
 
@@ -110,14 +107,14 @@ struct remove_container {
   std::string container; ///< Empty: whatever belongs to the instance.
 
   static constexpr auto fields() {
-    return std::make_tuple(required("instance", &remove_container::instance),
-                           required("container", &remove_container::container));
+    return field_list{required("instance", &remove_container::instance),
+                      required("container", &remove_container::container)};
   }
 };
 
 struct container_removed {
   static constexpr auto fields() {
-    return std::make_tuple();
+    return field_list{};
   }
 };
 
@@ -127,8 +124,8 @@ struct adopt_container {
   std::string container; ///< Empty: whatever belongs to the instance.
 
   static constexpr auto fields() {
-    return std::make_tuple(required("instance", &adopt_container::instance),
-                           required("container", &adopt_container::container));
+    return field_list{required("instance", &adopt_container::instance),
+                      required("container", &adopt_container::container)};
   }
 };
 
@@ -138,10 +135,9 @@ struct container_adopted {
   int exit_code = -1;    ///< Of one that ended meanwhile; negative: not known.
 
   static constexpr auto fields() {
-    return std::make_tuple(
-        required("running", &container_adopted::running),
-        required("container", &container_adopted::container),
-        required("exit_code", &container_adopted::exit_code));
+    return field_list{required("running", &container_adopted::running),
+                      required("container", &container_adopted::container),
+                      required("exit_code", &container_adopted::exit_code)};
   }
 };
 
@@ -151,7 +147,7 @@ struct hear_container {
   std::string instance;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("instance", &hear_container::instance));
+    return field_list{required("instance", &hear_container::instance)};
   }
 };
 
@@ -162,9 +158,9 @@ struct container_exited {
   int exit_code = -1;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("instance", &container_exited::instance),
-                           required("container", &container_exited::container),
-                           required("exit_code", &container_exited::exit_code));
+    return field_list{required("instance", &container_exited::instance),
+                      required("container", &container_exited::container),
+                      required("exit_code", &container_exited::exit_code)};
   }
 };
 
@@ -178,12 +174,12 @@ struct instance_notified {
   bool heard = false;    ///< Answers `hear_container`; may say nothing else.
 
   static constexpr auto fields() {
-    return std::make_tuple(required("instance", &instance_notified::instance),
-                           required("ready", &instance_notified::ready),
-                           required("alive", &instance_notified::alive),
-                           required("stopping", &instance_notified::stopping),
-                           required("status", &instance_notified::status),
-                           required("heard", &instance_notified::heard));
+    return field_list{required("instance", &instance_notified::instance),
+                      required("ready", &instance_notified::ready),
+                      required("alive", &instance_notified::alive),
+                      required("stopping", &instance_notified::stopping),
+                      required("status", &instance_notified::status),
+                      required("heard", &instance_notified::heard)};
   }
 };
 
@@ -193,7 +189,7 @@ struct runtime_troubled {
   std::string message; ///< Empty: the trouble is over.
 
   static constexpr auto fields() {
-    return std::make_tuple(required("message", &runtime_troubled::message));
+    return field_list{required("message", &runtime_troubled::message)};
   }
 };
 
@@ -203,8 +199,8 @@ struct program_ended {
   std::string container;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("instance", &program_ended::instance),
-                           required("container", &program_ended::container));
+    return field_list{required("instance", &program_ended::instance),
+                      required("container", &program_ended::container)};
   }
 };
 
@@ -213,7 +209,7 @@ struct log_grown {
   std::string instance;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("instance", &log_grown::instance));
+    return field_list{required("instance", &log_grown::instance)};
   }
 };
 
@@ -221,7 +217,7 @@ struct log_grown {
 /// earlier run of the node has brought it up.
 struct start_instance {
   static constexpr auto fields() {
-    return std::make_tuple();
+    return field_list{};
   }
 };
 
@@ -230,7 +226,7 @@ struct stop_instance {
   std::string reason;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("reason", &stop_instance::reason));
+    return field_list{required("reason", &stop_instance::reason)};
   }
 };
 
@@ -239,8 +235,7 @@ struct ends_acknowledged {
   std::vector<std::string> instances;
 
   static constexpr auto fields() {
-    return std::make_tuple(
-        required("instances", &ends_acknowledged::instances));
+    return field_list{required("instances", &ends_acknowledged::instances)};
   }
 };
 
@@ -249,8 +244,7 @@ struct listen_to_instances {
   instance_listener_actor listener;
 
   static constexpr auto fields() {
-    return std::make_tuple(
-        required("listener", &listen_to_instances::listener));
+    return field_list{required("listener", &listen_to_instances::listener)};
   }
 };
 

@@ -31,10 +31,10 @@ struct store_record {
   bool may_wait = false;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("table", &store_record::table),
-                           required("key", &store_record::key),
-                           required("value", &store_record::value),
-                           optional("may_wait", &store_record::may_wait));
+    return field_list{required("table", &store_record::table),
+                      required("key", &store_record::key),
+                      required("value", &store_record::value),
+                      optional("may_wait", &store_record::may_wait)};
   }
 };
 
@@ -44,13 +44,13 @@ struct store_records {
   std::vector<store_record> records;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("records", &store_records::records));
+    return field_list{required("records", &store_records::records)};
   }
 };
 
 struct record_stored {
   static constexpr auto fields() {
-    return std::make_tuple();
+    return field_list{};
   }
 };
 

@@ -135,8 +135,7 @@ TEST_CASE("every message type has a struct that is tried here") {
 TEST_CASE("a failure survives its error reply") {
   const failure why{error_code::conflict, "the port is in use", "/port",
                     "choose another one", R"({"holder":{"pid":7}})"};
-  CHECK(member_count<failure>()
-        == std::tuple_size_v<decltype(failure::fields())>);
+  CHECK(member_count<failure>() == decltype(failure::fields())::size);
   auto reply = error_reply(why);
   CHECK_FALSE(validate_message(reply));
   CHECK(reply["error"]["holder"]["pid"] == 7);

@@ -44,7 +44,7 @@ trial try_part(std::string name) {
   trial result;
   result.name = std::move(name);
   result.members = member_count<T>();
-  result.fields = std::tuple_size_v<decltype(T::fields())>;
+  result.fields = decltype(T::fields())::size;
   const auto full = sampler{extent::full}.make<T>();
   result.full = encoded(full);
   result.full_survives = survives(result.full, full);

@@ -229,6 +229,8 @@ test_a_missing_entry_point_is_named() {
   await head '.event == "skill_refused" and .data.where == "/entry_point/0"
     and (.data.message | contains("bin/echo"))' > /dev/null
   expect "code" "$(refusal "$(echo_task a)")" unknown_operation
+  jq -r .error.hint "$scratch/refusal.json" | grep -q "$scratch/.*bin/echo" \
+    || fail "the hint does not name the program: $(cat "$scratch/refusal.json")"
   still_up
 }
 

@@ -81,8 +81,6 @@ test_a_task_finds_its_share_of_busy_cores_unless_the_floor_is_zero() {
     --capacity "cpu=$(nproc)"
   skills=$scratch/head.skills start_node strict --coordinator --cell other \
     --interface lo --cpu-floor 0
-  # Until it has measured a rate, a node goes by the load of the last minute.
-  sleep 6
   echo_task hello > "$scratch/task.json"
   to strict request "$scratch/task.json" > "$scratch/reply.json"
   expect "code" "$(jq -r .error.code "$scratch/reply.json")" \

@@ -37,8 +37,8 @@ struct member_record {
   join_origin origin = join_origin::given;
 
   static constexpr auto fields() {
-    return std::make_tuple(required("identity", &member_record::identity),
-                           required("origin", &member_record::origin));
+    return field_list{required("identity", &member_record::identity),
+                      required("origin", &member_record::origin)};
   }
 };
 

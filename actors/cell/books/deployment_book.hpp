@@ -6,7 +6,6 @@
 #include <optional>
 #include <set>
 #include <string>
-#include <tuple>
 #include <vector>
 
 namespace roscell {
@@ -20,11 +19,11 @@ struct instance_end {
   int64_t unix_ms = 0; ///< When it ended.
 
   static constexpr auto fields() {
-    return std::make_tuple(required("instance", &instance_end::instance),
-                           required("state", &instance_end::state),
-                           nullable("exit_code", &instance_end::exit_code),
-                           optional("reason", &instance_end::reason),
-                           required("unix_ms", &instance_end::unix_ms));
+    return field_list{required("instance", &instance_end::instance),
+                      required("state", &instance_end::state),
+                      nullable("exit_code", &instance_end::exit_code),
+                      optional("reason", &instance_end::reason),
+                      required("unix_ms", &instance_end::unix_ms)};
   }
 };
 

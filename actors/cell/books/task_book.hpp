@@ -11,7 +11,6 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <tuple>
 #include <vector>
 
 namespace roscell {
@@ -30,7 +29,7 @@ struct task_record {
   std::vector<std::string> tentative; ///< Instances of a move that goes on.
 
   static constexpr auto fields() {
-    return std::make_tuple(
+    return field_list{
         required("task", &task_record::task),
         required("request", &task_record::request),
         required("accepted", &task_record::accepted),
@@ -39,7 +38,7 @@ struct task_record {
         required("specs", &task_record::specs),
         required("nodes", &task_record::nodes),
         optional("ends", &task_record::ends),
-        optional("tentative", &task_record::tentative));
+        optional("tentative", &task_record::tentative)};
   }
 };
 

@@ -26,7 +26,7 @@ void complete_tally(coordinator_pointer self, resource_tally& tally) {
   const auto& st = self->state;
   cell_resources result;
   result.cell = st.setup.cell;
-  result.skills = st.registry.skills("");
+  result.skills = {st.registry.skills(""), st.registry.refused_skills()};
   for (auto& [name, node] : tally.nodes) {
     const auto* entry = st.registry.find_name(name);
     if (!entry || entry->row.state != row_state::active)

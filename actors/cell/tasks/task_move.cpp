@@ -42,7 +42,8 @@ std::optional<failure> add_steps(coordinator_pointer self, task_move& move,
                      [&](const auto& y) { return y.id == x.spec.step; });
     if (x.node != move.node || x.end || step == request->pipeline.end())
       continue;
-    auto resolved = resolve_steps({*step}, st.registry.skills(""));
+    auto resolved = resolve_steps(
+        {*step}, {st.registry.skills(""), st.registry.refused_skills()});
     if (auto* why = std::get_if<failure>(&resolved))
       return *why;
     moved_step moved;

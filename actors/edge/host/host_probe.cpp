@@ -153,7 +153,7 @@ host_resources host_probe::read(clock::time_point now,
   result.cpu.capacity = online_cores(options_.root);
   const auto rate = cpu_used(now);
   result.cpu_estimated = !rate;
-  result.cpu.used = rate ? *rate : load_average();
+  result.cpu.used = rate ? *rate : load_estimate();
   result.memory_mib = memory();
   result.disk_mib = disk();
   result.gpus = gpus(result.unified_memory, own);
@@ -167,14 +167,21 @@ host_resources host_probe::read(clock::time_point now,
                      cgroup_bound(options_.root));
 }
 
-/// proc(5), /proc/loadavg: "1.50 0.90 0.40 2/345 6789".
-double host_probe::load_average() const {
+/// proc(5), /proc/loadavg: "1.50 0.90 0.40 2/345 6789", the fourth being the
+/// threads that run or could, this one among them.
+double host_probe::load_estimate() const {
   const auto text = read_file(options_.root + "/proc/loadavg", 256);
   if (!text)
     return 0;
   std::string_view rest{*text};
+  const auto average = to_fraction(take_word(rest)).value_or(0);
+  take_word(rest);
+  take_word(rest);
+  const auto threads = take_word(rest);
+  const auto running = to_number(threads.substr(0, threads.find('/')));
+  const auto others = static_cast<double>(running.value_or(1)) - 1;
   const double cores = online_cores(options_.root);
-  return std::min(to_fraction(take_word(rest)).value_or(0), cores);
+  return std::clamp(std::max(average, others), 0.0, cores);
 }
 
 /// proc(5), /proc/stat: user nice system idle iowait irq softirq steal, in

@@ -18,7 +18,7 @@ struct host_resources {
   std::string architecture;    ///< As container images name it: amd64, arm64.
   bool unified_memory = false; ///< CPU and GPU share one memory (Jetson).
   amount cpu;                  ///< In cores.
-  /// `cpu.used` is the load average of the last minute, for want of a sample.
+  /// `cpu.used` is the kernel's word on the load, for want of a sample.
   bool cpu_estimated = false;
   amount memory_mib;
   amount disk_mib; ///< Of the file system that holds the data directory.
@@ -39,9 +39,9 @@ struct host_probe_options {
 /// like one that the operator sets (`apply_bound`, host_probe_capacity.hpp).
 ///
 /// CPU use is a rate between two samples. Nothing runs in between: the owner
-/// marks samples. Where it has marked none in time, the load average that the
-/// kernel keeps takes the rate's place, so that nobody waits for a second
-/// sample. Not thread-safe.
+/// marks samples. Where it has marked none in time, what the kernel says of the
+/// load takes the rate's place, so that nobody waits for a second sample. Not
+/// thread-safe.
 class host_probe {
 public:
   using clock = std::chrono::steady_clock;
@@ -57,12 +57,12 @@ public:
   /// sample, or only one older than `limits::resource::most_sample_age`.
   std::optional<double> cpu_used(clock::time_point now);
 
-  /// The cores that programs have wanted over the last minute, not more than
-  /// there are; 0 where the kernel does not tell. Programs that wait for a disk
-  /// count too.
-  double load_average() const;
+  /// The cores that programs have wanted over the last minute, or want at this
+  /// moment, if that is more; not more than there are, and 0 where the kernel
+  /// does not tell. Programs that wait for a disk count too.
+  double load_estimate() const;
 
-  /// Everything; `cpu.used` as by `cpu_used`, or else by `load_average`. GPU
+  /// Everything; `cpu.used` as by `cpu_used`, or else by `load_estimate`. GPU
   /// memory leaves out the processes of `own`.
   host_resources read(clock::time_point now, const std::set<pid_t>& own = {});
 

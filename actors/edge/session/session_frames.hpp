@@ -44,12 +44,12 @@ struct session_hello {
   std::string role{};
 
   static constexpr auto fields() {
-    return std::make_tuple(required("version", &session_hello::version),
-                           required("node", &session_hello::node),
-                           required("uuid", &session_hello::uuid),
-                           required("epoch", &session_hello::epoch),
-                           required("nonce", &session_hello::nonce),
-                           optional("role", &session_hello::role));
+    return field_list{required("version", &session_hello::version),
+                      required("node", &session_hello::node),
+                      required("uuid", &session_hello::uuid),
+                      required("epoch", &session_hello::epoch),
+                      required("nonce", &session_hello::nonce),
+                      optional("role", &session_hello::role)};
   }
 };
 
@@ -66,14 +66,13 @@ struct session_challenge {
   std::string proof;       ///< HMAC-SHA256, hexadecimal.
 
   static constexpr auto fields() {
-    return std::make_tuple(
-        required("version", &session_challenge::version),
-        required("node", &session_challenge::node),
-        required("uuid", &session_challenge::uuid),
-        required("cell", &session_challenge::cell),
-        required("incarnation", &session_challenge::incarnation),
-        required("nonce", &session_challenge::nonce),
-        required("proof", &session_challenge::proof));
+    return field_list{required("version", &session_challenge::version),
+                      required("node", &session_challenge::node),
+                      required("uuid", &session_challenge::uuid),
+                      required("cell", &session_challenge::cell),
+                      required("incarnation", &session_challenge::incarnation),
+                      required("nonce", &session_challenge::nonce),
+                      required("proof", &session_challenge::proof)};
   }
 };
 
@@ -84,7 +83,7 @@ struct session_proof {
   std::string proof; ///< HMAC-SHA256, hexadecimal.
 
   static constexpr auto fields() {
-    return std::make_tuple(required("proof", &session_proof::proof));
+    return field_list{required("proof", &session_proof::proof)};
   }
 };
 
@@ -95,7 +94,7 @@ struct session_accepted {
   std::string session; ///< Both sides compute it, hexadecimal.
 
   static constexpr auto fields() {
-    return std::make_tuple(required("session", &session_accepted::session));
+    return field_list{required("session", &session_accepted::session)};
   }
 };
 

@@ -353,6 +353,14 @@ TEST_CASE("a program adopted while it starts is running once it says so") {
   CHECK(b.runtime->started.empty());
 }
 
+TEST_CASE("a stop is on disk while it lasts, and a restart carries it on") {
+  instance_bench b;
+  b.start_ready();
+  b.runtime->stops_never = true;
+  b.stop();
+  CHECK(b.store->states("i").back() == "stopping");
+}
+
 TEST_CASE("a stop that a restart has interrupted is carried on") {
   instance_bench b;
   b.adopt_as(instance_state::stopping, {true, "c1", -1});

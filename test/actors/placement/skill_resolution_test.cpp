@@ -43,8 +43,9 @@ std::vector<skill_row> cell() {
 }
 
 failure refusal(const std::vector<task_step>& steps,
-                const std::vector<skill_row>& skills = cell()) {
-  const auto result = resolve_steps(steps, skills);
+                const std::vector<skill_row>& skills = cell(),
+                const std::vector<refused_skill>& refused = {}) {
+  const auto result = resolve_steps(steps, {skills, refused});
   REQUIRE(std::holds_alternative<failure>(result));
   return std::get<failure>(result);
 }
@@ -52,7 +53,7 @@ failure refusal(const std::vector<task_step>& steps,
 std::vector<resolved_step>
 resolved(const std::vector<task_step>& steps,
          const std::vector<skill_row>& skills = cell()) {
-  const auto result = resolve_steps(steps, skills);
+  const auto result = resolve_steps(steps, {skills, {}});
   REQUIRE(std::holds_alternative<std::vector<resolved_step>>(result));
   return std::get<std::vector<resolved_step>>(result);
 }
@@ -86,6 +87,17 @@ TEST_CASE("An unknown operation is refused with those there are",
   CHECK(why.where == "/pipeline/1/operation");
   CHECK(why.hint == "the operations are: see, hear");
   CHECK(refusal({step("see", "tag")}, {}).hint == "the operations are: none");
+}
+
+TEST_CASE("An unknown operation's hint tells which skills nodes have refused",
+          "[skill_resolution]") {
+  const refused_skill lame{"a", {"/s/smell", "/entry_point/0", "no program"}};
+  const auto why = refusal({step("smell", "nose")}, cell(), {lame});
+  CHECK(why.hint
+        == "the operations are: see, hear; node 'a' refuses /s/smell: at "
+           "/entry_point/0: no program");
+  const auto many = refusal({step("smell", "nose")}, {}, {5, lame}).hint;
+  CHECK(many.find("`roscell skills` shows more") != std::string::npos);
 }
 
 TEST_CASE("An operation in two versions is named once in a hint",

@@ -121,18 +121,28 @@ TEST_CASE("without a sample in time the load average tells the CPU's use",
   CHECK(probe.read(start + 40s).cpu.used == Approx(1.5));
 }
 
-TEST_CASE("a load average says at most that all cores are in use",
+TEST_CASE("without a sample what runs right now counts, but for the asker",
           "[host_probe]") {
   fixture_root root;
   make_host(root);
   host_probe probe{options_for(root)};
+  root.write("/proc/loadavg", "0.20 0.10 0.05 4/345 6789\n");
+  CHECK(probe.load_estimate() == 3);
+  root.write("/proc/loadavg", "0.20 0.10 0.05 1/345 6789\n");
+  CHECK(probe.load_estimate() == Approx(0.2));
+}
+
+TEST_CASE("a load says at most that all cores are in use", "[host_probe]") {
+  fixture_root root;
+  make_host(root);
+  host_probe probe{options_for(root)};
   root.write("/proc/loadavg", "17.03 9.01 4.00 2/345 6789\n");
-  CHECK(probe.load_average() == 4);
+  CHECK(probe.load_estimate() == 4);
   for (const char* text :
        {"", "x", "nan 1 1", "inf 1 1", "-1 1 1", "1e3 1 1"}) {
     CAPTURE(text);
     root.write("/proc/loadavg", text);
-    CHECK(probe.load_average() == 0);
+    CHECK(probe.load_estimate() == 0);
   }
 }
 
