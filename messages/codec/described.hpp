@@ -1,6 +1,8 @@
 #pragma once
 
 #include <caf/error.hpp>
+#include <caf/mailbox_element.hpp>
+#include <caf/make_message.hpp>
 #include <caf/sec.hpp>
 
 #include <cstddef>
@@ -128,3 +130,18 @@ bool operator!=(const T& x, const T& y) {
 }
 
 } // namespace roscell
+
+namespace caf {
+
+/// A struct lies in a mailbox as the message that it also is in a promise or a
+/// delayed send, so that a second class of elements need not be compiled for
+/// each struct. CAF's `send` and `request` find this by the struct's fields.
+template <class T, class = roscell::if_described<T>>
+mailbox_element_ptr
+make_mailbox_element(strong_actor_ptr sender, message_id id,
+                     mailbox_element::forwarding_stack stages, T&& x) {
+  return make_mailbox_element(std::move(sender), id, std::move(stages),
+                              make_message(std::forward<T>(x)));
+}
+
+} // namespace caf

@@ -30,6 +30,7 @@ TEST_CASE("an orphan comes back to its cell, not to another of that name",
   x.place.pass(60s);
   CHECK(x.node.status().standing == node_state::orphaned);
   CHECK_FALSE(x.other.cell_state().registry.find_uuid(x.node.uuid));
+  CHECK(x.place.count("join_refused") == 0);
   x.place.start(x.own);
   x.place.pass(60s);
   CHECK(x.node.status().standing == node_state::member);

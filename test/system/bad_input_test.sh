@@ -66,6 +66,18 @@ test_tcp_requests_need_the_bearer_token() {
     -H "Authorization: Bearer $token" "http://$address/v1/node")" 200
 }
 
+test_a_node_raises_its_own_limit_of_descriptors() {
+  local hard
+  hard=$(ulimit -Hn)
+  [[ $hard == unlimited || $hard -gt 1024 ]] \
+    || skip "this host lets nobody open more than 1024 files"
+  inside=(prlimit --nofile=1024:)
+  start_alone
+  inside=()
+  expect "the soft limit" \
+    "$(awk '/Max open files/ {print $4}' "/proc/${pid[head]}/limits")" "$hard"
+}
+
 test_a_thousand_silent_connections_lock_nobody_out() {
   start_alone
   python3 - "${address%:*}" "${address#*:}" > "$scratch/crowd" << 'PY' &

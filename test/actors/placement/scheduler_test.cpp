@@ -4,6 +4,7 @@
 #include "messages/failure.hpp"
 #include "test/fixture.hpp"
 
+#include <map>
 #include <vector>
 
 namespace roscell::test {
@@ -25,10 +26,12 @@ struct bench : virtual_time {
             [](const state_query&) { return state_of(json::object()); },
             [this, self](const allocate_task& x) {
               auto promise = self->make_response_promise<task_plan>();
-              if (!x.trial || !busy)
+              // One that thinks hears no other question.
+              auto& held = waiting[self->id()];
+              if (held.empty() && (!x.trial || !busy))
                 promise.deliver(task_plan{x.task});
               else
-                waiting.push_back(promise);
+                held.push_back(promise);
               return promise;
             },
         };
@@ -56,7 +59,9 @@ struct bench : virtual_time {
   }
 
   bool busy = true; ///< With a plan query.
-  std::vector<caf::typed_response_promise<task_plan>> waiting;
+  /// By searcher.
+  std::map<caf::actor_id, std::vector<caf::typed_response_promise<task_plan>>>
+      waiting;
   std::vector<std::shared_ptr<search_guard>> guards;
   std::vector<scheduler_actor> searchers;
   std::shared_ptr<search_guard> guard;

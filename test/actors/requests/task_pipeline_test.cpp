@@ -318,6 +318,13 @@ TEST_CASE_METHOD(three_nodes, "A plan query holds and starts nothing",
   CHECK(disk.empty());
   CHECK(tasks().empty());
   CHECK(request(query) == plan);
+  // Live requests have a searcher of their own.
+  const auto planner_state = time.ask<actor_state>(planner, state_query{});
+  time.settle();
+  REQUIRE(*planner_state);
+  const auto counts = json::parse((**planner_state)->json_text);
+  CHECK(counts.at("trials") == 2);
+  CHECK(counts.at("questions") == 0);
   // Its id stays free for a task with another body.
   CHECK(request(echo_task("t", {echo_step("s0", 4, "left")})).at("type")
         == "task_accepted");

@@ -60,6 +60,7 @@ TEST_CASE("Looking for a node that announced nothing makes none",
   CHECK_FALSE(book.find("u1"));
   book.forget("u1");
   book.question_failed("u1", "silent", time_zero);
+  CHECK(book.rows().empty());
   book.registered({"arm", "u1", 1, ""});
   CHECK(book.rows().empty());
 }
