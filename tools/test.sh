@@ -20,18 +20,37 @@ say() {
   printf '[%4d s] %s\n' "$SECONDS" "$*"
 }
 
-# check NAME COMMAND...: one check that passes or fails as a whole.
-check() {
-  local name=$1
-  shift
-  if "$@" > "$log/$name.log" 2>&1; then
-    say "ok      $name"
+# report NAME STATUS: counts a check, and shows the end of its log if it failed.
+report() {
+  if [[ $2 -eq 0 ]]; then
+    say "ok      $1"
     ((++passed))
   else
-    say "FAILED  $name ($log/$name.log)"
-    tail -n 40 "$log/$name.log"
+    say "FAILED  $1 ($log/$1.log)"
+    tail -n 40 "$log/$1.log"
     ((++failed))
   fi
+}
+
+# check NAME COMMAND...: one check that passes or fails as a whole.
+check() {
+  "${@:2}" > "$log/$1.log" 2>&1
+  report "$1" $?
+}
+
+# begin NAME COMMAND...: a check that only computes, at low priority beside the
+# tests, which mostly wait; `finish NAME` waits for it.
+declare -A begun
+trap 'trap - TERM; kill 0' INT TERM
+begin() {
+  "${@:2}" > "$log/$1.log" 2>&1 &
+  begun[$1]=$!
+  renice -n 19 -p $! > /dev/null
+}
+
+finish() {
+  wait "${begun[$1]}"
+  report "$1" $?
 }
 
 configure() {
@@ -114,6 +133,8 @@ fi
 if wants lint; then
   check law-of-programs tools/check_law.sh build/asan
 fi
+wants fuzz && begin build-fuzz build_fuzz
+wants tidy && begin tidy tidy
 if wants unit; then
   for program in build/asan/bin/test_*; do
     unit "$program"
@@ -121,13 +142,12 @@ if wants unit; then
 fi
 wants system && system
 if wants fuzz; then
-  say "building the fuzzers"
-  check build-fuzz build_fuzz
+  finish build-fuzz
   for program in build/fuzz/bin/*_fuzz; do
     [[ -x $program ]] && fuzz "$program"
   done
 fi
-wants tidy && check tidy tidy
+wants tidy && finish tidy
 
 for reason in "${skip_reasons[@]}"; do
   echo "$reason"
