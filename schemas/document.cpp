@@ -1,48 +1,17 @@
 #include "schemas/document.hpp"
 
+#include "schemas/counting_iterator.hpp"
 #include "schemas/document_builder.hpp"
 #include "schemas/text_excerpt.hpp"
 
 #include <algorithm>
 #include <cstddef>
-#include <iterator>
 #include <string>
 #include <utility>
 
 namespace roscell {
 
 namespace {
-
-/// Walks over the text and counts what was read, because the parser tells the
-/// position of its own errors only.
-struct counting_iterator {
-  using iterator_category = std::input_iterator_tag;
-  using value_type = char;
-  using difference_type = std::ptrdiff_t;
-  using pointer = const char*;
-  using reference = const char&;
-
-  const char* at;
-  size_t* bytes_read;
-
-  reference operator*() const {
-    return *at;
-  }
-
-  counting_iterator& operator++() {
-    ++at;
-    ++*bytes_read;
-    return *this;
-  }
-
-  bool operator==(const counting_iterator& other) const {
-    return at == other.at;
-  }
-
-  bool operator!=(const counting_iterator& other) const {
-    return at != other.at;
-  }
-};
 
 /// "line 3, column 7" of the byte at `offset`, both counted from 1.
 std::string position_words(std::string_view text, size_t offset) {

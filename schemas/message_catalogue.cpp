@@ -83,6 +83,33 @@ failure untyped(const json& message) {
   return to_failure({{"/type", std::move(expected)}});
 }
 
+std::string type_of(const json& message) {
+  return message.at("type").get<std::string>();
+}
+
+/// None if the message has a known type of an allowed kind.
+std::optional<failure> misplaced(const json& message, kind_list allowed) {
+  if (!message.is_object() || !message.contains("type")
+      || !message["type"].is_string())
+    return untyped(message);
+  const auto name = type_of(message);
+  const auto* type = find_message_type(name);
+  if (type == nullptr || !is_allowed(*type, allowed))
+    return unknown(name, allowed);
+  return std::nullopt;
+}
+
+void append(std::vector<schema_error>& errors,
+            const std::vector<schema_error>& others) {
+  errors.insert(errors.end(), others.begin(), others.end());
+}
+
+std::optional<failure> refusal_of(const std::vector<schema_error>& errors) {
+  if (errors.empty())
+    return std::nullopt;
+  return to_failure(errors);
+}
+
 } // namespace
 
 const std::vector<message_type>& message_types() {
@@ -101,29 +128,33 @@ const message_type* find_message_type(std::string_view name) {
 std::vector<schema_error> document_errors(std::string_view schema,
                                           const json& document) {
   auto errors = validator::shared().validate(schema, document);
-  auto others = semantic_errors(schema, document);
-  errors.insert(errors.end(), others.begin(), others.end());
+  append(errors, semantic_errors(schema, document));
+  return errors;
+}
+
+std::vector<schema_error> strict_errors(std::string_view schema,
+                                        const json& document) {
+  auto errors = document_errors(schema, document);
+  append(errors, validator::shared().unknown_members(schema, document));
   return errors;
 }
 
 std::optional<failure> validate_document(std::string_view schema,
                                          const json& document) {
-  auto errors = document_errors(schema, document);
-  if (errors.empty())
-    return std::nullopt;
-  return to_failure(errors);
+  return refusal_of(strict_errors(schema, document));
 }
 
 std::optional<failure> validate_message(const json& message,
                                         kind_list allowed) {
-  if (!message.is_object() || !message.contains("type")
-      || !message["type"].is_string())
-    return untyped(message);
-  const auto name = message["type"].get<std::string>();
-  auto type = find_message_type(name);
-  if (type == nullptr || !is_allowed(*type, allowed))
-    return unknown(name, allowed);
-  return validate_document(name, message);
+  if (auto why = misplaced(message, allowed))
+    return why;
+  return refusal_of(document_errors(type_of(message), message));
+}
+
+std::optional<failure> validate_request(const json& message) {
+  if (auto why = misplaced(message, {message_kind::request}))
+    return why;
+  return validate_document(type_of(message), message);
 }
 
 } // namespace roscell

@@ -51,11 +51,19 @@ std::optional<failure>
 validate_message(const json& message,
                  std::initializer_list<message_kind> allowed = {});
 
+/// As `validate_message` for what a user sends, who is no newer peer: a member
+/// that the schema does not describe is a violation, too.
+std::optional<failure> validate_request(const json& message);
+
 /// Every violation of the schema of that name and of its semantic rules.
 std::vector<schema_error> document_errors(std::string_view schema,
                                           const json& document);
 
-/// As `validate_message`, for a document without a "type": `skill_descriptor`,
+/// `document_errors`, and every member that the schema does not describe.
+std::vector<schema_error> strict_errors(std::string_view schema,
+                                        const json& document);
+
+/// As `validate_request`, for a document without a "type": `skill_descriptor`,
 /// `plan_document`. Errors: schema_violation.
 std::optional<failure> validate_document(std::string_view schema,
                                          const json& document);

@@ -1,6 +1,7 @@
 #include "schemas/validator.hpp"
 
-#include "schemas/schema_reader.hpp"
+#include "schemas/rules/schema_reader.hpp"
+#include "schemas/rules/unknown_members.hpp"
 #include "schemas/text_excerpt.hpp"
 
 #include <algorithm>
@@ -180,14 +181,20 @@ const validator& validator::shared() {
   return instance;
 }
 
+const schema_rule& validator::rule(std::string_view schema) const {
+  std::lock_guard guard{state_->mutex};
+  return state_->reader.rule(std::string{schema});
+}
+
 std::vector<schema_error> validator::validate(std::string_view schema,
                                               const json& document) const {
-  const schema_rule* rule = nullptr;
-  {
-    std::lock_guard guard{state_->mutex};
-    rule = &state_->reader.rule(std::string{schema});
-  }
-  return roscell::validate(*rule, document);
+  return roscell::validate(rule(schema), document);
+}
+
+std::vector<schema_error>
+validator::unknown_members(std::string_view schema,
+                           const json& document) const {
+  return roscell::unknown_members(rule(schema), document);
 }
 
 } // namespace roscell

@@ -34,8 +34,15 @@ public:
   std::vector<schema_error> validate(std::string_view schema,
                                      const json& document) const;
 
+  /// What `document` has that the schema does not describe
+  /// (schemas/rules/unknown_members.hpp).
+  std::vector<schema_error> unknown_members(std::string_view schema,
+                                            const json& document) const;
+
 private:
   struct state;
+
+  const schema_rule& rule(std::string_view schema) const;
 
   std::unique_ptr<state> state_;
 };

@@ -43,9 +43,11 @@ check() {
 declare -A begun
 trap 'trap - TERM; kill 0' INT TERM
 begin() {
-  "${@:2}" > "$log/$1.log" 2>&1 &
+  {
+    renice -n 19 -p "$BASHPID"
+    "${@:2}"
+  } > "$log/$1.log" 2>&1 &
   begun[$1]=$!
-  renice -n 19 -p $! > /dev/null
 }
 
 finish() {

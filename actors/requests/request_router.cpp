@@ -158,7 +158,10 @@ caf::result<request_routed> route(request_router_self self,
   if (auto* why = std::get_if<failure>(&parsed))
     return refusal(self, *why);
   auto& document = std::get<json>(parsed);
-  if (auto why = validate_message(document, {message_kind::request}))
+  // What is taken from strangers comes from coordinators, maybe newer ones.
+  if (auto why = request.only.empty()
+                     ? validate_request(document)
+                     : validate_message(document, {message_kind::request}))
     return refusal(self, *why);
   const auto type = document.at("type").get<std::string>();
   if (!request.only.empty() && type != request.only)

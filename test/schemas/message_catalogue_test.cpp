@@ -120,3 +120,78 @@ TEST_CASE("docs/messages.md names every message type") {
       CHECK(text.find("`" + std::string{type.name} + "`") != std::string::npos);
   }
 }
+
+namespace {
+
+json request_with(const char* member, const json& value) {
+  json step{{"id", "a"}, {"operation", "echo"}, {"model", "plain"}};
+  step[member] = value;
+  return {{"type", "task_request"}, {"task", "t"}, {"pipeline", {step}}};
+}
+
+} // namespace
+
+TEST_CASE("a misspelt member of a request is refused with the one meant") {
+  const auto why = validate_request(request_with("label", {{"a", "b"}}));
+  REQUIRE(why);
+  CHECK(why->code == error_code::schema_violation);
+  CHECK(why->where == "/pipeline/0/label");
+  CHECK(why->message
+        == "/pipeline/0/label: there is no member \"label\" here; did you mean "
+           "\"labels\"?");
+}
+
+TEST_CASE("a member's name in other systems leads to the one here") {
+  const auto why = validate_request(
+      {{"type", "task_request"}, {"task", "t"}, {"steps", json::array()}});
+  REQUIRE(why);
+  const auto errors = json::parse(why->details).at("errors");
+  REQUIRE(errors.size() == 2);
+  CHECK(errors[0].at("where") == "/pipeline");
+  CHECK(errors[1].at("where") == "/steps");
+  CHECK(errors[1].at("expected")
+        == "there is no member \"steps\" here; did you mean \"pipeline\"?");
+}
+
+TEST_CASE("a member that is near none is refused with those there are") {
+  const auto why =
+      validate_request({{"type", "task_query"}, {"colour", "red"}});
+  REQUIRE(why);
+  CHECK(why->message
+        == "/colour: there is no member \"colour\" here; there are request_id, "
+           "task, type");
+}
+
+TEST_CASE("unknown members are found in every endpoint of a list") {
+  const json end{{"protocol", "file"}, {"endpoint", "/a"}, {"data_type", "x"}};
+  auto odd = end;
+  odd["topic"] = "y";
+  const auto why = validate_request(request_with("input", {end, odd}));
+  REQUIRE(why);
+  CHECK(why->where == "/pipeline/0/input/1/topic");
+  CHECK(validate_request(request_with("input", odd))->where
+        == "/pipeline/0/input/topic");
+}
+
+TEST_CASE("parameters and labels may have any name") {
+  CHECK_FALSE(validate_request(request_with("parameters", {{"odd", 1}})));
+  CHECK_FALSE(validate_request(request_with("labels", {{"odd", "x"}})));
+}
+
+TEST_CASE("what a newer peer says more is no error") {
+  CHECK_FALSE(validate_message(request_with("label", {{"a", "b"}})));
+}
+
+TEST_CASE("an unknown member of a descriptor is refused") {
+  for (const auto& x : test::examples()) {
+    if (x.type != "skill_descriptor" || !x.valid)
+      continue;
+    CHECK_FALSE(validate_document(x.type, x.document));
+    auto odd = x.document;
+    odd["models"][0]["deployment"] = json::array();
+    const auto why = validate_document(x.type, odd);
+    REQUIRE(why);
+    CHECK(why->where == "/models/0/deployment");
+    CHECK(why->message.find("\"deployments\"") != std::string::npos);
+  }
+}

@@ -1,6 +1,6 @@
 #include "schemas/validator.hpp"
 
-#include "schemas/schema_reader.hpp"
+#include "schemas/rules/schema_reader.hpp"
 #include "test/schemas/examples.hpp"
 
 #include <catch2/catch.hpp>

@@ -27,6 +27,10 @@ test_bad_requests_are_refused_with_their_code() {
   expect "schema" "$(refusal '{"type":"task_request","task":7}')" \
     schema_violation
   expect "all at once" "$(jq '.error.errors | length' "$scratch/refusal.json")" 2
+  expect "a misspelt member" "$(refusal "$(echo_task a \
+    | jq -c '.pipeline[0].parameter = {}')")" schema_violation
+  expect "what was meant" "$(jq -r .error.message "$scratch/refusal.json" \
+    | grep -o 'did you mean .*')" 'did you mean "parameters"?'
   expect "unknown task" \
     "$(refusal '{"type":"task_termination","task":"none"}')" unknown_task
   expect "unknown operation" "$(refusal "$(echo_task a \

@@ -7,6 +7,7 @@
 #include "tools/roscell/commands.hpp"
 #include "tools/roscell/common_options.hpp"
 #include "tools/roscell/exit_code.hpp"
+#include "tools/roscell/view/marked_errors.hpp"
 #include "tools/roscell/view/plan_view.hpp"
 #include "tools/roscell/view/terminal.hpp"
 
@@ -126,7 +127,7 @@ plan_result plan_of_cell(const plan_options& options, const json& document) {
   if (auto* why = std::get_if<failure>(&query))
     return std::move(*why);
   const auto& body = std::get<json>(query);
-  if (auto why = validate_message(body))
+  if (auto why = validate_request(body))
     return std::move(*why);
   const auto reply = node_client{options.connection}.post(
       "/v1/requests", body.dump(), plan_timeout);
@@ -138,8 +139,8 @@ plan_result plan_of_cell(const plan_options& options, const json& document) {
   return std::get<task_plan>(std::move(decoded));
 }
 
-plan_result plan_of(const plan_options& options) {
-  auto document = document_of(read_file(options.file));
+plan_result plan_of(const plan_options& options, const std::string& text) {
+  auto document = document_of(text);
   if (auto* why = std::get_if<failure>(&document))
     return std::move(*why);
   auto& content = std::get<json>(document);
@@ -156,25 +157,32 @@ std::vector<rejected_candidate> rejected_of(const failure& why) {
   return details["rejected"].get<std::vector<rejected_candidate>>();
 }
 
-int show_refusal(const failure& why, bool as_json) {
+int show_refusal(const failure& why, const plan_options& options,
+                 const std::string& text) {
   const auto reply = error_reply(why);
-  if (as_json) {
+  if (options.output == "json") {
     print(pretty(reply));
     return exit_refused;
   }
   if (const auto rejected = rejected_of(why); !rejected.empty())
     print(rejected_view(rejected, stdout_style()));
+  // A query, and other nodes than the file's, move what pointers lead to.
+  const bool as_written = options.connection.to.empty() && options.with.empty()
+                          && options.without.empty();
+  if (as_written)
+    print_text(marked_errors(options.file, text, reply));
   print_refusal(reply);
   return exit_refused;
 }
 
 int show_plan(const plan_options& options) {
-  const bool as_json = options.output == "json";
-  const auto result = plan_of(options);
+  const auto text = read_file(options.file);
+  const auto result = plan_of(options, text);
   if (const auto* why = std::get_if<failure>(&result))
-    return show_refusal(*why, as_json);
+    return show_refusal(*why, options, text);
   const auto& plan = std::get<task_plan>(result);
-  print(as_json ? pretty(message_json(plan)) : plan_view(plan, stdout_style()));
+  print(options.output == "json" ? pretty(message_json(plan))
+                                 : plan_view(plan, stdout_style()));
   return exit_done;
 }
 

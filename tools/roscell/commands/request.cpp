@@ -5,6 +5,7 @@
 #include "tools/roscell/common_options.hpp"
 #include "tools/roscell/exit_code.hpp"
 #include "tools/roscell/view/format.hpp"
+#include "tools/roscell/view/marked_errors.hpp"
 #include "tools/roscell/view/progress.hpp"
 #include "tools/roscell/view/terminal.hpp"
 
@@ -44,7 +45,10 @@ int send_request(const request_options& options) {
   const auto reply = talkative ? post_with_progress(node, body, limit, words)
                                : node.post("/v1/requests", body, limit);
   print(pretty(reply));
-  return reply.value("type", "") == "error" ? exit_refused : exit_done;
+  if (reply.value("type", "") != "error")
+    return exit_done;
+  print_text(marked_errors(options.file, body, reply));
+  return exit_refused;
 }
 
 } // namespace
@@ -54,7 +58,8 @@ void add_request_command(CLI::App& app, action& chosen) {
   auto* command = app.add_subcommand(
       "request", "Send a JSON request to a node and print its JSON reply.");
   command->footer(
-      "Exit code 1 means that the node refused; its error is the reply.\n\n"
+      "Exit code 1 means that the node refused; its error is the reply, and "
+      "standard error\nshows each place of the request that is wrong.\n\n"
       "Examples:\n  roscell request task.json\n"
       "  echo '{\"type\":\"cell_query\"}' | roscell request\n"
       "  roscell request --to 192.168.1.10 --token-file token task.json");

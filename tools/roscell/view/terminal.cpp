@@ -51,10 +51,12 @@ void print(std::string_view text) {
                                           + std::string{std::strerror(errno)}};
 }
 
+void print_text(std::string_view lines) {
+  std::fwrite(lines.data(), 1, lines.size(), stderr);
+}
+
 void print_note(std::string_view line) {
-  std::string text{line};
-  text += '\n';
-  std::fwrite(text.data(), 1, text.size(), stderr);
+  print_text(std::string{line} + '\n');
 }
 
 std::string shortened_line(const std::string& line) {

@@ -28,6 +28,9 @@ void print(std::string_view text);
 /// Writes one line to standard error, at once.
 void print_note(std::string_view line);
 
+/// Writes lines with their ends to standard error, at once.
+void print_text(std::string_view lines);
+
 /// `line` cut to the width of the terminal, if standard output is one.
 std::string shortened_line(const std::string& line);
 

@@ -1,4 +1,4 @@
-#include "schemas/schema_rule.hpp"
+#include "schemas/rules/schema_rule.hpp"
 
 #include "messages/codec/json_codec.hpp"
 

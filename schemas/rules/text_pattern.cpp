@@ -1,4 +1,4 @@
-#include "schemas/text_pattern.hpp"
+#include "schemas/rules/text_pattern.hpp"
 
 #include <algorithm>
 #include <cctype>

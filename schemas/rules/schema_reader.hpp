@@ -1,7 +1,7 @@
 #pragma once
 
 #include "messages/codec/json_codec.hpp"
-#include "schemas/schema_rule.hpp"
+#include "schemas/rules/schema_rule.hpp"
 
 #include <deque>
 #include <map>

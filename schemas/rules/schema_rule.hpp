@@ -1,6 +1,6 @@
 #pragma once
 
-#include "schemas/text_pattern.hpp"
+#include "schemas/rules/text_pattern.hpp"
 
 #include <cstdint>
 #include <limits>
@@ -23,8 +23,8 @@ enum json_kind : uint8_t {
 };
 
 /// One (sub)schema, read into the form that the validator walks. Of Draft 7 it
-/// holds what our schemas use; schemas/schema_reader.hpp refuses anything else.
-/// Rules point to each other where schemas have `$ref`.
+/// holds what our schemas use; schemas/rules/schema_reader.hpp refuses anything
+/// else. Rules point to each other where schemas have `$ref`.
 struct schema_rule {
   struct member {
     std::string name;

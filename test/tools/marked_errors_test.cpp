@@ -1,0 +1,72 @@
+#include "tools/roscell/view/marked_errors.hpp"
+
+#include "messages/failure.hpp"
+#include "schemas/message_catalogue.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace roscell;
+
+namespace {
+
+std::string marks_for(const std::string& text) {
+  const auto why = validate_request(json::parse(text));
+  REQUIRE(why);
+  return cli::marked_errors("task.json", text, error_reply(*why));
+}
+
+} // namespace
+
+TEST_CASE("a wrong place is shown with its line and a mark under it") {
+  CHECK(
+      marks_for(R"({"type": "task_request", "task": "t", "pipeline": [
+  {"id": "a", "operation": "echo",
+   "model": "plain", "label": {"place": "left"}}]})")
+      == R"(task.json:3:22: there is no member "label" here; did you mean "labels"?
+  3 |    "model": "plain", "label": {"place": "left"}}]}
+    |                      ^~~~~~~
+)");
+}
+
+TEST_CASE("each wrong place is shown, and ten of many") {
+  const auto two = marks_for(R"({"type": "task_query",
+"colour": 1,
+"shape": 2})");
+  CHECK(two.find("task.json:2:1: ") != std::string::npos);
+  CHECK(two.find("task.json:3:1: ") != std::string::npos);
+  json many{{"type", "task_query"}};
+  for (int i = 0; i < 20; ++i)
+    many["odd" + std::to_string(i)] = i;
+  const auto marks = marks_for(many.dump(0));
+  CHECK(std::count(marks.begin(), marks.end(), '^') == 10);
+  CHECK(marks.substr(marks.size() - 9) == "and more\n");
+}
+
+TEST_CASE("of a long line the part around the place is shown") {
+  const auto marks = marks_for(
+      R"({"type": "task_query", "task": ")" + std::string(60, 'x')
+      + R"(", "colour": 1, "request_id": ")" + std::string(100, 'y') + R"("})");
+  const auto line = marks.find("  1 | ");
+  const auto mark = marks.find("    | ", line + 6);
+  REQUIRE(mark != std::string::npos);
+  const auto shown = marks.substr(line + 6, mark - line - 7);
+  CHECK(shown.size() == 100);
+  CHECK(shown.substr(39, 8) == "\"colour\"");
+  CHECK(marks.substr(mark + 6, 47) == std::string(39, ' ') + "^~~~~~~~");
+}
+
+TEST_CASE("tabs and control characters do not move the mark") {
+  const auto marks = marks_for("{\t\"type\":\t\"task_query\",\t\"odd\": 1}");
+  CHECK(marks.find("  1 | { \"type\": \"task_query\", \"odd\": 1}\n")
+        != std::string::npos);
+}
+
+TEST_CASE(
+    "a refusal that names no place, or a text that is no JSON, has none") {
+  CHECK(
+      cli::marked_errors("f", "{}", error_reply({error_code::timeout, "late"}))
+          .empty());
+  CHECK(cli::marked_errors("f", "{",
+                           error_reply({error_code::conflict, "no", "/task"}))
+            .empty());
+}

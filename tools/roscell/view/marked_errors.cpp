@@ -1,0 +1,86 @@
+#include "tools/roscell/view/marked_errors.hpp"
+
+#include "messages/failure.hpp"
+#include "schemas/document_place.hpp"
+#include "tools/roscell/view/format.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace roscell::cli {
+
+namespace {
+
+constexpr size_t most_shown = 10;
+
+/// Characters of a line that are shown, and how many of them before the place.
+constexpr size_t shown_width = 100;
+constexpr size_t shown_before = 40;
+
+using error_at = std::pair<std::string, std::string>;
+
+/// Pointers into the document, each with what is wrong there.
+std::vector<error_at> errors_of(const failure& why) {
+  std::vector<error_at> result;
+  const auto details = json::parse(why.details, nullptr, false);
+  if (details.is_object() && details.contains("errors"))
+    for (const auto& x : details["errors"])
+      if (x.is_object())
+        result.emplace_back(x.value("where", ""), x.value("expected", ""));
+  if (result.empty() && !why.where.empty())
+    result.emplace_back(why.where, why.message);
+  return result;
+}
+
+bool begins_character(char x) {
+  return (static_cast<unsigned char>(x) & 0xC0) != 0x80;
+}
+
+/// `count` characters of a line from its character `first` on.
+std::string characters(const std::string& line, size_t first, size_t count) {
+  std::string result;
+  size_t number = 0;
+  for (const char x : line) {
+    number += begins_character(x) ? 1 : 0;
+    if (number > first + count)
+      break;
+    if (number > first)
+      result += x == '\t' ? ' ' : x;
+  }
+  return result;
+}
+
+std::string marked_line(const document_place& at) {
+  const auto skipped = at.column > shown_before ? at.column - shown_before : 0;
+  const auto shown = printable(characters(at.text, skipped, shown_width));
+  const auto before = at.column - 1 - skipped;
+  const auto length = std::min(at.length, shown_width - before);
+  const auto number = std::to_string(at.line);
+  return "  " + number + " | " + shown + "\n  "
+         + std::string(number.size(), ' ') + " | " + std::string(before, ' ')
+         + "^" + std::string(length - 1, '~') + "\n";
+}
+
+} // namespace
+
+std::string marked_errors(const std::string& file, std::string_view text,
+                          const json& reply) {
+  const auto name = file == "-" ? "standard input" : file;
+  std::string result;
+  size_t shown = 0;
+  for (const auto& [pointer, words] : errors_of(failure_from(reply))) {
+    const auto at = find_place(text, pointer);
+    if (!at)
+      return {};
+    if (++shown > most_shown)
+      return result + "and more\n";
+    result += printable(name) + ":" + std::to_string(at->line) + ":"
+              + std::to_string(at->column) + ": " + printable(words) + "\n"
+              + marked_line(*at);
+  }
+  return result;
+}
+
+} // namespace roscell::cli

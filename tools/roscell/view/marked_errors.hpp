@@ -1,0 +1,21 @@
+#pragma once
+
+#include "messages/codec/json_codec.hpp"
+
+#include <string>
+#include <string_view>
+
+namespace roscell::cli {
+
+/// What is wrong with a document that was refused, place by place: the file,
+/// line and column, what is wrong there, and the line with a mark under the
+/// place. Of many errors the first ten. Empty if the reply names no place of
+/// the document, or the text is no JSON.
+///
+///     task.json:4:18: there is no member "label" here; did you mean "labels"?
+///       4 |      "model": "plain", "label": {"place": "left"}
+///         |                        ^~~~~~~
+std::string marked_errors(const std::string& file, std::string_view text,
+                          const json& reply);
+
+} // namespace roscell::cli
