@@ -25,16 +25,20 @@ TEST_CASE("a log is kept with a bound and can be read on") {
 
 TEST_CASE("following a log waits for more, and for its end") {
   process_bench b;
-  const auto fifo = (b.folder.path() / "go").string();
-  REQUIRE(::mkfifo(fifo.c_str(), 0600) == 0);
-  b.start("echo one; read x <" + fifo + "; echo two; read x <" + fifo);
+  // One for each word: who opens one for the second time may still meet the end
+  // of the first.
+  const auto go_on = (b.folder.path() / "go_on").string();
+  const auto end = (b.folder.path() / "end").string();
+  REQUIRE(::mkfifo(go_on.c_str(), 0600) == 0);
+  REQUIRE(::mkfifo(end.c_str(), 0600) == 0);
+  b.start("echo one; read x <" + go_on + "; echo two; read x <" + end);
   auto part = b.log(0, 20'000);
   CHECK(part.text == "one\n");
-  std::ofstream{fifo} << "\n";
+  std::ofstream{go_on} << "\n";
   part = b.log(part.next_offset, 20'000);
   CHECK(part.text == "two\n");
   CHECK_FALSE(part.ended);
-  std::ofstream{fifo} << "\n";
+  std::ofstream{end} << "\n";
   part = b.log(part.next_offset, 20'000);
   CHECK(part.text.empty());
   CHECK(part.ended);
