@@ -99,11 +99,6 @@ std::optional<failure> misplaced(const json& message, kind_list allowed) {
   return std::nullopt;
 }
 
-void append(std::vector<schema_error>& errors,
-            const std::vector<schema_error>& others) {
-  errors.insert(errors.end(), others.begin(), others.end());
-}
-
 std::optional<failure> refusal_of(const std::vector<schema_error>& errors) {
   if (errors.empty())
     return std::nullopt;
@@ -126,29 +121,26 @@ const message_type* find_message_type(std::string_view name) {
 }
 
 std::vector<schema_error> document_errors(std::string_view schema,
-                                          const json& document) {
-  auto errors = validator::shared().validate(schema, document);
-  append(errors, semantic_errors(schema, document));
-  return errors;
-}
-
-std::vector<schema_error> strict_errors(std::string_view schema,
-                                        const json& document) {
-  auto errors = document_errors(schema, document);
-  append(errors, validator::shared().unknown_members(schema, document));
+                                          const json& document,
+                                          unknown_members others) {
+  auto errors = validator::shared().validate(schema, document, others);
+  const auto more = semantic_errors(schema, document);
+  errors.insert(errors.end(), more.begin(), more.end());
   return errors;
 }
 
 std::optional<failure> validate_document(std::string_view schema,
                                          const json& document) {
-  return refusal_of(strict_errors(schema, document));
+  return refusal_of(
+      document_errors(schema, document, unknown_members::refused));
 }
 
 std::optional<failure> validate_message(const json& message,
                                         kind_list allowed) {
   if (auto why = misplaced(message, allowed))
     return why;
-  return refusal_of(document_errors(type_of(message), message));
+  return refusal_of(
+      document_errors(type_of(message), message, unknown_members::taken));
 }
 
 std::optional<failure> validate_request(const json& message) {

@@ -3,6 +3,7 @@
 #include "messages/codec/json_codec.hpp"
 #include "messages/failure.hpp"
 #include "schemas/schema_error.hpp"
+#include "schemas/validator.hpp"
 
 #include <array>
 #include <initializer_list>
@@ -57,11 +58,8 @@ std::optional<failure> validate_request(const json& message);
 
 /// Every violation of the schema of that name and of its semantic rules.
 std::vector<schema_error> document_errors(std::string_view schema,
-                                          const json& document);
-
-/// `document_errors`, and every member that the schema does not describe.
-std::vector<schema_error> strict_errors(std::string_view schema,
-                                        const json& document);
+                                          const json& document,
+                                          unknown_members others);
 
 /// As `validate_request`, for a document without a "type": `skill_descriptor`,
 /// `plan_document`. Errors: schema_violation.

@@ -1,7 +1,7 @@
 #include "schemas/validator.hpp"
 
+#include "schemas/rules/member_words.hpp"
 #include "schemas/rules/schema_reader.hpp"
-#include "schemas/rules/unknown_members.hpp"
 #include "schemas/text_excerpt.hpp"
 
 #include <algorithm>
@@ -76,6 +76,10 @@ bool allows(const schema_rule& rule, const json& x) {
 /// recursive.
 class walk {
 public:
+  explicit walk(unknown_members others) : others_(others) {
+    // nop
+  }
+
   std::vector<schema_error> errors;
 
   void visit(const schema_rule& rule, const json& x) {
@@ -121,6 +125,8 @@ private:
       visit_names(*rule.member_names, x);
     if (rule.other_members != nullptr)
       visit_others(rule, x);
+    else if (others_ == unknown_members::refused && !rule.members.empty())
+      refuse_others(rule, x);
   }
 
   void refuse_absence(const std::string& name, const schema_rule& rule) {
@@ -137,13 +143,18 @@ private:
 
   void visit_others(const schema_rule& rule, const json& x) {
     for (const auto& [name, value] : x.items())
-      if (!is_member(rule, name))
+      if (rule.find_member(name) == nullptr)
         step_into(name, *rule.other_members, value);
   }
 
-  static bool is_member(const schema_rule& rule, const std::string& name) {
-    return std::any_of(rule.members.begin(), rule.members.end(),
-                       [&](const auto& x) { return x.name == name; });
+  void refuse_others(const schema_rule& rule, const json& x) {
+    for (const auto& [name, value] : x.items()) {
+      if (errors.size() >= validator::max_errors)
+        return;
+      if (rule.find_member(name) == nullptr)
+        errors.push_back(
+            {(here_ / name).to_string(), unknown_member_words(rule, name)});
+    }
   }
 
   void step_into(const std::string& name, const schema_rule& rule,
@@ -153,14 +164,16 @@ private:
     here_.pop_back();
   }
 
+  unknown_members others_;
   json::json_pointer here_;
 };
 
 } // namespace
 
 std::vector<schema_error> validate(const schema_rule& rule,
-                                   const json& document) {
-  walk result;
+                                   const json& document,
+                                   unknown_members others) {
+  walk result{others};
   result.visit(rule, document);
   return std::move(result.errors);
 }
@@ -181,20 +194,15 @@ const validator& validator::shared() {
   return instance;
 }
 
-const schema_rule& validator::rule(std::string_view schema) const {
-  std::lock_guard guard{state_->mutex};
-  return state_->reader.rule(std::string{schema});
-}
-
 std::vector<schema_error> validator::validate(std::string_view schema,
-                                              const json& document) const {
-  return roscell::validate(rule(schema), document);
-}
-
-std::vector<schema_error>
-validator::unknown_members(std::string_view schema,
-                           const json& document) const {
-  return roscell::unknown_members(rule(schema), document);
+                                              const json& document,
+                                              unknown_members others) const {
+  const schema_rule* rule = nullptr;
+  {
+    std::lock_guard guard{state_->mutex};
+    rule = &state_->reader.rule(std::string{schema});
+  }
+  return roscell::validate(*rule, document, others);
 }
 
 } // namespace roscell

@@ -11,6 +11,13 @@ namespace roscell {
 
 struct schema_rule;
 
+/// What becomes of members that a schema does not describe, other than those of
+/// an object of which it describes none, as a model's parameters.
+enum class unknown_members {
+  taken,   ///< A newer peer may say more.
+  refused, ///< A user is no newer peer: one that is misspelt would be dropped.
+};
+
 /// Checks documents against the embedded schemas. A schema is read when it is
 /// first needed and then kept: a node that never sees a message type does not
 /// pay for it. All members may be called by several threads at once.
@@ -31,24 +38,19 @@ public:
   /// Every error of `document` against the schema of that name, in the order
   /// of the schema; none if it is valid. The name is that of an embedded
   /// schema, anything else throws std::logic_error.
-  std::vector<schema_error> validate(std::string_view schema,
-                                     const json& document) const;
-
-  /// What `document` has that the schema does not describe
-  /// (schemas/rules/unknown_members.hpp).
-  std::vector<schema_error> unknown_members(std::string_view schema,
-                                            const json& document) const;
+  std::vector<schema_error>
+  validate(std::string_view schema, const json& document,
+           unknown_members others = unknown_members::taken) const;
 
 private:
   struct state;
-
-  const schema_rule& rule(std::string_view schema) const;
 
   std::unique_ptr<state> state_;
 };
 
 /// Checks a document against one rule.
-std::vector<schema_error> validate(const schema_rule& rule,
-                                   const json& document);
+std::vector<schema_error>
+validate(const schema_rule& rule, const json& document,
+         unknown_members others = unknown_members::taken);
 
 } // namespace roscell

@@ -32,7 +32,8 @@ read_descriptor(const std::string& text) {
   if (const auto* why = std::get_if<failure>(&document))
     return std::vector<schema_error>{{why->where, why->message}};
   const auto& content = std::get<json>(document);
-  auto errors = strict_errors("skill_descriptor", content);
+  auto errors =
+      document_errors("skill_descriptor", content, unknown_members::refused);
   if (!errors.empty())
     return errors;
   try {

@@ -37,7 +37,8 @@ constexpr uint16_t default_discovery_port = 11811;
 caf::error check_words(const std::string& option,
                        const node_resources& resources) {
   const auto errors = document_errors("resource_report",
-                                      message_json(resource_report{resources}));
+                                      message_json(resource_report{resources}),
+                                      unknown_members::taken);
   if (errors.empty())
     return caf::none;
   return fail(error_code::schema_violation, option + ": " + errors[0].expected);

@@ -54,6 +54,14 @@ struct schema_rule {
 
   /// `oneOf`: the value follows the one of these whose kinds include its own.
   std::vector<const schema_rule*> choices;
+
+  /// The described member of that name; null if there is none.
+  const member* find_member(std::string_view name) const {
+    for (const auto& x : members)
+      if (x.name == name)
+        return &x;
+    return nullptr;
+  }
 };
 
 /// What a rule asks for, as the object of "expected": `a string of at most 63
