@@ -41,19 +41,29 @@ check() {
 # begin NAME COMMAND...: a check that only computes, at low priority beside the
 # tests, which mostly wait; `finish NAME` waits for it.
 declare -A begun
-trap 'trap - TERM; kill 0' INT TERM
 begin() {
+  set -m # A process group of its own, which can be ended as a whole.
   {
     renice -n 19 -p "$BASHPID"
     "${@:2}"
   } > "$log/$1.log" 2>&1 &
   begun[$1]=$!
+  set +m
 }
 
 finish() {
   wait "${begun[$1]}"
   report "$1" $?
+  unset "begun[$1]"
 }
+
+end_begun() {
+  local job
+  for job in "${begun[@]}"; do
+    kill -- "-$job" 2> /dev/null
+  done
+}
+trap end_begun EXIT
 
 configure() {
   [[ -f build/$1/build.ninja ]] || cmake --preset "$1" "${@:2}"
