@@ -5,33 +5,17 @@
 # Usage: tools/bench/container_bench.sh BUILD_DIR [ROUNDS]
 set -uo pipefail
 cd "$(dirname "$0")/../.."
-export ROSCELL_BUILD
-ROSCELL_BUILD=$(realpath "${1:?usage: tools/bench/container_bench.sh BUILD_DIR [ROUNDS]}")
+: "${1:?usage: tools/bench/container_bench.sh BUILD_DIR [ROUNDS]}"
 rounds=${2:-7}
-scratch=$(mktemp -d /tmp/roscell-bench.XXXXXX)
+. tools/bench/on_nodes.sh
 engine_dir=$scratch/engine
 base_tar=$ROSCELL_BUILD/../base-images/bookworm.tar
-. test/system/lib.sh
 . tools/own_engine.sh
 trap 'clean_up 2> /dev/null; stop_engine; rm -rf "$scratch"' EXIT
 use_skills
 start_engine || { cat "$engine_dir.reason"; exit 1; }
 runtime=docker:$engine_socket
 start_node head --coordinator --cell line --interface lo
-
-figure() {
-  jq -nc --arg figure "$1" --argjson value "$2" --arg unit "$3" \
-    '{$figure, $value, $unit}'
-}
-
-now_ms() {
-  date +%s%3N
-}
-
-# Median of the numbers that come in.
-median() {
-  sort -n | awk '{x[NR] = $1} END {print x[int((NR + 1) / 2)]}'
-}
 
 run_task() {
   echo_task "$1" > "$scratch/task.json"

@@ -11,14 +11,7 @@ ROSCELL_BUILD=$(realpath "${1:?usage: tools/bench/formation_bench.sh BUILD_DIR [
 batches=${2:-10}
 transfers=${3:-100}
 
-figure() {
-  jq -nc --arg figure "$1" --argjson value "$2" --arg unit "$3" \
-    '{$figure, $value, $unit}'
-}
-
-now_ms() {
-  date +%s%3N
-}
+. tools/bench/figures.sh
 
 # in_scratch FUNCTION...: runs it with processes and files of its own.
 in_scratch() {

@@ -4,22 +4,10 @@
 # line a figure. Needs root. Usage: tools/bench/idle_bench.sh BUILD_DIR [SECONDS]
 set -uo pipefail
 cd "$(dirname "$0")/../.."
-export ROSCELL_BUILD
-ROSCELL_BUILD=$(realpath "${1:?usage: tools/bench/idle_bench.sh BUILD_DIR [SECONDS]}")
+: "${1:?usage: tools/bench/idle_bench.sh BUILD_DIR [SECONDS]}"
 span_s=${2:-60}
-scratch=$(mktemp -d /tmp/roscell-bench.XXXXXX)
-. test/system/lib.sh
-trap 'clean_up 2> /dev/null; rm -rf "$scratch"' EXIT
+. tools/bench/on_nodes.sh
 use_skills
-
-figure() {
-  jq -nc --arg figure "$1" --argjson value "$2" --arg unit "$3" \
-    '{$figure, $value, $unit}'
-}
-
-now_ms() {
-  date +%s%3N
-}
 
 # cpu_ns NAME: time that all threads of the node have run.
 cpu_ns() {

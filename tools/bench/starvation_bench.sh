@@ -5,19 +5,11 @@
 # Usage: tools/bench/starvation_bench.sh BUILD_DIR [SECONDS]
 set -uo pipefail
 cd "$(dirname "$0")/../.."
-export ROSCELL_BUILD
-ROSCELL_BUILD=$(realpath "${1:?usage: tools/bench/starvation_bench.sh BUILD_DIR [SECONDS]}")
+: "${1:?usage: tools/bench/starvation_bench.sh BUILD_DIR [SECONDS]}"
 span_s=${2:-600}
 count=20
-scratch=$(mktemp -d /tmp/roscell-bench.XXXXXX)
-. test/system/lib.sh
-trap 'clean_up 2> /dev/null; rm -rf "$scratch"' EXIT
+. tools/bench/on_nodes.sh
 use_skills
-
-figure() {
-  jq -nc --arg figure "$1" --argjson value "$2" --arg unit "$3" \
-    '{bench: "starvation", $figure, $value, $unit}'
-}
 
 start_node head --coordinator --cell line --interface lo --cpu-floor 0.5
 for ((i = 0; i < count; ++i)); do

@@ -9,19 +9,13 @@
 #   RATE_HZ  pictures per second of a camera (as the files say)
 set -uo pipefail
 cd "$(dirname "$0")/../.."
-export ROSCELL_BUILD
-ROSCELL_BUILD=$(realpath "${1:?usage: tools/bench/strategies_bench.sh BUILD_DIR [SECONDS [ROUNDS [RATE_HZ]]]}")
+: "${1:?usage: tools/bench/strategies_bench.sh BUILD_DIR [SECONDS [ROUNDS [RATE_HZ]]]}"
 span_s=${2:-12}
 rounds=${3:-5}
 rate_hz=${4:-null}
-scratch=$(mktemp -d /tmp/roscell-bench.XXXXXX)
-. test/system/lib.sh
+. tools/bench/on_nodes.sh
 trap 'exec 2> /dev/null; clean_up; rm -rf "$scratch"' EXIT
 use_skills image_source pose_estimation
-
-now_ms() {
-  date +%s%3N
-}
 
 # As machines of their own have, each host has cores of its own, if there are
 # enough; else all share all.

@@ -12,10 +12,7 @@ span_s=${2:-600}
 rounds=${3:-3}
 bench=$(mktemp -d /tmp/roscell-bench.XXXXXX)
 . test/system/lib.sh
-
-now_ms() {
-  date +%s%3N
-}
+. tools/bench/figures.sh
 
 # counters N: bytes sent and received, packets sent and received, time in ms.
 counters() {
