@@ -271,13 +271,19 @@ make_site_token() {
 
 # Everything that a test has started or made goes with it.
 clean_up() {
-  local what
+  local what shims=()
   [[ -f $scratch/pids ]] && while read -r what; do
     kill -CONT "$what" 2>/dev/null
     kill -KILL "$what" 2>/dev/null
   done < "$scratch/pids"
   for what in "$scratch"/*/instances/*/pid; do
-    [[ -f $what ]] && kill -QUIT "$(cut -d' ' -f1 "$what")" 2>/dev/null
+    [[ -f $what ]] || continue
+    shims+=("$(cut -d' ' -f1 "$what")")
+    kill -QUIT "${shims[-1]}" 2>/dev/null
+  done
+  # They write into their folders to their end.
+  for what in "${shims[@]}"; do
+    timeout 10 tail -s 0.05 --pid="$what" -f /dev/null
   done
   for what in "${hosts[@]}"; do
     ip netns del "$what" 2>/dev/null
