@@ -267,6 +267,10 @@ using cell_coordinator_actor = introspected_actor::extend<
     caf::replies_to<record_failure>::with<task_rolled_back>,
     // Replies once the store has kept it. Errors: unknown_task, internal.
     caf::replies_to<task_termination>::with<task_terminated>,
+    // Replies once what was ended runs again. Errors: unknown_task, conflict
+    // (it is being deployed, ended or moved), no_feasible_allocation, internal;
+    // engine_failed and others where an instance does not come up.
+    caf::replies_to<task_restart>::with<task_restarted>,
     caf::reacts_to<presence_seen>, caf::reacts_to<presence_gone>,
     caf::reacts_to<peer_opened>, caf::reacts_to<peer_lost>,
     caf::reacts_to<peer_told>, caf::reacts_to<peer_changed>,

@@ -196,6 +196,9 @@ struct task_accepted {
   std::vector<placed_instance> instances;
   /// What nodes refused before this allocation was found.
   std::vector<excluded_candidate> refused;
+  std::vector<std::string> warnings; ///< What may not be meant so.
+  /// Steps that had ended and were started again by this request.
+  std::vector<std::string> healed;
 
   static constexpr auto fields() {
     return field_list{required("task", &task_accepted::task),
@@ -203,7 +206,9 @@ struct task_accepted {
                       required("score", &task_accepted::score),
                       required("allocations", &task_accepted::allocations),
                       required("instances", &task_accepted::instances),
-                      optional("refused", &task_accepted::refused)};
+                      optional("refused", &task_accepted::refused),
+                      optional("warnings", &task_accepted::warnings),
+                      optional("healed", &task_accepted::healed)};
   }
 };
 

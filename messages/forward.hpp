@@ -14,6 +14,8 @@ struct node_query;
 struct node_description;
 struct task_termination;
 struct task_terminated;
+struct task_restart;
+struct task_restarted;
 struct task_query;
 struct task_description;
 struct task_accepted;

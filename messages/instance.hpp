@@ -16,11 +16,22 @@ struct io_endpoint {
   std::string protocol;  ///< "file", "ros2", "video".
   std::string endpoint;  ///< A topic name, or an absolute path on the node.
   std::string data_type; ///< "sensor_msgs/msg/Image", "image/png".
+  /// Short for another step's output, "STEP" or "STEP.OUTPUT"; empty once it is
+  /// written out, as the other three may be before.
+  std::string from;
+  bool external = false; ///< Written by a program that no task has started.
+
+  /// An end of which only the endpoint is said.
+  static io_endpoint from_text(const std::string& text) {
+    return {"", text, "", "", false};
+  }
 
   static constexpr auto fields() {
-    return field_list{required("protocol", &io_endpoint::protocol),
-                      required("endpoint", &io_endpoint::endpoint),
-                      required("data_type", &io_endpoint::data_type)};
+    return field_list{optional("protocol", &io_endpoint::protocol),
+                      optional("endpoint", &io_endpoint::endpoint),
+                      optional("data_type", &io_endpoint::data_type),
+                      optional("from", &io_endpoint::from),
+                      optional("external", &io_endpoint::external)};
   }
 };
 

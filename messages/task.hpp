@@ -21,6 +21,7 @@ struct task_step {
   std::vector<io_endpoint> output;
   std::string parameters; ///< JSON object that overrides the model's.
   std::map<std::string, std::string> labels; ///< Labels the node must have.
+  bool external = false; ///< Each topic that it reads is `external`.
 
   static constexpr auto fields() {
     return field_list{required("id", &task_step::id),
@@ -31,7 +32,8 @@ struct task_step {
                       one_or_many("input", &task_step::input),
                       one_or_many("output", &task_step::output),
                       raw_json("parameters", &task_step::parameters),
-                      optional("labels", &task_step::labels)};
+                      optional("labels", &task_step::labels),
+                      optional("external", &task_step::external)};
   }
 };
 
@@ -102,6 +104,30 @@ struct task_terminated {
         required("task", &task_terminated::task),
         required("instances", &task_terminated::instances),
         optional("pending_nodes", &task_terminated::pending_nodes)};
+  }
+};
+
+/// Ends instances of a task that runs and starts them again where they are;
+/// what has ended is started where it fits.
+struct task_restart {
+  static constexpr const char* type = "task_restart";
+  std::string task;
+  std::string instance; ///< Empty: all of the task.
+
+  static constexpr auto fields() {
+    return field_list{required("task", &task_restart::task),
+                      optional("instance", &task_restart::instance)};
+  }
+};
+
+struct task_restarted {
+  static constexpr const char* type = "task_restarted";
+  std::string task;
+  std::vector<placed_instance> instances; ///< The new ones.
+
+  static constexpr auto fields() {
+    return field_list{required("task", &task_restarted::task),
+                      required("instances", &task_restarted::instances)};
   }
 };
 

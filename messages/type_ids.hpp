@@ -17,6 +17,8 @@
   X(node_description)                                                          \
   X(task_termination)                                                          \
   X(task_terminated)                                                           \
+  X(task_restart)                                                              \
+  X(task_restarted)                                                            \
   X(task_query)                                                                \
   X(task_description)                                                          \
   X(task_accepted)                                                             \

@@ -1,5 +1,6 @@
 #include "schemas/semantic_checks.hpp"
 
+#include "schemas/parameters/declared_parameter.hpp"
 #include "schemas/text_excerpt.hpp"
 
 #include <array>
@@ -146,11 +147,18 @@ void check_entry_point(error_list& errors, const place& words) {
            "the program to be a path below the skill's folder, without '..'");
 }
 
+void append(error_list& errors, const error_list& others) {
+  errors.insert(errors.end(), others.begin(), others.end());
+}
+
 void check_descriptor(error_list& errors, const place& skill) {
   check_entry_point(errors, skill / "entry_point");
   check_unique(errors, skill / "models", "name",
                "a name that no other model has");
   for (const auto& model : (skill / "models").items()) {
+    if (const auto declared = model / "parameters"; declared.value.is_object())
+      append(errors,
+             declaration_errors(declared.value, declared.at.to_string()));
     auto deployments = model / "deployments";
     check_unique(errors, deployments, "name",
                  "a name that no other deployment of the model has");

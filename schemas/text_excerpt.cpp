@@ -1,6 +1,8 @@
 #include "schemas/text_excerpt.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 
 namespace roscell {
 
@@ -13,6 +15,13 @@ bool is_continuation(char c) {
 std::string counted(const char* what, size_t n, const char* part) {
   return std::string{what} + " of " + std::to_string(n) + " " + part
          + (n == 1 ? "" : "s");
+}
+
+std::string plain(double x) {
+  constexpr double largest_exact_integer = 9007199254740992.0;
+  if (std::abs(x) < largest_exact_integer && x == std::trunc(x))
+    return std::to_string(static_cast<int64_t>(x));
+  return json(x).dump();
 }
 
 } // namespace
@@ -33,6 +42,16 @@ std::string in_quotes(std::string_view text, size_t max_characters) {
   if (end < text.size())
     result += "...";
   return result;
+}
+
+std::string range_words(double minimum, double maximum) {
+  const bool low = std::isfinite(minimum);
+  const bool high = std::isfinite(maximum);
+  if (low && high)
+    return " from " + plain(minimum) + " to " + plain(maximum);
+  if (low)
+    return " of at least " + plain(minimum);
+  return high ? " of at most " + plain(maximum) : "";
 }
 
 std::string value_words(const json& value) {

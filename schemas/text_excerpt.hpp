@@ -17,6 +17,10 @@ size_t character_count(std::string_view utf8);
 /// so the result can always be put into a JSON reply.
 std::string in_quotes(std::string_view text, size_t max_characters = 40);
 
+/// What is left of a range's ends that are infinite: ` from 0 to 100`, ` of at
+/// least 1`, or nothing.
+std::string range_words(double minimum, double maximum);
+
 /// What a value is: `the number 7`, `"a b"`, `an array of 3 items`.
 std::string value_words(const json& value);
 

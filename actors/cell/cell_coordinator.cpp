@@ -15,6 +15,7 @@
 #include "actors/cell/tasks/task_changes.hpp"
 #include "actors/cell/tasks/task_endings.hpp"
 #include "actors/cell/tasks/task_removals.hpp"
+#include "actors/cell/tasks/task_restart.hpp"
 #include "actors/cell/tasks/task_views.hpp"
 #include "actors/house/limits.hpp"
 #include "messages/failure.hpp"
@@ -141,6 +142,7 @@ cell_coordinator(coordinator_pointer self, const house& context,
       [self](const record_running& x) { return accept_task(self, x); },
       [self](const record_failure& x) { return undo_deployment(self, x); },
       [self](const task_termination& x) { return terminate_task(self, x); },
+      [self](const task_restart& x) { return restart_task(self, x); },
       [self](const presence_seen& x) { on_presence_seen(self, x.who); },
       [self](const presence_gone& x) { on_presence_gone(self, x.who); },
       [self](const peer_opened& x) { on_peer_opened(self, x); },

@@ -400,6 +400,8 @@ constexpr minutes deployment_answer{13};
 constexpr milliseconds agent_removal{48'000};
 constexpr milliseconds removal{52'000};
 constexpr milliseconds removal_answer{55'000};
+/// To end instances of a task and to start them again.
+constexpr minutes restart{15};
 
 /// A termination whose record cannot be removed for so long is answered with
 /// the trouble; the removal goes on.
@@ -462,6 +464,7 @@ constexpr milliseconds answer = forwarded + seconds{30};
 constexpr size_t ended = 100;
 
 static_assert(arrival + task::termination < place);
+static_assert(task::removal_answer + task::deployment_answer < task::restart);
 static_assert(task::deployment_answer < forwarded);
 
 } // namespace transfer

@@ -1,5 +1,7 @@
 #include "actors/placement/instance_specs.hpp"
 
+#include "schemas/parameters/declared_parameter.hpp"
+
 #include <algorithm>
 #include <cstdio>
 #include <random>
@@ -31,15 +33,18 @@ const deployment_option& chosen_option(const implementation_model& model,
                        [&](const auto& x) { return x.name == name; });
 }
 
-} // namespace
-
-std::string merge_parameters(const std::string& base,
-                             const std::string& override_text) {
-  json result = base.empty() ? json::object() : json::parse(base);
-  if (!override_text.empty())
-    result.update(json::parse(override_text));
+/// What a model declares, with what the step says put over its defaults.
+std::string parameters_for(const implementation_model& model,
+                           const task_step& step) {
+  json result = model.parameters.empty()
+                    ? json::object()
+                    : parameter_defaults(json::parse(model.parameters));
+  if (!step.parameters.empty())
+    result.update(json::parse(step.parameters));
   return result.dump();
 }
+
+} // namespace
 
 std::vector<instance_spec> make_specs(const allocated_task& task) {
   std::vector<instance_spec> result;
@@ -59,8 +64,7 @@ std::vector<instance_spec> make_specs(const allocated_task& task) {
     spec.gpu = placed.gpu;
     spec.input = x.step.input;
     spec.output = x.step.output;
-    spec.parameters =
-        merge_parameters(build.model.parameters, x.step.parameters);
+    spec.parameters = parameters_for(build.model, x.step);
     spec.environment = option.environment;
     spec.resources = option.resources;
     result.push_back(std::move(spec));

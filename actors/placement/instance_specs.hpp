@@ -18,9 +18,4 @@ struct allocated_task {
 /// with an id of its own.
 std::vector<instance_spec> make_specs(const allocated_task& task);
 
-/// `base` with the members of `override` put over it; both are JSON objects or
-/// empty.
-std::string merge_parameters(const std::string& base,
-                             const std::string& override_text);
-
 } // namespace roscell

@@ -1,5 +1,7 @@
 #include "actors/placement/step_ways.hpp"
 
+#include "actors/placement/reading/stream_names.hpp"
+
 #include <algorithm>
 #include <utility>
 
@@ -28,6 +30,23 @@ allocation::deployment convert(const deployment_option& x) {
           {}};
 }
 
+/// An end that is a device asks for it by itself.
+std::vector<std::string> devices_of(const task_step& step) {
+  std::vector<std::string> result;
+  for (const auto* ends : {&step.input, &step.output})
+    for (const auto& end : *ends)
+      if (is_device(end.endpoint))
+        result.push_back(end.endpoint);
+  return result;
+}
+
+void add_missing(std::vector<std::string>& to,
+                 const std::vector<std::string>& devices) {
+  for (const auto& device : devices)
+    if (std::find(to.begin(), to.end(), device) == to.end())
+      to.push_back(device);
+}
+
 } // namespace
 
 step_ways::step_ways(const resolved_step& step) : step_(step) {
@@ -47,13 +66,16 @@ void step_ways::add(const deployment_option& option, const skill_build& build) {
 }
 
 allocation::step step_ways::to_search() const {
-  allocation::step result{step_.step.id, {}, step_.step.labels, {}};
+  allocation::step result{
+      step_.step.id, {}, step_.step.labels, {}, step_.together};
+  const auto devices = devices_of(step_.step);
   for (const auto& build : step_.builds)
     result.nodes_with_skill.insert(build.nodes.begin(), build.nodes.end());
   for (size_t i = 0; i < ways_.size(); ++i) {
     auto way = convert(ways_[i].option);
     // Options of two builds may have one name; the search wants one each.
     way.name += " (" + std::to_string(i) + ")";
+    add_missing(way.devices, devices);
     for (const auto& [node, build] : ways_[i].builds)
       way.only_on.insert(node);
     result.deployments.push_back(std::move(way));

@@ -1,10 +1,10 @@
 #include "actors/placement/task_allocation.hpp"
 
 #include "actors/house/limits.hpp"
+#include "actors/placement/reading/task_reading.hpp"
 #include "actors/placement/search/cpu_floor.hpp"
 #include "actors/placement/search/report/alternative.hpp"
 #include "actors/placement/search/report/use.hpp"
-#include "actors/placement/skill_resolution.hpp"
 #include "actors/placement/step_ways.hpp"
 
 #include <algorithm>
@@ -249,19 +249,21 @@ std::variant<task_plan, failure> allocate_offline(const plan_document& document,
       row.nodes.push_back(node.name);
     known.skills.push_back(std::move(row));
   }
-  auto steps =
-      resolve_steps(document.request.pipeline, known, "/request/pipeline");
-  if (auto* problem = std::get_if<failure>(&steps))
+  auto reading = read_task(document.request.task, document.request.pipeline,
+                           {known, {}}, "/request/pipeline");
+  if (auto* problem = std::get_if<failure>(&reading))
     return std::move(*problem);
-  allocate_task asked{document.request.task,
-                      std::get<std::vector<resolved_step>>(std::move(steps)),
-                      document.nodes,
-                      {},
-                      why};
+  auto& meant = std::get<task_reading>(reading);
+  allocate_task asked{
+      document.request.task, std::move(meant.steps), document.nodes, {}, why};
   // The numbers on paper are meant as they stand.
   for (auto& node : asked.nodes)
     node.cpu_compressible = 0;
-  return allocate(asked, limits::task::offline_allocation_budget);
+  auto made = allocate(asked, limits::task::offline_allocation_budget);
+  if (auto* plan = std::get_if<task_plan>(&made))
+    plan->warnings.insert(plan->warnings.begin(), meant.warnings.begin(),
+                          meant.warnings.end());
+  return made;
 }
 
 } // namespace roscell

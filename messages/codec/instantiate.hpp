@@ -45,12 +45,30 @@ void encode_field(json& j, const Field& f, const T& x) {
     j[f.name] = x.*(f.member);
 }
 
+template <class E, class = void>
+struct is_made_of_text : std::false_type {};
+
+template <class E>
+struct is_made_of_text<E, std::void_t<decltype(E::from_text(""))>>
+    : std::true_type {};
+
+/// An element of a list, which may have a short form.
+template <class E>
+E get_one(const json& j) {
+  if constexpr (is_made_of_text<E>::value)
+    if (j.is_string())
+      return E::from_text(j.get<std::string>());
+  return j.get<E>();
+}
+
 template <class E>
 void get_some(const json& j, std::vector<E>& values) {
-  if (j.is_array())
-    values = j.get<std::vector<E>>();
+  values.clear();
+  if (!j.is_array())
+    values.push_back(get_one<E>(j));
   else
-    values.assign(1, j.get<E>());
+    for (const auto& x : j)
+      values.push_back(get_one<E>(x));
 }
 
 template <class Field, class T>

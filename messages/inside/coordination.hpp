@@ -110,18 +110,35 @@ struct collect_resources {
   }
 };
 
+/// One end of a step that is deployed.
+struct deployed_end {
+  std::string task;
+  std::string step;
+  std::string node;
+  io_endpoint end;
+
+  static constexpr auto fields() {
+    return field_list{required("task", &deployed_end::task),
+                      required("step", &deployed_end::step),
+                      required("node", &deployed_end::node),
+                      required("end", &deployed_end::end)};
+  }
+};
+
 /// All that a placement starts from.
 struct cell_resources {
   std::string cell;
   skill_list skills;
   std::vector<node_resources> nodes;    ///< In the order of their names.
   std::vector<node_agent_actor> agents; ///< One of each node.
+  std::vector<deployed_end> written;    ///< What steps in the cell write.
 
   static constexpr auto fields() {
     return field_list{required("cell", &cell_resources::cell),
                       required("skills", &cell_resources::skills),
                       required("nodes", &cell_resources::nodes),
-                      required("agents", &cell_resources::agents)};
+                      required("agents", &cell_resources::agents),
+                      required("written", &cell_resources::written)};
   }
 };
 
@@ -141,12 +158,16 @@ struct skill_build {
 /// A step of a task request with the builds that can do it, the newest first.
 /// On each node one of them is the candidate.
 struct resolved_step {
-  task_step step;
+  task_step step; ///< Without short forms.
   std::vector<skill_build> builds;
+  /// Steps with the same number, unless it is 0, must share a node: one reads a
+  /// file that the other writes.
+  uint64_t together = 0;
 
   static constexpr auto fields() {
     return field_list{required("step", &resolved_step::step),
-                      required("builds", &resolved_step::builds)};
+                      required("builds", &resolved_step::builds),
+                      required("together", &resolved_step::together)};
   }
 };
 

@@ -1,8 +1,6 @@
 #include "schemas/rules/schema_rule.hpp"
 
-#include "messages/codec/json_codec.hpp"
-
-#include <cmath>
+#include "schemas/text_excerpt.hpp"
 
 namespace roscell {
 
@@ -25,23 +23,6 @@ std::string choice_of(const std::vector<std::string>& words) {
     in_quotes.push_back('"' + word + '"');
   auto prefix = words.size() > 1 ? "one of " : "";
   return prefix + join(in_quotes, " or ");
-}
-
-std::string plain(double x) {
-  constexpr double largest_exact_integer = 9007199254740992.0;
-  if (std::abs(x) < largest_exact_integer && x == std::trunc(x))
-    return std::to_string(static_cast<int64_t>(x));
-  return json(x).dump();
-}
-
-std::string range_words(const schema_rule& rule) {
-  const bool low = std::isfinite(rule.minimum);
-  const bool high = std::isfinite(rule.maximum);
-  if (low && high)
-    return " from " + plain(rule.minimum) + " to " + plain(rule.maximum);
-  if (low)
-    return " of at least " + plain(rule.minimum);
-  return high ? " of at most " + plain(rule.maximum) : "";
 }
 
 std::string size_words(const schema_rule& rule, const char* part) {
@@ -79,9 +60,9 @@ std::string rule_words(const schema_rule& rule) {
   if ((rule.kinds & kind_string) != 0)
     kinds.push_back(string_words(rule));
   if ((rule.kinds & kind_number) != 0)
-    kinds.push_back("a number" + range_words(rule));
+    kinds.push_back("a number" + range_words(rule.minimum, rule.maximum));
   if ((rule.kinds & kind_integer) != 0)
-    kinds.push_back("an integer" + range_words(rule));
+    kinds.push_back("an integer" + range_words(rule.minimum, rule.maximum));
   if ((rule.kinds & kind_boolean) != 0)
     kinds.emplace_back("true or false");
   if ((rule.kinds & kind_null) != 0)

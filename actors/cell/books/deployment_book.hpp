@@ -10,7 +10,7 @@
 
 namespace roscell {
 
-/// How an instance has ended. What has ended is never started again.
+/// How an instance has ended. What has ended is not started again by itself.
 struct instance_end {
   std::string instance;
   instance_state state = instance_state::stopped; ///< Or `failed`.

@@ -49,6 +49,25 @@ void add_instance(task_record& record, const replacement& x) {
   record.nodes.push_back(x.place.node);
 }
 
+/// The new instance stands where the old one stood, which has no end any more.
+void replace(task_record& record, task_accepted& decision,
+             const replacement& x) {
+  for (size_t i = 0; i < record.specs.size(); ++i)
+    if (record.specs[i].instance == x.old_instance) {
+      record.specs[i] = x.spec;
+      record.nodes[i] = x.place.node;
+    }
+  auto& ends = record.ends;
+  ends.erase(std::remove_if(ends.begin(), ends.end(),
+                            [&](const auto& end) {
+                              return end.instance == x.old_instance;
+                            }),
+             ends.end());
+  for (auto& allocation : decision.allocations)
+    if (allocation.step == x.spec.step)
+      allocation = x.place;
+}
+
 /// The state of a running task, from the ends of its steps.
 task_state state_after(const task_record& record) {
   bool failed = false;
@@ -218,18 +237,22 @@ task_record with_replaced(task_record record,
   auto decision = decision_in(record.task, record.accepted);
   for (const auto& x : moved) {
     record = without(std::move(record), {x.spec.instance});
-    if (find_end(record, x.old_instance))
-      continue;
-    for (size_t i = 0; i < record.specs.size(); ++i)
-      if (record.specs[i].instance == x.old_instance) {
-        record.specs[i] = x.spec;
-        record.nodes[i] = x.place.node;
-      }
-    for (auto& allocation : decision.allocations)
-      if (allocation.step == x.spec.step)
-        allocation = x.place;
+    if (!find_end(record, x.old_instance))
+      replace(record, decision, x);
   }
   record.accepted = decision_text(std::move(decision));
+  return record;
+}
+
+task_record with_restarted(task_record record,
+                           const std::vector<replacement>& restarted) {
+  auto decision = decision_in(record.task, record.accepted);
+  for (const auto& x : restarted) {
+    record = without(std::move(record), {x.spec.instance});
+    replace(record, decision, x);
+  }
+  record.accepted = decision_text(std::move(decision));
+  record.state = task_state::running;
   return record;
 }
 

@@ -150,6 +150,11 @@ task_record with_tentative(task_record record,
 task_record with_replaced(task_record record,
                           const std::vector<replacement>& moved);
 
+/// With new instances instead of old ones that have ended, or are to be taken
+/// for ended. The task runs.
+task_record with_restarted(task_record record,
+                           const std::vector<replacement>& restarted);
+
 /// Without these instances.
 task_record without(task_record record,
                     const std::vector<std::string>& instances);

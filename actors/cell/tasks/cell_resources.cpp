@@ -19,6 +19,17 @@ struct resource_tally {
   std::function<void(cell_resources&&)> done;
 };
 
+/// What the steps write that are deployed and have not ended.
+std::vector<deployed_end> written_in(const cell_coordinator_state& st) {
+  std::vector<deployed_end> result;
+  for (const auto& [task, entry] : st.tasks.entries())
+    for (const auto& x : st.deployments.of_task(task))
+      if (!x.end && !x.tentative)
+        for (const auto& end : x.spec.output)
+          result.push_back({task, x.spec.step, x.node, end});
+  return result;
+}
+
 /// All have answered: what is held in the books is looked up now.
 void complete_tally(coordinator_pointer self, resource_tally& tally) {
   if (--tally.open > 0)
@@ -27,6 +38,7 @@ void complete_tally(coordinator_pointer self, resource_tally& tally) {
   cell_resources result;
   result.cell = st.setup.cell;
   result.skills = {st.registry.skills(""), st.registry.refused_skills()};
+  result.written = written_in(st);
   for (auto& [name, node] : tally.nodes) {
     const auto* entry = st.registry.find_name(name);
     if (!entry || entry->row.state != row_state::active)

@@ -4,6 +4,7 @@
 #include "actors/cell/tasks/cell_resources.hpp"
 #include "actors/cell/tasks/task_changes.hpp"
 #include "actors/cell/tasks/task_endings.hpp"
+#include "actors/cell/tasks/task_restart.hpp"
 #include "actors/cell/tasks/task_turns.hpp"
 #include "actors/house/limits.hpp"
 #include "actors/house/wall_clock.hpp"
@@ -30,6 +31,28 @@ caf::error refuse_crowd(const std::string& what) {
               "send it again when some are done");
 }
 
+/// The same request again heals what of its task has failed.
+void answer_accepted(coordinator_pointer self, const std::string& task,
+                     claim_promise promise) {
+  const auto healed = failed_steps(self->state, task);
+  if (healed.empty()) {
+    promise.deliver(known_reply(self->state, task));
+    return;
+  }
+  heal_task(self, task,
+            [self, task, healed, promise](const failure* why) mutable {
+              if (why) {
+                promise.deliver(to_error(*why));
+              } else if (!self->state.tasks.is_kept(task)) {
+                promise.deliver(terminated_meanwhile(task));
+              } else {
+                auto reply = known_reply(self->state, task);
+                reply.accepted.healed = healed;
+                promise.deliver(std::move(reply));
+              }
+            });
+}
+
 /// Answers a claim whose task is known. True if that settles it.
 bool answer_known(coordinator_pointer self, const claim_task& request,
                   claim_promise promise) {
@@ -49,7 +72,7 @@ bool answer_known(coordinator_pointer self, const claim_task& request,
                          "send it again once it has ended"));
     break;
   case claim_standing::accepted:
-    promise.deliver(known_reply(st, task));
+    answer_accepted(self, task, promise);
     break;
   case claim_standing::deploying: {
     auto& waiting = st.desk.waiters[task].same_requests;

@@ -23,9 +23,11 @@ std::map<std::string, std::vector<replacement>> by_task(const task_move& move) {
 
 void tell_moved(coordinator_pointer self, const task_move& move,
                 const moved_step& x) {
-  self->state.context.tell("instance_moved", x.change.spec.instance,
+  const auto* fact =
+      move.kind == move_kind::leaving ? "instance_moved" : "instance_restarted";
+  self->state.context.tell(fact, x.change.spec.instance,
                            {{"task", x.task},
-                            {"from", move.node},
+                            {"from", x.from},
                             {"to", x.change.place.node},
                             {"replaces", x.change.old_instance}});
 }
@@ -42,14 +44,14 @@ void complete_move(coordinator_pointer self, const move_ptr& move) {
     if (moved)
       tell_moved(self, *move, x);
     record_ends(self, x.task);
-    remove_instance(
-        self,
-        moved ? overdue_removal{move->node, x.task, x.change.old_instance}
-              : overdue_removal{x.change.place.node, x.task, added},
-        [move] {
-          if (--move->open == 0)
-            move->done(nullptr);
-        });
+    remove_instance(self,
+                    moved
+                        ? overdue_removal{x.from, x.task, x.change.old_instance}
+                        : overdue_removal{x.change.place.node, x.task, added},
+                    [move] {
+                      if (--move->open == 0)
+                        move->done(nullptr);
+                    });
   }
 }
 
@@ -82,13 +84,13 @@ void change_tasks(coordinator_pointer self, const move_ptr& move,
   move->open = changes.size();
   for (const auto& [task, moved] : changes) {
     pending_change change;
-    change.still = &task_book::is_running;
+    change.still = still_of(*move);
     change.make = [make, moved = moved](task_record record) {
       return make(std::move(record), moved);
     };
     change.done = [self, move, next, task = task](const failure* why) {
       // A task that was terminated meanwhile takes all of its instances along.
-      if (why && self->state.tasks.is_running(task))
+      if (why && (self->state.tasks.*still_of(*move))(task))
         add_problem(move, *why);
       end_part(self, move, next, undo_move);
     };
@@ -97,7 +99,10 @@ void change_tasks(coordinator_pointer self, const move_ptr& move,
 }
 
 void replace_old(coordinator_pointer self, const move_ptr& move) {
-  change_tasks(self, move, with_replaced, complete_move);
+  change_tasks(self, move,
+               move->kind == move_kind::leaving ? with_replaced
+                                                : with_restarted,
+               complete_move);
 }
 
 void deploy_step(coordinator_pointer self, const move_ptr& move,
@@ -107,13 +112,13 @@ void deploy_step(coordinator_pointer self, const move_ptr& move,
                    step = x.step.step.id](failure why) {
     why.message = "step '" + step + "' on '" + node + "': " + why.message;
     // What was terminated meanwhile need not come up.
-    if (self->state.tasks.is_running(task))
+    if ((self->state.tasks.*still_of(*move))(task))
       add_problem(move, std::move(why));
     end_part(self, move, replace_old, undo_move);
   };
   // Nor is it started.
   if (!self->state.deployments.find(x.change.spec.instance, node)
-      || !self->state.tasks.is_running(x.task))
+      || !(self->state.tasks.*still_of(*move))(x.task))
     return end_part(self, move, replace_old, undo_move);
   const auto* entry = self->state.registry.find_name(node);
   if (!entry || !entry->agent)
@@ -137,6 +142,11 @@ void deploy_steps(coordinator_pointer self, const move_ptr& move) {
 }
 
 } // namespace
+
+task_question still_of(const task_move& move) {
+  return move.kind == move_kind::leaving ? &task_book::is_running
+                                         : &task_book::is_kept;
+}
 
 void fail_move(coordinator_pointer self, const move_ptr& move,
                const failure& why) {

@@ -9,19 +9,28 @@
 #include <string>
 #include <vector>
 
-/// INTERNAL to task_move: how a move goes on once it is known where to.
+/// INTERNAL to task_move and task_restart: how instances take the places of
+/// others, from the search for places on.
 namespace roscell {
 
-/// One instance that moves.
+/// One instance that takes another one's place.
 struct moved_step {
   std::string task;
   resolved_step step;
   replacement change;
+  std::string from; ///< Node of the old one.
+};
+
+/// What the replaced instances do.
+enum class move_kind {
+  leaving,   ///< They run until the new ones do.
+  restarted, ///< They have ended.
 };
 
 /// One move, as it goes on. Each of its stages waits for all steps.
 struct task_move {
-  std::string node; ///< That is being left.
+  std::string what; ///< Whose instances they are, for errors.
+  move_kind kind = move_kind::leaving;
   uint64_t turn = 0;
   std::vector<std::string> tasks;
   std::vector<moved_step> steps;
@@ -33,6 +42,11 @@ struct task_move {
 using move_ptr = std::shared_ptr<task_move>;
 using move_stage = void (*)(coordinator_pointer, const move_ptr&);
 
+using task_question = bool (task_book::*)(const std::string&) const;
+
+/// What a task must still be for the move to go on.
+task_question still_of(const task_move& move);
+
 void fail_move(coordinator_pointer self, const move_ptr& move,
                const failure& why);
 
@@ -43,6 +57,20 @@ void add_problem(const move_ptr& move, failure why);
 /// or `otherwise` if something has gone wrong.
 void end_part(coordinator_pointer self, const move_ptr& move, move_stage next,
               move_stage otherwise);
+
+/// Adds a step of a task that is to take the place of an instance, resolved
+/// anew, with the ends that it has. With `stays` it is placed on the same node.
+std::optional<failure> add_moved_step(coordinator_pointer self, task_move& move,
+                                      const task_request& request,
+                                      const deployment& old, bool stays);
+
+/// Finds places for the steps and has the members keep room; then the stages
+/// below. Ends the turn.
+void place_move(coordinator_pointer self, const move_ptr& move);
+
+/// The request that a task was made by; none if its record is of another
+/// version.
+std::optional<task_request> request_of(const task_entry& entry);
 
 /// Stores the new instances beside the old ones, starts them, stores them
 /// instead of the old ones, and ends these.

@@ -43,12 +43,29 @@ void refuse(const search_space& space, std::vector<std::size_t> conflict,
   answer.conflict = std::move(conflict);
 }
 
+/// Why a step has no candidate: alone, or as it must share a node with others.
+std::vector<std::size_t> lonely_steps(const search_space& space,
+                                      std::size_t step, const result& answer) {
+  const bool fits_alone = std::any_of(
+      answer.rejected.begin(), answer.rejected.end(), [&](const auto& x) {
+        return x.step == step
+               && x.reasons.front().kind == reason_kind::combination;
+      });
+  if (!fits_alone)
+    return {step};
+  std::vector<std::size_t> result;
+  for (std::size_t i = 0; i < space.steps(); ++i)
+    if (space.asked.steps[i].together == space.asked.steps[step].together)
+      result.push_back(i);
+  return result;
+}
+
 /// The steps that have no candidate at all are each a conflict of their own;
 /// the first of them is named.
 bool refuse_lonely_step(const search_space& space, result& answer) {
   for (std::size_t i = 0; i < space.steps(); ++i)
     if (space.candidates.of[i].empty()) {
-      refuse(space, {i}, answer);
+      refuse(space, lonely_steps(space, i, answer), answer);
       return true;
     }
   return false;

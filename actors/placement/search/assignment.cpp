@@ -39,7 +39,7 @@ std::optional<score> evaluate(const search_space& space,
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     const auto& choice = space.choice(i, chosen[i]);
     auto all = scratch.shares_of(space.way(i, choice), choice);
-    if (!all.fit())
+    if (!all.fit() || space.is_apart(i, choice, chosen))
       break;
     sum += space.cost(i, choice, all);
     before.push_back(scratch.place(space.way(i, choice), choice));

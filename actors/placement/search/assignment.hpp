@@ -37,6 +37,18 @@ struct search_space {
     auto twin = candidates.twins[choice.node];
     return twin >= 0 && !now.hosts(static_cast<std::size_t>(twin));
   }
+  /// Whether a step at this candidate would be on another node than one before
+  /// it that it must share a node with.
+  bool is_apart(std::size_t step, const candidate& at,
+                const assignment& earlier) const {
+    const auto group = asked.steps[step].together;
+    if (group == 0)
+      return false;
+    for (std::size_t i = 0; i < step; ++i)
+      if (asked.steps[i].together == group)
+        return choice(i, earlier[i]).node != at.node;
+    return false;
+  }
   /// Variance and bonus of a step at a candidate, given what precedes it.
   double cost(std::size_t step, const candidate& choice,
               const shares& all) const {

@@ -1,6 +1,7 @@
 #include "actors/placement/search/candidates.hpp"
 
 #include "actors/placement/search/constraints.hpp"
+#include "actors/placement/search/report/text.hpp"
 
 #include <algorithm>
 #include <map>
@@ -38,6 +39,10 @@ public:
       }
       found.from[i].push_back(size(found.of[i]));
     }
+    const auto alone = found;
+    for (std::size_t i = 0; i < asked_.steps.size(); ++i)
+      if (asked_.steps[i].together != 0)
+        leave_lonely_nodes(i, alone, found);
     return found;
   }
 
@@ -59,6 +64,41 @@ private:
         for (auto slot : order)
           try_one(step, {v, d, slot}, usable);
     }
+  }
+
+  /// A step that must share a node cannot use one that another cannot use.
+  void leave_lonely_nodes(std::size_t step, const candidate_set& alone,
+                          candidate_set& found) {
+    auto& kept = found.of[step];
+    kept.clear();
+    for (std::uint32_t v = 0; v < asked_.nodes.size(); ++v) {
+      found.from[step][v] = size(kept);
+      const auto* missed = missed_on(step, v, alone);
+      for (auto c = alone.from[step][v]; c < alone.from[step][v + 1]; ++c)
+        if (const auto& choice = alone.of[step][c]; missed == nullptr)
+          kept.push_back(choice);
+        else
+          rejected_.push_back(
+              rejection(asked_, step, choice, {apart(*missed)}));
+    }
+    found.from[step].back() = size(kept);
+  }
+
+  /// A step that must share the node and has no candidate on it; null if none.
+  const allocation::step* missed_on(std::size_t step, std::uint32_t v,
+                                    const candidate_set& alone) const {
+    const auto number = asked_.steps[step].together;
+    for (std::size_t i = 0; i < asked_.steps.size(); ++i)
+      if (asked_.steps[i].together == number
+          && alone.from[i][v] == alone.from[i][v + 1])
+        return &asked_.steps[i];
+    return nullptr;
+  }
+
+  static reason apart(const allocation::step& missed) {
+    return {reason_kind::combination, 0, 0, 0,
+            "shares files with step " + quoted(missed.id)
+                + ", which this node cannot run"};
   }
 
   bool has_another_way(std::size_t step, std::uint32_t v,
@@ -136,6 +176,11 @@ std::vector<std::ptrdiff_t> find_twins(const problem& asked,
 candidate_set find_candidates(const problem& asked,
                               std::vector<rejected_candidate>& rejected) {
   auto found = candidate_finder(asked, rejected).run();
+  std::stable_sort(rejected.begin(), rejected.end(),
+                   [](const auto& left, const auto& right) {
+                     return std::tie(left.step, left.node)
+                            < std::tie(right.step, right.node);
+                   });
   found.twins = find_twins(asked, found);
   return found;
 }

@@ -48,16 +48,18 @@ private:
   /// Equal steps become neighbours with the same class; those with the fewest
   /// candidates come first.
   void sort_steps() {
-    using look = std::vector<std::tuple<std::uint32_t, std::int32_t, double,
-                                        double, double, double>>;
+    using candidate_look =
+        std::tuple<std::uint32_t, std::int32_t, double, double, double, double>;
+    using look = std::pair<std::size_t, std::vector<candidate_look>>;
     std::map<look, std::size_t> classes;
     class_.resize(space_.steps());
     for (auto i : order_) {
-      look seen;
+      look seen{space_.asked.steps[i].together, {}};
       for (const auto& choice : space_.candidates.of[i]) {
         const auto& way = space_.way(i, choice);
-        seen.emplace_back(choice.node, choice.gpu, way.cpu, way.memory_mib,
-                          way.disk_mib, way.gpu_memory_mib);
+        seen.second.emplace_back(choice.node, choice.gpu, way.cpu,
+                                 way.memory_mib, way.disk_mib,
+                                 way.gpu_memory_mib);
       }
       class_[i] = classes.try_emplace(seen, classes.size()).first->second;
     }
@@ -120,6 +122,18 @@ private:
     return found[order_[position - 1]];
   }
 
+  /// As `search_space::is_apart`, in the order of this search.
+  bool is_apart(std::size_t position, const candidate& at,
+                const assignment& found) const {
+    const auto group = space_.asked.steps[order_[position]].together;
+    if (group == 0)
+      return false;
+    for (std::size_t p = 0; p < position; ++p)
+      if (space_.asked.steps[order_[p]].together == group)
+        return space_.choice(order_[p], found[order_[p]]).node != at.node;
+    return false;
+  }
+
   verdict place_from(std::size_t position, assignment& found) {
     if (position == order_.size())
       return verdict::fits;
@@ -128,7 +142,8 @@ private:
     auto step = order_[position];
     const auto& list = space_.candidates.of[step];
     for (auto c = first_choice(position, found); c < list.size(); ++c) {
-      if (space_.has_idle_twin(list[c], now_))
+      if (space_.has_idle_twin(list[c], now_)
+          || is_apart(position, list[c], found))
         continue;
       auto tried = place_one(position, list[c], found, c);
       if (tried != verdict::impossible)
@@ -169,6 +184,23 @@ private:
   amounts free_{};
 };
 
+/// All but one of them and those that it must share a node with: which nodes
+/// these can use depends on each other.
+std::vector<std::size_t> without(const search_space& space,
+                                 std::vector<std::size_t> steps,
+                                 std::size_t left_out) {
+  const auto group = space.asked.steps[left_out].together;
+  steps.erase(std::remove_if(steps.begin(), steps.end(),
+                             [&](std::size_t i) {
+                               return i == left_out
+                                      || (group != 0
+                                          && space.asked.steps[i].together
+                                                 == group);
+                             }),
+              steps.end());
+  return steps;
+}
+
 } // namespace
 
 feasibility find_fit(const search_space& space,
@@ -181,8 +213,7 @@ std::vector<std::size_t> smallest_conflict(const search_space& space,
                                            std::vector<std::size_t> steps,
                                            watch& until) {
   for (std::size_t i = 0; i < steps.size();) {
-    auto others = steps;
-    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+    auto others = without(space, steps, steps[i]);
     auto tried = find_fit(space, others, conflict_branches, until);
     if (tried.what == verdict::impossible)
       steps = std::move(others);

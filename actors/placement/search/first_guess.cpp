@@ -71,7 +71,8 @@ std::optional<assignment> greedy(const search_space& space) {
     auto least = infinity;
     std::size_t best = 0;
     for (std::size_t c = 0; c < list.size(); ++c) {
-      if (space.has_idle_twin(list[c], now))
+      if (space.has_idle_twin(list[c], now)
+          || space.is_apart(i, list[c], guess))
         continue;
       auto total = tried(space, now, sum, i, list[c]);
       if (total < least) {

@@ -1,5 +1,7 @@
 #include "actors/placement/search/groups.hpp"
 
+#include <algorithm>
+#include <map>
 #include <numeric>
 
 namespace roscell::allocation {
@@ -29,6 +31,7 @@ public:
     auto least = std::accumulate(least_cost.begin(), least_cost.end(), 0.0);
     most_extra_ = most_total * static_cast<double>(space.steps()) - least;
     found_.kinds = kinds_of(space);
+    unite_steps();
   }
 
   std::optional<group_list> run() {
@@ -43,6 +46,23 @@ public:
   }
 
 private:
+  /// The steps that must share a node, as sets.
+  void unite_steps() {
+    std::map<std::size_t, step_set> united;
+    for (std::size_t i = 0; i < space_.steps(); ++i)
+      if (const auto number = space_.asked.steps[i].together; number != 0)
+        united[number] |= step_set{1} << i;
+    for (const auto& [number, steps] : united)
+      united_.push_back(steps);
+  }
+
+  bool splits_united() const {
+    return std::any_of(united_.begin(), united_.end(), [&](step_set steps) {
+      const auto here = grown_.steps & steps;
+      return here != 0 && here != steps;
+    });
+  }
+
   /// Adds each step from `first` on to the group in each way that fits.
   /// `extra` is what the group costs above the least cost of its steps, which
   /// the total cannot make good elsewhere. False ends it all.
@@ -98,6 +118,8 @@ private:
   }
 
   void keep() {
+    if (splits_united())
+      return;
     grown_.load = now_.load(node_);
     grown_.ways = static_cast<std::uint32_t>(found_.ways.size());
     found_.ways.insert(found_.ways.end(), chosen_.begin(), chosen_.end());
@@ -110,6 +132,7 @@ private:
   watch& until_;
   occupancy now_;
   double most_extra_;
+  std::vector<step_set> united_;
   group_list found_;
   group grown_;
   std::vector<std::uint32_t> chosen_;

@@ -76,6 +76,8 @@ struct step {
   label_map labels;
   /// Names of the nodes that have the skill. Names of other nodes are ignored.
   std::set<std::string> nodes_with_skill;
+  /// Steps with the same number, unless it is 0, must share a node.
+  std::size_t together = 0;
 };
 
 /// A candidate that may not be taken. `node` and `deployment` are positions in

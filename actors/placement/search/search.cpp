@@ -5,8 +5,6 @@
 
 namespace roscell::allocation {
 
-namespace {} // namespace
-
 search::search(const search_space& space, const lower_bound& bound,
                const assignment& start, watch& until)
     : space_(space), bound_(bound), until_(until), now_(space.empty),
@@ -62,7 +60,8 @@ void search::list_branches(std::size_t depth, double sum) {
   const auto& list = space_.candidates.of[depth];
   for (std::size_t c = 0; c < list.size(); ++c) {
     auto all = now_.shares_of(space_.way(depth, list[c]), list[c]);
-    if (!all.fit() || space_.has_idle_twin(list[c], now_))
+    if (!all.fit() || space_.has_idle_twin(list[c], now_)
+        || space_.is_apart(depth, list[c], current_))
       continue;
     auto with = sum + space_.cost(depth, list[c], all);
     auto bound = total_at_least(with + rest, load);

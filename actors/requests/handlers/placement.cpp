@@ -51,6 +51,9 @@ private:
 
   void adopt(task_plan& plan) {
     held_.task = {task_.request, task_.steps, std::move(plan)};
+    held_.task.plan.warnings.insert(held_.task.plan.warnings.begin(),
+                                    task_.warnings.begin(),
+                                    task_.warnings.end());
     held_.specs = make_specs(held_.task);
     reserve();
   }

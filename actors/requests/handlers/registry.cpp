@@ -52,6 +52,8 @@ void add_cell_commands(request_registry& registry) {
   const auto whom = &services::coordinator;
   registry.add(forward_within<task_termination, task_terminated>(
       limits::task::termination, whom));
+  registry.add(forward_within<task_restart, task_restarted>(
+      limits::task::restart, whom));
   registry.add(forward_within<cell_formation, cell_formed>(
       limits::transfer::answer, whom));
   registry.add(forward_within<node_release, node_released>(

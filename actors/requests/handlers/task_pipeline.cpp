@@ -2,7 +2,7 @@
 
 #include "actors/house/limits.hpp"
 #include "actors/placement/instance_specs.hpp"
-#include "actors/placement/skill_resolution.hpp"
+#include "actors/placement/reading/task_reading.hpp"
 
 #include <algorithm>
 #include <memory>
@@ -20,6 +20,11 @@ bool has_node(const std::vector<node_resources>& nodes,
               const std::string& name) {
   return std::any_of(nodes.begin(), nodes.end(),
                      [&](const auto& x) { return x.name == name; });
+}
+
+/// Those of the request come before those of the nodes.
+void add_warnings(task_plan& plan, const std::vector<std::string>& warnings) {
+  plan.warnings.insert(plan.warnings.begin(), warnings.begin(), warnings.end());
 }
 
 /// Takes nodes away and adds others, with every skill, in the order of names.
@@ -83,12 +88,14 @@ void adopt_plan_query(const request_context& context, task_plan_query query,
 
 void resolve_skills(const request_context&, claimed_task task,
                     outcome<resolved_task> done) {
-  auto steps = resolve_steps(task.request.pipeline, task.cell.skills);
-  if (auto* why = std::get_if<failure>(&steps))
+  auto reading = read_task(task.request.task, task.request.pipeline,
+                           {task.cell.skills, task.cell.written});
+  if (auto* why = std::get_if<failure>(&reading))
     return done.fail(std::move(*why));
-  resolved_task known{std::move(task.request),
-                      std::get<std::vector<resolved_step>>(std::move(steps)),
-                      std::move(task.cell), task.other.why};
+  auto& meant = std::get<task_reading>(reading);
+  resolved_task known{std::move(task.request), std::move(meant.steps),
+                      std::move(meant.warnings), std::move(task.cell),
+                      task.other.why};
   if (auto why = think_otherwise(task.other, known))
     return done.fail(std::move(*why));
   done.deliver(std::move(known));
@@ -102,7 +109,9 @@ void place(const request_context& context, resolved_task task,
   ask<task_plan>(context, context.services->scheduler, limits::task::search,
                  std::move(question), done,
                  [done, request = std::move(task.request),
-                  steps = std::move(task.steps)](task_plan plan) {
+                  steps = std::move(task.steps),
+                  warnings = std::move(task.warnings)](task_plan plan) {
+                   add_warnings(plan, warnings);
                    done.deliver({request, steps, std::move(plan)});
                  });
 }
@@ -123,7 +132,9 @@ void record_plan(const request_context& context, reserved_task held,
                         task.plan.score,
                         task.plan.allocations,
                         {},
-                        std::move(held.refused)}};
+                        std::move(held.refused),
+                        task.plan.warnings,
+                        {}}};
   for (const auto& x : task.plan.allocations)
     intent.nodes.push_back(x.node);
   context.home().tell(

@@ -27,6 +27,7 @@ struct claimed_task {
 struct resolved_task {
   task_request request;
   std::vector<resolved_step> steps;
+  std::vector<std::string> warnings;
   cell_resources cell;
   std::string why;
 };

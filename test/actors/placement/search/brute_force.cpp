@@ -157,6 +157,14 @@ struct enumeration {
            + in.alpha * load_variance(in, a);
   }
 
+  bool is_apart(const allocation& a, const pick& p) const {
+    auto number = in.tasks[a.size()].together;
+    for (std::size_t i = 0; number != 0 && i < a.size(); ++i)
+      if (in.tasks[i].together == number && a[i].v != p.v)
+        return true;
+    return false;
+  }
+
   void extend(allocation& a) {
     if (a.size() == in.tasks.size()) {
       all.push_back(a);
@@ -164,6 +172,8 @@ struct enumeration {
       return;
     }
     for (const auto& p : c[a.size()]) {
+      if (is_apart(a, p))
+        continue;
       a.push_back(p);
       if (constraints_hold(in, a))
         extend(a);
@@ -190,6 +200,24 @@ std::vector<pick> compatible(const instance& in, int i) {
           found.push_back({v, d, g});
       }
     }
+  return found;
+}
+
+std::vector<pick> compatible_together(const instance& in, int i) {
+  auto found = compatible(in, i);
+  auto number = in.tasks[static_cast<std::size_t>(i)].together;
+  for (int j = 0; number != 0 && j < static_cast<int>(in.tasks.size()); ++j) {
+    if (in.tasks[static_cast<std::size_t>(j)].together != number)
+      continue;
+    auto others = compatible(in, j);
+    found.erase(std::remove_if(found.begin(), found.end(),
+                               [&](const pick& p) {
+                                 return std::none_of(
+                                     others.begin(), others.end(),
+                                     [&](const pick& q) { return q.v == p.v; });
+                               }),
+                found.end());
+  }
   return found;
 }
 

@@ -29,6 +29,7 @@ struct way {
 struct task {
   std::vector<way> ways;
   std::vector<bool> skill; // per machine
+  int together = 0;        // not 0: on one machine with its like
 };
 
 struct instance {
@@ -59,6 +60,9 @@ struct answer {
 /// C_i: what is compatible when the task is alone, in the order of the tie
 /// rule.
 std::vector<pick> compatible(const instance& in, int i);
+
+/// The same, on machines that each task which must be together with it can use.
+std::vector<pick> compatible_together(const instance& in, int i);
 
 /// All (node, deployment, GPU) of a task, compatible or not. A GPU deployment
 /// counts once on a machine without GPU.

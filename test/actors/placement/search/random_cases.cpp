@@ -37,6 +37,8 @@ public:
       for (int i = 0; i < tasks; ++i)
         in.tasks.push_back(i > 0 && chance(0.2) ? in.tasks.back()
                                                 : make_task(nodes));
+      if (chance(0.4))
+        put_together(in);
       double size = 1;
       for (int i = 0; i < tasks; ++i)
         size *= oracle::all_candidates(in, i);
@@ -120,6 +122,13 @@ private:
     return made;
   }
 
+  /// Some of the tasks must share a machine, in one or two groups.
+  void put_together(oracle::instance& in) {
+    auto groups = between(1, 2);
+    for (auto& task : in.tasks)
+      task.together = chance(0.6) ? between(1, groups) : 0;
+  }
+
   std::mt19937 random_;
   double grain_ = 1;
   bool tight_ = false;
@@ -187,6 +196,7 @@ problem translated(const oracle::instance& in) {
     for (std::size_t v = 0; v < in.machines.size(); ++v)
       if (from.skill[v])
         wanted.nodes_with_skill.insert(made.nodes[v].name);
+    wanted.together = static_cast<std::size_t>(from.together);
     made.steps.push_back(std::move(wanted));
   }
   return made;

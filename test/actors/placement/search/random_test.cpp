@@ -58,7 +58,7 @@ void check_rejected(const oracle::instance& in, const result& answer) {
     REQUIRE(++seen[key] == 1);
   }
   for (std::size_t i = 0; i < in.tasks.size(); ++i) {
-    auto usable = oracle::compatible(in, static_cast<int>(i));
+    auto usable = oracle::compatible_together(in, static_cast<int>(i));
     for (const auto& p : usable)
       REQUIRE(seen.count({i, p.v, p.d, p.g}) == (answer.optimal() ? 0 : 1));
     std::size_t rejected = 0;

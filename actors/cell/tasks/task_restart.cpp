@@ -1,0 +1,196 @@
+#include "actors/cell/tasks/task_restart.hpp"
+
+#include "actors/cell/tasks/move_stages.hpp"
+#include "actors/cell/tasks/task_removals.hpp"
+#include "actors/cell/tasks/task_turns.hpp"
+#include "actors/cell/tasks/task_views.hpp"
+#include "messages/failure.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <utility>
+
+namespace roscell {
+
+namespace {
+
+using instance_list = std::vector<std::string>;
+using done_handler = std::function<void(const failure*)>;
+
+bool has_failed(const deployment& x) {
+  return x.end
+         && (x.end->state != instance_state::stopped || x.end->exit_code != 0);
+}
+
+bool has(const instance_list& list, const std::string& instance) {
+  return std::find(list.begin(), list.end(), instance) != list.end();
+}
+
+/// What keeps a task's instances from being started again now.
+std::optional<failure> hindrance(const cell_coordinator_state& st,
+                                 const std::string& task) {
+  const auto* entry = st.tasks.find(task);
+  if (!entry || entry->ending || entry->state == task_state::deploying)
+    return failure{error_code::conflict,
+                   "task '" + task + "' is being deployed or terminated",
+                   "/task", "send it again in a while"};
+  const auto& placed = st.deployments.of_task(task);
+  if (std::any_of(placed.begin(), placed.end(),
+                  [](const auto& x) { return x.tentative; }))
+    return failure{error_code::conflict,
+                   "instances of task '" + task
+                       + "' are being moved or started again",
+                   "/task", "send it again when they run"};
+  return std::nullopt;
+}
+
+/// Starts these instances anew. Those in `stay` do so on their nodes.
+void start_again(coordinator_pointer self, const move_ptr& move,
+                 const std::string& task, const instance_list& wanted,
+                 const instance_list& stay) {
+  const auto& st = self->state;
+  if (auto why = hindrance(st, task))
+    return fail_move(self, move, *why);
+  const auto request = request_of(*st.tasks.find(task));
+  if (!request)
+    return fail_move(
+        self, move,
+        {error_code::internal, "task '" + task + "' has no request any more"});
+  for (const auto& x : st.deployments.of_task(task))
+    if (has(wanted, x.spec.instance))
+      if (auto why = add_moved_step(self, *move, *request, x,
+                                    has(stay, x.spec.instance)))
+        return fail_move(self, move, *why);
+  place_move(self, move);
+}
+
+void take_turn_to_start(coordinator_pointer self, const std::string& task,
+                        const instance_list& wanted, const instance_list& stay,
+                        const done_handler& done) {
+  auto move = std::make_shared<task_move>();
+  move->what = "the instances of task '" + task + "'";
+  move->kind = move_kind::restarted;
+  move->done = done;
+  take_turn(self, caf::actor_addr{},
+            [self, move, task, wanted, stay](uint64_t turn) {
+              move->turn = turn;
+              start_again(self, move, task, wanted, stay);
+            });
+}
+
+/// Ends these instances of a task on their nodes, then goes on.
+void end_instances(coordinator_pointer self, const std::string& task,
+                   const instance_list& instances,
+                   const std::function<void()>& next) {
+  auto open = std::make_shared<size_t>(instances.size() + 1);
+  auto finish = [open, next] {
+    if (--*open == 0)
+      next();
+  };
+  for (const auto& instance : instances) {
+    const auto* x = self->state.deployments.find(instance);
+    if (x)
+      remove_instance(self, {std::string{x->node}, task, instance}, finish);
+    else
+      finish();
+  }
+  finish();
+}
+
+/// What a restart is about; or why there can be none.
+struct restart_plan {
+  instance_list wanted;
+  instance_list running; ///< Those of them that run.
+  std::optional<failure> problem;
+};
+
+restart_plan plan_restart(const cell_coordinator_state& st,
+                          const task_restart& request) {
+  restart_plan result;
+  result.problem = hindrance(st, request.task);
+  for (const auto& x : st.deployments.of_task(request.task)) {
+    if (!request.instance.empty() && x.spec.instance != request.instance)
+      continue;
+    result.wanted.push_back(x.spec.instance);
+    if (x.end)
+      continue;
+    result.running.push_back(x.spec.instance);
+    const auto* node = st.registry.find_name(x.node);
+    if (!result.problem && (!node || !node->agent))
+      result.problem =
+          failure{error_code::conflict,
+                  "node '" + x.node + "' is away, so instance '"
+                      + x.spec.instance + "' cannot be ended",
+                  "/instance", "wait for the node, or terminate the task"};
+  }
+  return result;
+}
+
+/// The instances of a task that were not there before.
+std::vector<placed_instance> new_instances(const cell_coordinator_state& st,
+                                           const task_restart& request,
+                                           const instance_list& before) {
+  std::vector<placed_instance> result;
+  for (const auto& x : st.deployments.of_task(request.task))
+    if (!has(before, x.spec.instance))
+      result.push_back({x.spec.step, x.spec.instance, x.node});
+  return result;
+}
+
+instance_list all_instances(const cell_coordinator_state& st,
+                            const std::string& task) {
+  instance_list result;
+  for (const auto& x : st.deployments.of_task(task))
+    result.push_back(x.spec.instance);
+  return result;
+}
+
+} // namespace
+
+std::vector<std::string> failed_steps(const cell_coordinator_state& st,
+                                      const std::string& task) {
+  std::vector<std::string> result;
+  for (const auto& x : st.deployments.of_task(task))
+    if (has_failed(x))
+      result.push_back(x.spec.step);
+  return result;
+}
+
+void heal_task(coordinator_pointer self, const std::string& task,
+               const done_handler& done) {
+  instance_list failed;
+  for (const auto& x : self->state.deployments.of_task(task))
+    if (has_failed(x))
+      failed.push_back(x.spec.instance);
+  take_turn_to_start(self, task, failed, {}, done);
+}
+
+caf::result<task_restarted> restart_task(coordinator_pointer self,
+                                         const task_restart& request) {
+  const auto& st = self->state;
+  if (!st.tasks.find(request.task))
+    return unknown_thing("task", request.task);
+  const auto plan = plan_restart(st, request);
+  if (plan.problem)
+    return to_error(*plan.problem);
+  if (plan.wanted.empty())
+    return unknown_thing("instance", request.instance);
+  auto promise = self->make_response_promise<task_restarted>();
+  const auto before = all_instances(st, request.task);
+  auto finish = [self, request, before, promise](const failure* why) mutable {
+    if (why)
+      promise.deliver(to_error(*why));
+    else
+      promise.deliver(task_restarted{
+          request.task, new_instances(self->state, request, before)});
+  };
+  end_instances(self, request.task, plan.running,
+                [self, request, plan, finish] {
+                  take_turn_to_start(self, request.task, plan.wanted,
+                                     plan.running, finish);
+                });
+  return promise;
+}
+
+} // namespace roscell

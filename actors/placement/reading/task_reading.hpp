@@ -1,0 +1,34 @@
+#pragma once
+
+#include "actors/placement/reading/short_forms.hpp"
+#include "messages/failure.hpp"
+#include "messages/inside/coordination.hpp"
+
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace roscell {
+
+/// A request as it is meant: without short forms, its skills found, its
+/// parameters and wiring checked.
+struct task_reading {
+  std::vector<resolved_step> steps;
+  std::vector<std::string> warnings;
+};
+
+/// What there is in a cell that a request can speak of.
+struct reading_context {
+  skill_list skills;
+  std::vector<deployed_end> written; ///< By the steps of its tasks.
+};
+
+/// Reads a pipeline. Errors: those of `resolve_steps`, and schema_violation
+/// with every place where a short form, a parameter or the wiring is wrong;
+/// pointers begin with `pointer`.
+std::variant<task_reading, failure>
+read_task(const std::string& task, const std::vector<task_step>& pipeline,
+          const reading_context& cell,
+          const std::string& pointer = "/pipeline");
+
+} // namespace roscell

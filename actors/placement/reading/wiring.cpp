@@ -1,0 +1,242 @@
+#include "actors/placement/reading/wiring.hpp"
+
+#include "actors/placement/reading/stream_names.hpp"
+#include "schemas/closest_word.hpp"
+#include "schemas/text_excerpt.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <string_view>
+#include <utility>
+
+namespace roscell {
+
+namespace {
+
+/// One end that somebody writes.
+struct written_end {
+  size_t step;       ///< Position; unused where another task writes it.
+  std::string words; ///< Who writes it where.
+  io_endpoint end;
+  bool elsewhere; ///< Another task does.
+};
+
+bool is_topic_end(const io_endpoint& x) {
+  return x.protocol == "ros2";
+}
+
+bool is_file_end(const io_endpoint& x) {
+  return x.protocol == "file";
+}
+
+/// Many nodes publish transforms under one name.
+bool is_shared(const io_endpoint& x) {
+  return x.data_type == "tf2_msgs/msg/TFMessage";
+}
+
+bool same_topic(const io_endpoint& x, const io_endpoint& y) {
+  return is_topic_end(x) && is_topic_end(y)
+         && full_topic(x.endpoint) == full_topic(y.endpoint);
+}
+
+/// A label that two steps want with different values, as `host=a and host=b`;
+/// empty if no node's labels keep them apart.
+std::string contradiction(const task_step& x, const task_step& y) {
+  for (const auto& [name, value] : x.labels)
+    if (const auto other = y.labels.find(name);
+        other != y.labels.end() && other->second != value)
+      return name + "=" + value + " and " + name + "=" + other->second;
+  return {};
+}
+
+class wirer {
+public:
+  wirer(const std::string& task, const std::vector<written_step>& steps,
+        const std::vector<deployed_end>& cell)
+      : steps_(steps) {
+    for (size_t i = 0; i < steps.size(); ++i)
+      for (size_t k = 0; k < steps[i].step.output.size(); ++k)
+        written_.push_back({i,
+                            "step " + in_quotes(steps[i].step.id) + " (at "
+                                + steps[i].output_at[k] + ")",
+                            steps[i].step.output[k], false});
+    for (const auto& x : cell)
+      if (x.task != task)
+        written_.push_back({0,
+                            "step " + in_quotes(x.step) + " of task "
+                                + in_quotes(x.task) + " on '" + x.node + "'",
+                            x.end, true});
+    root_.resize(steps.size());
+    std::iota(root_.begin(), root_.end(), size_t{0});
+  }
+
+  wiring run() {
+    for (size_t i = 0; i < steps_.size(); ++i) {
+      for (size_t k = 0; k < steps_[i].step.input.size(); ++k)
+        check_input(i, k);
+      for (size_t k = 0; k < steps_[i].step.output.size(); ++k)
+        check_output(i, k);
+    }
+    number_groups();
+    return std::move(result_);
+  }
+
+private:
+  void refuse(const std::string& at, std::string words) {
+    result_.errors.push_back({at, std::move(words)});
+  }
+
+  void warn(const std::string& at, const std::string& words) {
+    result_.warnings.push_back("at " + at + ": " + words);
+  }
+
+  // -- what is read ---------------------------------------------------------
+
+  void check_input(size_t i, size_t k) {
+    const auto& end = steps_[i].step.input[k];
+    const auto& at = steps_[i].input_at[k];
+    if (is_topic_end(end))
+      check_topic(end, at, end.external || steps_[i].step.external);
+    else if (is_file_end(end))
+      join_by_file(i, end, at);
+  }
+
+  void check_topic(const io_endpoint& end, const std::string& at,
+                   bool external) {
+    const written_end* other_type = nullptr;
+    for (const auto& x : written_) {
+      if (!same_topic(x.end, end))
+        continue;
+      if (x.end.data_type == end.data_type)
+        return external ? warn(at, "the topic is external, but " + x.words
+                                       + " writes it")
+                        : void();
+      other_type = &x;
+    }
+    if (external)
+      return;
+    if (other_type != nullptr)
+      refuse(at, other_type->words + " writes the topic "
+                     + in_quotes(end.endpoint) + " as "
+                     + in_quotes(other_type->end.data_type) + ", it is read as "
+                     + in_quotes(end.data_type));
+    else
+      refuse(at, nobody_writes(end));
+  }
+
+  std::string nobody_writes(const io_endpoint& end) const {
+    std::vector<std::string_view> topics;
+    for (const auto& x : written_)
+      if (is_topic_end(x.end))
+        topics.emplace_back(x.end.endpoint);
+    auto words =
+        "nobody in this cell writes the topic " + in_quotes(end.endpoint, 80);
+    const auto meant = closest_word(end.endpoint, topics);
+    for (const auto& x : written_)
+      if (!meant.empty() && x.end.endpoint == meant)
+        return words + "; did you mean " + in_quotes(meant, 80) + " of "
+               + x.words + "?";
+    return words
+           + "; say \"external\": true if a program that ROSCell does not "
+             "start writes it";
+  }
+
+  void join_by_file(size_t i, const io_endpoint& end, const std::string& at) {
+    for (const auto& x : written_) {
+      if (x.elsewhere || x.step == i || !is_file_end(x.end)
+          || !overlap(x.end.endpoint, end.endpoint))
+        continue;
+      const auto apart = contradiction(steps_[i].step, steps_[x.step].step);
+      if (apart.empty())
+        unite(i, x.step);
+      else
+        refuse(at, "the file " + in_quotes(end.endpoint, 80) + " is written by "
+                       + x.words
+                       + ", and both must run on one node, but they want "
+                       + apart + "; join them by a topic");
+    }
+  }
+
+  // -- what is written ------------------------------------------------------
+
+  /// Against what is written before it, so that each pair is looked at once.
+  void check_output(size_t i, size_t k) {
+    const auto& end = steps_[i].step.output[k];
+    const auto& at = steps_[i].output_at[k];
+    bool reached = false;
+    for (const auto& x : written_) {
+      reached = reached || &x.end == own(i, k);
+      if (!x.elsewhere && reached)
+        continue;
+      if (same_topic(x.end, end))
+        check_second_writer(end, at, x);
+      else if (is_file_end(x.end) && is_file_end(end)
+               && x.end.endpoint == end.endpoint)
+        check_second_file(i, end, at, x);
+    }
+  }
+
+  /// The entry of an output of the task.
+  const io_endpoint* own(size_t i, size_t k) const {
+    size_t position = k;
+    for (size_t before = 0; before < i; ++before)
+      position += steps_[before].step.output.size();
+    return &written_[position].end;
+  }
+
+  void check_second_writer(const io_endpoint& end, const std::string& at,
+                           const written_end& first) {
+    const auto both = "the topic " + in_quotes(end.endpoint, 80)
+                      + " is written by " + first.words + ", too";
+    if (first.end.data_type != end.data_type)
+      refuse(at, both + ", as " + in_quotes(first.end.data_type));
+    else if (!is_shared(end))
+      warn(at, both);
+  }
+
+  void check_second_file(size_t i, const io_endpoint& end,
+                         const std::string& at, const written_end& first) {
+    const auto both = "the file " + in_quotes(end.endpoint, 80)
+                      + " is written by " + first.words + ", too";
+    if (first.elsewhere)
+      warn(at, both + "; on one node they would overwrite each other");
+    else if (contradiction(steps_[i].step, steps_[first.step].step).empty())
+      refuse(at, both);
+  }
+
+  // -- what must share a node -----------------------------------------------
+
+  size_t root(size_t i) {
+    while (root_[i] != i)
+      i = root_[i];
+    return i;
+  }
+
+  void unite(size_t x, size_t y) {
+    const auto low = std::min(root(x), root(y));
+    root_[std::max(root(x), root(y))] = low;
+  }
+
+  void number_groups() {
+    std::vector<size_t> members(steps_.size());
+    for (size_t i = 0; i < steps_.size(); ++i)
+      ++members[root(i)];
+    for (size_t i = 0; i < steps_.size(); ++i)
+      result_.together.push_back(members[root(i)] > 1 ? root(i) + 1 : 0);
+  }
+
+  const std::vector<written_step>& steps_;
+  std::vector<written_end> written_; ///< The task's own first, in order.
+  std::vector<size_t> root_;         ///< Of each step, a step of its group.
+  wiring result_;
+};
+
+} // namespace
+
+wiring find_wiring(const std::string& task,
+                   const std::vector<written_step>& steps,
+                   const std::vector<deployed_end>& cell) {
+  return wirer{task, steps, cell}.run();
+}
+
+} // namespace roscell

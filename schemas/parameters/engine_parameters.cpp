@@ -1,0 +1,138 @@
+#include "schemas/parameters/engine_parameters.hpp"
+
+#include "schemas/closest_word.hpp"
+#include "schemas/text_excerpt.hpp"
+
+#include <string_view>
+
+namespace roscell {
+
+namespace {
+
+/// What the primitive engine (skills/engine) understands whatever the model,
+/// under "", and what each of its protocols does. In the form of a descriptor.
+constexpr const char* primitive_engine = R"({
+  "": {
+    "queue_length": {
+      "type": "integer", "default": 8, "minimum": 1, "maximum": 65536,
+      "description": "Frames of one input that may wait; a live input then drops its oldest, a file is held back."
+    },
+    "queue_mib": {
+      "type": "integer", "default": 64, "minimum": 1, "maximum": 65536,
+      "unit": "MiB", "description": "Their size together."
+    },
+    "max_failures": {
+      "type": "integer", "default": 10, "minimum": 1, "maximum": 1000000000,
+      "description": "Frames in a row that may fail before the skill does."
+    }
+  },
+  "file": {
+    "follow": {
+      "type": "boolean", "default": true,
+      "description": "Wait for more lines and files; else the skill ends when all is processed."
+    },
+    "loop": {
+      "type": "boolean", "default": false,
+      "description": "Begin again after the last file or at the end of a film."
+    },
+    "rate_hz": {
+      "type": "number", "default": 0, "minimum": 0, "maximum": 1000000,
+      "unit": "Hz", "description": "Most frames per second of an input; 0 is no limit."
+    },
+    "max_frame_mib": {
+      "type": "integer", "default": 64, "minimum": 1, "maximum": 65536,
+      "unit": "MiB", "description": "A larger frame of a file is skipped."
+    }
+  },
+  "ros2": {
+    "ros2_reliability": {
+      "type": "string", "values": ["reliable", "best_effort"],
+      "description": "Whether what was lost is sent again; by the type if absent."
+    },
+    "ros2_durability": {
+      "type": "string", "values": ["volatile", "transient_local"],
+      "description": "Whether a late reader gets the last messages; by the type if absent."
+    },
+    "ros2_depth": {
+      "type": "integer", "minimum": 1, "maximum": 1000,
+      "description": "How many messages are kept; by the type if absent."
+    },
+    "ros2_gid_bytes": {
+      "type": "integer", "default": 24, "values": [24, 16], "unit": "bytes",
+      "description": "24 for the ROS graph of Humble, 16 for Iron and later."
+    }
+  },
+  "video": {
+    "encoding": {
+      "type": "string", "default": "mono8", "values": ["mono8", "bgr8"],
+      "description": "Of the pictures."
+    },
+    "frame_id": {
+      "type": "string", "default": "camera",
+      "description": "Frame that the pictures are taken in."
+    },
+    "loop": {
+      "type": "boolean", "default": false,
+      "description": "Begin again after the last file or at the end of a film."
+    },
+    "rate_hz": {
+      "type": "number", "default": 0, "minimum": 0, "maximum": 1000000,
+      "unit": "Hz", "description": "Most frames per second of an input; 0 is no limit."
+    }
+  }
+})";
+
+void add_parameters(const json& engine, const std::string& protocol,
+                    declared_parameters& to) {
+  if (engine.contains(protocol))
+    to = read_parameters(engine[protocol], to);
+}
+
+std::string unknown_parameter_words(const declared_parameters& known,
+                                    const std::string& name) {
+  std::vector<std::string_view> names;
+  for (const auto& [each, x] : known)
+    names.emplace_back(each);
+  auto result = "there is no parameter " + in_quotes(name);
+  if (const auto meant = closest_word(name, names); !meant.empty())
+    return result + "; did you mean " + in_quotes(meant) + "?";
+  result += names.empty() ? "" : "; there are";
+  for (const auto& each : names)
+    result += (&each == &names.front() ? " " : ", ") + std::string{each};
+  return result;
+}
+
+} // namespace
+
+declared_parameters parameters_of(const skill_descriptor& skill,
+                                  const implementation_model& model) {
+  declared_parameters result;
+  if (skill.engine == "primitive") {
+    static const auto engine = json::parse(primitive_engine);
+    add_parameters(engine, "", result);
+    for (const auto* port : {&skill.input, &skill.output})
+      for (const auto& protocol : port->protocols)
+        add_parameters(engine, protocol, result);
+  }
+  if (model.parameters.empty())
+    return result;
+  return read_parameters(json::parse(model.parameters), result);
+}
+
+std::vector<schema_error> parameter_errors(const declared_parameters& known,
+                                           const json& given,
+                                           const std::string& place) {
+  std::vector<schema_error> result;
+  for (const auto& [name, value] : given.items()) {
+    const auto at = (json::json_pointer{place} / name).to_string();
+    const auto declared = known.find(name);
+    if (declared == known.end())
+      result.push_back({at, unknown_parameter_words(known, name)});
+    else if (auto problem = value_problem(declared->second, value);
+             !problem.empty())
+      result.push_back({at, std::move(problem)});
+  }
+  return result;
+}
+
+} // namespace roscell

@@ -1,0 +1,80 @@
+#include "actors/placement/reading/task_reading.hpp"
+#include "test/actors/placement/reading/pipelines.hpp"
+
+#include <catch2/catch.hpp>
+
+namespace roscell::test {
+
+namespace {
+
+failure refusal(const std::string& pipeline) {
+  const auto result = read_task("t", steps_in(pipeline), {vision_skills(), {}});
+  REQUIRE(std::holds_alternative<failure>(result));
+  return std::get<failure>(result);
+}
+
+std::string poses_with(const std::string& parameters) {
+  return R"([{"id": "p", "operation": "poses", "model": "m",
+              "input": "/tmp/x.png", "parameters": )"
+         + parameters + "}]";
+}
+
+} // namespace
+
+TEST_CASE("A task is read with its short forms, skills and wiring",
+          "[task_reading]") {
+  const auto result = read_task("t", steps_in(R"([
+        {"id": "c", "operation": "camera", "model": "m", "input": "/d/x.png"},
+        {"id": "p", "operation": "poses", "model": "m",
+         "input": {"from": "c"}, "parameters": {"tag_size_m": 0.16},
+         "output": "/tmp/poses.jsonl"}])"),
+                                {vision_skills(), {}});
+  REQUIRE(std::holds_alternative<task_reading>(result));
+  const auto& reading = std::get<task_reading>(result);
+  REQUIRE(reading.steps.size() == 2);
+  CHECK(reading.steps[1].step.input.size() == 2);
+  CHECK(reading.steps[1].builds.front().hash == "poses");
+  CHECK(reading.warnings.empty());
+}
+
+TEST_CASE("A parameter that the model does not have is refused with its like",
+          "[task_reading]") {
+  const auto why = refusal(poses_with(R"({"tag_size": 0.16})"));
+  CHECK(why.code == error_code::schema_violation);
+  CHECK(why.where == "/pipeline/0/parameters/tag_size");
+  CHECK(why.message.find(R"(did you mean "tag_size_m"?)") != std::string::npos);
+}
+
+TEST_CASE("A parameter outside its range is refused with the range and unit",
+          "[task_reading]") {
+  const auto why = refusal(poses_with(R"({"tag_size_m": 160})"));
+  CHECK(why.where == "/pipeline/0/parameters/tag_size_m");
+  CHECK(why.message.find("a number from 0.0001 to 100 (m)")
+        != std::string::npos);
+}
+
+TEST_CASE("Every wrong place of a request is told at once", "[task_reading]") {
+  const auto why = refusal(R"([
+    {"id": "p", "operation": "poses", "model": "m", "input": "/no/image",
+     "parameters": {"tag_size": 1, "queue_length": "two"}}])");
+  const auto errors = json::parse(why.details)["errors"];
+  REQUIRE(errors.size() == 3);
+  CHECK(errors[0]["where"] == "/pipeline/0/parameters/queue_length");
+  CHECK(errors[1]["where"] == "/pipeline/0/parameters/tag_size");
+  CHECK(errors[2]["where"] == "/pipeline/0/input");
+}
+
+TEST_CASE("Steps that share files are told to the search", "[task_reading]") {
+  const auto result = read_task("t", steps_in(R"([
+        {"id": "a", "operation": "echo", "model": "m", "input": "/tmp/in",
+         "output": "/tmp/between"},
+        {"id": "b", "operation": "echo", "model": "m",
+         "input": {"from": "a.between"}, "output": "/tmp/out"}])"),
+                                {vision_skills(), {}});
+  REQUIRE(std::holds_alternative<task_reading>(result));
+  const auto& steps = std::get<task_reading>(result).steps;
+  CHECK(steps[0].together == 1);
+  CHECK(steps[1].together == 1);
+}
+
+} // namespace roscell::test
