@@ -23,6 +23,17 @@ void add_form_commands(CLI::App& app, action& chosen);
 /// status, cells, nodes, transfers, tasks, instances, skills.
 void add_show_commands(CLI::App& app, action& chosen);
 
+/// run, stop, restart.
+void add_task_commands(CLI::App& app, action& chosen);
+
+void add_check_command(CLI::App& app, action& chosen);
+
+/// new task.
+void add_new_command(CLI::App& app, action& chosen);
+
+/// `show`, below `skills`.
+void add_skill_show_command(CLI::App& skills, action& chosen);
+
 void add_events_command(CLI::App& app, action& chosen);
 void add_logs_command(CLI::App& app, action& chosen);
 void add_completion_command(CLI::App& app, action& chosen);

@@ -149,14 +149,6 @@ plan_result plan_of(const plan_options& options, const std::string& text) {
              : plan_of_cell(options, content);
 }
 
-/// Who was rejected, as the details of a failure tell.
-std::vector<rejected_candidate> rejected_of(const failure& why) {
-  const auto details = json::parse(why.details, nullptr, false);
-  if (!details.is_object() || !details.contains("rejected"))
-    return {};
-  return details["rejected"].get<std::vector<rejected_candidate>>();
-}
-
 int show_refusal(const failure& why, const plan_options& options,
                  const std::string& text) {
   const auto reply = error_reply(why);
@@ -164,7 +156,7 @@ int show_refusal(const failure& why, const plan_options& options,
     print(pretty(reply));
     return exit_refused;
   }
-  if (const auto rejected = rejected_of(why); !rejected.empty())
+  if (const auto rejected = rejected_in(why); !rejected.empty())
     print(rejected_view(rejected, stdout_style()));
   // A query, and other nodes than the file's, move what pointers lead to.
   const bool as_written = options.connection.to.empty() && options.with.empty()

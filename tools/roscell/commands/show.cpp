@@ -172,10 +172,13 @@ void add_show_commands(CLI::App& app, action& chosen) {
                                      what.footer, options);
     if (what.argument != nullptr)
       command->add_option(what.argument, options->argument, "Only this one");
-    command->callback([&chosen, &what, options] {
-      chosen = [&what, options] { return show_subject(what, *options); };
+    command->callback([&chosen, &what, options, command] {
+      // A command below it has been chosen already.
+      if (command->get_subcommands().empty())
+        chosen = [&what, options] { return show_subject(what, *options); };
     });
   }
+  add_skill_show_command(*app.get_subcommand("skills"), chosen);
   add_transfers_command(app, chosen);
 }
 

@@ -37,6 +37,9 @@ void set_up(CLI::App& app, action& chosen) {
   app.require_subcommand(1);
   app.get_formatter()->column_width(34);
   add_node_command(app, chosen);
+  add_task_commands(app, chosen);
+  add_check_command(app, chosen);
+  add_new_command(app, chosen);
   add_request_command(app, chosen);
   add_plan_command(app, chosen);
   add_form_commands(app, chosen);

@@ -125,6 +125,13 @@ std::string alternative_view(const task_plan& plan,
 
 } // namespace
 
+std::vector<rejected_candidate> rejected_in(const failure& why) {
+  const auto details = json::parse(why.details, nullptr, false);
+  if (!details.is_object() || !details.contains("rejected"))
+    return {};
+  return details["rejected"].get<std::vector<rejected_candidate>>();
+}
+
 std::string rejected_view(const std::vector<rejected_candidate>& rejected,
                           const text_style& style) {
   if (rejected.empty())

@@ -1,0 +1,155 @@
+# What somebody does with a task from the command line: check, run, heal,
+# restart, stop; and steps that hang together by what they read and write.
+
+start_alone() {
+  start_node head --coordinator --cell line --interface lo --cpu-floor 1
+}
+
+# Two steps, one reading the file that the other writes, in short forms.
+chain_task() {
+  mkdir -p "$scratch/data"
+  touch "$scratch/data/in.txt"
+  cat << EOF
+task: chain
+pipeline:
+  - {id: one, operation: echo, model: plain, parameters: {prefix: "1 "},
+     input: $scratch/data/in.txt, output: $scratch/data/between.txt}
+  - {id: two, operation: echo, model: plain, parameters: {prefix: "2 "},
+     input: {from: one}, output: $scratch/data/out.txt}
+EOF
+}
+
+# await_line FILE TEXT: waits until a line of the file is that.
+await_line() {
+  timeout "$deadline_s" tail -n +1 -F "$1" 2> /dev/null | grep -qxm 1 "$2" \
+    || fail "no line '$2' in $1"
+}
+
+# instance_of TASK STEP
+instance_of() {
+  get head "/v1/tasks/$1" \
+    | jq -r --arg step "$2" '.tasks[0].instances[]
+        | select(.spec.step == $step) | .spec.instance'
+}
+
+test_a_task_in_short_forms_is_checked_run_and_stopped() {
+  start_alone
+  chain_task > "$scratch/chain.yaml"
+  to head check "$scratch/chain.yaml" > "$scratch/written.json" 2> /dev/null \
+    || fail "check refused the task"
+  expect "written out" \
+    "$(jq -r '.pipeline[1].input.endpoint' "$scratch/written.json")" \
+    "$scratch/data/between.txt"
+  to head run "$scratch/chain.yaml" > "$scratch/out" || fail "run refused it"
+  grep -q 'task chain runs' "$scratch/out" || fail "run says: $(cat "$scratch/out")"
+  echo hello >> "$scratch/data/in.txt"
+  await_line "$scratch/data/out.txt" '2 1 hello'
+  to head stop chain | grep -q 'chain is gone, with 2 instances' \
+    || fail "stop does not say so"
+  expect "tasks" "$(get head /v1/tasks | jq '.tasks | length')" 0
+}
+
+test_steps_that_share_a_file_run_on_one_node() {
+  start_alone
+  start_node arm --join "$(discovery_of head)" --interface lo --cpu-floor 1
+  await_joined head arm
+  chain_task > "$scratch/chain.yaml"
+  to head run "$scratch/chain.yaml" -o json > "$scratch/reply.json" \
+    || fail "run refused it"
+  expect "nodes" "$(jq -r '[.instances[].node] | unique | length' \
+    "$scratch/reply.json")" 1
+}
+
+test_a_failed_step_is_healed_by_the_same_request() {
+  start_alone
+  chain_task > "$scratch/chain.yaml"
+  to head run "$scratch/chain.yaml" > /dev/null || fail "run refused it"
+  local old
+  old=$(instance_of chain two)
+  pkill -KILL -P "$(cut -d' ' -f1 "$scratch/head/instances/$old/pid")"
+  await head ".event == \"instance_failed\" and .subject == \"$old\"" \
+    > /dev/null
+  to head run "$scratch/chain.yaml" > "$scratch/out" || fail "it was not healed"
+  grep -q 'started again: two' "$scratch/out" || fail "healing is not told"
+  expect "state" "$(get head /v1/tasks/chain | jq -r '.tasks[0].state')" running
+  [[ $(instance_of chain two) != "$old" ]] || fail "it is the old instance"
+}
+
+test_an_instance_is_restarted_and_the_others_stay() {
+  start_alone
+  chain_task > "$scratch/chain.yaml"
+  to head run "$scratch/chain.yaml" > /dev/null || fail "run refused it"
+  local one two
+  one=$(instance_of chain one) two=$(instance_of chain two)
+  to head restart "$two" > /dev/null || fail "restart was refused"
+  expect "the other one" "$(instance_of chain one)" "$one"
+  [[ $(instance_of chain two) != "$two" ]] || fail "it is the old instance"
+  to head restart chain > /dev/null || fail "restart of the task was refused"
+  [[ $(instance_of chain one) != "$one" ]] || fail "one was not restarted"
+  echo again >> "$scratch/data/in.txt"
+  await_line "$scratch/data/out.txt" '2 1 again'
+}
+
+# mistake WHAT JQ EXPECTED: changes the task and looks for words on stderr.
+mistake() {
+  jq "$2" "$scratch/task.json" > "$scratch/wrong.json"
+  to head run "$scratch/wrong.json" > "$scratch/out" 2> "$scratch/stderr"
+  expect "exit code: $1" $? 1
+  grep -qF "$3" "$scratch/stderr" \
+    || fail "$1: '$3' is not in: $(cat "$scratch/stderr")"
+  to head check "$scratch/wrong.json" > "$scratch/out" 2> "$scratch/stderr"
+  expect "exit code of check: $1" $? 1
+  grep -qF "$3" "$scratch/stderr" \
+    || fail "check: $1: '$3' is not in: $(cat "$scratch/stderr")"
+}
+
+test_mistakes_are_shown_where_they_are() {
+  start_alone
+  echo_task a > "$scratch/task.json"
+  mistake "a misspelt member" '.pipeline[0].parameter = {}' \
+    'there is no member "parameter" here; did you mean "parameters"?'
+  mistake "a foreign word" '.steps = .pipeline' 'did you mean "pipeline"?'
+  mistake "a misspelt parameter" '.pipeline[0].parameters = {prefx: "x"}' \
+    'there is no parameter "prefx"; did you mean "prefix"?'
+  mistake "a parameter of the wrong type" '.pipeline[0].parameters = {prefix: 7}' \
+    'expected a text, got the number 7'
+  mistake "a number out of range" '.pipeline[0].parameters = {queue_length: 0}' \
+    'expected an integer from 1 to 65536'
+  mistake "an unknown step" '.pipeline[0].input = {from: "ecko"}' \
+    'there is no step "ecko"'
+  mistake "one output of two steps" \
+    '.pipeline += [.pipeline[0] + {id: "again"}]' 'is written by step "say"'
+  mistake "an unknown operation" '.pipeline[0].operation = "sing"' \
+    "no skill of this cell does 'sing'"
+  grep -q '\^~*$' "$scratch/stderr" || fail "no mark is under the place"
+  expect "tasks" "$(get head /v1/tasks | jq '.tasks | length')" 0
+}
+
+test_a_topic_that_nobody_writes_is_refused_unless_it_is_external() {
+  cp -r "$ROSCELL_BUILD/skills/pose_estimation" "$skills"
+  ask_no_cpu "$skills/pose_estimation"
+  start_alone
+  cat > "$scratch/poses.yaml" << EOF
+task: poses
+pipeline:
+  - {id: poses, operation: pose_estimation, model: apriltag3,
+     input: [/cam/image, /cam/camera_info], output: $scratch/poses.jsonl}
+EOF
+  to head run "$scratch/poses.yaml" 2> "$scratch/stderr"
+  expect "exit code" $? 1
+  grep -q 'nobody in this cell writes the topic "/cam/image"' \
+    "$scratch/stderr" || fail "it says: $(cat "$scratch/stderr")"
+  sed -i 's|model: apriltag3,|model: apriltag3, external: true,|' \
+    "$scratch/poses.yaml"
+  to head run "$scratch/poses.yaml" > /dev/null || fail "external was refused"
+}
+
+test_a_device_of_an_endpoint_must_be_there() {
+  start_alone
+  echo_task a | jq '.pipeline[0].input.endpoint = "/dev/lidar7"' \
+    > "$scratch/task.json"
+  to head run "$scratch/task.json" 2> "$scratch/stderr"
+  expect "exit code" $? 1
+  grep -q "needs the device '/dev/lidar7'" "$scratch/stderr" \
+    || fail "it says: $(cat "$scratch/stderr")"
+}

@@ -1,0 +1,183 @@
+#include "schemas/message_catalogue.hpp"
+#include "tools/roscell/client/event_stream.hpp"
+#include "tools/roscell/client/node_client.hpp"
+#include "tools/roscell/commands.hpp"
+#include "tools/roscell/common_options.hpp"
+#include "tools/roscell/exit_code.hpp"
+#include "tools/roscell/tasks/task_file.hpp"
+#include "tools/roscell/tasks/task_view.hpp"
+#include "tools/roscell/view/format.hpp"
+#include "tools/roscell/view/progress.hpp"
+#include "tools/roscell/view/terminal.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <memory>
+
+namespace roscell::cli {
+
+namespace {
+
+struct task_options {
+  connection_options connection;
+  std::string output = "table";
+  std::string timeout = "120";
+  std::string subject; ///< A file, a task, or an instance.
+
+  bool as_json() const {
+    return output == "json";
+  }
+};
+
+using options_ptr = std::shared_ptr<task_options>;
+
+/// Sends a request about a task and tells what goes on until it is answered.
+json ask_about(const task_options& options, const std::string& task,
+               const json& request) {
+  const node_client node{options.connection};
+  const auto words = [task](const event& e) { return progress_lines(e, task); };
+  return post_with_progress(node, request.dump(),
+                            parse_duration(options.timeout), words);
+}
+
+/// The same where a refusal has no document to point into.
+json ask_or_throw(const task_options& options, const std::string& task,
+                  const json& request) {
+  auto reply = ask_about(options, task, request);
+  if (reply.value("type", "") != "error")
+    return reply;
+  refused error{std::move(reply)};
+  error.as_json = options.as_json();
+  throw error;
+}
+
+void print_warnings(const std::vector<std::string>& warnings) {
+  for (const auto& warning : warnings)
+    print_note("warning: " + printable(warning));
+}
+
+int run_task(const task_options& options) {
+  const auto file = read_task_file(options.subject);
+  const auto request = file.request();
+  if (auto why = validate_request(request))
+    throw wrong_document{file, *why};
+  const auto task = request.value("task", "");
+  const auto reply = ask_about(options, task, request);
+  if (reply.value("type", "") == "error")
+    throw wrong_document{file, failure_from(reply)};
+  if (options.as_json()) {
+    print(pretty(reply));
+    return exit_done;
+  }
+  const auto accepted = reply.get<task_accepted>();
+  print(accepted_view(accepted, stdout_style()));
+  print_warnings(accepted.warnings);
+  return exit_done;
+}
+
+int stop_task(const task_options& options) {
+  const auto reply =
+      ask_or_throw(options, options.subject,
+                   message_json(task_termination{options.subject}));
+  print(options.as_json() ? pretty(reply)
+                          : terminated_view(reply.get<task_terminated>()));
+  return exit_done;
+}
+
+/// What a name stands for: a task, else an instance of one.
+task_restart restart_of(const task_options& options) {
+  const node_client node{options.connection};
+  const auto tasks = node.get("/v1/tasks").get<task_description>();
+  for (const auto& task : tasks.tasks) {
+    if (task.task == options.subject)
+      return {task.task, ""};
+    for (const auto& x : task.instances)
+      if (x.spec.instance == options.subject)
+        return {task.task, options.subject};
+  }
+  throw command_error{exit_refused,
+                      "no task and no instance is named '"
+                          + printable(options.subject) + "'",
+                      "`roscell tasks` and `roscell instances` list them"};
+}
+
+int restart(const task_options& options) {
+  const auto wish = restart_of(options);
+  const auto reply = ask_or_throw(options, wish.task, message_json(wish));
+  print(options.as_json()
+            ? pretty(reply)
+            : restarted_view(reply.get<task_restarted>(), stdout_style()));
+  return exit_done;
+}
+
+CLI::App* add_task_command(CLI::App& app, const char* name,
+                           const char* description, const char* footer,
+                           const options_ptr& options) {
+  auto* command = app.add_subcommand(name, description);
+  command->footer(footer);
+  add_connection_options(*command, options->connection);
+  add_timeout_option(*command, options->timeout);
+  add_output_option(*command, options->output);
+  return command;
+}
+
+void add_run(CLI::App& app, action& chosen) {
+  auto options = std::make_shared<task_options>();
+  auto* command = add_task_command(
+      app, "run", "Start a task and wait until all of it runs.",
+      "The same file again changes nothing where the task runs, and starts "
+      "again what has\nfailed of it. Standard error tells what goes on, and "
+      "shows each place of the file that\nis wrong.\n\n"
+      "Examples:\n  roscell run task.yaml\n"
+      "  roscell new task echo | roscell run -",
+      options);
+  command
+      ->add_option("FILE", options->subject,
+                   "The task request; - for standard input")
+      ->required()
+      ->option_text(" ");
+  command->callback([&chosen, options] {
+    chosen = [options] {
+      return with_marks(options->as_json(), [&] { return run_task(*options); });
+    };
+  });
+}
+
+void add_stop(CLI::App& app, action& chosen) {
+  auto options = std::make_shared<task_options>();
+  auto* command = add_task_command(
+      app, "stop", "End a task and remove its instances everywhere.",
+      "Examples:\n  roscell stop fleet-poses", options);
+  command->add_option("TASK", options->subject, "Its name")
+      ->required()
+      ->option_text(" ");
+  command->callback([&chosen, options] {
+    chosen = [options] { return stop_task(*options); };
+  });
+}
+
+void add_restart(CLI::App& app, action& chosen) {
+  auto options = std::make_shared<task_options>();
+  auto* command = add_task_command(
+      app, "restart",
+      "End the instances of a task, or one of them, and start them again.",
+      "What runs begins anew on its node, what has ended where it fits.\n\n"
+      "Examples:\n  roscell restart fleet-poses\n"
+      "  roscell restart fleet-poses-camera-1a2b3c4d",
+      options);
+  command->add_option("TASK|INSTANCE", options->subject, "The name of either")
+      ->required()
+      ->option_text(" ");
+  command->callback(
+      [&chosen, options] { chosen = [options] { return restart(*options); }; });
+}
+
+} // namespace
+
+void add_task_commands(CLI::App& app, action& chosen) {
+  add_run(app, chosen);
+  add_stop(app, chosen);
+  add_restart(app, chosen);
+}
+
+} // namespace roscell::cli

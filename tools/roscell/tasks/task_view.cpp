@@ -1,0 +1,46 @@
+#include "tools/roscell/tasks/task_view.hpp"
+
+#include "tools/roscell/view/format.hpp"
+
+namespace roscell::cli {
+
+namespace {
+
+std::string placed_view(const std::vector<placed_instance>& instances,
+                        const text_style& style) {
+  table t{{{"STEP"}, {"NODE"}, {"INSTANCE"}}, {}};
+  for (const auto& x : instances)
+    t.rows.push_back({x.step, x.node, x.instance});
+  return t.render(style);
+}
+
+} // namespace
+
+std::string accepted_view(const task_accepted& task, const text_style& style) {
+  auto text = "task " + printable(task.task) + " runs";
+  if (!task.optimal)
+    text += ", maybe not where it would be best";
+  text += "\n\n" + placed_view(task.instances, style);
+  if (!task.healed.empty())
+    text += "\nstarted again: " + printable(joined(task.healed, ", ")) + "\n";
+  return text;
+}
+
+std::string restarted_view(const task_restarted& task,
+                           const text_style& style) {
+  return "task " + printable(task.task) + ": started again\n\n"
+         + placed_view(task.instances, style);
+}
+
+std::string terminated_view(const task_terminated& task) {
+  const auto count = task.instances.size();
+  auto text = "task " + printable(task.task) + " is gone, with "
+              + std::to_string(count)
+              + (count == 1 ? " instance\n" : " instances\n");
+  if (!task.pending_nodes.empty())
+    text += "away, to remove theirs when they are back: "
+            + printable(joined(task.pending_nodes, ", ")) + "\n";
+  return text;
+}
+
+} // namespace roscell::cli
