@@ -1,8 +1,20 @@
 #!/usr/bin/env bash
 # Installs what building ROSCell needs, on Debian 12; with --containers a
 # container engine too, with --with-tests also what its tests need. Quiet and
-# quick when everything is there already.
+# quick when everything is there already; if it cannot install, one line says
+# what to do.
 set -euo pipefail
+
+fail() {
+  echo "install.sh: $*" >&2
+  exit 1
+}
+
+case "${1:-}" in
+  '' | --containers | --with-tests) ;;
+  -h | --help) sed -n '2,5s/^# \{0,1\}//p' "$0"; exit ;;
+  *) echo "install.sh: unknown option $1 (--help tells more)" >&2; exit 2 ;;
+esac
 
 packages=(
   # To build: docs/decisions.md gives the reason for each.
@@ -30,6 +42,8 @@ if [[ "${1:-}" == --with-tests || "${1:-}" == --containers ]]; then
   packages+=(docker.io mmdebstrap)
 fi
 
+command -v apt-get > /dev/null \
+  || fail "this is no Debian: install by hand what $(realpath "$0") lists"
 missing=()
 for package in "${packages[@]}"; do
   status=$(dpkg-query -W -f='${db:Status-Abbrev}' "$package" 2>/dev/null || true)
@@ -37,10 +51,29 @@ for package in "${packages[@]}"; do
 done
 [[ ${#missing[@]} -eq 0 ]] && exit 0
 
-sudo=()
-[[ $(id -u) -eq 0 ]] || sudo=(sudo)
+as_root=()
+remedy='mend that and run it again'
+if [[ $(id -u) -ne 0 ]]; then
+  root_runs="let root run: $(realpath "$0")${1:+ $1}"
+  remedy+=", or $root_runs"
+  command -v sudo > /dev/null \
+    || fail "missing: ${missing[*]}; you are not root and there is no sudo:" \
+      "$root_runs"
+  as_root=(sudo)
+  # Nobody can be asked for a password where there is no terminal.
+  { : < /dev/tty; } 2> /dev/null || as_root=(sudo -n)
+fi
+
+log=$(mktemp -d /tmp/roscell-install.XXXXXX)
+trap 'rm -rf "$log"' EXIT
 echo "installing: ${missing[*]}"
-export DEBIAN_FRONTEND=noninteractive
-"${sudo[@]}" apt-get update -qq
-"${sudo[@]}" apt-get install -y -qq --no-install-recommends "${missing[@]}" \
-  >/dev/null
+# In one command, so that sudo asks but once. It waits for another apt. What an
+# older list of packages names may still be there, so an update may fail.
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive bash -c '
+  apt-get -qq update > "$0/update" 2>&1
+  exec apt-get -qq -o DPkg::Lock::Timeout=300 install -y \
+    --no-install-recommends "$@"' "$log" "${missing[@]}" \
+  < /dev/null > "$log/install" 2>&1 && exit
+reason=$(grep -m 1 -E '^(E|sudo): ' "$log/install" || tail -n 1 "$log/install")
+earlier=$(grep -m 1 -E '^[EW]: ' "$log/update" 2> /dev/null || true)
+fail "cannot install: $reason${earlier:+ (before that: $earlier)}; $remedy"

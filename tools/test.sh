@@ -9,6 +9,8 @@ parts=${1:-all}
 log=build/test-logs
 passed=0 failed=0 skipped=0
 skip_reasons=()
+. tools/building.sh
+may_build || exit 1
 mkdir -p "$log"
 SECONDS=0
 
@@ -70,7 +72,7 @@ configure() {
 }
 
 build_asan() {
-  configure asan -DROSCELL_WERROR=ON && ninja -C build/asan
+  configure asan -DROSCELL_WERROR=ON && ninja -C build/asan -j "$(build_jobs)"
 }
 
 format() {
@@ -82,7 +84,7 @@ tidy() {
 }
 
 build_fuzz() {
-  cmake --preset fuzz -DROSCELL_FUZZ_SECONDS="$fuzz_seconds" && ninja -C build/fuzz fuzzers
+  cmake --preset fuzz -DROSCELL_FUZZ_SECONDS="$fuzz_seconds" && ninja -C build/fuzz -j "$(build_jobs)" fuzzers
 }
 
 # Counts the test cases of one Catch program; one that does not tell how many it
@@ -123,9 +125,6 @@ system() {
 
 say "installing"
 tools/install.sh --with-tests || exit 1
-# Compilers' answers are shared between clones of this tree.
-export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1 \
-  CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime
 # Fast DDS 2.9.1 deletes its statistics objects through a base class of another
 # size; everything else that ASan checks stays on.
 export ASAN_OPTIONS=detect_leaks=1:new_delete_type_mismatch=0

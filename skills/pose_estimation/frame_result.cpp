@@ -87,6 +87,7 @@ json to_json(const frame_result& result) {
           {"width", result.width},
           {"height", result.height},
           {"processing_ms", milliseconds{result.processing_time}.count()},
+          {"age_ms", milliseconds{result.age}.count()},
           {"tags", tags}};
 }
 

@@ -29,6 +29,9 @@ struct frame_result {
   std::string family;
   std::vector<found_tag> tags;
   std::chrono::nanoseconds processing_time{};
+  /// From the image's stamp to this result; of use where the camera's clock is
+  /// this machine's.
+  std::chrono::nanoseconds age{};
 };
 
 /// One transform from the camera to each tag with a pose; the child frame is
@@ -42,8 +45,8 @@ ros2::april_tag_detection_array to_detection_array(const frame_result& result);
 ///
 ///     { "frame": "frame_000.png", "source": 0, "frame_id": "camera",
 ///       "stamp": 1700000000.5, "width": 640, "height": 480,
-///       "processing_ms": 3.2, "tags": [ { "family": "tag36h11", "id": 7,
-///       "hamming": 0, "decision_margin": 71.3, "centre_px": [x, y],
+///       "processing_ms": 3.2, "age_ms": 5.1, "tags": [ { "family": "tag36h11",
+///       "id": 7, "hamming": 0, "decision_margin": 71.3, "centre_px": [x, y],
 ///       "corners_px": [[x, y], ...], "pose": { "position": [x, y, z],
 ///       "orientation": [x, y, z, w], "reprojection_error_px": 0.1 } } ] }
 ///

@@ -216,6 +216,8 @@ pose_estimator::find_tags(const ros2::image_view& image,
     result.tags.push_back({std::move(tag), pose});
   }
   result.processing_time = std::chrono::steady_clock::now() - start;
+  result.age = std::chrono::system_clock::now()
+               - ros2::to_time_point(image.header.stamp);
   return result;
 }
 

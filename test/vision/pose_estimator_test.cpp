@@ -120,6 +120,8 @@ TEST_CASE("a line of JSON tells all about an image") {
   CHECK(document["stamp"] == Approx(12.000000034));
   CHECK(document["width"] == 640);
   CHECK(document["processing_ms"] > 0);
+  // The image is stamped 12 s after 1970.
+  CHECK(document["age_ms"] > 1.7e12);
   REQUIRE(document["tags"].size() == 4);
   const auto& tag = document["tags"][3];
   CHECK(tag["id"] == 3);

@@ -1,12 +1,40 @@
 #include "tools/compare_poses/comparison.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 namespace roscell::comparison {
 
 namespace {
 
+/// One figure of each error.
+template <class Figure>
+std::vector<double> all(const std::vector<pose_error>& errors, Figure figure) {
+  std::vector<double> result;
+  result.reserve(errors.size());
+  for (const auto& error : errors)
+    result.push_back(error.*figure);
+  return result;
+}
+
 /// 0 of nothing.
+double mean(const std::vector<double>& values) {
+  if (values.empty())
+    return 0;
+  return std::accumulate(values.begin(), values.end(), 0.0)
+         / static_cast<double>(values.size());
+}
+
+/// `combine` of the figures one by one.
+template <class Combine>
+pose_error combined(const std::vector<pose_error>& errors, Combine combine) {
+  return {combine(all(errors, &pose_error::distance_percent)),
+          combine(all(errors, &pose_error::rotation_deg)),
+          combine(all(errors, &pose_error::distance_mm))};
+}
+
+} // namespace
+
 double median(std::vector<double> values) {
   if (values.empty())
     return 0;
@@ -15,44 +43,34 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-pose_error median(const std::vector<pose_error>& errors) {
-  std::vector<double> distances;
-  std::vector<double> rotations;
-  for (const auto& error : errors) {
-    distances.push_back(error.distance_percent);
-    rotations.push_back(error.rotation_deg);
-  }
-  return {median(std::move(distances)), median(std::move(rotations))};
-}
-
-} // namespace
-
 pose_error error_of(const pose& estimate, const pose& truth) {
   constexpr auto degrees_per_radian = 180 / 3.14159265358979323846;
-  return {100 * (estimate.position - truth.position).norm()
-              / truth.position.norm(),
+  const auto off_m = (estimate.position - truth.position).norm();
+  return {100 * off_m / truth.position.norm(),
           estimate.orientation.angularDistance(truth.orientation)
-              * degrees_per_radian};
+              * degrees_per_radian,
+          1000 * off_m};
 }
 
 scene_comparison compare(std::string name, const true_poses& truth,
-                         const estimated_poses& estimates) {
+                         const estimates& estimated) {
   scene_comparison result;
   result.name = std::move(name);
+  result.timing = estimated.timing;
   for (const auto& [id, true_pose] : truth) {
     tag_comparison tag{id, true_pose};
-    if (auto found = estimates.find(id); found != estimates.end()) {
+    if (auto found = estimated.poses.find(id); found != estimated.poses.end()) {
       std::vector<pose_error> errors;
       for (const auto& estimate : found->second)
         errors.push_back(error_of(estimate, true_pose));
       tag.frames = errors.size();
-      tag.error = median(errors);
+      tag.error = combined(errors, median);
       tag.latest = found->second.back();
       result.errors.insert(result.errors.end(), errors.begin(), errors.end());
     }
     result.tags.push_back(tag);
   }
-  for (const auto& [id, poses] : estimates)
+  for (const auto& [id, poses] : estimated.poses)
     if (truth.count(id) == 0)
       result.strangers.push_back(id);
   return result;
@@ -73,7 +91,8 @@ summary summarize(const std::vector<scene_comparison>& scenes) {
       result.found += tag.frames > 0 ? 1 : 0;
     errors.insert(errors.end(), scene.errors.begin(), scene.errors.end());
   }
-  result.median = median(errors);
+  result.median = combined(errors, median);
+  result.mean = combined(errors, mean);
   return result;
 }
 

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,12 +21,25 @@ using true_poses = std::map<int, pose>;
 /// By tag id, one pose per frame in which the tag was found.
 using estimated_poses = std::map<int, std::vector<pose>>;
 
+/// How fast poses come; nothing where the frames do not tell.
+struct frame_timing {
+  std::optional<double> rate_hz;
+  std::optional<double> latency_ms; ///< Median, from an image to its poses.
+};
+
+/// What an estimator has told.
+struct estimates {
+  estimated_poses poses;
+  frame_timing timing;
+};
+
 /// How far an estimate is from the truth.
 struct pose_error {
   /// Distance between the two positions, in percent of the true distance from
   /// the camera.
   double distance_percent = 0;
   double rotation_deg = 0;
+  double distance_mm = 0; ///< Between the two positions.
 };
 
 pose_error error_of(const pose& estimate, const pose& truth);
@@ -41,21 +55,28 @@ struct tag_comparison {
 
 struct scene_comparison {
   std::string name;
+  std::string node; ///< Where its poses are estimated, if that is known.
   std::vector<tag_comparison> tags; ///< In the order of ids.
   std::vector<int> strangers;       ///< Tags that are not in the scene.
   std::vector<pose_error> errors;   ///< Of each tag in each frame.
+  frame_timing timing;
 };
 
 scene_comparison compare(std::string name, const true_poses& truth,
-                         const estimated_poses& estimates);
+                         const estimates& estimated);
+
+/// 0 of nothing.
+double median(std::vector<double> values);
 
 /// What one or more scenes come to.
 struct summary {
   std::size_t tags = 0;
   std::size_t found = 0;
   pose_error median; ///< Over all tags and frames.
+  pose_error mean;   ///< The same.
 
-  /// Whether every tag was found and neither median is above its limit.
+  /// Whether every tag was found and neither median is above its limit, of
+  /// percent and degrees.
   bool is_within(const pose_error& limit) const;
 };
 

@@ -1,10 +1,9 @@
 #include "tools/compare_poses/file_watch.hpp"
+#include "tools/compare_poses/live_text.hpp"
 #include "tools/compare_poses/reading.hpp"
 #include "tools/compare_poses/table.hpp"
 
 #include <CLI/CLI.hpp>
-
-#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -19,6 +18,7 @@ using seconds = std::chrono::duration<double>;
 
 struct arguments {
   std::vector<std::string> files;
+  std::vector<std::string> nodes;
   std::size_t last_frames = 0;
   std::size_t frames = 1;
   double wait_s = 0;
@@ -33,6 +33,10 @@ void add_options(CLI::App& app, arguments& given) {
                  "Pairs of a scene's folder, or its truth.json, and the JSON "
                  "lines of pose_estimation")
       ->required();
+  app.add_option("--nodes", given.nodes,
+                 "For each pair, the node on which its poses are estimated")
+      ->delimiter(',')
+      ->allow_extra_args(false);
   app.add_option("--last", given.last_frames,
                  "Only so many of the newest frames of a scene; 0: all");
   app.add_flag("--summary", given.summary_only, "Scenes only, not each tag");
@@ -51,7 +55,7 @@ void add_options(CLI::App& app, arguments& given) {
 }
 
 /// A file that is not there yet holds no lines while they are waited for.
-estimated_poses read_lines(const std::string& path, const arguments& given) {
+estimates read_lines(const std::string& path, const arguments& given) {
   auto may_come = given.watch || given.wait_s > 0;
   if (may_come && !fs::exists(path))
     return {};
@@ -67,6 +71,8 @@ std::vector<scene_comparison> compare_all(const arguments& given) {
     auto name = fs::absolute(truth).parent_path().filename().string();
     scenes.push_back(compare(name, read_truth(truth),
                              read_lines(given.files[i + 1], given)));
+    if (i / 2 < given.nodes.size())
+      scenes.back().node = given.nodes[i / 2];
   }
   return scenes;
 }
@@ -80,38 +86,67 @@ bool is_complete(const std::vector<scene_comparison>& scenes,
   return true;
 }
 
-void show(const std::vector<scene_comparison>& scenes, const arguments& given) {
+std::string tables(const std::vector<scene_comparison>& scenes,
+                   const arguments& given) {
   std::string text;
   if (!given.summary_only)
     for (const auto& scene : scenes)
       text += tag_table(scene) + "\n";
-  text += scene_table(scenes);
-  // A terminal shows the new table in the place of the old one.
-  if (given.watch && ::isatty(STDOUT_FILENO) != 0)
-    text = "\x1b[H\x1b[J" + text;
-  std::cout << text << std::flush;
+  return text + scene_table(scenes);
+}
+
+/// Shows tables again and again.
+class display {
+public:
+  explicit display(const arguments& given) : given_(given) {
+    // nop
+  }
+
+  /// How long a table is left to be read. In a file, a table now and then is
+  /// enough.
+  static std::chrono::seconds pace() {
+    return std::chrono::seconds{stdout_screen() ? 1 : 30};
+  }
+
+  void show(const std::vector<scene_comparison>& scenes) {
+    auto text = tables(scenes, given_);
+    if (const auto screen = stdout_screen())
+      text = text_.repainted(text, *screen);
+    std::cout << text << std::flush;
+  }
+
+private:
+  const arguments& given_;
+  live_text text_;
+};
+
+clock_type::time_point end_of_waiting(const arguments& given) {
+  if (given.wait_s <= 0)
+    return clock_type::time_point::max();
+  return clock_type::now()
+         + std::chrono::duration_cast<clock_type::duration>(
+             seconds{given.wait_s});
 }
 
 /// Waits while lines come in, and shows them if that is wanted.
 std::vector<scene_comparison> follow(const arguments& given) {
-  // People cannot read faster; lines may come a hundred times a second.
-  constexpr std::chrono::milliseconds pace{300};
-  auto end = clock_type::time_point::max();
-  if (given.wait_s > 0)
-    end = clock_type::now()
-          + std::chrono::duration_cast<clock_type::duration>(
-              seconds{given.wait_s});
+  // Lines may come a hundred times a second.
+  constexpr std::chrono::milliseconds least_pace{300};
+  const auto end = end_of_waiting(given);
+  const clock_type::duration pace =
+      given.watch ? clock_type::duration{display::pace()} : least_pace;
   std::vector<std::string> lines;
   for (std::size_t i = 1; i < given.files.size(); i += 2)
     lines.push_back(given.files[i]);
   file_watch changes{lines};
+  display shown{given};
   for (;;) {
     auto begun = clock_type::now();
     auto scenes = compare_all(given);
     if (given.wait_s > 0 && is_complete(scenes, given.frames))
       return scenes;
     if (given.watch)
-      show(scenes, given);
+      shown.show(scenes);
     if (!changes.wait_until(end) && clock_type::now() >= end)
       return scenes;
     // What comes within the pace is shown with what comes first.
@@ -126,9 +161,9 @@ bool run(const arguments& given) {
     throw std::runtime_error("FILES must be pairs: SCENE POSES SCENE POSES...");
   auto scenes =
       given.watch || given.wait_s > 0 ? follow(given) : compare_all(given);
-  show(scenes, given);
-  return is_complete(scenes, given.frames)
-         && summarize(scenes).is_within(given.limit);
+  const auto all = summarize(scenes);
+  std::cout << tables(scenes, given) << verdict(all, given.limit) << std::flush;
+  return is_complete(scenes, given.frames) && all.is_within(given.limit);
 }
 
 } // namespace

@@ -46,10 +46,31 @@ std::deque<numbered_line> last_lines(const std::string& path,
   return lines;
 }
 
-void add_frame(const json& frame, estimated_poses& result) {
+/// What frames tell of their times.
+struct frame_times {
+  std::vector<double> stamps_s;
+  std::vector<double> ages_ms;
+};
+
+void add_frame(const json& frame, estimated_poses& poses, frame_times& times) {
   for (const auto& tag : frame.at("tags"))
     if (const auto& found = tag.at("pose"); !found.is_null())
-      result[tag.at("id").get<int>()].push_back(to_pose(found));
+      poses[tag.at("id").get<int>()].push_back(to_pose(found));
+  if (frame.contains("stamp"))
+    times.stamps_s.push_back(frame["stamp"].get<double>());
+  if (frame.contains("age_ms"))
+    times.ages_ms.push_back(frame["age_ms"].get<double>());
+}
+
+frame_timing timing_of(const frame_times& times) {
+  frame_timing result;
+  const auto& stamps = times.stamps_s;
+  if (stamps.size() > 1 && stamps.back() > stamps.front())
+    result.rate_hz = static_cast<double>(stamps.size() - 1)
+                     / (stamps.back() - stamps.front());
+  if (!times.ages_ms.empty())
+    result.latency_ms = median(times.ages_ms);
+  return result;
 }
 
 } // namespace
@@ -67,18 +88,19 @@ true_poses read_truth(const std::string& path) {
   return result;
 }
 
-estimated_poses read_estimates(const std::string& path,
-                               std::size_t last_frames) {
-  estimated_poses result;
+estimates read_estimates(const std::string& path, std::size_t last_frames) {
+  estimates result;
+  frame_times times;
   for (const auto& line : last_lines(path, last_frames)) {
     try {
-      add_frame(json::parse(line.text), result);
+      add_frame(json::parse(line.text), result.poses, times);
     } catch (const json::exception& e) {
       throw std::runtime_error("'" + path + "', line "
                                + std::to_string(line.number)
                                + " is not from pose_estimation: " + e.what());
     }
   }
+  result.timing = timing_of(times);
   return result;
 }
 

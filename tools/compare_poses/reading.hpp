@@ -14,7 +14,6 @@ true_poses read_truth(const std::string& path);
 /// `last_frames` of them, or all if that is 0. A last line without its newline
 /// is still being written, and left out. Throws std::runtime_error, naming the
 /// file and line.
-estimated_poses read_estimates(const std::string& path,
-                               std::size_t last_frames);
+estimates read_estimates(const std::string& path, std::size_t last_frames);
 
 } // namespace roscell::comparison

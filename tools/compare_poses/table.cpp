@@ -29,9 +29,46 @@ std::string tag_row(const std::string& scene, const tag_comparison& tag) {
              tag.error.distance_percent, tag.error.rotation_deg, tag.frames);
 }
 
-std::string summary_row(const std::string& name, const summary& s) {
-  return row("%-12s %4zu  %5zu  %7.3f  %8.3f", name.c_str(), s.tags, s.found,
-             s.median.distance_percent, s.median.rotation_deg);
+/// A number with so many decimals, or `-`.
+std::string number(std::optional<double> value, int decimals) {
+  char text[32] = "-";
+  if (value)
+    std::snprintf(text, sizeof(text), "%.*f", decimals, *value);
+  return text;
+}
+
+/// What was found of nothing has no error.
+std::optional<double> if_any(const summary& s, double value) {
+  return s.found > 0 ? std::optional{value} : std::nullopt;
+}
+
+std::string summary_row(const std::string& name, const std::string& node,
+                        const summary& s, const frame_timing& timing) {
+  return row(
+      "%-10.10s %-10.10s %9s %8s %7s %10s %7s %10s", name.c_str(),
+      node.empty() ? "-" : node.c_str(),
+      (std::to_string(s.found) + " of " + std::to_string(s.tags)).c_str(),
+      number(if_any(s, s.mean.distance_mm), 2).c_str(),
+      number(if_any(s, s.mean.distance_percent), 3).c_str(),
+      number(if_any(s, s.mean.rotation_deg), 3).c_str(),
+      number(timing.rate_hz, 1).c_str(), number(timing.latency_ms, 1).c_str());
+}
+
+/// What is not as the truth has it, in one line, or nothing.
+std::string remarks(const scene_comparison& scene) {
+  std::string missed;
+  for (const auto& tag : scene.tags)
+    if (tag.frames == 0)
+      missed += " " + std::to_string(tag.id);
+  std::string strangers;
+  for (auto id : scene.strangers)
+    strangers += " " + std::to_string(id);
+  std::string result;
+  if (!missed.empty() && missed.size() < 60)
+    result += scene.name + ": not found:" + missed + "\n";
+  if (!strangers.empty())
+    result += scene.name + ": not in the scene:" + strangers + "\n";
+  return result;
 }
 
 } // namespace
@@ -48,11 +85,24 @@ std::string tag_table(const scene_comparison& scene) {
 }
 
 std::string scene_table(const std::vector<scene_comparison>& scenes) {
-  auto result = row("%-12s %4s  %5s  %7s  %8s", "SCENE", "TAGS", "FOUND",
-                    "ERROR %", "TURNED °");
-  for (const auto& scene : scenes)
-    result += summary_row(scene.name, summarize({scene}));
-  return result + summary_row("all", summarize(scenes));
+  auto result =
+      row("%-10s %-10s %9s %8s %7s %10s %7s %10s", "SCENE", "NODE", "FOUND",
+          "ERROR mm", "ERROR %", "TURNED deg", "RATE Hz", "LATENCY ms");
+  std::string below;
+  for (const auto& scene : scenes) {
+    result +=
+        summary_row(scene.name, scene.node, summarize({scene}), scene.timing);
+    below += remarks(scene);
+  }
+  return result + summary_row("all", {}, summarize(scenes), {}) + below;
+}
+
+std::string verdict(const summary& s, const pose_error& limit) {
+  return row("%zu of %zu tags found; median errors %.3f %% of the distance and "
+             "%.3f degrees, allowed %g %% and %g degrees: %s",
+             s.found, s.tags, s.median.distance_percent, s.median.rotation_deg,
+             limit.distance_percent, limit.rotation_deg,
+             s.is_within(limit) ? "good" : "NOT GOOD");
 }
 
 } // namespace roscell::comparison
