@@ -75,7 +75,7 @@ caf::expected<std::string> load_site_token(const fs::path& file) {
                 "the site token in '" + file.string() + "' is shorter than "
                     + std::to_string(limits::token::least_site_bytes)
                     + " characters",
-                "", "make one: head -c 32 /dev/urandom | xxd -p -c 64");
+                "", "make one: head -c 32 /dev/urandom | base64");
   return token;
 }
 

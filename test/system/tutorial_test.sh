@@ -1,0 +1,53 @@
+# What the pages tell their readers to type, typed.
+
+# own_network: this test's own loopback, because pages name well-known ports.
+own_network() {
+  need_namespaces
+  ip netns add "roscell-page-$BASHPID"
+  hosts+=("roscell-page-$BASHPID")
+  ip -n "${hosts[-1]}" link set lo up
+}
+
+# own_tree: a copy of the sources, in which a page may do what it likes. The node
+# is not built again: a page gets the one of $ROSCELL_BUILD.
+own_tree() {
+  tree=$scratch/tree
+  mkdir -p "$tree/build/release"
+  git ls-files -z --cached --others --exclude-standard \
+    | xargs -0 cp --parents -t "$tree"
+  ln -s "$ROSCELL_BUILD/bin" "$tree/build/release/bin"
+  export CCACHE_BASEDIR=$tree
+}
+
+# play PAGE [OPTION...]: does what the page says. In a PID namespace, with which
+# everything goes that it has started; the shell buries the orphans in it.
+play() {
+  local page=$PWD/$1 played
+  shift
+  (cd "${tree:-$scratch}" && exec ip netns exec "${hosts[-1]}" \
+    unshare --fork --pid --mount-proc --kill-child \
+    bash -c '"$@"; exit $?' reaper \
+    "$root/test/system/play_document.py" "$page" \
+    --replace "/tmp/=$scratch/" --replace "/home/you/roscell=$tree" "$@") 2> "$scratch/played" &
+  played=$!
+  echo "$played" >> "$scratch/pids"
+  wait "$played" || fail "$(cat "$scratch/played")"
+}
+
+root=$PWD
+
+test_the_tutorial_does_what_it_says() {
+  own_network
+  own_tree
+  play docs/tutorial.md --alike head,arm \
+    --instead "ninja -C build/release roscell=ninja -C build/release -n roscell"
+  [[ ! -e skills/shout ]] || fail "it left something in the sources"
+}
+
+test_a_cell_in_five_lines_runs_a_task() {
+  own_network
+  own_tree
+  ln -s "$skills" "$tree/build/release/skills"
+  sed -i "s|/tmp/|$scratch/|" "$tree/docs/examples/hello.json"
+  play README.md --section "A cell in five lines"
+}
