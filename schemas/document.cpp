@@ -1,7 +1,7 @@
 #include "schemas/document.hpp"
 
-#include "schemas/counting_iterator.hpp"
-#include "schemas/document_builder.hpp"
+#include "schemas/reading/document_builder.hpp"
+#include "schemas/reading/document_reader.hpp"
 #include "schemas/text_excerpt.hpp"
 
 #include <algorithm>
@@ -24,31 +24,55 @@ std::string position_words(std::string_view text, size_t offset) {
          + std::to_string(character_count(before) + 1);
 }
 
-failure malformed(std::string message, std::string where = {}) {
+failure malformed(document_format format, std::string message,
+                  std::string where = {}) {
   return {error_code::malformed_json,
           std::move(message),
           std::move(where),
-          "send one JSON document in UTF-8 (RFC 8259)",
+          format == document_format::yaml
+              ? "write one YAML document in UTF-8, without anchors and tags"
+              : "send one JSON document in UTF-8 (RFC 8259)",
           {}};
+}
+
+bool ends_with(std::string_view name, std::string_view ending) {
+  return name.size() >= ending.size()
+         && name.substr(name.size() - ending.size()) == ending;
 }
 
 } // namespace
 
+document_format format_of(std::string_view file_name, std::string_view text) {
+  if (ends_with(file_name, ".json"))
+    return document_format::json;
+  if (ends_with(file_name, ".yaml") || ends_with(file_name, ".yml"))
+    return document_format::yaml;
+  const auto first = text.find_first_not_of(" \t\r\n");
+  const bool is_json = first != std::string_view::npos
+                       && (text[first] == '{' || text[first] == '[');
+  return is_json ? document_format::json : document_format::yaml;
+}
+
 std::variant<json, failure> parse_document(std::string_view text,
+                                           document_format format,
                                            const document_limits& limits) {
   if (text.size() > limits.max_bytes)
-    return malformed("the document has " + std::to_string(text.size())
-                     + " bytes; at most " + std::to_string(limits.max_bytes)
-                     + " are taken");
-  size_t bytes_read = 0;
-  document_builder builder{limits, bytes_read};
-  counting_iterator first{text.data(), &bytes_read};
-  counting_iterator last{text.data() + text.size(), &bytes_read};
-  if (json::sax_parse(first, last, &builder))
+    return malformed(format, "the document has " + std::to_string(text.size())
+                                 + " bytes; at most "
+                                 + std::to_string(limits.max_bytes)
+                                 + " are taken");
+  document_builder builder{limits};
+  if (read_document(text, format, builder))
     return std::move(builder.document());
-  return malformed(position_words(text, builder.problem_offset()) + ": "
-                       + builder.problem(),
+  const auto& problem = builder.problem();
+  return malformed(format,
+                   position_words(text, problem.offset) + ": " + problem.words,
                    builder.where());
+}
+
+std::variant<json, failure> parse_document(std::string_view text,
+                                           const document_limits& limits) {
+  return parse_document(text, document_format::json, limits);
 }
 
 } // namespace roscell

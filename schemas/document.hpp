@@ -18,13 +18,29 @@ struct document_limits {
   size_t max_name_bytes = 256; ///< Name of an object's member.
 };
 
-/// Reads one JSON document from untrusted bytes. Nothing recurses, so no
-/// nesting can exhaust the stack. Besides what JSON forbids, it refuses a name
-/// that stands twice in one object, a number that a double cannot hold, and
-/// text that is not UTF-8.
+/// How a document is written. Machines speak JSON to each other; people may
+/// write YAML instead, in files that the command line or a node reads.
+enum class document_format {
+  json,
+  yaml,
+};
+
+/// How the document in a file of this name is written: `.json`, `.yaml` and
+/// `.yml` tell; of anything else, text that begins with `{` or `[` is JSON.
+document_format format_of(std::string_view file_name, std::string_view text);
+
+/// Reads one document from untrusted bytes. Besides what its format forbids, a
+/// name that stands twice in one object is refused, a number that a double
+/// cannot hold, and text that is not UTF-8; of YAML also what JSON cannot say:
+/// anchors, aliases, tags, names that are no text, and more documents than one.
 ///
 /// Errors: malformed_json, with line, column, and what was expected; `where`
 /// points to the value that was being read.
+std::variant<json, failure> parse_document(std::string_view text,
+                                           document_format format,
+                                           const document_limits& limits = {});
+
+/// Reads one JSON document.
 std::variant<json, failure> parse_document(std::string_view text,
                                            const document_limits& limits = {});
 

@@ -49,7 +49,7 @@ loads() {
 
 if [[ $# -gt 0 ]]; then
   loads "$1/bin/roscell" 'libopencv|libapriltag'
-  loads "$1/skills/echo/bin/echo" 'libcaf|libfastrtps|libopencv'
+  loads "$1/skills/echo/bin/echo" 'libcaf|libfastrtps|libopencv|libyaml'
   # OpenCV's codecs would bring 118 MB into a container's image, its video
   # input 218 MB.
   loads "$1/skills/image_source/bin/image_source" 'libcaf|libopencv'

@@ -1,7 +1,7 @@
 #include "actors/instances/instance_words.hpp"
 
-#include "actors/edge/io/utf8.hpp"
 #include "messages/codec/json_codec.hpp"
+#include "schemas/utf8.hpp"
 
 namespace roscell {
 

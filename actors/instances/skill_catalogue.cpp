@@ -2,13 +2,11 @@
 
 #include "actors/edge/disk/folder_hash.hpp"
 #include "actors/edge/disk/small_file.hpp"
-#include "actors/edge/io/utf8.hpp"
 #include "actors/house/limits.hpp"
-#include "schemas/document.hpp"
-#include "schemas/message_catalogue.hpp"
+#include "actors/instances/skill_descriptor_file.hpp"
+#include "schemas/utf8.hpp"
 
 #include <algorithm>
-#include <exception>
 #include <set>
 #include <system_error>
 #include <utility>
@@ -20,31 +18,19 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* descriptor_name = "skill.json";
-
 /// Where a build leaves the version of its sources.
 constexpr const char* version_name = "skill.version";
 
-/// The descriptor, or what is wrong with it.
-std::variant<skill_descriptor, std::vector<schema_error>>
-read_descriptor(const std::string& text) {
-  auto document = parse_document(text);
-  if (const auto* why = std::get_if<failure>(&document))
-    return std::vector<schema_error>{{why->where, why->message}};
-  const auto& content = std::get<json>(document);
-  auto errors =
-      document_errors("skill_descriptor", content, unknown_members::refused);
-  if (!errors.empty())
-    return errors;
-  try {
-    return content.get<skill_descriptor>();
-  } catch (const std::exception& error) {
-    return std::vector<schema_error>{{"", error.what()}};
-  }
-}
-
 std::string sentence(const edge_error& why) {
   return why.hint.empty() ? why.message : why.message + " (" + why.hint + ")";
+}
+
+/// Which of them is meant cannot be known.
+std::string several_words(const std::vector<fs::path>& files) {
+  std::string names;
+  for (const auto& x : files)
+    names += (names.empty() ? "" : " and ") + x.filename().string();
+  return "holds " + names + "; a skill has one descriptor: remove the others";
 }
 
 /// A version as schemas/common.schema.json has it.
@@ -81,8 +67,7 @@ void skill_catalogue::scan_directory(const fs::path& directory) {
   std::vector<fs::path> folders;
   for (fs::directory_iterator i{directory, error}, end; !error && i != end;
        i.increment(error)) {
-    std::error_code ignored;
-    if (!fs::exists(i->path() / descriptor_name, ignored))
+    if (descriptor_files(i->path()).empty())
       continue;
     if (folders.size() == limits::skill::most) {
       blame(directory, "holds more than " + std::to_string(limits::skill::most)
@@ -102,18 +87,19 @@ void skill_catalogue::scan_directory(const fs::path& directory) {
 void skill_catalogue::add_folder(const fs::path& folder) {
   std::error_code error;
   const auto path = fs::canonical(folder, error);
-  const auto file = path / descriptor_name;
-  const auto text = read_small_file(file, limits::skill::descriptor_bytes);
-  if (error || !text)
-    return blame(folder / descriptor_name,
-                 "cannot be read, or is longer than 1 MiB");
+  if (error)
+    return blame(folder, "cannot be read: " + error.message());
   if (path.native().size() > limits::skill::path_bytes)
     return blame(path, "has too long a path");
-  auto descriptor = read_descriptor(*text);
+  const auto files = descriptor_files(path);
+  if (files.size() > 1)
+    return blame(path, several_words(files));
+  const auto file = descriptor_of(path);
+  auto descriptor = read_descriptor(file);
   if (const auto* errors =
           std::get_if<std::vector<schema_error>>(&descriptor)) {
-    for (size_t i = 0; i < std::min(errors->size(), limits::skill::errors); ++i)
-      blame(file, (*errors)[i].expected, (*errors)[i].pointer);
+    for (const auto& x : *errors)
+      blame(file, x.expected, x.pointer);
     return;
   }
   add_build(path, std::get<skill_descriptor>(std::move(descriptor)));
@@ -123,7 +109,7 @@ void skill_catalogue::add_build(const fs::path& path,
                                 skill_descriptor descriptor) {
   const auto program = find_program(path, descriptor.entry_point);
   if (const auto* why = std::get_if<edge_error>(&program))
-    return blame(path / descriptor_name, sentence(*why), "/entry_point/0");
+    return blame(descriptor_of(path), sentence(*why), "/entry_point/0");
   const auto made_for = architecture_of_program(std::get<fs::path>(program));
   if (!runs_on(made_for, host_))
     return blame(path,

@@ -23,8 +23,8 @@ struct skill_folder {
 /// that actors can share it.
 class skill_catalogue {
 public:
-  /// Reads every sub-folder with a `skill.json`. A bad one is left out, and
-  /// the others stay: one without its program, or with a program for another
+  /// Reads every sub-folder with a descriptor. A bad one is left out, and the
+  /// others stay: one without its program, or with a program for another
   /// machine than `host`, too. Blocks on the disk: not for a scheduled actor.
   static skill_catalogue scan(const std::vector<std::filesystem::path>& dirs,
                               const std::string& host = own_architecture());

@@ -1,11 +1,11 @@
 #include "actors/instances/skill_instance_steps.hpp"
 
-#include "actors/edge/io/utf8.hpp"
 #include "actors/house/limits.hpp"
 #include "actors/house/wall_clock.hpp"
 #include "actors/instances/instance_environment.hpp"
 #include "actors/instances/instance_words.hpp"
 #include "messages/failure.hpp"
+#include "schemas/utf8.hpp"
 
 #include <caf/send.hpp>
 

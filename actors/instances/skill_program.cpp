@@ -2,6 +2,7 @@
 
 #include "actors/edge/host/host_probe.hpp"
 #include "actors/edge/io/unique_fd.hpp"
+#include "actors/instances/skill_descriptor_file.hpp"
 
 #include <elf.h>
 #include <fcntl.h>
@@ -29,7 +30,7 @@ edge_error failed(const std::string& what, const fs::path& path,
 edge_result<fs::path>
 find_program(const fs::path& skill_dir,
              const std::vector<std::string>& entry_point) {
-  const auto descriptor = (skill_dir / "skill.json").string();
+  const auto descriptor = descriptor_of(skill_dir).string();
   if (entry_point.empty())
     return failed("the skill in", skill_dir, "names no program",
                   "write \"entry_point\" into " + descriptor);

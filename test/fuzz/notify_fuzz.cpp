@@ -1,5 +1,5 @@
-#include "actors/edge/io/utf8.hpp"
 #include "actors/edge/process/notification.hpp"
+#include "schemas/utf8.hpp"
 
 #include <cstdlib>
 #include <string_view>

@@ -48,6 +48,23 @@ test_bad_requests_are_refused_with_their_code() {
   still_up
 }
 
+test_what_is_wrong_with_a_request_in_yaml_is_told_with_its_place() {
+  start_alone
+  expect "a comment" "$(to head request - <<< $'# Who?\ntype: node_query' \
+    | jq -r .type)" node_description
+  printf '# Where?\ntype: task_query\ncolour: red\n' > "$scratch/task.yaml"
+  to head request "$scratch/task.yaml" > "$scratch/refusal.json" \
+    2> "$scratch/stderr"
+  expect "exit code" $? 1
+  expect "code" "$(jq -r .error.code "$scratch/refusal.json")" schema_violation
+  grep -q 'task.yaml:3:1: there is no member "colour"' "$scratch/stderr" \
+    || fail "$(cat "$scratch/stderr")"
+  expect "an anchor" "$(refusal $'a: &x 1\nb: *x')" malformed_json
+  grep -q 'standard input:1:4: anchors' "$scratch/stderr" \
+    || fail "$(cat "$scratch/stderr")"
+  still_up
+}
+
 test_a_request_that_is_too_large_or_too_deep_is_refused() {
   start_alone
   head -c 100000000 /dev/zero | tr '\0' ' ' > "$scratch/large"

@@ -70,3 +70,24 @@ TEST_CASE(
                            error_reply({error_code::conflict, "no", "/task"}))
             .empty());
 }
+
+TEST_CASE("a wrong place is marked in YAML as in JSON") {
+  const std::string text = "# A request.\ntype: task_query\ncolour: red\n";
+  const auto why = validate_request(
+      json::parse(R"({"type": "task_query", "colour": "red"})"));
+  REQUIRE(why);
+  const auto marks = cli::marked_errors("task.yaml", text, error_reply(*why));
+  CHECK(marks.rfind("task.yaml:3:1: there is no member \"colour\" here", 0)
+        == 0);
+  CHECK(marks.find("\n  3 | colour: red\n    | ^~~~~~\n") != std::string::npos);
+}
+
+TEST_CASE("where a text cannot be read is marked") {
+  const auto reply = error_reply({error_code::malformed_json, "?"});
+  CHECK(cli::marked_errors("-", "a: 1\na: 2", reply)
+        == "standard input:2:1: the name \"a\" stands twice in one object; "
+           "expected it once\n  2 | a: 2\n    | ^\n");
+  CHECK(
+      cli::marked_errors("f.json", "{\"a\" 1}", reply).rfind("f.json:1:6: ", 0)
+      == 0);
+}

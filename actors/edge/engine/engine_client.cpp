@@ -1,7 +1,7 @@
 #include "actors/edge/engine/engine_client.hpp"
 
-#include "actors/edge/io/utf8.hpp"
 #include "actors/house/limits.hpp"
+#include "schemas/utf8.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -1,7 +1,7 @@
 #include "actors/edge/engine/engine_log.hpp"
 
-#include "actors/edge/io/utf8.hpp"
 #include "actors/house/limits.hpp"
+#include "schemas/utf8.hpp"
 
 #include <algorithm>
 #include <charconv>

@@ -1,8 +1,8 @@
 #include "actors/edge/process/instance_log.hpp"
 
 #include "actors/edge/io/unique_fd.hpp"
-#include "actors/edge/io/utf8.hpp"
 #include "actors/house/limits.hpp"
+#include "schemas/utf8.hpp"
 
 #include <fcntl.h>
 #include <sys/stat.h>

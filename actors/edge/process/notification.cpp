@@ -1,7 +1,7 @@
 #include "actors/edge/process/notification.hpp"
 
 #include "actors/edge/io/plain_text.hpp"
-#include "actors/edge/io/utf8.hpp"
+#include "schemas/utf8.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -1,7 +1,7 @@
 #include "actors/edge/process/process_spawner.hpp"
 
-#include "actors/edge/io/utf8.hpp"
 #include "actors/edge/process/pidfd.hpp"
+#include "schemas/utf8.hpp"
 
 #include <fcntl.h>
 #include <poll.h>

@@ -89,6 +89,43 @@ TEST_CASE("a bad descriptor is left out alone, with file and pointer") {
     CHECK(problem.where == where);
 }
 
+TEST_CASE("a descriptor in YAML, with comments, is a skill like any other") {
+  scratch_folder folder;
+  const auto* const name = GENERATE("skill.yaml", "skill.yml");
+  folder.write(std::string{"echo/"} + name,
+               "# What it does.\n" + echo_descriptor());
+  folder.write("echo/bin/echo", "#!/bin/sh\n", true);
+  const auto skills = scan(folder);
+  CHECK(skills.problems().empty());
+  REQUIRE(skills.skills().size() == 1);
+  CHECK(skills.skills()[0].descriptor.operation == "echo");
+}
+
+TEST_CASE("an error in a descriptor is told with line and column") {
+  scratch_folder folder;
+  folder.write("bad/skill.yaml",
+               "# Its name is missing.\n" + with("\"plain\"", "7"));
+  const auto skills = scan(folder);
+  REQUIRE(skills.problems().size() == 1);
+  const auto& problem = skills.problems()[0];
+  CHECK(problem.path == folder.path() / "bad/skill.yaml");
+  CHECK(problem.where == "/models/0/name");
+  CHECK(problem.message.rfind("line ", 0) == 0);
+  CHECK(problem.message.find("got the number 7") != std::string::npos);
+}
+
+TEST_CASE("a folder with two descriptors is refused: which is meant?") {
+  scratch_folder folder;
+  write_echo(folder, "echo");
+  folder.write("echo/skill.yaml", echo_descriptor());
+  const auto skills = scan(folder);
+  CHECK(skills.skills().empty());
+  REQUIRE(skills.problems().size() == 1);
+  CHECK(skills.problems()[0].message
+        == "holds skill.json and skill.yaml; a skill has one descriptor: "
+           "remove the others");
+}
+
 TEST_CASE("a descriptor of many errors is told of in bounded length") {
   scratch_folder folder;
   std::string texts;

@@ -41,15 +41,15 @@ struct plan_options {
 using plan_result = std::variant<task_plan, failure>;
 using document_result = std::variant<json, failure>;
 
-document_result document_of(const std::string& text) {
-  return parse_document(text, plan_limits);
+document_result document_of(const std::string& file, const std::string& text) {
+  return parse_document(text, format_of(file, text), plan_limits);
 }
 
 /// The nodes of the files; each holds one node or a list of them.
 document_result nodes_in(const std::vector<std::string>& files) {
   auto nodes = json::array();
   for (const auto& file : files) {
-    auto parsed = document_of(read_file(file));
+    auto parsed = document_of(file, read_file(file));
     if (auto* why = std::get_if<failure>(&parsed)) {
       why->message = file + ": " + why->message;
       return std::move(*why);
@@ -140,7 +140,7 @@ plan_result plan_of_cell(const plan_options& options, const json& document) {
 }
 
 plan_result plan_of(const plan_options& options, const std::string& text) {
-  auto document = document_of(text);
+  auto document = document_of(options.file, text);
   if (auto* why = std::get_if<failure>(&document))
     return std::move(*why);
   auto& content = std::get<json>(document);

@@ -1,3 +1,4 @@
+#include "schemas/document.hpp"
 #include "tools/roscell/client/event_stream.hpp"
 #include "tools/roscell/client/node_client.hpp"
 #include "tools/roscell/client/read_file.hpp"
@@ -12,6 +13,7 @@
 #include <CLI/CLI.hpp>
 
 #include <memory>
+#include <variant>
 
 namespace roscell::cli {
 
@@ -24,6 +26,19 @@ struct request_options {
   bool progress = false;
 };
 
+/// What is sent of a file: the JSON that YAML means. JSON goes as it is, and
+/// what is wrong with it is for the node to say.
+std::variant<std::string, failure> body_of(const std::string& file,
+                                           std::string text) {
+  const auto format = format_of(file, text);
+  if (format == document_format::json)
+    return text;
+  auto document = parse_document(text, format);
+  if (auto* why = std::get_if<failure>(&document))
+    return std::move(*why);
+  return std::get<json>(document).dump();
+}
+
 /// The task that a request is about; empty if it names none. What is wrong
 /// with the request is for the node to say.
 std::string task_of(const std::string& body) {
@@ -34,20 +49,28 @@ std::string task_of(const std::string& body) {
   return task.is_string() ? task.get<std::string>() : "";
 }
 
-int send_request(const request_options& options) {
+json reply_to(const request_options& options, const std::string& body) {
   const auto limit = parse_duration(options.timeout);
   const node_client node{options.connection};
-  const auto body = read_file(options.file);
   const bool talkative = options.progress || stderr_is_terminal();
   const auto words = [task = task_of(body)](const event& e) {
     return progress_lines(e, task);
   };
-  const auto reply = talkative ? post_with_progress(node, body, limit, words)
-                               : node.post("/v1/requests", body, limit);
+  return talkative ? post_with_progress(node, body, limit, words)
+                   : node.post("/v1/requests", body, limit);
+}
+
+int send_request(const request_options& options) {
+  const auto text = read_file(options.file);
+  const auto body = body_of(options.file, text);
+  const auto* unreadable = std::get_if<failure>(&body);
+  const auto reply = unreadable != nullptr
+                         ? error_reply(*unreadable)
+                         : reply_to(options, std::get<std::string>(body));
   print(pretty(reply));
   if (reply.value("type", "") != "error")
     return exit_done;
-  print_text(marked_errors(options.file, body, reply));
+  print_text(marked_errors(options.file, text, reply));
   return exit_refused;
 }
 
@@ -56,12 +79,13 @@ int send_request(const request_options& options) {
 void add_request_command(CLI::App& app, action& chosen) {
   auto options = std::make_shared<request_options>();
   auto* command = app.add_subcommand(
-      "request", "Send a JSON request to a node and print its JSON reply.");
+      "request",
+      "Send a request, written in YAML or JSON, and print the JSON reply.");
   command->footer(
       "Exit code 1 means that the node refused; its error is the reply, and "
       "standard error\nshows each place of the request that is wrong.\n\n"
-      "Examples:\n  roscell request task.json\n"
-      "  echo '{\"type\":\"cell_query\"}' | roscell request\n"
+      "Examples:\n  roscell request task.yaml\n"
+      "  echo 'type: cell_query' | roscell request\n"
       "  roscell request --to 192.168.1.10 --token-file token task.json");
   command
       ->add_option("FILE", options->file,

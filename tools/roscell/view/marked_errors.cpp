@@ -63,22 +63,33 @@ std::string marked_line(const document_place& at) {
          + "^" + std::string(length - 1, '~') + "\n";
 }
 
+std::string marked_error(const std::string& file, const document_place& at,
+                         const std::string& words) {
+  return printable(file) + ":" + std::to_string(at.line) + ":"
+         + std::to_string(at.column) + ": " + printable(words) + "\n"
+         + marked_line(at);
+}
+
 } // namespace
 
 std::string marked_errors(const std::string& file, std::string_view text,
                           const json& reply) {
   const auto name = file == "-" ? "standard input" : file;
+  const auto format = format_of(file, text);
+  const auto why = failure_from(reply);
+  if (why.code == error_code::malformed_json) {
+    const auto problem = find_problem(text, format);
+    return problem ? marked_error(name, problem->at, problem->words) : "";
+  }
   std::string result;
   size_t shown = 0;
-  for (const auto& [pointer, words] : errors_of(failure_from(reply))) {
-    const auto at = find_place(text, pointer);
+  for (const auto& [pointer, words] : errors_of(why)) {
+    const auto at = find_place(text, format, pointer);
     if (!at)
       return {};
     if (++shown > most_shown)
       return result + "and more\n";
-    result += printable(name) + ":" + std::to_string(at->line) + ":"
-              + std::to_string(at->column) + ": " + printable(words) + "\n"
-              + marked_line(*at);
+    result += marked_error(name, *at, words);
   }
   return result;
 }

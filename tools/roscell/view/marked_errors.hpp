@@ -10,11 +10,12 @@ namespace roscell::cli {
 /// What is wrong with a document that was refused, place by place: the file,
 /// line and column, what is wrong there, and the line with a mark under the
 /// place. Of many errors the first ten. Empty if the reply names no place of
-/// the document, or the text is no JSON.
+/// the document. The file's name tells how it is written
+/// (schemas/document.hpp).
 ///
-///     task.json:4:18: there is no member "label" here; did you mean "labels"?
-///       4 |      "model": "plain", "label": {"place": "left"}
-///         |                        ^~~~~~~
+///     task.yaml:4:16: there is no member "label" here; did you mean "labels"?
+///       4 |   - { id: "a", label: { place: left } }
+///         |                ^~~~~
 std::string marked_errors(const std::string& file, std::string_view text,
                           const json& reply);
 

@@ -1,4 +1,4 @@
-#include "actors/edge/io/utf8.hpp"
+#include "schemas/utf8.hpp"
 
 #include <catch2/catch.hpp>
 

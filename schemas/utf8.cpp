@@ -1,4 +1,4 @@
-#include "actors/edge/io/utf8.hpp"
+#include "schemas/utf8.hpp"
 
 #include <algorithm>
 
@@ -59,6 +59,18 @@ std::string valid_utf8(std::string_view bytes) {
     bytes.remove_prefix(std::max<size_t>(n, 1));
   }
   return result;
+}
+
+size_t valid_utf8_prefix(std::string_view bytes) {
+  size_t n = 0;
+  while (n < bytes.size()) {
+    const auto rest = bytes.substr(n);
+    const auto wanted = sequence_of(static_cast<unsigned char>(rest[0]));
+    if (wanted.size == 0 || fitting(rest, wanted) != wanted.size)
+      return n;
+    n += wanted.size;
+  }
+  return n;
 }
 
 size_t unfinished_utf8(std::string_view bytes) {

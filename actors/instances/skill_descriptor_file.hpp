@@ -1,0 +1,26 @@
+#pragma once
+
+#include "messages/skill_descriptor.hpp"
+#include "schemas/schema_error.hpp"
+
+#include <filesystem>
+#include <variant>
+#include <vector>
+
+/// The file in a skill folder that describes the skill: JSON, or YAML.
+namespace roscell {
+
+/// The files of `folder` that are called as descriptors are: `skill.json`,
+/// `skill.yaml`, `skill.yml`. A skill has exactly one of them.
+std::vector<std::filesystem::path>
+descriptor_files(const std::filesystem::path& folder);
+
+/// The one that errors name: the first, or `skill.json` if there is none yet.
+std::filesystem::path descriptor_of(const std::filesystem::path& folder);
+
+/// The descriptor in a file, or all that is wrong with it, with line and column
+/// in words.
+std::variant<skill_descriptor, std::vector<schema_error>>
+read_descriptor(const std::filesystem::path& file);
+
+} // namespace roscell
