@@ -66,19 +66,19 @@ struct step_allocation {
   }
 };
 
-/// One of the reasons against a candidate, for programs. The numbers are 0
-/// where nothing is short; cores or MiB else.
+/// One of the reasons against a candidate, for programs. The numbers are cores
+/// or MiB; negative where no amount is short, as of a label.
 struct rejection_cause {
   std::string kind; ///< As `allocation::reason_kind` spells it.
-  double needed = 0;
-  double free = 0;
-  double short_by = 0;
+  double needed = -1;
+  double free = -1;
+  double short_by = -1;
 
   static constexpr auto fields() {
     return field_list{required("kind", &rejection_cause::kind),
-                      required("needed", &rejection_cause::needed),
-                      required("free", &rejection_cause::free),
-                      required("short_by", &rejection_cause::short_by)};
+                      optional("needed", &rejection_cause::needed),
+                      optional("free", &rejection_cause::free),
+                      optional("short_by", &rejection_cause::short_by)};
   }
 };
 

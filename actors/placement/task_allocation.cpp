@@ -34,6 +34,17 @@ allocation::node convert(const node_resources& x) {
   return result;
 }
 
+/// A label or a skill is no amount of which anything could be short.
+rejection_cause cause_of(const allocation::reason& why) {
+  rejection_cause result{allocation::to_string(why.kind)};
+  if (why.short_by <= 0)
+    return result;
+  result.needed = why.needed;
+  result.free = std::max(0.0, why.free);
+  result.short_by = why.short_by;
+  return result;
+}
+
 /// Position of what a name is of; the size of the list if of none.
 template <class List, class Name>
 size_t position(const List& list, const std::string& wanted, Name name) {
@@ -125,8 +136,7 @@ public:
         row.reasons.push_back(
             (reason.kind == allocation::reason_kind::gpu_memory ? gpu : "")
             + reason.text);
-        row.causes.push_back({allocation::to_string(reason.kind), reason.needed,
-                              std::max(0.0, reason.free), reason.short_by});
+        row.causes.push_back(cause_of(reason));
       }
       // A node without the skill lacks each way of it that has this name.
       if (std::find(result.begin(), result.end(), row) == result.end())

@@ -285,6 +285,18 @@ TEST_CASE("A rejected candidate has its causes for programs",
   }
 }
 
+TEST_CASE("A cause that is no amount has no numbers", "[task_allocation]") {
+  auto document = two_nodes();
+  for (auto& step : document["request"]["pipeline"])
+    step["labels"] = {{"place", "moon"}};
+  const auto reply = error_reply(refusal(document));
+  const auto& rejected = reply.at("error").at("rejected");
+  REQUIRE_FALSE(rejected.empty());
+  for (const auto& x : rejected)
+    CHECK(x.at("causes")[0] == json{{"kind", "label"}});
+  CHECK_FALSE(validate_message(reply));
+}
+
 TEST_CASE("A plan tells the use of its nodes, and its bound",
           "[task_allocation]") {
   const auto result = plan(two_nodes());
