@@ -139,6 +139,18 @@ TEST_CASE("a peer is an IPv4 address, with or without a port", "[tools]") {
   }
 }
 
+TEST_CASE("a device is one that this machine has", "[tools]") {
+  node_options options;
+  options.config.devices = {"/dev/null"};
+  CHECK(refusal(options).empty());
+  for (const auto* path :
+       {"/dev/video1234", "/dev/null/x", "", "/dev", "/etc/hosts"}) {
+    options.config.devices = {"/dev/null", path};
+    CHECK(refusal(options).find("--device: ") == 0);
+  }
+  CHECK(refusal(options) == "--device: '/etc/hosts' is no device");
+}
+
 TEST_CASE("the command line takes what the design names", "[tools]") {
   CHECK(parses({"node",
                 "--name",
@@ -231,5 +243,5 @@ TEST_CASE("the command line refuses what cannot be meant", "[tools]") {
   CHECK_FALSE(parses({"logs"}));
   CHECK_FALSE(parses({"logs", "--tail", "0", "x"}));
   CHECK_FALSE(parses({"events", "--since", "-1"}));
-  CHECK_FALSE(parses({"completion", "fish"}));
+  CHECK_FALSE(parses({"completion", "tcsh"}));
 }

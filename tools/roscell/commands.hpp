@@ -38,6 +38,9 @@ void add_events_command(CLI::App& app, action& chosen);
 void add_logs_command(CLI::App& app, action& chosen);
 void add_completion_command(CLI::App& app, action& chosen);
 
+/// help, version.
+void add_help_commands(CLI::App& app, action& chosen);
+
 /// All of them, with help that names the exit codes.
 void set_up(CLI::App& app, action& chosen);
 

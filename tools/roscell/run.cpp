@@ -3,6 +3,7 @@
 #include "tools/roscell/client/node_client.hpp"
 #include "tools/roscell/commands.hpp"
 #include "tools/roscell/exit_code.hpp"
+#include "tools/roscell/usage_error.hpp"
 #include "tools/roscell/view/terminal.hpp"
 
 #include <CLI/CLI.hpp>
@@ -52,8 +53,12 @@ int run(int argc, char** argv) {
   set_up(app, chosen);
   try {
     app.parse(argc, argv);
+  } catch (const CLI::Success& e) {
+    return app.exit(e);
   } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? exit_done : exit_usage;
+    const auto why = usage_error(app, e);
+    print_error(why.what(), why.hint);
+    return why.code;
   }
   return perform(chosen);
 }

@@ -8,7 +8,6 @@
 #include <CLI/CLI.hpp>
 
 #include <memory>
-#include <string_view>
 
 namespace roscell::cli {
 
@@ -42,24 +41,9 @@ constexpr value_source sources[] = {
     {"TRANSFER", "ids transfers"},
     {"TASK", "ids tasks"},
     {"INSTANCE", "ids instances"},
-    {"SHELL", "words bash"},
+    {"SHELL", "words bash zsh fish"},
+    {"COMMAND", "commands"},
 };
-
-std::string_view action_of(std::string_view name) {
-  for (const auto& source : sources)
-    if (source.name == name)
-      return source.action;
-  return "nothing";
-}
-
-std::vector<std::string> names_of(const CLI::Option& option) {
-  std::vector<std::string> names;
-  for (const auto& name : option.get_snames())
-    names.push_back("-" + name);
-  for (const auto& name : option.get_lnames())
-    names.push_back("--" + name);
-  return names;
-}
 
 /// The case of one command: its options, then what follows those of them that
 /// take a value, then its arguments.
@@ -113,6 +97,10 @@ _roscell_files() {
 _roscell_dirs() {
   compopt -o filenames
   COMPREPLY=($(compgen -d -- "$cur"))
+}
+
+_roscell_commands() {
+  _roscell_words "$_roscell_commands"
 }
 
 _roscell_nothing() {
@@ -177,7 +165,29 @@ constexpr auto tail = R"bash(    *) return ;;
 complete -F _roscell roscell
 )bash";
 
+std::string completion_of(const CLI::App& app, const std::string& shell) {
+  if (shell == "zsh")
+    return zsh_completion(app);
+  return shell == "fish" ? fish_completion(app) : bash_completion(app);
+}
+
 } // namespace
+
+std::string_view action_of(std::string_view name) {
+  for (const auto& source : sources)
+    if (source.name == name)
+      return source.action;
+  return "nothing";
+}
+
+std::vector<std::string> names_of(const CLI::Option& option) {
+  std::vector<std::string> names;
+  for (const auto& name : option.get_snames())
+    names.push_back("-" + name);
+  for (const auto& name : option.get_lnames())
+    names.push_back("--" + name);
+  return names;
+}
 
 std::string bash_completion(const CLI::App& app) {
   std::vector<std::string> commands;
@@ -198,13 +208,18 @@ void add_completion_command(CLI::App& app, action& chosen) {
                                      "Print the completion script of a shell.");
   command->footer("Examples:\n  source <(roscell completion bash)\n"
                   "  roscell completion bash > "
-                  "/etc/bash_completion.d/roscell");
-  command->add_option("SHELL", *shell, "bash")
+                  "/etc/bash_completion.d/roscell\n"
+                  "  roscell completion zsh > "
+                  "/usr/local/share/zsh/site-functions/_roscell\n"
+                  "  roscell completion fish > "
+                  "~/.config/fish/completions/roscell.fish");
+  command->add_option("SHELL", *shell, "bash, zsh or fish")
       ->required()
-      ->check(CLI::IsMember({"bash"}));
+      ->check(CLI::IsMember({"bash", "zsh", "fish"}))
+      ->option_text(" ");
   command->callback([&app, &chosen, shell] {
-    chosen = [&app] {
-      print(bash_completion(app));
+    chosen = [&app, shell] {
+      print(completion_of(app, *shell));
       return exit_done;
     };
   });

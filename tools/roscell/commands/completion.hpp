@@ -1,16 +1,29 @@
 #pragma once
 
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace CLI {
 class App;
+class Option;
 } // namespace CLI
 
 namespace roscell::cli {
 
-/// A bash script that completes the commands and options of `app`, its files
-/// and directories, and the ids of tasks and instances, for which it asks the
-/// node quietly.
+/// Each gives the script with which a shell completes the commands and options
+/// of `app`, its files and directories, and the ids of nodes, tasks and
+/// instances, for which it asks the node quietly.
 std::string bash_completion(const CLI::App& app);
+std::string zsh_completion(const CLI::App& app);
+std::string fish_completion(const CLI::App& app);
+
+/// What may follow an option, or stand as an argument, of this name: a function
+/// of each script without its prefix, and the function's arguments. `words`
+/// takes a list, `files` and `dirs` are paths, `ids` asks the node.
+std::string_view action_of(std::string_view name);
+
+/// All names of an option, with their dashes; the long one last.
+std::vector<std::string> names_of(const CLI::Option& option);
 
 } // namespace roscell::cli

@@ -21,7 +21,7 @@ Examples:
   roscell node --coordinator --interface eth0
   roscell node --interface eth0 --join 192.168.1.10
   roscell form arm-1 arm-2
-  roscell request task.json
+  roscell request task.yaml
   roscell tasks --watch
 `roscell COMMAND --help` explains a command and shows how it is used.)";
 
@@ -47,6 +47,7 @@ void set_up(CLI::App& app, action& chosen) {
   add_events_command(app, chosen);
   add_logs_command(app, chosen);
   add_completion_command(app, chosen);
+  add_help_commands(app, chosen);
 }
 
 } // namespace roscell::cli

@@ -1,0 +1,54 @@
+#include "tools/roscell/commands.hpp"
+#include "tools/roscell/exit_code.hpp"
+#include "tools/roscell/usage_error.hpp"
+#include "tools/roscell/view/terminal.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <memory>
+#include <string>
+
+namespace roscell::cli {
+
+namespace {
+
+const CLI::App& command_of(const CLI::App& app, const std::string& name) {
+  const auto found = app.get_subcommands(
+      [&](const CLI::App* x) { return x->get_name() == name; });
+  if (found.empty())
+    throw no_command(app, name);
+  return *found.front();
+}
+
+/// The help of a command; of the whole program if none is named. The program's
+/// own help would be that of the command that was parsed.
+int show_help(const CLI::App& app, const std::string& name) {
+  const auto& command = name.empty() ? app : command_of(app, name);
+  const auto called =
+      name.empty() ? app.get_name() : app.get_name() + " " + name;
+  print(command.get_formatter()->make_help(&command, called,
+                                           CLI::AppFormatMode::Normal));
+  return exit_done;
+}
+
+} // namespace
+
+void add_help_commands(CLI::App& app, action& chosen) {
+  auto name = std::make_shared<std::string>();
+  auto* help = app.add_subcommand("help", "Explain a command.");
+  help->footer("Examples:\n  roscell help\n  roscell help node");
+  help->add_option("COMMAND", *name, "The command; none: all of them")
+      ->option_text(" ");
+  help->callback([&app, &chosen, name] {
+    chosen = [&app, name] { return show_help(app, *name); };
+  });
+  auto* version = app.add_subcommand("version", "Print the version.");
+  version->callback([&app, &chosen] {
+    chosen = [&app] {
+      print(app.version() + "\n");
+      return exit_done;
+    };
+  });
+}
+
+} // namespace roscell::cli
