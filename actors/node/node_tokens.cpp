@@ -27,6 +27,13 @@ std::string trim(const std::string& text) {
   return begin < end ? std::string{begin, end} : std::string{};
 }
 
+std::string why_unreadable(const fs::path& file) {
+  return ::access(file.c_str(), R_OK) == 0
+             ? "it has more than " + std::to_string(limits::token::most_bytes)
+                   + " bytes"
+             : std::strerror(errno);
+}
+
 /// Writes a new file that only its owner can read.
 caf::error write_secret(const fs::path& path, const std::string& text) {
   const int fd =
@@ -64,14 +71,16 @@ caf::expected<std::string> load_bearer_token(const fs::path& file) {
 caf::expected<std::string> load_site_token(const fs::path& file) {
   const auto text = read_small_file(file, limits::token::most_bytes);
   if (!text)
-    return fail(error_code::unauthorized,
-                "cannot read the site token in '" + file.string() + "'", "",
-                "give --site-token a file of at most "
-                    + std::to_string(limits::token::most_bytes)
-                    + " bytes that this user can read");
+    return fail(error_code::schema_violation,
+                "cannot read the site token in '" + file.string()
+                    + "': " + why_unreadable(file),
+                "",
+                "give --site-token the file that all nodes of the site have a "
+                "copy of; the first one makes it: "
+                "head -c 32 /dev/urandom | xxd -p -c 64");
   auto token = trim(*text);
   if (token.size() < limits::token::least_site_bytes)
-    return fail(error_code::unauthorized,
+    return fail(error_code::schema_violation,
                 "the site token in '" + file.string() + "' is shorter than "
                     + std::to_string(limits::token::least_site_bytes)
                     + " characters",

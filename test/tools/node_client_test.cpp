@@ -1,10 +1,12 @@
 #include "tools/roscell/client/node_client.hpp"
 
+#include "actors/edge/http/client/http_call.hpp"
 #include "test/fake_engine.hpp"
 #include "tools/roscell/exit_code.hpp"
 
 #include <catch2/catch.hpp>
 
+#include <cerrno>
 #include <string>
 
 #include <unistd.h>
@@ -60,4 +62,17 @@ TEST_CASE("an error reply keeps its form", "[tools]") {
   // nlohmann's json makes an array of what stands alone in braces.
   const refused e(json{{"type", "error"}});
   CHECK(e.reply.is_object());
+}
+
+TEST_CASE("a socket that may not be opened is no node that is away",
+          "[tools]") {
+  http_call what;
+  what.to.socket_path = "/run/node.sock";
+  const http_failure denied{http_failure::kind::no_connection, {}, EACCES};
+  const auto why = describe_http_failure(denied, what);
+  CHECK(why.code == error_code::unauthorized);
+  CHECK(why.message == "may not open '/run/node.sock': Permission denied");
+  CHECK(why.hint.empty());
+  what.to.socket_path.clear();
+  CHECK(describe_http_failure(denied, what).code == error_code::unreachable);
 }

@@ -1,5 +1,6 @@
 #include "tools/roscell/client/target.hpp"
 
+#include "tools/roscell/client/open_secret.hpp"
 #include "tools/roscell/exit_code.hpp"
 
 #include <catch2/catch.hpp>
@@ -152,4 +153,32 @@ TEST_CASE("another machine does not get this machine's token", "[tools]") {
   CHECK(find_token({}, elsewhere).empty());
   CHECK(find_token({}, parse_target("robot.example")).empty());
   fs::remove_all(dir);
+}
+
+TEST_CASE("a token file that is not there is wrong usage, and says why",
+          "[tools]") {
+  try {
+    find_token("/nowhere/token", elsewhere);
+    FAIL("there is none");
+  } catch (const command_error& e) {
+    CHECK(e.code == exit_usage);
+    CHECK(std::string{e.what()}
+          == "cannot read the token file /nowhere/token: No such file or "
+             "directory");
+    CHECK(e.hint.find("DATA_DIR/token") != std::string::npos);
+  }
+}
+
+TEST_CASE("a secret that everybody can read is warned of, and taken",
+          "[tools]") {
+  const token_file file{"abc"};
+  fs::permissions(file.path, fs::perms{0600});
+  CHECK(open_secret_warning(file.path).empty());
+  fs::permissions(file.path, fs::perms{0640});
+  CHECK(open_secret_warning(file.path).empty());
+  fs::permissions(file.path, fs::perms{0644});
+  CHECK(open_secret_warning(file.path).find("chmod 600 " + file.path.string())
+        != std::string::npos);
+  CHECK(find_token(file.path, elsewhere) == "abc");
+  CHECK(open_secret_warning("/nowhere/token").empty());
 }

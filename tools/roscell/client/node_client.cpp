@@ -35,8 +35,13 @@ http_endpoint endpoint_of(const target& to, const connection_options& options) {
 
 [[noreturn]] void give_up(const edge_error& why) {
   auto hint = why.hint;
-  if (why.code == error_code::timeout)
-    hint = "the node may still be working on it; `roscell status` shows";
+  if (why.code == error_code::unauthorized)
+    hint = "this user is not allowed to: use sudo, become a member of the "
+           "socket's group, or ask over TCP with --to ADDRESS --token-file "
+           "FILE";
+  else if (why.code == error_code::timeout)
+    hint = "the node may still be working on it; `roscell tasks` and `roscell "
+           "transfers` show what becomes of it";
   else if (hint.empty())
     hint = "is `roscell node` running there? --to or ROSCELL_TO names another";
   throw command_error{exit_unreachable, why.message, hint};

@@ -1,14 +1,19 @@
 #include "tools/roscell/client/target.hpp"
 
 #include "actors/house/limits.hpp"
+#include "tools/roscell/client/open_secret.hpp"
 #include "tools/roscell/exit_code.hpp"
+#include "tools/roscell/view/format.hpp"
+#include "tools/roscell/view/terminal.hpp"
 
 #include <netdb.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <charconv>
 #include <cstdlib>
+#include <cstring>
 #include <fstream>
 #include <optional>
 #include <stdexcept>
@@ -63,6 +68,7 @@ target parse_tcp(std::string_view text) {
 
 /// First line of a file that may hold no more than a token.
 std::optional<std::string> read_token(const fs::path& file) {
+  errno = 0;
   std::ifstream in{file};
   if (!in)
     return std::nullopt;
@@ -90,6 +96,13 @@ bool is_this_machine(const std::string& host) {
     close(fd);
   freeaddrinfo(found);
   return bound;
+}
+
+/// A directory that this user may not look into may hold it: that is for the
+/// connection to say.
+bool may_exist(const fs::path& socket) {
+  std::error_code problem;
+  return fs::exists(socket, problem) || problem == std::errc::permission_denied;
 }
 
 std::string checked(std::string token, const std::string& source) {
@@ -147,7 +160,7 @@ target default_target() {
   result.socket = default_data_dir() / "node.sock";
   const auto shared = system_data_dir / "node.sock";
   std::error_code ignored;
-  if (!fs::exists(result.socket, ignored) && fs::exists(shared, ignored))
+  if (!fs::exists(result.socket, ignored) && may_exist(shared))
     result.socket = shared;
   return result;
 }
@@ -155,9 +168,18 @@ target default_target() {
 std::string find_token(const fs::path& file, const target& to) {
   if (!file.empty()) {
     auto token = read_token(file);
-    if (!token || token->empty())
+    if (!token)
       throw command_error{exit_usage,
-                          "cannot read a token from " + file.string()};
+                          "cannot read the token file " + file.string() + ": "
+                              + std::strerror(errno),
+                          "--token-file takes a copy of the node's "
+                          "DATA_DIR/token"};
+    if (token->empty())
+      throw command_error{exit_usage, "no token is in " + file.string(),
+                          "--token-file takes a copy of the node's "
+                          "DATA_DIR/token"};
+    if (const auto warning = open_secret_warning(file); !warning.empty())
+      print_note("roscell: " + printable(warning));
     return checked(*token, file.string());
   }
   if (auto token = environment("ROSCELL_TOKEN"); !token.empty())

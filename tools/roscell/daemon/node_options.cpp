@@ -5,7 +5,9 @@
 #include "tools/roscell/exit_code.hpp"
 #include "tools/roscell/view/format.hpp"
 
+#include <filesystem>
 #include <stdexcept>
+#include <system_error>
 
 namespace roscell::cli {
 
@@ -34,6 +36,21 @@ void add_label(std::map<std::string, std::string>& labels,
   const auto key = text.substr(0, equals);
   if (!labels.emplace(key, text.substr(equals + 1)).second)
     throw command_error{exit_usage, "--label: '" + key + "' is given twice"};
+}
+
+/// Steps that ask for a device must find it where its node is.
+void check_device(const std::string& path) {
+  std::error_code problem;
+  const auto found = std::filesystem::status(path, problem);
+  if (found.type() == std::filesystem::file_type::not_found)
+    throw command_error{exit_usage, "--device: there is no '" + path + "'",
+                        "plug it in, or leave the option out"};
+  if (problem)
+    throw command_error{exit_usage,
+                        "--device: '" + path + "': " + problem.message()};
+  if (!is_character_file(found) && !is_block_file(found))
+    throw command_error{exit_usage, "--device: '" + path + "' is no device",
+                        "name a device node such as /dev/video0"};
 }
 
 /// What only a coordinator can be asked for.
@@ -85,6 +102,8 @@ node_config to_config(const node_options& options) {
   check_cell_options(config);
   check_ways_to_join(config);
   check_addresses(config);
+  for (const auto& device : config.devices)
+    check_device(device);
   if (config.data_dir.empty())
     config.data_dir = default_data_dir();
   // Children run elsewhere, so nothing may depend on where we were started.

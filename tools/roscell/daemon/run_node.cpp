@@ -2,12 +2,14 @@
 #include "actors/edge/host/descriptor_limit.hpp"
 #include "actors/house/limits.hpp"
 #include "actors/node/node_builder.hpp"
+#include "tools/roscell/client/open_secret.hpp"
 #include "tools/roscell/daemon/interface_choice.hpp"
 #include "tools/roscell/daemon/journal.hpp"
 #include "tools/roscell/daemon/node_options.hpp"
 #include "tools/roscell/daemon/readiness.hpp"
 #include "tools/roscell/daemon/stop_signals.hpp"
 #include "tools/roscell/exit_code.hpp"
+#include "tools/roscell/view/format.hpp"
 #include "tools/roscell/view/terminal.hpp"
 
 #include <caf/actor_system.hpp>
@@ -84,6 +86,9 @@ void introduce(const running_node& node, const node_config& config) {
                node.token_file);
   if (config.site_token_file.empty())
     spdlog::info("no site token: only nodes of this machine can be members");
+  else if (const auto warning = open_secret_warning(config.site_token_file);
+           !warning.empty())
+    spdlog::warn("{}", printable(warning));
 }
 
 using stop_clock = std::chrono::steady_clock;

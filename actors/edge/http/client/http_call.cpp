@@ -2,6 +2,7 @@
 
 #include "actors/edge/http/client/http_exchange.hpp"
 
+#include <cerrno>
 #include <system_error>
 #include <utility>
 
@@ -70,6 +71,9 @@ edge_error describe_http_failure(const http_failure& why,
   case http_failure::kind::bad_call:
     return {error_code::schema_violation, why.reason, ""};
   case http_failure::kind::no_connection:
+    if (why.system_error == EACCES && !what.to.socket_path.empty())
+      return {error_code::unauthorized,
+              "may not open " + name + ": " + text_of(why.system_error), ""};
     return {error_code::unreachable,
             "cannot connect to " + name + ": " + text_of(why.system_error),
             "is the node running?"};
