@@ -5,6 +5,7 @@
 #include "tools/roscell/client/node_client.hpp"
 #include "tools/roscell/client/read_file.hpp"
 #include "tools/roscell/commands.hpp"
+#include "tools/roscell/commands/paper_nodes.hpp"
 #include "tools/roscell/common_options.hpp"
 #include "tools/roscell/exit_code.hpp"
 #include "tools/roscell/view/marked_errors.hpp"
@@ -60,6 +61,8 @@ document_result nodes_in(const std::vector<std::string>& files) {
     else
       nodes.push_back(std::move(document));
   }
+  for (auto& node : nodes)
+    complete_paper_node(node);
   return nodes;
 }
 
@@ -73,6 +76,8 @@ std::optional<failure> think_otherwise(const plan_options& options,
   auto nodes = document.find("nodes");
   if (nodes == document.end() || !nodes->is_array())
     return std::nullopt;
+  for (auto& node : *nodes)
+    complete_paper_node(node);
   for (const auto& name : options.without) {
     auto named = [&](const json& x) {
       return x.is_object() && x.value("name", json{}) == name;
@@ -139,12 +144,20 @@ plan_result plan_of_cell(const plan_options& options, const json& document) {
   return std::get<task_plan>(std::move(decoded));
 }
 
+/// A file that brings its own nodes is a cell on paper, unless a node is named
+/// for it: $ROSCELL_TO names one for whatever has to ask.
+bool is_on_paper(const plan_options& options, const json& document) {
+  return options.connection.to.empty()
+         && (!document.is_object() || document.contains("nodes")
+             || document.contains("skills"));
+}
+
 plan_result plan_of(const plan_options& options, const std::string& text) {
   auto document = document_of(options.file, text);
   if (auto* why = std::get_if<failure>(&document))
     return std::move(*why);
   auto& content = std::get<json>(document);
-  return options.connection.to.empty()
+  return is_on_paper(options, content)
              ? plan_on_paper(options, std::move(content))
              : plan_of_cell(options, content);
 }
@@ -185,12 +198,12 @@ void add_plan_command(CLI::App& app, action& chosen) {
   auto* command = app.add_subcommand(
       "plan", "Show where a task would be placed and why; nothing is started.");
   command->footer(
-      "With --to, FILE is a task request, and the cell is asked as it is now. "
-      "Else it is\na cell on paper, {\"nodes\":[...],\"skills\":[...],"
-      "\"request\":{...}}, and nobody is asked;\ndocs/operations.md shows one. "
-      "Exit code 1: there is no allocation, and every\ncandidate is "
-      "explained.\n\n"
-      "Examples:\n  roscell plan cell.json\n"
+      "FILE is a task request, and the cell of the node is asked as it is now. "
+      "Or it is a\ncell on paper, with nodes, skills and a request, and nobody "
+      "is asked;\ndocs/operations.md shows one. With --to its request goes to "
+      "that node. Exit code 1:\nthere is no allocation, and every candidate "
+      "is explained.\n\n"
+      "Examples:\n  roscell plan cell.yaml\n  roscell plan task.yaml\n"
       "  roscell plan --to 192.168.1.10 --token-file token task.json\n"
       "  roscell plan --to /run/roscell/api.sock --without arm-1 --why poses "
       "task.json\n"
@@ -208,7 +221,7 @@ void add_plan_command(CLI::App& app, action& chosen) {
       ->add_option("--with", options->with,
                    "Plan as if the nodes of this file were there, with every "
                    "skill; may be repeated")
-      ->option_text("NODE.json");
+      ->option_text("FILE");
   command
       ->add_option("--why", options->why,
                    "Show the best alternative for this step and its cost")
