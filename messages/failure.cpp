@@ -54,7 +54,7 @@ failure from_caf(const caf::error& err) {
   using caf::sec;
   if (err == sec::request_timeout)
     return {error_code::timeout, "no answer came in time", "",
-            "try again; `roscell status` shows who is reachable"};
+            "try again; `roscell nodes` shows who is active"};
   if (err == sec::request_receiver_down)
     return {error_code::internal, "the part that worked on this has failed", "",
             "send the request again"};

@@ -43,7 +43,8 @@ void spawn_actor(container_supervisor_self self, supervised_instance& x,
       st.config.store,
       st.config.skills,
       x.row,
-      adopt};
+      adopt,
+      st.config.builds_images};
   x.actor = spawn(self->system(), st.config.context, skill_instance, config);
   self->monitor(x.actor);
   caf::anon_send(x.actor, start_instance{});

@@ -21,6 +21,8 @@ struct container_supervisor_config {
   shared_skill_catalogue skills;
   /// Spawns the runtime; called again when it has died.
   std::function<runtime_actor(container_listener_actor)> make_runtime;
+  /// That runtime needs an image of a skill before it can start it.
+  bool builds_images = true;
   state_store_actor store;
   /// What the store knew when the node started.
   std::vector<instance_row> restored;

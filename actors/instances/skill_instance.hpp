@@ -17,8 +17,9 @@ struct skill_instance_config {
   runtime_actor runtime;
   state_store_actor store;
   shared_skill_catalogue skills;
-  instance_row row;   ///< What is known of the instance.
-  bool adopt = false; ///< It may run already.
+  instance_row row;          ///< What is known of the instance.
+  bool adopt = false;        ///< It may run already.
+  bool builds_images = true; ///< The runtime needs an image of the skill.
 };
 
 /// Owns one instance from intent to end. The diagram is in docs/protocols.md.

@@ -55,7 +55,8 @@ void build(skill_instance_pointer self) {
   if (option == nullptr)
     return conclude(self, instance_state::failed,
                     "this node does not have its skill any more");
-  enter(self, instance_state::building);
+  if (st.config.builds_images)
+    enter(self, instance_state::building);
   const auto command = folder->skill.descriptor.entry_point;
   ask<image_prepared>(
       self, st.config.runtime, limits::instance::build,

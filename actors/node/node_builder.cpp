@@ -164,6 +164,7 @@ private:
     supervision.make_runtime =
         runtime_factory(system_, parts_.context, config, runtime_,
                         data_.identity.uuid, *parts_.edges->io);
+    supervision.builds_images = !runtime_.socket.empty();
     supervision.store = store_;
     supervision.restored = data_.instances;
     supervision.strays = data_.strays;

@@ -26,7 +26,8 @@ void settle_arrivals(coordinator_pointer self, const std::string& uuid,
 void settle_overdue_arrivals(coordinator_pointer self) {
   const failure why{error_code::unresolved,
                     "the node was told to join and has not done so in time", "",
-                    "send the request again; see the events of the node"};
+                    "send the request again; `roscell events --since 0` on the "
+                    "node tells why"};
   auto& book = self->state.places;
   for (const auto& x : book.take_overdue_arrivals(self->clock().now()))
     x.done(&why);

@@ -49,7 +49,8 @@ void on_node_returned(coordinator_pointer self, const std::string& uuid) {
           : failure{error_code::unreachable,
                     name + " could not register with cell '" + x->row.to
                         + "' and has come back",
-                    "/target", "see the events of the node"};
+                    "/target",
+                    "`roscell events --since 0` on the node tells why"};
   end_transfer(self, id, transfer_state::returned, why.message, &why);
 }
 

@@ -97,8 +97,10 @@ void finish_termination(coordinator_pointer self, const std::string& task) {
   });
 }
 
+/// A task of which nothing was placed anywhere has not failed: its request was
+/// refused, and that is told already.
 void tell_rolled_back(coordinator_pointer self, const std::string& task,
-                      const std::string& reason) {
+                      const std::string& reason, bool begun) {
   auto gone = take_waiters(self, task);
   for (auto& promise : gone.same_requests)
     promise.deliver(fail(error_code::engine_failed,
@@ -106,7 +108,8 @@ void tell_rolled_back(coordinator_pointer self, const std::string& task,
                          "/task", "send it again"));
   for (auto& promise : gone.terminations)
     promise.deliver(task_terminated{task, {}, {}});
-  self->state.context.tell("task_failed", task, {{"reason", reason}});
+  if (begun)
+    self->state.context.tell("task_failed", task, {{"reason", reason}});
   end_turn(self, gone.turn);
 }
 
@@ -171,17 +174,18 @@ void roll_back(coordinator_pointer self, const std::string& task,
   auto& st = self->state;
   st.tasks.begin_ending(task);
   st.desk.waiters[task].owner = nullptr;
+  const bool begun = !st.deployments.of_task(task).empty();
   remove_everywhere(
-      self, task, also_on, [self, task, reason, done](const auto&) {
+      self, task, also_on, [self, task, reason, begun, done](const auto&) {
         pending_change change;
         // Its record goes when there is room; the next start
         // drops it, too.
-        change.done = [self, task, reason, done](const failure* why) {
+        change.done = [self, task, reason, begun, done](const failure* why) {
           if (why)
             forget_refused(self, "tasks", task);
           self->state.tasks.forget(task);
           self->state.deployments.forget_task(task);
-          tell_rolled_back(self, task, reason);
+          tell_rolled_back(self, task, reason, begun);
           done();
         };
         change_task(self, task, std::move(change));

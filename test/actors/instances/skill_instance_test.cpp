@@ -130,6 +130,14 @@ TEST_CASE("an instance goes from intent to running in the order drawn") {
   CHECK(b.store->states("i") == words{"pending", "starting", "running"});
 }
 
+TEST_CASE("nothing is built for a runtime that needs no image") {
+  instance_bench b;
+  b.config.builds_images = false;
+  b.start_ready();
+  CHECK(b.told->states()
+        == words{"pending", "starting", "starting", "running"});
+}
+
 TEST_CASE("a program that is ready before the runtime answers is running") {
   instance_bench b;
   b.runtime->silent = true;

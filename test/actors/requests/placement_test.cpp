@@ -99,6 +99,7 @@ TEST_CASE_METHOD(reluctant_cell,
     asked += x->reservations.size();
   CHECK(asked == 4);
   CHECK(count("allocation_refused") == 4);
+  CHECK(count("task_failed") == 0);
   CHECK(tasks().empty());
   // The turn goes on.
   left.reluctance = 0;
