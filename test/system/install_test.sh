@@ -58,10 +58,9 @@ test_the_reason_why_apt_fails_is_told_in_one_line() {
 
 test_who_may_not_write_the_tree_is_told_so_before_anything_is_done() {
   bare_path
-  cp -r tools "$scratch/tools"
-  chmod -R a-w "$scratch/tools"
-  chmod a-w "$scratch"
+  mkdir -p "$scratch/tree/tools" "$scratch/tree/build"
+  cp tools/*.sh "$scratch/tree/tools"
+  chmod 0555 "$scratch/tree/build"
   says_one_line "build cannot be written by" \
-    "${as_nobody[@]}" "$scratch/tools/demo.sh"
-  chmod u+w "$scratch"
+    "${as_nobody[@]}" "$scratch/tree/tools/demo.sh"
 }
