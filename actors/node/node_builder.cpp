@@ -33,6 +33,14 @@ namespace {
 
 constexpr uint16_t default_discovery_port = 11811;
 
+std::vector<io_endpoint> topics_of(const cell_server& server) {
+  std::vector<io_endpoint> result;
+  for (auto& x : server.topics())
+    result.push_back(
+        {"ros2", std::move(x.topic), std::move(x.data_type), "", false});
+  return result;
+}
+
 /// Refuses words that would make every message of this node invalid.
 caf::error check_words(const std::string& option,
                        const node_resources& resources) {
@@ -186,6 +194,10 @@ private:
     coordinator_setup setup;
     setup.cell = config.cell;
     setup.discovery_server = parts_.edges->discovery_server;
+    setup.topics = [edges = std::weak_ptr<node_edges>{parts_.edges}] {
+      const auto open = edges.lock();
+      return open ? topics_of(*open->discovery) : std::vector<io_endpoint>{};
+    };
     setup.incarnation = data_.incarnation;
     setup.cell_uuid = data_.cell_uuid;
     setup.self = parts_.identity;

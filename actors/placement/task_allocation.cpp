@@ -260,7 +260,7 @@ std::variant<task_plan, failure> allocate_offline(const plan_document& document,
     known.skills.push_back(std::move(row));
   }
   auto reading = read_task(document.request.task, document.request.pipeline,
-                           {known, {}}, "/request/pipeline");
+                           {known, {}, {}}, "/request/pipeline");
   if (auto* problem = std::get_if<failure>(&reading))
     return std::move(*problem);
   auto& meant = std::get<task_reading>(reading);

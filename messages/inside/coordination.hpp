@@ -132,13 +132,16 @@ struct cell_resources {
   std::vector<node_resources> nodes;    ///< In the order of their names.
   std::vector<node_agent_actor> agents; ///< One of each node.
   std::vector<deployed_end> written;    ///< What steps in the cell write.
+  /// Topics that anybody in the cell writes, ROSCell's own instances too.
+  std::vector<io_endpoint> topics;
 
   static constexpr auto fields() {
     return field_list{required("cell", &cell_resources::cell),
                       required("skills", &cell_resources::skills),
                       required("nodes", &cell_resources::nodes),
                       required("agents", &cell_resources::agents),
-                      required("written", &cell_resources::written)};
+                      required("written", &cell_resources::written),
+                      required("topics", &cell_resources::topics)};
   }
 };
 

@@ -141,7 +141,10 @@ EOF
     "$scratch/stderr" || fail "it says: $(cat "$scratch/stderr")"
   sed -i 's|model: apriltag3,|model: apriltag3, external: true,|' \
     "$scratch/poses.yaml"
-  to head run "$scratch/poses.yaml" > /dev/null || fail "external was refused"
+  to head run "$scratch/poses.yaml" > /dev/null 2> "$scratch/stderr" \
+    || fail "external was refused"
+  grep -q 'nobody writes the external topic "/cam/image" yet' "$scratch/stderr" \
+    || fail "it is not said: $(cat "$scratch/stderr")"
 }
 
 test_a_device_of_an_endpoint_must_be_there() {

@@ -85,10 +85,13 @@ std::string offered_by_fish(const std::string& line,
 
 TEST_CASE("completion offers every command", "[tools]") {
   CHECK(offered("roscell ''")
-        == "node request plan form transfer release status cells nodes tasks "
-           "instances skills transfers events logs completion help version "
+        == "node run stop restart check new request plan form transfer release "
+           "status cells nodes tasks instances skills transfers events logs "
+           "completion help version "
            "--version --help\n");
   CHECK(offered("roscell no") == "node nodes\n");
+  CHECK(offered("roscell new ''") == "task\n");
+  CHECK(offered("roscell skills s") == "show\n");
 }
 
 TEST_CASE("completion offers a command's options", "[tools]") {

@@ -51,6 +51,9 @@ struct coordinator_setup {
   scheduler_actor scheduler; ///< Places what leaves with a node.
   int64_t server_id = 0;     ///< Of the discovery server.
   bool rebalance = true;     ///< Cells are evened out.
+  /// The topics that are written in the cell's DDS domain, as its discovery
+  /// server knows them; does not block. May be empty in tests.
+  std::function<std::vector<io_endpoint>()> topics;
   /// The scheduler's; may be empty in tests.
   std::shared_ptr<search_guard> searches;
 };

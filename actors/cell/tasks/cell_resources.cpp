@@ -39,6 +39,8 @@ void complete_tally(coordinator_pointer self, resource_tally& tally) {
   result.cell = st.setup.cell;
   result.skills = {st.registry.skills(""), st.registry.refused_skills()};
   result.written = written_in(st);
+  if (st.setup.topics)
+    result.topics = st.setup.topics();
   for (auto& [name, node] : tally.nodes) {
     const auto* entry = st.registry.find_name(name);
     if (!entry || entry->row.state != row_state::active)

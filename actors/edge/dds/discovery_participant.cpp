@@ -7,10 +7,12 @@
 #include <fastdds/rtps/RTPSDomain.h>
 #include <fastdds/rtps/participant/ParticipantDiscoveryInfo.h>
 #include <fastdds/rtps/participant/RTPSParticipant.h>
+#include <fastdds/rtps/writer/WriterDiscoveryInfo.h>
 #include <fastrtps/utils/IPLocator.h>
 
 #include <algorithm>
 #include <random>
+#include <sstream>
 #include <utility>
 
 namespace roscell {
@@ -123,16 +125,16 @@ RTPSParticipantAttributes make_attributes(const participant_settings& settings,
   return result;
 }
 
-rtps_participant::rtps_participant(on_sighting callback)
-    : callback_(std::move(callback)) {}
+rtps_participant::rtps_participant(on_sighting callback, topic_watch* topics)
+    : callback_(std::move(callback)), topics_(topics) {}
 
 std::unique_ptr<rtps_participant>
 rtps_participant::create(std::uint32_t domain_id,
                          RTPSParticipantAttributes attributes,
-                         on_sighting callback) {
+                         on_sighting callback, topic_watch* topics) {
   attributes.participantID = make_participant_id();
   std::unique_ptr<rtps_participant> result{
-      new rtps_participant(std::move(callback))};
+      new rtps_participant(std::move(callback), topics)};
   result->participant_ =
       RTPSDomain::createParticipant(domain_id, true, attributes, result.get());
   if (result->participant_ == nullptr)
@@ -171,6 +173,19 @@ void rtps_participant::onParticipantDiscovery(RTPSParticipant*,
   std::lock_guard<std::mutex> lock{mutex_};
   if (callback_)
     callback_(seen);
+}
+
+void rtps_participant::onWriterDiscovery(RTPSParticipant*,
+                                         WriterDiscoveryInfo&& info) {
+  if (topics_ == nullptr)
+    return;
+  std::ostringstream writer;
+  writer << info.info.guid();
+  if (info.status == WriterDiscoveryInfo::REMOVED_WRITER)
+    topics_->remove(writer.str());
+  else
+    topics_->add(writer.str(), info.info.topicName().to_string(),
+                 info.info.typeName().to_string());
 }
 
 } // namespace roscell

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "actors/edge/dds/discovery_sighting.hpp"
+#include "actors/edge/dds/rtps/topic_watch.hpp"
 #include "actors/edge/io/edge_error.hpp"
 #include "actors/house/limits.hpp"
 
@@ -54,11 +55,12 @@ class rtps_participant final
     : eprosima::fastrtps::rtps::RTPSParticipantListener {
 public:
   /// Null when Fast DDS refuses, which it explains in its log only.
-  /// `attributes` get a participant id of our own making.
+  /// `attributes` get a participant id of our own making. `topics` is told of
+  /// the writers that it hears of, and must outlive it.
   static std::unique_ptr<rtps_participant>
   create(std::uint32_t domain_id,
          eprosima::fastrtps::rtps::RTPSParticipantAttributes attributes,
-         on_sighting callback);
+         on_sighting callback, topic_watch* topics = nullptr);
 
   /// Says farewell to the others. The callback is not called any more once
   /// this has begun; not to be called by the callback.
@@ -78,14 +80,19 @@ public:
   std::uint16_t port() const;
 
 private:
-  explicit rtps_participant(on_sighting callback);
+  rtps_participant(on_sighting callback, topic_watch* topics);
 
   void onParticipantDiscovery(
       eprosima::fastrtps::rtps::RTPSParticipant*,
       eprosima::fastrtps::rtps::ParticipantDiscoveryInfo&& info) override;
 
+  void
+  onWriterDiscovery(eprosima::fastrtps::rtps::RTPSParticipant*,
+                    eprosima::fastrtps::rtps::WriterDiscoveryInfo&&) override;
+
   std::mutex mutex_; // Held while the callback runs.
   on_sighting callback_;
+  topic_watch* topics_;
   eprosima::fastrtps::rtps::RTPSParticipant* participant_ = nullptr;
 };
 

@@ -72,7 +72,7 @@ public:
     port_ = port;
     participant_ = rtps_participant::create(
         options.domain_id, server_attributes(options, port),
-        [this](const sighting& seen) { on_client(seen); });
+        [this](const sighting& seen) { on_client(seen); }, &topics_);
     if (participant_ == nullptr)
       return false;
     greeter_.start();
@@ -81,6 +81,10 @@ public:
 
   std::uint16_t port() const {
     return port_;
+  }
+
+  std::vector<written_topic> topics() const {
+    return topics_.topics();
   }
 
   void update_announcement(const std::string& bytes) {
@@ -116,6 +120,7 @@ private:
   std::mutex mutex_; // Guards what follows.
   std::set<guid_prefix> clients_;
   herald greeter_;
+  topic_watch topics_;
   std::unique_ptr<rtps_participant> participant_;
 };
 
@@ -145,6 +150,10 @@ cell_server::~cell_server() = default;
 
 std::uint16_t cell_server::port() const {
   return impl_->port();
+}
+
+std::vector<written_topic> cell_server::topics() const {
+  return impl_->topics();
 }
 
 std::optional<edge_error>

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "actors/edge/dds/discovery_sighting.hpp"
+#include "actors/edge/dds/rtps/topic_watch.hpp"
 #include "actors/edge/io/edge_error.hpp"
 #include "actors/house/limits.hpp"
 
@@ -9,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace roscell {
 
@@ -61,6 +63,9 @@ public:
 
   /// Where it listens.
   std::uint16_t port() const;
+
+  /// The ROS 2 topics that clients of this server write, an entry a writer.
+  std::vector<written_topic> topics() const;
 
   /// Tells all clients. `schema_violation` when it is too long.
   std::optional<edge_error> update_announcement(const std::string& bytes);

@@ -57,7 +57,7 @@ read_task(const std::string& task, const std::vector<task_step>& pipeline,
     return std::move(*why);
   task_reading result;
   result.steps = std::get<std::vector<resolved_step>>(std::move(resolved));
-  auto wires = find_wiring(task, written.steps, cell.written);
+  auto wires = find_wiring(task, written.steps, cell.written, cell.topics);
   error_list errors;
   for (size_t i = 0; i < result.steps.size(); ++i) {
     result.steps[i].together = wires.together[i];

@@ -4,6 +4,7 @@
 #include "messages/failure.hpp"
 #include "messages/inside/coordination.hpp"
 
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -21,6 +22,8 @@ struct task_reading {
 struct reading_context {
   skill_list skills;
   std::vector<deployed_end> written; ///< By the steps of its tasks.
+  /// Topics that anybody writes; none: nobody knows.
+  std::optional<std::vector<io_endpoint>> topics;
 };
 
 /// Reads a pipeline. Errors: those of `resolve_steps`, and schema_violation

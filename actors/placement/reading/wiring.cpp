@@ -52,8 +52,9 @@ std::string contradiction(const task_step& x, const task_step& y) {
 class wirer {
 public:
   wirer(const std::string& task, const std::vector<written_step>& steps,
-        const std::vector<deployed_end>& cell)
-      : steps_(steps) {
+        const std::vector<deployed_end>& cell,
+        const std::optional<std::vector<io_endpoint>>& topics)
+      : steps_(steps), topics_(topics) {
     for (size_t i = 0; i < steps.size(); ++i)
       for (size_t k = 0; k < steps[i].step.output.size(); ++k)
         written_.push_back({i,
@@ -114,7 +115,7 @@ private:
       other_type = &x;
     }
     if (external)
-      return;
+      return check_external(end, at);
     if (other_type != nullptr)
       refuse(at, other_type->words + " writes the topic "
                      + in_quotes(end.endpoint) + " as "
@@ -122,6 +123,22 @@ private:
                      + in_quotes(end.data_type));
     else
       refuse(at, nobody_writes(end));
+  }
+
+  void check_external(const io_endpoint& end, const std::string& at) {
+    if (!topics_)
+      return;
+    for (const auto& x : *topics_) {
+      if (!same_topic(x, end))
+        continue;
+      if (x.data_type != end.data_type)
+        warn(at, "the external topic " + in_quotes(end.endpoint, 80)
+                     + " is written as " + in_quotes(x.data_type)
+                     + ", it is read as " + in_quotes(end.data_type));
+      return;
+    }
+    warn(at, "nobody writes the external topic " + in_quotes(end.endpoint, 80)
+                 + " yet");
   }
 
   std::string nobody_writes(const io_endpoint& end) const {
@@ -226,6 +243,7 @@ private:
   }
 
   const std::vector<written_step>& steps_;
+  const std::optional<std::vector<io_endpoint>>& topics_;
   std::vector<written_end> written_; ///< The task's own first, in order.
   std::vector<size_t> root_;         ///< Of each step, a step of its group.
   wiring result_;
@@ -235,8 +253,9 @@ private:
 
 wiring find_wiring(const std::string& task,
                    const std::vector<written_step>& steps,
-                   const std::vector<deployed_end>& cell) {
-  return wirer{task, steps, cell}.run();
+                   const std::vector<deployed_end>& cell,
+                   const std::optional<std::vector<io_endpoint>>& topics) {
+  return wirer{task, steps, cell, topics}.run();
 }
 
 } // namespace roscell

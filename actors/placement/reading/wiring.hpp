@@ -4,6 +4,7 @@
 #include "messages/inside/coordination.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,9 +24,11 @@ struct wiring {
 /// that differ; a file that two steps write; a file between steps whose labels
 /// keep them apart. Warnings: a topic that two write, but for transforms, which
 /// many write; what another task writes as well; an external topic that is
-/// written by the task itself.
+/// written by the task itself, or by nobody in `topics` yet, if these are
+/// known.
 wiring find_wiring(const std::string& task,
                    const std::vector<written_step>& steps,
-                   const std::vector<deployed_end>& cell);
+                   const std::vector<deployed_end>& cell,
+                   const std::optional<std::vector<io_endpoint>>& topics = {});
 
 } // namespace roscell

@@ -88,8 +88,9 @@ void adopt_plan_query(const request_context& context, task_plan_query query,
 
 void resolve_skills(const request_context&, claimed_task task,
                     outcome<resolved_task> done) {
-  auto reading = read_task(task.request.task, task.request.pipeline,
-                           {task.cell.skills, task.cell.written});
+  auto reading =
+      read_task(task.request.task, task.request.pipeline,
+                {task.cell.skills, task.cell.written, task.cell.topics});
   if (auto* why = std::get_if<failure>(&reading))
     return done.fail(std::move(*why));
   auto& meant = std::get<task_reading>(reading);

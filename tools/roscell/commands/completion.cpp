@@ -40,6 +40,7 @@ constexpr value_source sources[] = {
     {"CELL", "ids cells"},
     {"TRANSFER", "ids transfers"},
     {"TASK", "ids tasks"},
+    {"TASK|INSTANCE", "ids instances"},
     {"INSTANCE", "ids instances"},
     {"SHELL", "words bash zsh fish"},
     {"COMMAND", "commands"},
@@ -65,6 +66,12 @@ std::string command_case(const CLI::App& command) {
     values += "        " + joined(names, "|") + ") _roscell_"
               + std::string{action_of(names.back())} + "; return ;;\n";
   }
+  std::vector<std::string> below;
+  for (const auto* x :
+       command.get_subcommands([](const auto*) { return true; }))
+    below.push_back(x->get_name());
+  if (!below.empty())
+    arguments = " 'words " + joined(below, " ") + "'";
   auto text = "    " + command.get_name() + ")\n";
   if (!values.empty())
     text += "      case $prev in\n" + values + "      esac\n";

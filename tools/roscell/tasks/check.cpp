@@ -56,10 +56,10 @@ std::optional<reading_context> context_of(const check_options& options,
     return paper;
   }
   if (!options.skills.folders.empty())
-    return reading_context{find_skills(options.skills), {}};
+    return reading_context{find_skills(options.skills), {}, {}};
   if (names_a_cell(options))
-    return reading_context{find_skills(options.skills),
-                           written_in_cell(options)};
+    return reading_context{
+        find_skills(options.skills), written_in_cell(options), {}};
   return std::nullopt;
 }
 

@@ -22,7 +22,7 @@ json task_file::request() const {
 
 task_file read_task_file(const std::string& name) {
   task_file result{name, read_file(name), {}, {}};
-  auto parsed = parse_document(result.text);
+  auto parsed = parse_document(result.text, format_of(name, result.text));
   if (auto* why = std::get_if<failure>(&parsed))
     throw wrong_document{std::move(result), std::move(*why)};
   result.document = std::get<json>(std::move(parsed));

@@ -8,7 +8,8 @@ namespace roscell::test {
 namespace {
 
 failure refusal(const std::string& pipeline) {
-  const auto result = read_task("t", steps_in(pipeline), {vision_skills(), {}});
+  const auto result =
+      read_task("t", steps_in(pipeline), {vision_skills(), {}, {}});
   REQUIRE(std::holds_alternative<failure>(result));
   return std::get<failure>(result);
 }
@@ -28,7 +29,7 @@ TEST_CASE("A task is read with its short forms, skills and wiring",
         {"id": "p", "operation": "poses", "model": "m",
          "input": {"from": "c"}, "parameters": {"tag_size_m": 0.16},
          "output": "/tmp/poses.jsonl"}])"),
-                                {vision_skills(), {}});
+                                {vision_skills(), {}, {}});
   REQUIRE(std::holds_alternative<task_reading>(result));
   const auto& reading = std::get<task_reading>(result);
   REQUIRE(reading.steps.size() == 2);
@@ -70,7 +71,7 @@ TEST_CASE("Steps that share files are told to the search", "[task_reading]") {
          "output": "/tmp/between"},
         {"id": "b", "operation": "echo", "model": "m",
          "input": {"from": "a.between"}, "output": "/tmp/out"}])"),
-                                {vision_skills(), {}});
+                                {vision_skills(), {}, {}});
   REQUIRE(std::holds_alternative<task_reading>(result));
   const auto& steps = std::get<task_reading>(result).steps;
   CHECK(steps[0].together == 1);

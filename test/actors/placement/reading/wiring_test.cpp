@@ -84,6 +84,22 @@ TEST_CASE("An external topic needs no writer, and has none in the task",
   CHECK(says(both.warnings[0], "the topic is external"));
 }
 
+TEST_CASE("An external topic that nobody writes yet is said", "[wiring]") {
+  auto end = topic("/scan");
+  end.external = true;
+  const std::vector<written_step> steps{step("r", {end}, {})};
+  auto x = find_wiring("mine", steps, {}, std::vector<io_endpoint>{});
+  CHECK(x.errors.empty());
+  REQUIRE(x.warnings.size() == 1);
+  CHECK(says(x.warnings[0], R"(nobody writes the external topic "/scan" yet)"));
+  x = find_wiring("mine", steps, {}, std::vector<io_endpoint>{topic("/scan")});
+  CHECK(x.warnings.empty());
+  x = find_wiring("mine", steps, {},
+                  std::vector<io_endpoint>{topic("/scan", "t/msg/T")});
+  REQUIRE(x.warnings.size() == 1);
+  CHECK(says(x.warnings[0], R"(is written as "t/msg/T")"));
+}
+
 TEST_CASE("Types that differ are refused with both places", "[wiring]") {
   const auto x =
       wired({step("w", {}, {topic("/image", "sensor_msgs/msg/CameraInfo")}),
