@@ -59,10 +59,37 @@ std::optional<edge_error> check_version(const std::string& node,
                     "install the same major version of ROSCell on both"};
 }
 
-edge_error wrong_token(const std::string& node) {
+/// Both sides read this, and neither can know whose token is the site's.
+edge_error wrong_token(const session_hello& hello,
+                       const session_challenge& challenge) {
   return {error_code::unauthorized,
-          "node '" + node + "' does not know this site's token",
-          "install the same site token on both nodes"};
+          "the site token of node '" + hello.node + "' is not that of node '"
+              + challenge.node + "' of cell '" + challenge.cell + "'",
+          "give both the same file by --site-token; a copy has the same "
+          "sha256sum"};
+}
+
+/// A proof that the joiner has made, or wanted, without a token.
+edge_error no_token(const session_hello& hello,
+                    const session_challenge& challenge) {
+  return {error_code::unauthorized,
+          "node '" + hello.node + "' has no site token, and cell '"
+              + challenge.cell + "' wants one",
+          "start node '" + hello.node
+              + "' with --site-token and the file that node '" + challenge.node
+              + "' has"};
+}
+
+/// The joiner reads this too, so it names the side that lacks the token.
+edge_error tokenless_acceptor(const session_challenge& self,
+                              const std::string& peer_address) {
+  return {error_code::unauthorized,
+          "node '" + self.node + "' of cell '" + self.cell
+              + "' has no site token, and without one it takes sessions of "
+                "its own host only, not from "
+              + peer_address,
+          "start node '" + self.node
+              + "' with --site-token and the file of the site"};
 }
 
 handshake_step fail(edge_error why, bool tell_peer) {
@@ -91,10 +118,10 @@ std::optional<edge_error> check_token_for(std::string_view token,
   if (!token.empty() || is_loopback(peer_address))
     return std::nullopt;
   return edge_error{error_code::unauthorized,
-                    "a node without a site token speaks with its own host "
-                    "only, not with "
+                    "this node has no site token, and without one it speaks "
+                    "with its own host only, not with "
                         + std::string{peer_address},
-                    "install the site token"};
+                    "start it with --site-token and the file of the site"};
 }
 
 std::string make_nonce() {
@@ -126,8 +153,8 @@ handshake_step acceptor_handshake::receive(std::string_view frame) {
 }
 
 handshake_step acceptor_handshake::on_hello(std::string_view frame) {
-  if (auto refusal = check_token_for(token_, peer_address_))
-    return fail(*refusal, true);
+  if (check_token_for(token_, peer_address_))
+    return fail(tokenless_acceptor(challenge_, peer_address_), true);
   auto decoded = decode_frame<session_hello>(frame);
   if (auto* error = std::get_if<edge_error>(&decoded))
     return fail(*error, true);
@@ -148,7 +175,7 @@ handshake_step acceptor_handshake::on_proof(std::string_view frame) {
     return fail(*error, true);
   const auto expected = keyed_digest(token_, joiner_label, hello_, challenge_);
   if (!is_proof(std::get<session_proof>(decoded).proof, expected))
-    return fail(wrong_token(hello_.node), true);
+    return fail(wrong_token(hello_, challenge_), true);
   agreement_.session = session_id(token_, hello_, challenge_);
   agreement_.keys.send =
       keyed_digest(token_, acceptor_beat_label, hello_, challenge_);
@@ -196,7 +223,9 @@ handshake_step joiner_handshake::on_challenge(std::string_view frame) {
   const auto expected =
       keyed_digest(token_, acceptor_label, hello_, challenge_);
   if (!is_proof(challenge_.proof, expected))
-    return fail(wrong_token(challenge_.node), true);
+    return fail(token_.empty() ? no_token(hello_, challenge_)
+                               : wrong_token(hello_, challenge_),
+                true);
   if (!expected_cell_.empty() && challenge_.cell != expected_cell_)
     return fail({error_code::unknown_cell,
                  "node '" + challenge_.node + "' coordinates cell '"
@@ -223,7 +252,7 @@ handshake_step joiner_handshake::on_accepted(std::string_view frame) {
     return fail(*error, false);
   agreement_.session = session_id(token_, hello_, challenge_);
   if (std::get<session_accepted>(decoded).session != agreement_.session)
-    return fail(wrong_token(challenge_.node), false);
+    return fail(wrong_token(hello_, challenge_), false);
   agreement_.keys.send =
       keyed_digest(token_, joiner_beat_label, hello_, challenge_);
   agreement_.keys.receive =

@@ -267,6 +267,34 @@ TEST_CASE("without a site token a node speaks with its own host only") {
   CHECK(step.reply.find("10.0.0.1") != std::string::npos);
 }
 
+TEST_CASE("both sides read the same of tokens that differ, and of one that is "
+          "missing") {
+  const std::pair<std::string, std::string> rows[] = {
+      {"other",
+       "the site token of node 'robot-1' is not that of node 'base' of cell "
+       "'kitchen'"},
+      {"", "node 'robot-1' has no site token, and cell 'kitchen' wants one"}};
+  for (const auto& [own, words] : rows) {
+    acceptor_handshake acceptor{base, token, loopback};
+    joiner_handshake joiner{robot, own};
+    const auto step = joiner.receive(acceptor.receive(joiner.hello()).reply);
+    check_refused(step, error_code::unauthorized);
+    CHECK(step.failure->message == words);
+    CHECK(step.failure->hint.find("--site-token") != std::string::npos);
+    CHECK(acceptor.receive(step.reply).failure->message == words);
+  }
+}
+
+TEST_CASE("who lacks the token is named to the other side") {
+  acceptor_handshake remote{base, "", "10.0.0.1"};
+  joiner_handshake joiner{robot, token};
+  const auto step = remote.receive(joiner.hello());
+  check_refused(joiner.receive(step.reply), error_code::unauthorized);
+  CHECK(step.failure->message.find("node 'base' of cell 'kitchen' has no site "
+                                   "token")
+        == 0);
+}
+
 TEST_CASE("fields of a frame are checked before they are used") {
   const auto hello = joiner_handshake{robot, token}.hello();
   const std::pair<const char*, json> broken[] = {
