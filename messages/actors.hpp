@@ -171,7 +171,17 @@ using discovery_actor = introspected_actor::extend<
     caf::replies_to<find_coordinator>::with<caf::ok_atom>,
     caf::reacts_to<forget_coordinator>,
     // What is seen is told to the sender.
-    caf::reacts_to<announce_presence>, caf::reacts_to<withdraw_presence>>;
+    caf::reacts_to<announce_presence>, caf::reacts_to<withdraw_presence>,
+    // INTERNAL: alarm number N, to look a peer's name up again.
+    caf::reacts_to<caf::tick_atom, uint64_t>>;
+
+/// The JOIN SCOUT: finds out why a cell cannot be joined at an address.
+using join_scout_actor = introspected_actor::extend<
+    // Errors: unreachable (the name does not resolve), timeout.
+    caf::replies_to<resolve_host>::with<host_resolved>,
+    // No errors: whatever the ports say is an answer.
+    caf::replies_to<scout_address>::with<address_scouted>,
+    caf::reacts_to<scout_settled>>;
 
 /// The MEMBERSHIP: the node's side of belonging to a cell.
 using membership_actor = introspected_actor::extend<
@@ -185,6 +195,9 @@ using membership_actor = introspected_actor::extend<
     caf::replies_to<registration_switch>::with<switch_accepted>,
     // Replies once the coordinator knows, or after a short wait.
     caf::replies_to<leave_cell>::with<node_departed>,
+    // A request that a coordinator answers goes to this node's. It always
+    // replies, as the REQUEST ROUTER does.
+    caf::replies_to<route_request>::with<request_routed>,
     caf::reacts_to<coordinator_found>, caf::reacts_to<presence_seen>,
     caf::reacts_to<presence_gone>, caf::reacts_to<instance_changed>,
     caf::reacts_to<frame_received>, caf::reacts_to<beat_received>,
@@ -289,6 +302,9 @@ using cell_coordinator_actor = introspected_actor::extend<
     caf::replies_to<node_release>::with<node_released>,
     // Errors: unknown_task.
     caf::replies_to<transfer_query>::with<transfer_description>,
+    // From a member, whose user has asked it.
+    caf::replies_to<route_request>::with<request_routed>,
+    caf::reacts_to<serve_members>,
     // INTERNAL: timer number N.
     caf::reacts_to<caf::tick_atom, uint64_t>>;
 
@@ -305,6 +321,7 @@ using handler_pipeline_actor = introspected_actor::extend<
 /// The NODE: root of everything that runs on one machine.
 using node_actor = introspected_actor::extend<
     caf::replies_to<node_query>::with<node_description>,
-    caf::reacts_to<stop_node>>;
+    // What strangers may know.
+    caf::replies_to<hello_query>::with<node_hello>, caf::reacts_to<stop_node>>;
 
 } // namespace roscell

@@ -16,6 +16,7 @@
 #include "messages/inside/link.hpp"
 #include "messages/inside/membership.hpp"
 #include "messages/inside/runtime.hpp"
+#include "messages/inside/scouting.hpp"
 #include "messages/inside/storage.hpp"
 #include "messages/instance.hpp"
 #include "messages/node.hpp"

@@ -67,6 +67,25 @@ struct node_query {
   }
 };
 
+/// An attempt to come into a cell that has not succeeded yet.
+struct join_trouble {
+  /// The discovery server that is tried, as "host:port"; empty: any cell that
+  /// is visible will do.
+  std::string address;
+  std::string trouble;  ///< What is wrong there; empty: nothing is known yet.
+  std::string hint;     ///< What to do about it; may be empty.
+  int64_t attempts = 0; ///< Since the node was in a cell, or was started.
+  int64_t tried_unix_ms = 0; ///< When the last one began.
+
+  static constexpr auto fields() {
+    return field_list{optional("address", &join_trouble::address),
+                      optional("trouble", &join_trouble::trouble),
+                      optional("hint", &join_trouble::hint),
+                      required("attempts", &join_trouble::attempts),
+                      required("tried_unix_ms", &join_trouble::tried_unix_ms)};
+  }
+};
+
 struct node_description {
   static constexpr const char* type = "node_description";
   node_identity identity;
@@ -83,6 +102,7 @@ struct node_description {
   std::vector<actor_row> actors;
   int64_t stored_bytes = 0; ///< Written to the database since the start.
   std::vector<skill_problem> refused_skills; ///< The first of them.
+  std::vector<join_trouble> joining; ///< At most one; empty: it does not try.
 
   static constexpr auto fields() {
     return field_list{
@@ -99,7 +119,45 @@ struct node_description {
         required("instances", &node_description::instances),
         optional("actors", &node_description::actors),
         optional("stored_bytes", &node_description::stored_bytes),
-        optional("refused_skills", &node_description::refused_skills)};
+        optional("refused_skills", &node_description::refused_skills),
+        optional("joining", &node_description::joining)};
+  }
+};
+
+/// Asks a node what anybody may know of it.
+struct hello_query {
+  static constexpr const char* type = "hello_query";
+
+  static constexpr auto fields() {
+    return field_list{};
+  }
+};
+
+/// What a node says of itself to strangers: who wants to join a cell and was
+/// given a wrong address learns from it which one is right.
+struct node_hello {
+  static constexpr const char* type = "node_hello";
+  std::string node; ///< Its name.
+  node_role role = node_role::primary;
+  node_state state = node_state::independent;
+  std::string version;          ///< Of its program.
+  std::string cell;             ///< Empty: in none.
+  std::string coordinator;      ///< Address of the coordinator's HTTP port.
+  std::string discovery_server; ///< Of its cell, as "host:port".
+  int64_t domain_id = 0;        ///< The ROS domain of the cell's skills.
+  int64_t public_domain = 0;    ///< In which coordinators see each other.
+
+  static constexpr auto fields() {
+    return field_list{
+        required("node", &node_hello::node),
+        required("role", &node_hello::role),
+        required("state", &node_hello::state),
+        required("version", &node_hello::version),
+        optional("cell", &node_hello::cell),
+        optional("coordinator", &node_hello::coordinator),
+        optional("discovery_server", &node_hello::discovery_server),
+        required("domain_id", &node_hello::domain_id),
+        required("public_domain", &node_hello::public_domain)};
   }
 };
 

@@ -15,6 +15,8 @@
   X(log_excerpt)                                                               \
   X(node_query)                                                                \
   X(node_description)                                                          \
+  X(hello_query)                                                               \
+  X(node_hello)                                                                \
   X(task_termination)                                                          \
   X(task_terminated)                                                           \
   X(task_restart)                                                              \
@@ -117,6 +119,11 @@
   X(withdraw_presence)                                                         \
   X(presence_seen)                                                             \
   X(presence_gone)                                                             \
+  X(resolve_host)                                                              \
+  X(host_resolved)                                                             \
+  X(scout_address)                                                             \
+  X(address_scouted)                                                           \
+  X(scout_settled)                                                             \
   X(membership_query)                                                          \
   X(membership_state)                                                          \
   X(join_cell)                                                                 \
@@ -141,6 +148,7 @@
   X(task_claimed)                                                              \
   X(route_request)                                                             \
   X(request_routed)                                                            \
+  X(serve_members)                                                             \
   X(process_request)                                                           \
   X(request_processed)                                                         \
   X(stop_node)

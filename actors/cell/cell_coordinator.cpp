@@ -58,6 +58,15 @@ caf::result<log_excerpt> fetch_log(coordinator_pointer self,
   return promise;
 }
 
+/// A member's user is served like one of this node.
+caf::result<request_routed> answer_member(coordinator_pointer self,
+                                          const route_request& request) {
+  const auto& router = self->state.router;
+  if (!router)
+    return fail(error_code::conflict, "the coordinator is still starting");
+  return self->delegate(router, request);
+}
+
 json summary(coordinator_pointer self) {
   const auto& st = self->state;
   return {{"cell", st.setup.cell},       {"incarnation", st.setup.incarnation},
@@ -159,6 +168,8 @@ cell_coordinator(coordinator_pointer self, const house& context,
       [self](const node_transfer& x) { return transfer_node(self, x); },
       [self](const node_release& x) { return release_node(self, x); },
       [self](const transfer_query& x) { return describe_transfers(self, x); },
+      [self](const route_request& x) { return answer_member(self, x); },
+      [self](const serve_members& x) { self->state.router = x.router; },
       [self](caf::tick_atom, uint64_t number) { on_tick(self, number); },
   };
 }

@@ -292,6 +292,24 @@ static_assert(leaving < stopping);
 constexpr milliseconds gathering{200};
 /// How long a discovery server is looked for before the next pause.
 constexpr milliseconds search{5000};
+/// After so much silence the address is looked at, to say what is wrong: the
+/// answer is there well before 5 s are over.
+constexpr milliseconds silence{1500};
+/// For one port to answer the scout,
+constexpr milliseconds scouted_port{1500};
+/// for all it has found out,
+constexpr milliseconds scouted{2500};
+/// and for a host name to be looked up: resolvers try again after 5 s.
+constexpr milliseconds naming{3000};
+/// Names that are being looked up at a time: each has a thread, which a dead
+/// name server holds for long.
+constexpr size_t lookups = 8;
+/// The same trouble is told again after the first pause, then after pauses
+/// each twice the one before.
+constexpr seconds complaint_pause{60};
+constexpr minutes longest_complaint_pause{30};
+/// Different troubles of one series that are told at once.
+constexpr size_t complaints = 8;
 /// A coordinator that has refused once is unlikely to change its mind soon.
 constexpr milliseconds refusal_pause{30'000};
 /// How long a name stays with a node that is silent.
@@ -302,6 +320,8 @@ constexpr milliseconds name_held = lease::span;
 constexpr milliseconds expected_name_held{45'000};
 
 static_assert(retry::longest + search + registration < expected_name_held);
+static_assert(scouted_port < scouted && silence + scouted < search);
+static_assert(naming < search);
 static_assert(row < registration && registration < lease::span);
 static_assert(2 * session::peer_answer < place);
 static_assert(departure < leaving);
@@ -481,7 +501,17 @@ constexpr minutes router{16};
 constexpr size_t remembered = 256;
 constexpr size_t remembered_bytes = 4 * mib;
 
+/// For a coordinator's answer from what it knows that a member passes on: what
+/// the coordinator's end of the session waits for it, and the member.
+constexpr milliseconds forwarded_query = local::answer + seconds{2};
+constexpr milliseconds member_query = forwarded_query + seconds{2};
+/// The same for a request that makes the coordinator do something.
+constexpr milliseconds forwarded = handler + seconds{15};
+constexpr milliseconds member_request = forwarded + seconds{15};
+
 static_assert(task::deployment_answer < handler && handler < router);
+static_assert(local::answer < forwarded_query && handler < forwarded);
+static_assert(member_request < router);
 static_assert(handler < task::claim);
 static_assert(transfer::answer < handler);
 
@@ -638,6 +668,11 @@ constexpr milliseconds survey{60};
 constexpr size_t announcement_bytes = 1024;
 /// So many presences on one host are reached by the host's address alone.
 constexpr unsigned presence_places = 4;
+/// For the names of all peers to be looked up: who waits for discovery has
+/// `local::part` for it.
+constexpr milliseconds peer_names{2000};
+
+static_assert(peer_names < local::part);
 
 static_assert(2 * announcement_period < lease);
 

@@ -1,9 +1,11 @@
 #include "actors/membership/discovery.hpp"
 
 #include "actors/edge/dds/announcement.hpp"
+#include "actors/edge/io/name_lookup.hpp"
 #include "actors/edge/io/plain_text.hpp"
 #include "actors/edge/io/socket_address.hpp"
 #include "actors/house/edge_failure.hpp"
+#include "actors/house/limits.hpp"
 #include "messages/failure.hpp"
 
 #include <caf/actor_cast.hpp>
@@ -117,14 +119,33 @@ announcement to_announcement(const node_presence& x) {
   return result;
 }
 
+/// The peers in numbers. A name that does not resolve is told of once, and
+/// looked up again later: who is not there yet may come.
+std::vector<std::string> find_peers(discovery_self self) {
+  auto& st = self->state;
+  auto found = await_hosts(st.config.peers, limits::discovery::peer_names);
+  if (found.trouble.empty()) {
+    st.pause.reset();
+  } else {
+    if (st.unresolved != found.trouble)
+      st.context.tell("edge_trouble", st.config.node,
+                      {{"message", "--peer: " + found.trouble}});
+    st.timer.set(self, self->clock().now() + st.pause.next());
+  }
+  st.unresolved = std::move(found.trouble);
+  return std::move(found.addresses);
+}
+
 /// Opens the public participant. Who cannot announce itself goes on without:
 /// it can still join by an address.
-void appear(discovery_self self, const presence_listener_actor& listener) {
+void appear(discovery_self self, std::vector<std::string> peers) {
   auto& st = self->state;
+  const auto& listener = st.listener;
   presence_options options;
   options.address = st.config.address;
   options.domain_id = st.config.public_domain_id;
-  options.peers = st.config.peers;
+  options.peers = std::move(peers);
+  st.peers = options.peers;
   options.announcement = st.announced;
   presence_events events;
   events.on_seen = [context = st.context, listener](const announcement& said) {
@@ -144,11 +165,26 @@ void appear(discovery_self self, const presence_listener_actor& listener) {
 void announce(discovery_self self, const announce_presence& wish) {
   auto& st = self->state;
   st.announced = encode(to_announcement(wish.self));
-  if (st.presence)
+  if (st.presence) {
     st.presence->update(st.announced);
-  else
-    appear(self,
-           caf::actor_cast<presence_listener_actor>(self->current_sender()));
+  } else {
+    st.listener =
+        caf::actor_cast<presence_listener_actor>(self->current_sender());
+    appear(self, find_peers(self));
+  }
+}
+
+/// Looks the peers' names up again. A participant keeps the peers that it was
+/// made with, so new ones need another.
+void on_tick(discovery_self self, uint64_t number) {
+  auto& st = self->state;
+  if (!st.timer.rings(number) || !st.presence)
+    return;
+  auto peers = find_peers(self);
+  if (peers == st.peers)
+    return;
+  st.presence.reset();
+  appear(self, std::move(peers));
 }
 
 void withdraw(discovery_self self) {
@@ -172,6 +208,7 @@ discovery_actor::behavior_type discovery(discovery_self self,
       [self](const forget_coordinator&) { forget(self); },
       [self](const announce_presence& wish) { announce(self, wish); },
       [self](const withdraw_presence&) { withdraw(self); },
+      [self](caf::tick_atom, uint64_t number) { on_tick(self, number); },
   };
 }
 

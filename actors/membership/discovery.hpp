@@ -2,6 +2,8 @@
 
 #include "actors/edge/dds/discovery_client.hpp"
 #include "actors/edge/dds/public_presence.hpp"
+#include "actors/house/alarm.hpp"
+#include "actors/house/backoff.hpp"
 #include "actors/house/house.hpp"
 #include "messages/messages.hpp"
 
@@ -18,7 +20,7 @@ struct discovery_config {
   std::string node; ///< Name, for the announcement.
   std::string uuid;
   uint32_t public_domain_id = 99;
-  std::vector<std::string> peers; ///< "ADDR[:PORT]" besides multicast.
+  std::vector<std::string> peers; ///< "HOST[:PORT]" besides multicast.
 };
 
 /// Owns the participants of a node: its CLIENT, and the public one. Making and
@@ -32,6 +34,11 @@ struct discovery_state {
   std::unique_ptr<cell_client> client;
   std::string announced; ///< In wire form; empty: nothing.
   std::unique_ptr<public_presence> presence;
+  presence_listener_actor listener; ///< Of `presence`.
+  std::vector<std::string> peers;   ///< Of `presence`, in numbers.
+  std::string unresolved;           ///< What was told of peers' names last.
+  backoff pause;                    ///< Until they are looked up again.
+  alarm timer;
 };
 
 /// The DISCOVERY edge. Messages: messages/inside/link.hpp. Whoever asks for a

@@ -20,6 +20,8 @@ void set_timer(self_pointer self) {
     when = std::min(when, st.life.next());
   if (st.phase == phase::waiting || st.phase == phase::searching)
     when = std::min(when, st.deadline);
+  if (is_looking(st))
+    when = std::min(when, st.look_due);
   if (when != membership_status::time_point::max())
     st.timer.set(self, when);
 }
@@ -44,7 +46,7 @@ void finish_leaving(self_pointer self) {
   st.address.clear();
   st.incarnation = 0;
   st.trouble.clear();
-  st.refusal.clear();
+  st.report.clear();
   st.pause.reset();
   for (auto& leaver : std::exchange(st.leavers, {}))
     leaver.deliver(node_departed{});
@@ -146,6 +148,8 @@ void on_tick(self_pointer self, uint64_t number) {
     try_again(self);
   else if (st.phase == phase::searching && now >= st.deadline)
     on_search_over(self);
+  else if (is_looking(st) && now >= st.look_due)
+    look_around(self);
   st.frames.calls().expire(now);
   keep_lease(self);
   set_timer(self);
@@ -169,7 +173,13 @@ actor_state describe(const membership_status& st) {
 }
 
 membership_state answer(const membership_status& st) {
-  return {st.config.identity, st.standing, st.cell, st.address};
+  const bool member = st.standing == node_state::member;
+  return {st.config.identity,
+          st.standing,
+          st.cell,
+          st.address,
+          st.wanted,
+          member ? std::vector<join_trouble>{} : st.report.rows()};
 }
 
 } // namespace
@@ -210,6 +220,7 @@ membership_actor::behavior_type membership(self_pointer self, house context,
         return promise;
       },
       [self](const leave_cell& wish) { return on_leave(self, wish); },
+      [self](const route_request& x) { return pass_on(self, x); },
       [self](const coordinator_found& found) { on_found(self, found); },
       [self](const presence_seen& x) { on_presence_seen(self, x.who); },
       [self](const presence_gone& x) { on_presence_gone(self, x.who); },

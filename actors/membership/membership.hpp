@@ -5,6 +5,7 @@
 #include "actors/house/backoff.hpp"
 #include "actors/house/house.hpp"
 #include "actors/membership/coordinators_seen.hpp"
+#include "actors/membership/join_report.hpp"
 #include "actors/session/lease.hpp"
 #include "actors/session/session_exchange.hpp"
 #include "messages/messages.hpp"
@@ -28,6 +29,7 @@ struct membership_parts {
   node_agent_actor agent; ///< Does what the coordinator asks for.
   container_supervisor_actor supervisor;
   state_store_actor store;
+  join_scout_actor scout;
 };
 
 /// What a membership is told at its start.
@@ -37,8 +39,10 @@ struct membership_config {
   std::vector<skill_problem> refused_skills;
   /// As an earlier run has stored it. One of a cell is taken up at once.
   std::optional<membership_record> restored;
-  std::string configured; ///< How the node is started now; see the record.
-  std::string site_token; ///< Proves switches; empty: none is installed.
+  std::string configured;    ///< How the node is started now; see the record.
+  std::string site_token;    ///< Proves switches; empty: none is installed.
+  int64_t domain_id = 0;     ///< The ROS domain that this node uses.
+  int64_t public_domain = 0; ///< In which it sees others.
 };
 
 /// Whether the node goes on where an earlier run of it was: it is started in
@@ -85,7 +89,8 @@ struct membership_status {
 
   node_state standing = node_state::independent;
   membership_phase phase = membership_phase::resting;
-  std::string wanted;                      ///< Discovery server; empty: none.
+  /// Discovery server, as "host:port"; empty: none.
+  std::string wanted;
   join_origin origin = join_origin::given; ///< Why that one.
   bool seeking = false; ///< Wants a place wherever there is one.
 
@@ -112,7 +117,12 @@ struct membership_status {
   time_point deadline; ///< Of `waiting` and `searching`.
   backoff pause;
   std::string trouble; ///< Why the last attempt failed.
-  std::string refusal; ///< The last one that was told as an event.
+
+  join_report report; ///< How the attempts go, for people.
+  /// When the wanted address is looked at; max(): never.
+  time_point look_due = time_point::max();
+  std::string server_address; ///< Of `wanted`, in numbers, once it is known.
+  bool diagnosed = false;     ///< The present attempt has been explained.
 
   /// What an attempt has gathered so far.
   std::optional<coordinator_found> older; ///< Found, with an old incarnation.
@@ -133,10 +143,10 @@ struct membership_status {
 };
 
 /// The MEMBERSHIP. Messages: messages/inside/membership.hpp. Events:
-/// cell_joined, cell_left, coordinator_lost, join_refused, switch_accepted,
-/// switch_failed, each about this node. It stores its identity in table
-/// "identity" under the key "node" before every registration and every switch,
-/// with the epoch raised, and its `membership_record` under the key
+/// cell_joined, cell_left, coordinator_lost, join_refused, join_failed,
+/// switch_accepted, switch_failed, each about this node. It stores its identity
+/// in table "identity" under the key "node" before every registration and every
+/// switch, with the epoch raised, and its `membership_record` under the key
 /// "membership" when it changes.
 membership_actor::behavior_type
 membership(membership_actor::stateful_pointer<membership_status> self,

@@ -1,4 +1,6 @@
 #include "actors/house/limits.hpp"
+#include "actors/house/wall_clock.hpp"
+#include "actors/membership/join_words.hpp"
 #include "actors/membership/membership_steps.hpp"
 
 #include <utility>
@@ -52,7 +54,7 @@ void on_registered(self_pointer self, const node_registered& reply) {
   st.address = st.found_address;
   st.joined_at = self->clock().now();
   st.trouble.clear();
-  st.refusal.clear();
+  st.report.clear();
   st.switching.reset();
   withdraw_presence_now(self);
   store_membership(self);
@@ -124,7 +126,10 @@ void maybe_register(self_pointer self) {
 std::string expected_cell(const membership_status& st) {
   if (st.switching)
     return st.switching->order.target.front().cell;
-  return st.standing == node_state::orphaned ? st.cell : std::string{};
+  // The coordinator compares the UUID itself; a cell may have a new name.
+  return st.standing == node_state::orphaned && st.cell_uuid.empty()
+             ? st.cell
+             : std::string{};
 }
 
 void on_opened(self_pointer self, const session_opened& reply) {
@@ -220,9 +225,14 @@ void retreat(self_pointer self, const std::string& reason,
 void on_error(self_pointer self, const caf::error& err) {
   const auto why = to_failure(err);
   if (is_refusal(why.code))
-    attempt_refused(self, why.message, why.hint);
-  else
-    attempt_failed(self, why.message);
+    return attempt_refused(self, why.message, why.hint);
+  const auto& st = self->state;
+  const bool no_way =
+      why.code == error_code::unreachable || why.code == error_code::timeout;
+  if (st.phase != phase::opening || !no_way)
+    return attempt_failed(self, why.message, why.hint);
+  const auto told = diagnose_session(st.found_address, why.message);
+  attempt_failed(self, told.trouble, told.hint);
 }
 
 void try_again(self_pointer self) {
@@ -245,9 +255,10 @@ void begin_attempt(self_pointer self) {
   st.instances.reset();
   st.registration_sent = false;
   st.unsent.clear();
-  self->request(st.parts.discovery, limits::local::part,
-                find_coordinator{st.wanted})
-      .then([](caf::ok_atom) {}, give_up(self));
+  st.report.begin(st.wanted, unix_now_ms());
+  find_server(self);
+  if (st.phase != phase::searching)
+    return;
   // Measuring takes a while; it goes on beside the search.
   self->request(st.parts.agent,
                 limits::session::resource_query - limits::session::margin,
@@ -287,9 +298,13 @@ void on_search_over(self_pointer self) {
     attempt_failed(self, "no coordinator answers at " + st.wanted);
 }
 
-void attempt_failed(self_pointer self, const std::string& reason) {
+void attempt_failed(self_pointer self, const std::string& reason,
+                    const std::string& hint) {
   if (give_up_switch(self, reason))
     return;
+  // Who has looked around knows better than who has waited in vain.
+  if (!std::exchange(self->state.diagnosed, false))
+    complain(self, reason, hint);
   forget_place(self);
   retreat(self, reason, self->state.pause.next());
 }
@@ -301,13 +316,12 @@ void attempt_refused(self_pointer self, const std::string& reason,
     return;
   if (st.standing == node_state::joining)
     st.standing = node_state::independent;
-  if (st.refusal != reason) {
+  if (st.report.note(reason, hint, self->clock().now())) {
     json data{{"reason", reason}, {"discovery_server", st.wanted}};
     if (!hint.empty())
       data["hint"] = hint;
     tell(self, "join_refused", std::move(data));
   }
-  st.refusal = reason;
   forget_place(self);
   retreat(self, reason, limits::membership::refusal_pause);
 }

@@ -1,4 +1,5 @@
 #include "actors/house/limits.hpp"
+#include "actors/house/wall_clock.hpp"
 #include "actors/membership/membership_steps.hpp"
 
 #include <algorithm>
@@ -41,6 +42,7 @@ void ask_for_place(self_pointer self, const session_opened& reply) {
 void open_to(self_pointer self, const node_presence& giver) {
   auto& st = self->state;
   ++st.attempt;
+  st.report.begin({}, unix_now_ms());
   st.phase = phase::asking;
   st.asked = giver.uuid;
   if (st.standing == node_state::independent)
@@ -145,6 +147,11 @@ void seek_place(self_pointer self) {
   st.phase = phase::resting;
   if (st.standing == node_state::joining)
     st.standing = node_state::independent;
+  if (!st.seeking)
+    return;
+  st.report.begin({}, unix_now_ms());
+  st.look_due = self->clock().now() + limits::membership::silence;
+  set_timer(self);
 }
 
 void forget_place(self_pointer self) {

@@ -27,7 +27,8 @@ void on_found(self_pointer self, const coordinator_found& found);
 /// The time of `searching` is over.
 void on_search_over(self_pointer self);
 /// The attempt came to nothing; the next one follows after a pause.
-void attempt_failed(self_pointer self, const std::string& reason);
+void attempt_failed(self_pointer self, const std::string& reason,
+                    const std::string& hint = {});
 /// The coordinator does not want this node; asked again, but slowly.
 void attempt_refused(self_pointer self, const std::string& reason,
                      const std::string& hint = {});
@@ -39,6 +40,24 @@ void retreat(self_pointer self, const std::string& reason,
 /// What to do when a request of the present attempt has failed.
 void on_error(self_pointer self, const caf::error& why);
 bool is_current(self_pointer self, uint64_t attempt, membership_phase where);
+
+// -- membership_scouting.cpp: why nobody answers ------------------------------
+
+/// Has the discovery server looked for whose address, or name, is wanted.
+void find_server(self_pointer self);
+/// Whether what is tried is to be looked at when there has been no answer.
+bool is_looking(const membership_status& st);
+/// There has been no answer for some time: finds out why, and tells it.
+void look_around(self_pointer self);
+/// Tells why the node is in no cell, unless that has just been told.
+void complain(self_pointer self, const std::string& trouble,
+              const std::string& hint);
+
+// -- membership_forwarding.cpp: what only a coordinator can answer ------------
+
+/// Has the coordinator answer a request of this node's user.
+caf::result<request_routed> pass_on(self_pointer self,
+                                    const route_request& request);
 
 // -- membership_places.cpp: being seen, seeing others, asking for a place -----
 

@@ -61,6 +61,7 @@ void ask_membership(node_pointer self, const shared_draft& draft) {
             draft->result.state = x.state;
             draft->result.cell = x.cell;
             draft->result.coordinator = x.coordinator;
+            draft->result.joining = x.joining;
             draft->finish_one();
           },
           [draft](const caf::error&) { draft->finish_one(); });
@@ -89,6 +90,51 @@ caf::result<node_description> describe(node_pointer self,
           [draft](const caf::error&) { draft->finish_one(); });
   ask_membership(self, draft);
   return draft->promise;
+}
+
+node_hello first_hello(node_pointer self) {
+  const auto& parts = self->state.parts;
+  node_hello result;
+  result.node = parts.identity.name;
+  result.version = version;
+  result.domain_id = parts.config.ros_domain_id;
+  result.public_domain = parts.config.public_domain_id;
+  if (parts.config.coordinator) {
+    result.role = node_role::coordinator;
+    result.state = node_state::member;
+    result.cell = parts.config.cell;
+    result.coordinator = parts.identity.address;
+    result.discovery_server = parts.edges->discovery_server;
+  }
+  return result;
+}
+
+/// Only a member knows where its cell is joined.
+void introduce(node_hello& result, const membership_state& x) {
+  result.state = x.state;
+  if (x.state != node_state::member)
+    return;
+  result.cell = x.cell;
+  result.coordinator = x.coordinator;
+  result.discovery_server = x.discovery_server;
+}
+
+caf::result<node_hello> greet(node_pointer self) {
+  auto result = first_hello(self);
+  const auto& membership = self->state.parts.services->membership;
+  if (!membership)
+    return result;
+  auto promise = self->make_response_promise<node_hello>();
+  self->request(membership, limits::local::part, membership_query{})
+      .then(
+          [promise, result](const membership_state& x) mutable {
+            introduce(result, x);
+            promise.deliver(std::move(result));
+          },
+          [promise](caf::error& why) mutable {
+            promise.deliver(std::move(why));
+          });
+  return promise;
 }
 
 /// The last step: instances go on, everything else ends, and the node with it.
@@ -147,6 +193,7 @@ node_actor::behavior_type node(node_pointer self, const node_parts& parts) {
                          {"children", st.parts.children.size()}});
       },
       [self](const node_query& query) { return describe(self, query); },
+      [self](const hello_query&) { return greet(self); },
       [self](const stop_node&) { stop(self); },
   };
 }

@@ -6,6 +6,7 @@
 #include "actors/house/edge_failure.hpp"
 #include "actors/instances/container_supervisor.hpp"
 #include "actors/membership/discovery.hpp"
+#include "actors/membership/join_scout.hpp"
 #include "actors/membership/membership.hpp"
 #include "actors/node/event_log.hpp"
 #include "actors/node/node.hpp"
@@ -91,13 +92,13 @@ caf::error complete(node_config& config) {
                 "", "leave out --wait");
   if (config.join.empty())
     return caf::none;
-  const auto server = parse_socket_address(config.join, default_discovery_port);
+  const auto server = parse_host_address(config.join, default_discovery_port);
   if (!server)
     return fail(
         error_code::schema_violation,
         "'" + config.join + "' is not the address of a discovery server", "",
-        "give --join ADDR[:PORT], such as 10.0.0.1 or "
-        "10.0.0.1:11811");
+        "give --join HOST[:PORT], such as 10.0.0.1, 10.0.0.1:11811 or "
+        "base.local");
   config.join = to_string(*server);
   return caf::none;
 }
@@ -266,6 +267,8 @@ private:
     result.restored = data_.membership;
     result.configured = config.wait ? "wait" : config.join;
     result.site_token = data_.site_token;
+    result.domain_id = config.ros_domain_id;
+    result.public_domain = config.public_domain_id;
     return result;
   }
 
@@ -277,6 +280,8 @@ private:
     with.agent = parts_.agent;
     with.supervisor = parts_.services->supervisor;
     with.store = store_;
+    with.scout = start(
+        join_scout, join_scout_config{parts_.edges->io.get(), config.address});
     const auto how = membership_setup();
     auto member = start(membership, parts_.context, with, how);
     parts_.services->membership = member;
@@ -295,6 +300,8 @@ private:
     parts_.router =
         start(request_router, registry,
               std::shared_ptr<const node_services>(parts_.services));
+    if (const auto& coordinator = parts_.services->coordinator)
+      caf::anon_send(coordinator, serve_members{parts_.router});
     parts_.services->node = spawn(system_, parts_.context, node, parts_);
     parts_.edges->handler->set(
         make_rest_handler(system_, {parts_.context, parts_.router}));

@@ -21,10 +21,10 @@ struct node_config {
   /// coordinator has.
   std::optional<uint8_t> server_id;
   uint8_t ros_domain_id = 0;
-  std::string join;  ///< "ADDR[:PORT]" of a discovery server; empty: none.
+  std::string join;  ///< "HOST[:PORT]" of a discovery server; empty: none.
   bool wait = false; ///< Do not ask for a place: wait to be chosen.
   uint8_t public_domain_id = 99;  ///< Where nodes of the site see each other.
-  std::vector<std::string> peers; ///< "ADDR[:PORT]", besides multicast.
+  std::vector<std::string> peers; ///< "HOST[:PORT]", besides multicast.
   bool rebalance = true; ///< The cell may be evened out. Coordinators only.
   bool force = false;    ///< Take a cell name that is in use.
   /// auto, process, docker[:SOCKET] or podman[:SOCKET].

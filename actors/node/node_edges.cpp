@@ -3,6 +3,7 @@
 #include "actors/edge/dds/announcement.hpp"
 #include "actors/edge/dds/site_survey.hpp"
 #include "actors/edge/http/http_paths.hpp"
+#include "actors/edge/io/name_lookup.hpp"
 #include "actors/house/edge_failure.hpp"
 #include "actors/house/limits.hpp"
 #include "actors/session/wire_session.hpp"
@@ -28,7 +29,7 @@ caf::error open_http(const node_config& config, const node_data& data,
   options.port = config.http_port;
   options.socket_path = edges.socket_path = socket_path(config);
   options.token = data.token;
-  options.public_paths.push_back(registration_path);
+  options.public_paths = {registration_path, hello_path};
   options.handler = [handler = edges.handler](http_request request,
                                               const responder& answer) {
     (*handler)(std::move(request), answer);
@@ -55,7 +56,10 @@ caf::error survey(const node_config& config, const node_data& data,
   presence_options options;
   options.address = config.address;
   options.domain_id = config.public_domain_id;
-  options.peers = config.peers;
+  // Names that do not resolve yet are looked up again when the node announces
+  // itself, which tells of them.
+  options.peers =
+      await_hosts(config.peers, limits::discovery::peer_names).addresses;
   const auto claims_our_name = [&](const announcement& x) {
     return x.role == "coordinator" && x.cell == config.cell
            && x.uuid != data.identity.uuid;

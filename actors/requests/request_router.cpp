@@ -140,13 +140,16 @@ bool recall(request_router_self self, const std::string& id,
   return true;
 }
 
-failure unknown_type(const std::string& type, bool coordinates) {
-  failure why{error_code::unknown_type,
-              "this node has no handler for '" + type + "'", "/type"};
-  if (!coordinates)
-    why.hint = "send it to the coordination node of the cell; "
-               "`roscell status` tells its address";
-  return why;
+/// What no handler of this node takes: on a member it is the coordinator's.
+caf::result<request_routed> pass_on(request_router_self self,
+                                    const std::string& type,
+                                    const json& document) {
+  const auto& membership = self->state.services->membership;
+  if (!membership)
+    return refusal(self,
+                   {error_code::unknown_type,
+                    "this node has no handler for '" + type + "'", "/type"});
+  return self->delegate(membership, route_request{document.dump(), ""});
 }
 
 caf::result<request_routed> route(request_router_self self,
@@ -170,8 +173,7 @@ caf::result<request_routed> route(request_router_self self,
                           "/type", "send it to /v1/requests"});
   const auto* run = st.registry->find(type);
   if (!run)
-    return refusal(
-        self, unknown_type(type, static_cast<bool>(st.services->coordinator)));
+    return pass_on(self, type, document);
   const auto id = document.value("request_id", "");
   auto promise = self->make_response_promise<request_routed>();
   if (!id.empty()) {

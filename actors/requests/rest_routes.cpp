@@ -32,7 +32,7 @@ failure not_found(const http_request& request) {
   return {error_code::unknown_type,
           request.method + " " + request.path + " is not known here", "",
           "the paths are /v1/requests (POST), /v1/registration (GET and POST), "
-          "/v1/node, /v1/cell, /v1/cells, "
+          "/v1/hello, /v1/node, /v1/cell, /v1/cells, "
           "/v1/tasks, /v1/instances, /v1/instances/{id}/logs, /v1/skills, "
           "/v1/events and /healthz"};
 }
@@ -101,6 +101,8 @@ rest_route query_route(const http_request& request,
   if (parts.size() == 2) {
     if (what == "node")
       return ask({{"type", "node_query"}, {"actors", flag(request, "actors")}});
+    if (what == "hello")
+      return ask({{"type", "hello_query"}});
     if (what == "cell")
       return ask({{"type", "cell_query"}});
     if (what == "cells")

@@ -2,7 +2,9 @@
 
 #include "actors/house/limits.hpp"
 #include "actors/house/wall_clock.hpp"
+#include "actors/session/forwarded_requests.hpp"
 #include "actors/session/long_starts.hpp"
+#include "schemas/document.hpp"
 
 #include <caf/typed_response_promise.hpp>
 
@@ -174,6 +176,29 @@ void on_place_request(member_self self, uint64_t id, const json& body) {
           });
 }
 
+/// The node's user asks what only a coordinator can answer. It is answered
+/// here, so it goes no further.
+void on_forwarded(member_self self, uint64_t id, const json& body,
+                  std::chrono::milliseconds limit) {
+  self->request(self->state.coordinator, limit, route_request{body.dump(), ""})
+      .then(
+          [self, id](const request_routed& reply) {
+            if (reply.text.size() > limits::session::frame_bytes)
+              return refuse_call(
+                  self, id,
+                  {error_code::conflict,
+                   "the answer is too large for a session between nodes"});
+            auto parsed = parse_document(reply.text);
+            if (const auto* why = std::get_if<failure>(&parsed))
+              refuse_call(self, id, *why);
+            else
+              self->state.frames.answer(id, std::get<json>(parsed));
+          },
+          [self, id](const caf::error& why) {
+            refuse_call(self, id, to_failure(why));
+          });
+}
+
 void on_request(member_self self, uint64_t id, const session_inquiry& x) {
   const auto type = x.type();
   if (type == place_request::type && self->state.phase == phase::awaiting)
@@ -189,6 +214,8 @@ void on_request(member_self self, uint64_t id, const session_inquiry& x) {
   }
   if (type == node_departure::type)
     return on_departure(self, id, x.body);
+  if (const auto waits = forwarding_of(type))
+    return on_forwarded(self, id, x.body, waits->coordinator);
   refuse_call(
       self, id,
       {error_code::unknown_type, "a member may not ask for this", "/type"});

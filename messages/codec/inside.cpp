@@ -5,6 +5,7 @@
 #include "messages/inside/introspection.hpp"
 #include "messages/inside/link.hpp"
 #include "messages/inside/runtime.hpp"
+#include "messages/inside/scouting.hpp"
 #include "messages/inside/storage.hpp"
 
 namespace roscell {
@@ -34,6 +35,7 @@ ROSCELL_DESCRIBED(claim_task)
 ROSCELL_DESCRIBED(task_claimed)
 ROSCELL_DESCRIBED(route_request)
 ROSCELL_DESCRIBED(request_routed)
+ROSCELL_DESCRIBED(serve_members)
 ROSCELL_DESCRIBED(process_request)
 ROSCELL_DESCRIBED(request_processed)
 ROSCELL_DESCRIBED(stop_node)
@@ -66,6 +68,12 @@ ROSCELL_DESCRIBED(announce_presence)
 ROSCELL_DESCRIBED(withdraw_presence)
 ROSCELL_DESCRIBED(presence_seen)
 ROSCELL_DESCRIBED(presence_gone)
+ROSCELL_DESCRIBED(resolve_host)
+ROSCELL_DESCRIBED(host_resolved)
+ROSCELL_DESCRIBED(scout_address)
+ROSCELL_DESCRIBED(scouted_port)
+ROSCELL_DESCRIBED(address_scouted)
+ROSCELL_DESCRIBED(scout_settled)
 ROSCELL_DESCRIBED(prepare_image)
 ROSCELL_DESCRIBED(image_prepared)
 ROSCELL_DESCRIBED(start_container)

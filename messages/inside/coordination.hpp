@@ -291,6 +291,15 @@ struct request_routed {
   }
 };
 
+/// Whom the COORDINATOR gives what its members ask on behalf of their users.
+struct serve_members {
+  request_router_actor router;
+
+  static constexpr auto fields() {
+    return field_list{required("router", &serve_members::router)};
+  }
+};
+
 /// Begins the work on the request that the pipeline was made for.
 struct process_request {
   static constexpr auto fields() {

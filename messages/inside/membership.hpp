@@ -5,6 +5,7 @@
 #include "messages/inside/runtime.hpp"
 
 #include <string>
+#include <vector>
 
 namespace roscell {
 
@@ -19,19 +20,24 @@ struct membership_state {
   node_identity identity;
   node_state state = node_state::independent;
   std::string cell;
-  std::string coordinator; ///< Address of the coordinator's HTTP port.
+  std::string coordinator;      ///< Address of the coordinator's HTTP port.
+  std::string discovery_server; ///< Of the cell, as "host:port".
+  std::vector<join_trouble> joining; ///< At most one; empty: it does not try.
 
   static constexpr auto fields() {
-    return field_list{required("identity", &membership_state::identity),
-                      required("state", &membership_state::state),
-                      required("cell", &membership_state::cell),
-                      required("coordinator", &membership_state::coordinator)};
+    return field_list{
+        required("identity", &membership_state::identity),
+        required("state", &membership_state::state),
+        required("cell", &membership_state::cell),
+        required("coordinator", &membership_state::coordinator),
+        required("discovery_server", &membership_state::discovery_server),
+        required("joining", &membership_state::joining)};
   }
 };
 
 /// Joins the cell of a given discovery server, now and after every loss.
 struct join_cell {
-  std::string discovery_server; ///< "ip:port"
+  std::string discovery_server; ///< "host:port", an IPv4 address or a name.
 
   static constexpr auto fields() {
     return field_list{

@@ -46,8 +46,22 @@ TEST_CASE("a cell refuses an orphan of another cell at its address",
   x.place.start(x.other);
   x.place.pass(60s);
   CHECK(x.node.status().standing == node_state::orphaned);
-  CHECK(x.node.status().refusal.find("another cell") != std::string::npos);
+  REQUIRE(x.node.status().report.rows().size() == 1);
+  CHECK(x.node.status().report.rows()[0].trouble.find("another cell")
+        != std::string::npos);
   CHECK_FALSE(x.other.cell_state().registry.find_uuid(x.node.uuid));
+}
+
+TEST_CASE("an orphan returns to its cell under the cell's new name",
+          "[cell_uuid]") {
+  two_of_one_name x;
+  x.place.kill(x.own);
+  x.own.cell = "renamed";
+  x.place.start(x.own);
+  x.place.pass(60s);
+  CHECK(x.node.status().standing == node_state::member);
+  CHECK(x.node.status().cell == "renamed");
+  CHECK(x.own.cell_state().registry.find_uuid(x.node.uuid));
 }
 
 TEST_CASE("a member remembers its cell's UUID over a restart", "[cell_uuid]") {

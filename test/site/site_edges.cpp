@@ -234,6 +234,7 @@ caf::behavior site_edge(caf::event_based_actor* self, site* place,
   const caf::message_handler outside{
       [=](const announce_presence& x) { announce(place, me, x.self); },
       [=](const withdraw_presence&) { place->withdraw(*me); },
+      [](const scout_address&) { return address_scouted{}; },
       [=](const find_coordinator& x) {
         me->looking_for = x.address;
         place->look_up(*me);

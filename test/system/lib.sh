@@ -30,6 +30,7 @@ declare -A pid
 inside=()
 runtime=process
 discovery_port=0
+http_port=0
 # Nodes of one test see each other, and no others on this machine.
 public_domain=$((20 + BASHPID % 200))
 start_node() {
@@ -39,7 +40,7 @@ start_node() {
   mkfifo "$ready"
   exec {ready_fd}<> "$ready"
   "${inside[@]}" "$ROSCELL" node --name "$name" --data-dir "$scratch/$name" \
-    --port 0 --discovery-port "$discovery_port" --skills "$skills" \
+    --port "$http_port" --discovery-port "$discovery_port" --skills "$skills" \
     --public-domain "$public_domain" \
     --runtime "$runtime" \
     --ready-fd 5 "$@" 5> "$ready" 2>> "$scratch/$name.log" &

@@ -26,6 +26,14 @@ TEST_CASE("the journal tells in sentences of the node's cell", "[tools]") {
                           R"({"discovery_server":"10.0.0.1:11811",)"
                           R"("reason":"the site token is another one"})"))
         == "cannot join at 10.0.0.1:11811: the site token is another one");
+  CHECK(journal_line(fact("join_failed",
+                          R"({"discovery_server":"10.0.0.1:11811",)"
+                          R"("reason":"nothing listens there",)"
+                          R"("hint":"is it running?","attempts":1})"))
+        == "not joined yet at 10.0.0.1:11811: nothing listens there "
+           "(is it running?)");
+  CHECK(journal_line(fact("join_failed", R"({"reason":"nobody is visible"})"))
+        == "in no cell yet: nobody is visible");
 }
 
 TEST_CASE("the journal tells any other fact with its particulars", "[tools]") {
@@ -40,8 +48,8 @@ TEST_CASE("a line of the journal is one line", "[tools]") {
 }
 
 TEST_CASE("losses and failures are warnings", "[tools]") {
-  for (const auto* what :
-       {"node_lost", "coordinator_lost", "task_failed", "join_refused"})
+  for (const auto* what : {"node_lost", "coordinator_lost", "task_failed",
+                           "join_refused", "join_failed"})
     CHECK(loudness_of(fact(what, "")) == loudness::warning);
   CHECK(loudness_of(fact("node_joined", "")) == loudness::info);
   CHECK(loudness_of(fact("instance_changed", R"({"state":"failed"})"))

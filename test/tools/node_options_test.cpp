@@ -128,11 +128,13 @@ TEST_CASE("a node that waits neither joins nor coordinates", "[tools]") {
   CHECK(refusal(coordinating) != "");
 }
 
-TEST_CASE("a peer is an IPv4 address, with or without a port", "[tools]") {
+TEST_CASE("a peer is an IPv4 address or a name, with or without a port",
+          "[tools]") {
   node_options options;
-  options.config.peers = {"10.0.0.1", "10.0.0.2:7410"};
+  options.config.peers = {"10.0.0.1", "10.0.0.2:7410", "robot",
+                          "base.local:7410"};
   CHECK(refusal(options).empty());
-  for (const auto* peer : {"", "robot", "10.0.0", "10.0.0.1:", "10.0.0.1:0",
+  for (const auto* peer : {"", "-robot", "10.0.0", "10.0.0.1:", "10.0.0.1:0",
                            "10.0.0.1:65536", "10.0.0.1:80x", "::1"}) {
     options.config.peers = {"10.0.0.1", peer};
     CHECK(refusal(options).find("--peer: '" + std::string{peer} + "'") == 0);

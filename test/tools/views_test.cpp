@@ -222,6 +222,34 @@ TEST_CASE("a status shows the node, its resources and instances", "[tools]") {
   CHECK_FALSE(has(text, "coordinator"));
 }
 
+TEST_CASE("a status tells what is tried to join, and what is wrong",
+          "[tools]") {
+  node_description node;
+  node.joining = {
+      {"10.0.0.1:11811", "nothing listens there", "start it", 3, 1000}};
+  const auto text = node_view(node, at(5000));
+  CHECK(has(text, "joining       10.0.0.1:11811: nothing listens there (tried "
+                  "3 times, last 4s ago)\n"));
+  CHECK(has(text, "remedy        start it\n"));
+  node.joining = {{"", "", "", 1, 1000}};
+  CHECK(has(node_view(node, at(5000)),
+            "joining       any cell: no answer yet (tried once, last 4s "
+            "ago)\n"));
+  node.joining.clear();
+  CHECK_FALSE(has(node_view(node, at(5000)), "joining"));
+}
+
+TEST_CASE("a narrow terminal breaks what is wrong between words", "[tools]") {
+  node_description node;
+  node.joining = {{"10.0.0.1:11811", "nothing listens there, on no port at all",
+                   "", 3, 1000}};
+  auto style = at(5000);
+  style.text.width = 60;
+  const auto text = node_view(node, style);
+  CHECK(has(text, "joining       10.0.0.1:11811: nothing listens there, on no\n"
+                  "              port at all (tried 3 times, last 4s ago)\n"));
+}
+
 TEST_CASE("a status tells of a day's writes only after an hour", "[tools]") {
   constexpr int64_t hour_ms = 3'600'000;
   node_description node;

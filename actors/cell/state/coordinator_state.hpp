@@ -76,7 +76,8 @@ struct cell_coordinator_state {
   /// When cells are to be looked at for evening out; max(): not at all.
   std::chrono::steady_clock::time_point balance_due =
       std::chrono::steady_clock::time_point::max();
-  size_t balancing = 0; ///< Cells that are asked to give up members.
+  size_t balancing = 0;        ///< Cells that are asked to give up members.
+  request_router_actor router; ///< Of this node; invalid while it starts.
   alarm timer;
 };
 

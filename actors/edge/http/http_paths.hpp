@@ -12,4 +12,7 @@ inline constexpr std::string_view session_path = "/v1/session";
 /// proven in itself.
 inline constexpr const char* registration_path = "/v1/registration";
 
+/// Where anybody learns who a node is.
+inline constexpr const char* hello_path = "/v1/hello";
+
 } // namespace roscell

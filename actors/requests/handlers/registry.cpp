@@ -21,6 +21,7 @@ std::chrono::milliseconds log_timeout(const log_query& query) {
 void add_node_requests(request_registry& registry) {
   registry.add(
       forward_within<node_query, node_description>(soon, &services::node));
+  registry.add(forward_within<hello_query, node_hello>(soon, &services::node));
 }
 
 void add_primary_requests(request_registry& registry) {

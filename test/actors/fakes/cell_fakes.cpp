@@ -30,7 +30,8 @@ caf::result<node_registered> enter(fake_site* site, const register_node& x) {
   if (row.member && row.member != x.member)
     caf::anon_send(row.member, close_session{"it has registered again"});
   row = {who, x.member, true, "", x.registration};
-  return node_registered{base.cell, base.name, base.incarnation, base.verdicts};
+  return node_registered{base.cell, base.name, base.incarnation, base.verdicts,
+                         base.cell_uuid};
 }
 
 node_departed drop(fake_site* site, const depart_node& x) {
@@ -68,11 +69,16 @@ caf::behavior coordinator(caf::event_based_actor* self, fake_site* site) {
         auto& base = site->base;
         for (auto& promise : std::exchange(base.unanswered, {}))
           promise.deliver(node_registered{base.cell, base.name,
-                                          base.incarnation, base.verdicts});
+                                          base.incarnation, base.verdicts,
+                                          base.cell_uuid});
       },
       [=](const depart_node& x) { return drop(site, x); },
       [=](const member_lost& fact) { lose(site, fact); },
       [=](const instance_changed& x) { site->base.changes.push_back(x); },
+      [=](const route_request& x) {
+        site->base.asked.push_back(json::parse(x.text));
+        return request_routed{site->base.answer.dump(), ""};
+      },
   };
 }
 
@@ -126,10 +132,24 @@ instances_removed remove(fake_node* node, const instance_removal& x) {
   return {{x.instance}};
 }
 
+caf::result<host_resolved> look_up(fake_node* node, const resolve_host& x) {
+  const auto known = node->names.find(x.host);
+  if (known == node->names.end())
+    return fail(error_code::unreachable,
+                "the name '" + x.host + "' does not resolve");
+  return host_resolved{known->second};
+}
+
 caf::behavior local_parts(caf::event_based_actor* self, fake_site* site,
                           fake_node* node) {
   return {
-      [=](const find_coordinator&) {
+      [=](const resolve_host& x) { return look_up(node, x); },
+      [=](const scout_address&) {
+        ++node->looks;
+        return node->scouted;
+      },
+      [=](const find_coordinator& x) {
+        node->sought.push_back(x.address);
         node->searching = true;
         ++node->searches;
         if (site->base.actor)
@@ -250,6 +270,7 @@ void fake_site::start(fake_node& x) {
   parts.agent = caf::actor_cast<node_agent_actor>(x.local);
   parts.supervisor = caf::actor_cast<container_supervisor_actor>(x.local);
   parts.store = caf::actor_cast<state_store_actor>(x.local);
+  parts.scout = caf::actor_cast<join_scout_actor>(x.local);
   x.membership = roscell::spawn(time.system, context, membership, context,
                                 parts, membership_config{x.identity, {}});
 }

@@ -33,6 +33,7 @@ struct fake_row {
 struct fake_coordinator {
   cell_coordinator_actor actor; ///< Invalid while it is down.
   std::string cell = "cell-1";
+  std::string cell_uuid; ///< Empty: it tells none.
   std::string name = "base";
   int64_t incarnation = 1;
   std::map<std::string, fake_row> rows; ///< By name.
@@ -42,6 +43,8 @@ struct fake_coordinator {
   std::vector<member_lost> losses;
   std::optional<failure> refusal; ///< Of registrations.
   bool mute = false;              ///< Does not answer registrations.
+  std::vector<json> asked;        ///< By users of members.
+  json answer{{"type", "task_description"}, {"tasks", json::array()}};
   std::vector<caf::response_promise> unanswered;
 };
 
@@ -54,6 +57,10 @@ struct fake_node {
   size_t searches = 0;
   wire_ptr link;                  ///< The latest.
   std::optional<failure> refusal; ///< Of sessions.
+  address_scouted scouted;        ///< What the scout sees; nothing answers.
+  size_t looks = 0;               ///< Of the scout.
+  std::map<std::string, std::string> names; ///< Of hosts, to addresses.
+  std::vector<std::string> sought;          ///< Discovery servers.
   std::optional<failure> deployment_refusal;
   bool disk_full = false;
   std::vector<instance_row> instances;

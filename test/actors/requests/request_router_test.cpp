@@ -87,9 +87,11 @@ struct router_fixture {
         }});
   }
 
-  void start() {
+  /// With a membership this is a member's router.
+  void start(const membership_actor& membership = {}) {
     auto services = std::make_shared<node_services>();
     services->context = time.context;
+    services->membership = membership;
     router = spawn(time.system, time.context, request_router,
                    std::make_shared<const request_registry>(registry),
                    std::shared_ptr<const node_services>(services));
@@ -163,12 +165,34 @@ TEST_CASE_METHOD(router_fixture,
   const auto known = ask(R"({"type":"task_query"})");
   CHECK(error_of(known) == "unknown_type");
   CHECK(known.at("error").at("where") == "/type");
-  CHECK(known.at("error").at("hint").get<std::string>().find("coordination")
-        != std::string::npos);
   CHECK(error_of(ask(R"({"type":"make_coffee"})")) == "unknown_type");
   // A reply is no request, and neither is a session message.
   CHECK(error_of(ask(R"({"type":"cell_list","cells":[]})")) == "unknown_type");
   CHECK(runs == 0);
+}
+
+TEST_CASE_METHOD(router_fixture,
+                 "A member's router passes on what it has no handler for",
+                 "[router]") {
+  answer_at_once();
+  std::vector<std::string> passed_on;
+  const auto membership = time.system.spawn([&passed_on](
+                                                caf::event_based_actor*)
+                                                -> caf::behavior {
+    return {[&passed_on](const route_request& x) {
+      passed_on.push_back(x.text);
+      return request_routed{R"({"type":"task_description","tasks":[]})", ""};
+    }};
+  });
+  start(caf::actor_cast<membership_actor>(membership));
+  CHECK(ask(R"({"type":"task_query"})").at("type") == "task_description");
+  CHECK(passed_on == std::vector<std::string>{R"({"type":"task_query"})"});
+  // What is no request at all is refused here.
+  CHECK(error_of(ask(R"({"type":"make_coffee"})")) == "unknown_type");
+  // What it has a handler for is its own.
+  CHECK(ask(list_query("a")).at("type") == "cell_list");
+  CHECK(passed_on.size() == 1);
+  time.kill(membership);
 }
 
 TEST_CASE_METHOD(router_fixture,

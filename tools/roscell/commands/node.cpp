@@ -45,7 +45,7 @@ void add_network(CLI::App& command, node_options& options) {
       .add_option("--join", config.join,
                   "Discovery server of the cell to join (port 11811); without "
                   "it the node asks the coordinators that it sees for a place")
-      ->option_text("ADDR[:PORT]");
+      ->option_text("HOST[:PORT]");
   command.add_flag("--wait", config.wait,
                    "Ask for no place: wait until a coordinator chooses the "
                    "node");
@@ -53,7 +53,7 @@ void add_network(CLI::App& command, node_options& options) {
       .add_option("--peer", config.peers,
                   "Another node of the site, where multicast does not reach "
                   "it; can be repeated")
-      ->option_text("ADDR[:PORT]")
+      ->option_text("HOST[:PORT]")
       ->allow_extra_args(false);
   command
       .add_option("--public-domain", config.public_domain_id,

@@ -41,11 +41,11 @@ const subject subjects[] = {
     {"nodes",
      "List the nodes of the cell with their resources (used/capacity), then "
      "those that are in no cell.",
-     "Only a coordinator can answer.\n\nExamples:\n  roscell nodes\n"
+     "A member asks its coordinator.\n\nExamples:\n  roscell nodes\n"
      "  roscell nodes --watch --to 192.168.1.10",
      nullptr, "/v1/cell", view_of<cell_description, members_view>},
     {"tasks", "List the tasks of the cell.",
-     "Only a coordinator can answer.\n\nExamples:\n  roscell tasks --watch\n"
+     "A member asks its coordinator.\n\nExamples:\n  roscell tasks --watch\n"
      "  roscell tasks fleet-poses -o json",
      "TASK", "/v1/tasks", view_of<task_description, tasks_view>},
     {"instances", "List the skill instances of the cell, or of a lone node.",
@@ -141,7 +141,7 @@ void add_transfers_command(CLI::App& app, action& chosen) {
   auto options = std::make_shared<show_options>();
   auto* command = add_show_command(
       app, "transfers", "List the transfers and releases of the cell's nodes.",
-      "Only a coordinator can answer. Those that have ended are forgotten "
+      "A member asks its coordinator. Those that have ended are forgotten "
       "after 100 others,\nand when the coordinator is started again.\n\n"
       "Examples:\n  roscell transfers --watch\n"
       "  roscell transfers lab-3-1 -o json",

@@ -25,6 +25,11 @@ std::string quoted(const std::string& name) {
   return "'" + name + "'";
 }
 
+std::string hint_of(const event& e) {
+  const auto hint = event_text(e, "hint");
+  return hint.empty() ? hint : " (" + hint + ")";
+}
+
 void print(const event& e) {
   static constexpr spdlog::level::level_enum levels[] = {
       spdlog::level::debug, spdlog::level::info, spdlog::level::warn};
@@ -68,7 +73,12 @@ std::string journal_line(const event& e) {
     line = "lost cell " + quoted(text("cell")) + ": " + text("reason");
   else if (e.what == "join_refused")
     line = "cannot join at " + text("discovery_server") + ": " + text("reason")
-           + (text("hint").empty() ? "" : " (" + text("hint") + ")");
+           + hint_of(e);
+  else if (e.what == "join_failed")
+    line = (text("discovery_server").empty()
+                ? "in no cell yet: "
+                : "not joined yet at " + text("discovery_server") + ": ")
+           + text("reason") + hint_of(e);
   else
     line = e.what + " " + quoted(e.subject) + " " + event_particulars(e);
   line = printable(line);

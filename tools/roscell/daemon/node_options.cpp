@@ -87,12 +87,12 @@ void check_ways_to_join(const node_config& config) {
 
 void check_addresses(const node_config& config) {
   for (const auto& peer : config.peers)
-    if (!parse_socket_address(peer, 1))
+    if (!parse_host_address(peer, 1))
       throw command_error{exit_usage,
                           "--peer: '" + peer
-                              + "' is not ADDR[:PORT] with an IPv4 "
-                                "address",
-                          "such as 192.168.1.10"};
+                              + "' is not HOST[:PORT] with an IPv4 address "
+                                "or a name",
+                          "such as 192.168.1.10 or base.local"};
 }
 
 } // namespace

@@ -25,6 +25,21 @@ public:
         name + gap + colour + shown + (colour.empty() ? "" : "\x1b[0m") + "\n";
   }
 
+  /// The same for a sentence, which is read to its end: it goes on in the next
+  /// line, under its beginning.
+  void add_sentence(const std::string& name, const std::string& sentence) {
+    const auto width =
+        style_.text.width > 40 ? style_.text.width - 14 : std::string::npos;
+    auto rest = printable(sentence);
+    for (auto key = name; !rest.empty(); key.clear()) {
+      auto end = rest.size() <= width ? rest.size() : rest.rfind(' ', width);
+      end = std::min(end, rest.size());
+      text_ +=
+          key + std::string(14 - key.size(), ' ') + rest.substr(0, end) + "\n";
+      rest.erase(0, std::min(end + 1, rest.size()));
+    }
+  }
+
   std::string text() const {
     return text_;
   }
@@ -93,6 +108,16 @@ std::string disk_writes(const node_description& node, int64_t now_unix_ms) {
          + format_bytes(bytes * 24 * hour_ms / age_ms) + " a day)";
 }
 
+/// "192.168.1.10:11811: nothing listens there (tried 3 times, last 4 s ago)"
+std::string join_line(const join_trouble& x, int64_t now_unix_ms) {
+  auto text = x.address.empty() ? std::string{"any cell"} : x.address;
+  text += ": " + (x.trouble.empty() ? "no answer yet" : x.trouble);
+  text += x.attempts == 1 ? " (tried once"
+                          : " (tried " + std::to_string(x.attempts) + " times";
+  return text + ", last " + format_since(x.tried_unix_ms, now_unix_ms)
+         + " ago)";
+}
+
 std::string actors_view(const std::vector<actor_row>& actors,
                         const view_style& style) {
   table t{{{"ACTOR"},
@@ -119,6 +144,10 @@ std::string node_view(const node_description& node, const view_style& style) {
   facts.add("state", to_string(node.state));
   facts.add("cell", node.cell);
   facts.add("coordinator", node.coordinator);
+  for (const auto& x : node.joining) {
+    facts.add_sentence("joining", join_line(x, style.now_unix_ms));
+    facts.add_sentence("remedy", x.hint);
+  }
   facts.add("address", node.identity.address);
   facts.add("architecture", node.resources.architecture);
   facts.add("runtime", node.runtime);

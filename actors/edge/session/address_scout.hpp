@@ -1,0 +1,21 @@
+#pragma once
+
+#include "actors/edge/io/io_thread.hpp"
+#include "actors/edge/io/socket_address.hpp"
+#include "messages/inside/scouting.hpp"
+
+#include <functional>
+#include <memory>
+#include <string>
+
+namespace roscell {
+
+/// Looks who is at an address where a discovery server should be: asks its UDP
+/// port, and by HTTP the TCP port of the same number and the one that nodes use
+/// by default. All at once; `done` is called once, on the io thread, within
+/// `limits::membership::scouted`. From any thread.
+void scout(const std::shared_ptr<io_core>& core,
+           const std::string& local_address, const socket_address& server,
+           std::function<void(address_scouted)> done);
+
+} // namespace roscell

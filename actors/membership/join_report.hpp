@@ -1,0 +1,47 @@
+#pragma once
+
+#include "actors/house/limits.hpp"
+#include "messages/node.hpp"
+
+#include <chrono>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace roscell {
+
+/// How a node's attempts to come into a cell go, for `roscell status`, and when
+/// it is time to speak of it in the log. Pure: it is told the time.
+class join_report {
+public:
+  using time_point = std::chrono::steady_clock::time_point;
+
+  /// An attempt begins; `address` is empty where any cell will do.
+  void begin(const std::string& address, int64_t now_unix_ms);
+
+  /// What is wrong. True if it is to be told now: it is news, or what was told
+  /// last is some time ago, ever longer.
+  bool note(const std::string& trouble, const std::string& hint,
+            time_point now);
+
+  /// When what has been told is worth telling again.
+  time_point next() const {
+    return next_;
+  }
+
+  /// The node is in a cell, or wants none any more.
+  void clear();
+
+  /// At most one: none if no attempt has begun.
+  const std::vector<join_trouble>& rows() const {
+    return rows_;
+  }
+
+private:
+  std::vector<join_trouble> rows_;
+  std::set<std::string> told_;
+  std::chrono::milliseconds pause_ = limits::membership::complaint_pause;
+  time_point next_; ///< When what was told before is told again.
+};
+
+} // namespace roscell

@@ -1,0 +1,45 @@
+#include "actors/session/forwarded_requests.hpp"
+
+#include "actors/house/limits.hpp"
+#include "messages/allocation_report.hpp"
+#include "messages/cell.hpp"
+#include "messages/formation.hpp"
+#include "messages/task.hpp"
+
+#include <array>
+#include <string_view>
+
+namespace roscell {
+
+namespace {
+
+/// What the coordinator answers from what it knows.
+constexpr std::array<std::string_view, 4> queries{
+    cell_query::type, cell_list_query::type, task_query::type,
+    transfer_query::type};
+
+/// What it has to do something for.
+constexpr std::array<std::string_view, 3> commands{
+    task_request::type, task_plan_query::type, task_termination::type};
+
+template <class Names>
+bool holds(const Names& names, const std::string& type) {
+  for (const auto& x : names)
+    if (x == type)
+      return true;
+  return false;
+}
+
+} // namespace
+
+std::optional<forwarding_limits> forwarding_of(const std::string& type) {
+  if (holds(queries, type))
+    return forwarding_limits{limits::request::forwarded_query,
+                             limits::request::member_query};
+  if (holds(commands, type))
+    return forwarding_limits{limits::request::forwarded,
+                             limits::request::member_request};
+  return std::nullopt;
+}
+
+} // namespace roscell
