@@ -421,7 +421,7 @@ constexpr milliseconds agent_removal{48'000};
 constexpr milliseconds removal{52'000};
 constexpr milliseconds removal_answer{55'000};
 /// To end instances of a task and to start them again.
-constexpr minutes restart{15};
+constexpr seconds restart{870};
 
 /// A termination whose record cannot be removed for so long is answered with
 /// the trouble; the removal goes on.
@@ -510,6 +510,7 @@ constexpr milliseconds forwarded = handler + seconds{15};
 constexpr milliseconds member_request = forwarded + seconds{15};
 
 static_assert(task::deployment_answer < handler && handler < router);
+static_assert(task::restart < handler);
 static_assert(local::answer < forwarded_query && handler < forwarded);
 static_assert(member_request < router);
 static_assert(handler < task::claim);

@@ -19,8 +19,9 @@ constexpr std::array<std::string_view, 4> queries{
     transfer_query::type};
 
 /// What it has to do something for.
-constexpr std::array<std::string_view, 3> commands{
-    task_request::type, task_plan_query::type, task_termination::type};
+constexpr std::array<std::string_view, 4> commands{
+    task_request::type, task_plan_query::type, task_termination::type,
+    task_restart::type};
 
 template <class Names>
 bool holds(const Names& names, const std::string& type) {
