@@ -23,6 +23,7 @@ using event_log_actor = introspected_actor::extend<
     caf::reacts_to<record_event>,
     // Adds a listener until it ends.
     caf::reacts_to<subscribe_events>,
+    caf::replies_to<kept_events_query>::with<kept_events>,
     // INTERNAL: refusals that were held back are to be told.
     caf::reacts_to<caf::tick_atom, uint64_t>>;
 
@@ -127,6 +128,8 @@ using node_agent_actor = introspected_actor::extend<
     caf::replies_to<instance_deployment>::with<instance_deployed>,
     // Replies once the named instances are gone from the node.
     caf::replies_to<instance_removal>::with<instances_removed>,
+    // Errors: timeout, unreachable.
+    caf::replies_to<figures_query>::with<figures_report>,
     // Errors: unknown_task.
     caf::replies_to<log_query>::with<log_excerpt>>;
 

@@ -45,13 +45,17 @@ struct free_node {
   std::string address; ///< Of its HTTP port.
   node_state state = node_state::independent;
   std::string cell; ///< That it was in last.
+  /// When it was missed, at most a lease after its last word; 0: it is there.
+  int64_t silent_since_unix_ms = 0;
 
   static constexpr auto fields() {
-    return field_list{required("name", &free_node::name),
-                      required("uuid", &free_node::uuid),
-                      required("address", &free_node::address),
-                      required("state", &free_node::state),
-                      optional("cell", &free_node::cell)};
+    return field_list{
+        required("name", &free_node::name),
+        required("uuid", &free_node::uuid),
+        required("address", &free_node::address),
+        required("state", &free_node::state),
+        optional("cell", &free_node::cell),
+        optional("silent_since_unix_ms", &free_node::silent_since_unix_ms)};
   }
 };
 

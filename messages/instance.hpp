@@ -93,6 +93,22 @@ constexpr bool is_live(instance_state state) {
   return state < instance_state::stopped;
 }
 
+/// What an instance has done, as its skill tells in its status. Negative: not
+/// known.
+struct instance_figures {
+  int64_t frames = -1;    ///< Processed since it was started.
+  double rate_hz = -1;    ///< Frames a second between its last two words.
+  int64_t dropped = -1;   ///< Frames that came too fast for it.
+  double latency_ms = -1; ///< Median time to process a frame.
+
+  static constexpr auto fields() {
+    return field_list{optional("frames", &instance_figures::frames),
+                      optional("rate_hz", &instance_figures::rate_hz),
+                      optional("dropped", &instance_figures::dropped),
+                      optional("latency_ms", &instance_figures::latency_ms)};
+  }
+};
+
 /// What is known of one instance.
 struct instance_row {
   instance_spec spec;
@@ -112,21 +128,23 @@ struct instance_row {
   /// Since when nobody knows whether `state` still holds, because the node is
   /// away; 0: it is known.
   int64_t unknown_since_unix_ms = 0;
+  instance_figures figures; ///< As of when its node was asked last.
 
   static constexpr auto fields() {
-    return field_list{required("spec", &instance_row::spec),
-                      required("node", &instance_row::node),
-                      required("state", &instance_row::state),
-                      required("since_unix_ms", &instance_row::since_unix_ms),
-                      optional("status", &instance_row::status),
-                      optional("trouble", &instance_row::trouble),
-                      optional("container", &instance_row::container),
-                      optional("image", &instance_row::image),
-                      nullable("exit_code", &instance_row::exit_code),
-                      optional("reason", &instance_row::reason),
-                      optional("log_tail", &instance_row::log_tail),
-                      optional("unknown_since_unix_ms",
-                               &instance_row::unknown_since_unix_ms)};
+    return field_list{
+        required("spec", &instance_row::spec),
+        required("node", &instance_row::node),
+        required("state", &instance_row::state),
+        required("since_unix_ms", &instance_row::since_unix_ms),
+        optional("status", &instance_row::status),
+        optional("trouble", &instance_row::trouble),
+        optional("container", &instance_row::container),
+        optional("image", &instance_row::image),
+        nullable("exit_code", &instance_row::exit_code),
+        optional("reason", &instance_row::reason),
+        optional("log_tail", &instance_row::log_tail),
+        optional("unknown_since_unix_ms", &instance_row::unknown_since_unix_ms),
+        optional("figures", &instance_row::figures)};
   }
 };
 
@@ -158,12 +176,14 @@ struct log_query {
   int64_t offset = -1;    ///< Where to begin; negative: the last lines.
   int64_t tail_lines = 0; ///< With a negative offset: how many; 0: the default.
   int64_t wait_ms = 0;    ///< At most 20,000.
+  bool times = false;     ///< Also tell when each line was logged.
 
   static constexpr auto fields() {
     return field_list{required("instance", &log_query::instance),
                       optional("offset", &log_query::offset),
                       optional("tail_lines", &log_query::tail_lines),
-                      optional("wait_ms", &log_query::wait_ms)};
+                      optional("wait_ms", &log_query::wait_ms),
+                      optional("times", &log_query::times)};
   }
 };
 
@@ -177,12 +197,16 @@ struct log_excerpt {
   std::string text;        ///< Valid UTF-8; other bytes are replaced.
   int64_t next_offset = 0; ///< Where the next query goes on.
   bool ended = false;      ///< Nothing will follow after `next_offset`.
+  /// If it was asked for: when each line of `text` was logged, or the rest of
+  /// one that began before it; 0: not known.
+  std::vector<int64_t> times_unix_ms;
 
   static constexpr auto fields() {
     return field_list{required("instance", &log_excerpt::instance),
                       required("text", &log_excerpt::text),
                       required("next_offset", &log_excerpt::next_offset),
-                      required("ended", &log_excerpt::ended)};
+                      required("ended", &log_excerpt::ended),
+                      optional("times_unix_ms", &log_excerpt::times_unix_ms)};
   }
 };
 

@@ -150,6 +150,37 @@ struct resource_report {
   }
 };
 
+/// Coordinator to member: what do your live instances say of themselves?
+struct figures_query {
+  static constexpr const char* type = "figures_query";
+
+  static constexpr auto fields() {
+    return field_list{};
+  }
+};
+
+/// What the skill of one instance has last said.
+struct instance_word {
+  std::string instance;
+  std::string status;
+  instance_figures figures;
+
+  static constexpr auto fields() {
+    return field_list{required("instance", &instance_word::instance),
+                      optional("status", &instance_word::status),
+                      optional("figures", &instance_word::figures)};
+  }
+};
+
+struct figures_report {
+  static constexpr const char* type = "figures_report";
+  std::vector<instance_word> instances;
+
+  static constexpr auto fields() {
+    return field_list{required("instances", &figures_report::instances)};
+  }
+};
+
 /// Coordinator to member: run this instance. Repeating it is harmless.
 struct instance_deployment {
   static constexpr const char* type = "instance_deployment";

@@ -57,6 +57,8 @@
   X(node_departed)                                                             \
   X(resource_query)                                                            \
   X(resource_report)                                                           \
+  X(figures_query)                                                             \
+  X(figures_report)                                                            \
   X(instance_reservation)                                                      \
   X(instances_reserved)                                                        \
   X(instance_deployment)                                                       \
@@ -69,6 +71,8 @@
   X(actor_state)                                                               \
   X(record_event)                                                              \
   X(subscribe_events)                                                          \
+  X(kept_events_query)                                                         \
+  X(kept_events)                                                               \
   X(prepare_image)                                                             \
   X(image_prepared)                                                            \
   X(start_container)                                                           \

@@ -1,6 +1,7 @@
 #include "actors/cell/cell_coordinator.hpp"
 
 #include "actors/cell/cell_balance.hpp"
+#include "actors/cell/cell_figures.hpp"
 #include "actors/cell/cell_formation.hpp"
 #include "actors/cell/cell_members.hpp"
 #include "actors/cell/cell_peers.hpp"
@@ -31,7 +32,7 @@ cell_description describe(coordinator_pointer self) {
   return {st.setup.cell,          st.setup.self.name,
           st.setup.self.address,  st.setup.discovery_server,
           st.setup.incarnation,   describe_nodes(st),
-          describe_all_tasks(st), st.free_nodes.rows()};
+          describe_all_tasks(st), list_free_nodes(st)};
 }
 
 caf::result<log_excerpt> fetch_log(coordinator_pointer self,
@@ -72,7 +73,7 @@ json summary(coordinator_pointer self) {
   return {{"cell", st.setup.cell},       {"incarnation", st.setup.incarnation},
           {"nodes", describe_nodes(st)}, {"tasks", describe_all_tasks(st)},
           {"turn", st.desk.turn},        {"waiting", st.desk.waiting.size()},
-          {"cells", list_cells(st)},     {"free", st.free_nodes.rows()},
+          {"cells", list_cells(st)},     {"free", list_free_nodes(st)},
           {"places", st.places.size()},  {"transfers", st.transfers.size()},
           {"balancing", st.balancing}};
 }
@@ -137,7 +138,7 @@ cell_coordinator(coordinator_pointer self, const house& context,
       },
       [self](const task_query& x) { return describe_tasks(self->state, x); },
       [self](const instance_query& x) {
-        return describe_instances(self->state, x);
+        return describe_instances_now(self, x);
       },
       [self](const log_query& x) { return fetch_log(self, x); },
       [self](const skill_query& x) {

@@ -5,8 +5,10 @@
 #include "actors/cell/state/doubts.hpp"
 #include "actors/cell/state/node_whereabouts.hpp"
 #include "actors/house/limits.hpp"
+#include "actors/house/wall_clock.hpp"
 #include "messages/failure.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace roscell {
@@ -103,7 +105,7 @@ void on_presence_gone(coordinator_pointer self, const node_presence& who) {
   if (is_coordinator(who)) {
     if (st.peers.vanish(who))
       st.context.tell("peer_vanished", who.cell);
-  } else if (st.free_nodes.vanish(who)) {
+  } else if (st.free_nodes.vanish(who, unix_now_ms())) {
     st.context.tell("node_vanished", who.name);
   }
 }
@@ -117,6 +119,23 @@ void ask_due_proofs(coordinator_pointer self) {
       self->clock().now());
   for (const auto& who : due)
     ask_for_proof(self, who);
+}
+
+std::vector<free_node> list_free_nodes(const cell_coordinator_state& st) {
+  const auto is_in_a_cell = [&](const std::string& uuid) {
+    bool found = st.registry.find_uuid(uuid) != nullptr;
+    st.peers.for_each_session([&](const auto&, const peer_entry& peer) {
+      found = found || peer.members.count(uuid) > 0;
+    });
+    return found;
+  };
+  auto result = st.free_nodes.rows();
+  const auto end =
+      std::remove_if(result.begin(), result.end(), [&](const free_node& x) {
+        return x.silent_since_unix_ms != 0 && is_in_a_cell(x.uuid);
+      });
+  result.erase(end, result.end());
+  return result;
 }
 
 std::vector<cell_row> list_cells(const cell_coordinator_state& st) {

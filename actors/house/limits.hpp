@@ -251,6 +251,8 @@ constexpr size_t answered_starts_bytes = frame_bytes / 2;
 constexpr unsigned bad_frames = 3;
 /// A measurement that has no CPU sample yet takes a second.
 constexpr milliseconds resource_query{6000};
+/// For what a node's instances say of themselves.
+constexpr milliseconds figures{4000};
 /// One coordinator's word to another one.
 constexpr milliseconds peer_answer{3000};
 
@@ -259,6 +261,7 @@ static_assert(pending_calls <= known_calls);
 static_assert(kept_answer_bytes < frame_bytes);
 static_assert(2 * instance::most_unacknowledged_bytes < frame_bytes);
 static_assert(margin < peer_answer);
+static_assert(margin < figures);
 
 } // namespace session
 
@@ -346,6 +349,8 @@ constexpr size_t place_givers = 64;
 
 /// Nodes in no cell that are remembered.
 constexpr size_t free_nodes = 1024;
+/// Of those that announce themselves no more, the last ones.
+constexpr size_t silent_nodes = 64;
 
 /// Connections that are being opened at a time: to coordinators, and to nodes
 /// that are to prove where they stand.

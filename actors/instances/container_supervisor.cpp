@@ -183,8 +183,9 @@ void on_changed(container_supervisor_self self, const instance_row& row) {
   const bool news =
       row.state != x->row.state || row.since_unix_ms != x->row.since_unix_ms;
   const auto before = std::exchange(x->row, row);
-  // These two are heard here. A step of the build is no word of the skill.
+  // These are heard here. A step of the build is no word of the skill.
   x->row.trouble = before.trouble;
+  x->row.figures = before.figures;
   if (before.state != instance_state::building
       || row.state == instance_state::building)
     x->row.status = before.status;
@@ -204,8 +205,11 @@ void on_notified(container_supervisor_self self,
   auto* x = find_instance(self, fact.instance);
   if (x == nullptr || !x->actor)
     return;
-  if (!fact.status.empty())
+  if (!fact.status.empty()) {
     x->row.status = fact.status;
+    x->figures.hear(fact.status, self->clock().now());
+    x->row.figures = x->figures.known();
+  }
   self->send(x->actor, fact);
 }
 
@@ -288,6 +292,9 @@ void restore(container_supervisor_self self) {
     auto& x = st.instances[row.spec.instance];
     x.row = std::move(row);
     x.row.node = st.config.node;
+    // Nobody knows what it has done meanwhile.
+    if (is_live(x.row.state))
+      x.row.figures = {};
     if (is_live(x.row.state))
       spawn_actor(self, x, true);
   }

@@ -2,6 +2,7 @@
 
 #include "actors/house/house.hpp"
 #include "actors/instances/skill_catalogue.hpp"
+#include "actors/instances/status_figures.hpp"
 #include "messages/messages.hpp"
 
 #include <caf/error.hpp>
@@ -33,6 +34,7 @@ struct container_supervisor_config {
 /// An instance as the supervisor sees it.
 struct supervised_instance {
   instance_row row;
+  figures_book figures;       ///< What its skill has told.
   skill_instance_actor actor; ///< Null once the instance has ended.
   std::vector<caf::typed_response_promise<instance_deployed>> deployers;
   bool removing = false;

@@ -68,6 +68,9 @@ void on_request(self_pointer self, const session_inquiry& x) {
   if (type == resource_query::type)
     decode_and_forward<resource_report, resource_query>(
         self, x, limits::session::resource_query);
+  else if (type == figures_query::type)
+    decode_and_forward<figures_report, figures_query>(self, x,
+                                                      limits::session::figures);
   else if (type == instance_reservation::type)
     decode_and_forward<instances_reserved, instance_reservation>(
         self, x, limits::session::resource_query);

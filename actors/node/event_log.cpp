@@ -50,6 +50,14 @@ void subscribe(event_log_self self, const subscribe_events& wish) {
   self->state.listeners.push_back(wish.listener);
 }
 
+kept_events since(event_log_self self, const kept_events_query& query) {
+  kept_events result;
+  for (const auto& x : self->state.kept)
+    if (x.sequence > query.since)
+      result.events.push_back(x);
+  return result;
+}
+
 void forget(event_log_self self, const caf::actor_addr& gone) {
   auto& xs = self->state.listeners;
   xs.erase(std::remove_if(xs.begin(), xs.end(),
@@ -75,6 +83,7 @@ event_log_actor::behavior_type event_log(event_log_self self) {
           tell_held_back(self);
       },
       [self](const subscribe_events& wish) { subscribe(self, wish); },
+      [self](const kept_events_query& x) { return since(self, x); },
   };
 }
 

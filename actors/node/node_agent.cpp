@@ -147,6 +147,29 @@ caf::result<instances_reserved> keep(node_agent_self self,
   return promise;
 }
 
+/// What the skills of live instances have last said.
+figures_report words_of(const instance_description& known) {
+  figures_report result;
+  for (const auto& x : known.instances)
+    if (is_live(x.state))
+      result.instances.push_back({x.spec.instance, x.status, x.figures});
+  return result;
+}
+
+caf::result<figures_report> report_figures(node_agent_self self) {
+  auto promise = self->make_response_promise<figures_report>();
+  self->request(self->state.config.supervisor, limits::local::part,
+                instance_query{})
+      .then(
+          [promise](const instance_description& known) mutable {
+            promise.deliver(words_of(known));
+          },
+          [promise](caf::error& why) mutable {
+            promise.deliver(std::move(why));
+          });
+  return promise;
+}
+
 /// Room is kept until the instance runs or has failed: from the supervisor's
 /// first word of it on, it counts there.
 caf::result<instance_deployed> deploy(node_agent_self self,
@@ -179,6 +202,7 @@ node_agent_actor::behavior_type node_agent(node_agent_self self,
               self->state.kept.open(self->clock().now(), {}).size()}});
       },
       [self](const resource_query&) { return report(self); },
+      [self](const figures_query&) { return report_figures(self); },
       [self](const instance_reservation& x) { return keep(self, x); },
       [self](const instance_deployment& x) { return deploy(self, x); },
       [self](const instance_removal& x) {

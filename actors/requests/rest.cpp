@@ -72,6 +72,8 @@ struct route_starter {
   }
 
   void operator()(const event_stream_request& x) const {
+    if (!x.follow)
+      return send_kept_events(system, services.context, answer, x.since);
     start_event_stream(system, services.context,
                        answer.stream(event_stream_content), x.since);
   }

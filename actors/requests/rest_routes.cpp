@@ -67,7 +67,9 @@ rest_route event_route(const http_request& request) {
   const auto since = number(request, "since", 0);
   if (!since)
     return bad_number("since");
-  return event_stream_request{static_cast<uint64_t>(*since)};
+  const bool follow = request.query.count("follow") == 0;
+  return event_stream_request{static_cast<uint64_t>(*since),
+                              follow || flag(request, "follow")};
 }
 
 rest_route log_route(const http_request& request, const std::string& id) {
@@ -83,6 +85,7 @@ rest_route log_route(const http_request& request, const std::string& id) {
       return bad_number("offset");
     result.query.offset = *offset;
   }
+  result.query.times = flag(request, "times");
   result.follow = flag(request, "follow");
   return result;
 }

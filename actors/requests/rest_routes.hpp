@@ -13,12 +13,13 @@ namespace roscell {
 /// `GET /healthz`: the node lives.
 struct health_check {};
 
-/// `GET /v1/events?since=N`: server-sent events.
+/// `GET /v1/events?since=N&follow=0`: server-sent events.
 struct event_stream_request {
   uint64_t since = 0;
+  bool follow = true; ///< Else those that are kept, and no more.
 };
 
-/// `GET /v1/instances/{id}/logs?tail=N&offset=N&follow=1`: plain text.
+/// `GET /v1/instances/{id}/logs?tail=N&offset=N&times=1&follow=1`: plain text.
 struct log_stream_request {
   log_query query;
   bool follow = false;

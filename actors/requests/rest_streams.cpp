@@ -13,6 +13,13 @@ namespace {
 
 constexpr const char* text_content = "text/plain; charset=utf-8";
 
+std::string server_sent(const event& x) {
+  const auto data =
+      message_json(x).dump(-1, ' ', false, json::error_handler_t::replace);
+  return "id: " + std::to_string(x.sequence) + "\nevent: " + x.what
+         + "\ndata: " + data + "\n\n";
+}
+
 struct event_stream_state {
   static constexpr const char* name = "event-stream";
 
@@ -28,13 +35,37 @@ event_stream(event_stream_actor::stateful_pointer<event_stream_state> self,
       },
       [self, stream](const event& x) {
         ++self->state.written;
-        const auto data = message_json(x).dump(-1, ' ', false,
-                                               json::error_handler_t::replace);
-        if (!stream->write("id: " + std::to_string(x.sequence)
-                           + "\nevent: " + x.what + "\ndata: " + data + "\n\n"))
+        if (!stream->write(server_sent(x)))
           self->quit();
       },
   };
+}
+
+struct event_reader_state {
+  static constexpr const char* name = "event-reader";
+};
+
+/// Asks for the facts once and ends.
+introspected_actor::behavior_type
+event_reader(introspected_actor::stateful_pointer<event_reader_state> self,
+             const event_log_actor& events, const responder& answer,
+             uint64_t since) {
+  self->request(events, limits::local::part, kept_events_query{since})
+      .then(
+          [self, answer](const kept_events& kept) {
+            std::string text;
+            for (const auto& x : kept.events)
+              text += server_sent(x);
+            answer.reply(200, event_stream_content, text);
+            self->quit();
+          },
+          [self, answer](const caf::error& error) {
+            const auto why = to_failure(error);
+            answer.error(http_status(why.code), why.code, why.message,
+                         why.hint);
+            self->quit();
+          });
+  return {[](const state_query&) { return state_of(json::object()); }};
 }
 
 using log_pointer = introspected_actor::stateful_pointer<log_stream_state>;
@@ -50,8 +81,9 @@ void finish_log_stream(log_pointer self) {
 void on_excerpt(log_pointer self, const log_excerpt& excerpt) {
   auto& st = self->state;
   const bool more = st.wish.follow && !excerpt.ended;
+  const auto text = st.timed.add(excerpt);
   if (!st.stream && !more) {
-    st.answer->reply(200, text_content, excerpt.text);
+    st.answer->reply(200, text_content, text);
     return finish_log_stream(self);
   }
   if (!st.stream) {
@@ -60,7 +92,7 @@ void on_excerpt(log_pointer self, const log_excerpt& excerpt) {
       caf::anon_send_exit(me, caf::exit_reason::user_shutdown);
     });
   }
-  if (!excerpt.text.empty() && !st.stream->write(excerpt.text))
+  if (!text.empty() && !st.stream->write(text))
     return finish_log_stream(self);
   if (!more)
     return finish_log_stream(self);
@@ -105,6 +137,11 @@ void start_event_stream(caf::actor_system& system, const house& context,
   stream->on_closed([listener] {
     caf::anon_send_exit(listener, caf::exit_reason::user_shutdown);
   });
+}
+
+void send_kept_events(caf::actor_system& system, const house& context,
+                      const responder& answer, uint64_t since) {
+  spawn(system, context, event_reader, context.events, answer, since);
 }
 
 introspected_actor::behavior_type log_stream(log_pointer self,

@@ -3,6 +3,7 @@
 #include "actors/edge/http/http_types.hpp"
 #include "actors/house/house.hpp"
 #include "actors/requests/rest_routes.hpp"
+#include "actors/requests/timed_log.hpp"
 #include "messages/messages.hpp"
 
 #include <memory>
@@ -19,11 +20,17 @@ void start_event_stream(caf::actor_system& system, const house& context,
                         const std::shared_ptr<http_stream>& stream,
                         uint64_t since);
 
+/// Answers with the facts that are kept after number `since`, in the same form,
+/// and with no others.
+void send_kept_events(caf::actor_system& system, const house& context,
+                      const responder& answer, uint64_t since);
+
 struct log_stream_state {
   static constexpr const char* name = "log-stream";
 
   request_router_actor router;
   log_stream_request wish;
+  timed_log timed;
   std::optional<responder> answer;     ///< Set before anything else happens.
   std::shared_ptr<http_stream> stream; ///< Made with the first excerpt.
 };

@@ -363,6 +363,9 @@ member_actor::behavior_type member(member_self self, session_admitted accepted,
               report.resources.name = self->state.peer.name;
             });
       },
+      [self](const figures_query& x) {
+        return ask_node<figures_report>(self, x, limits::session::figures);
+      },
       [self](const instance_reservation& x) {
         return ask_node<instances_reserved>(self, x,
                                             limits::session::resource_query);

@@ -41,13 +41,16 @@ struct engine_log_read {
   uint64_t call = 0;
   std::string text;
   int64_t next_offset = 0;
-  bool is_whole = true; ///< It is all that is there.
+  bool is_whole = true;               ///< It is all that is there.
+  std::vector<int64_t> times_unix_ms; ///< As in a log_excerpt.
 
   static constexpr auto fields() {
-    return field_list{required("call", &engine_log_read::call),
-                      required("text", &engine_log_read::text),
-                      required("next_offset", &engine_log_read::next_offset),
-                      required("is_whole", &engine_log_read::is_whole)};
+    return field_list{
+        required("call", &engine_log_read::call),
+        required("text", &engine_log_read::text),
+        required("next_offset", &engine_log_read::next_offset),
+        required("is_whole", &engine_log_read::is_whole),
+        required("times_unix_ms", &engine_log_read::times_unix_ms)};
   }
 };
 

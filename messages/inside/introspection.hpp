@@ -48,4 +48,21 @@ struct subscribe_events {
   }
 };
 
+/// Wants every event after `since` that is still kept, and no more.
+struct kept_events_query {
+  uint64_t since = 0;
+
+  static constexpr auto fields() {
+    return field_list{required("since", &kept_events_query::since)};
+  }
+};
+
+struct kept_events {
+  std::vector<event> events; ///< The oldest first.
+
+  static constexpr auto fields() {
+    return field_list{required("events", &kept_events::events)};
+  }
+};
+
 } // namespace roscell

@@ -13,7 +13,7 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, size_t size) {
   using namespace roscell;
   const std::string_view bytes{reinterpret_cast<const char*>(data), size};
   for (const bool last_part : {false, true}) {
-    const log_range range{0, 0, last_part};
+    const log_range range{0, 0, last_part, true};
     log_collector whole{range};
     const bool more = whole.take(bytes);
     log_collector pieces{range};

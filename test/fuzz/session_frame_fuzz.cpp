@@ -36,10 +36,11 @@ void check_message(const json& message) {
             log_excerpt, node_description, skill_list, event>(message);
   check_any<session_request, session_reply, session_notice, node_registration,
             node_registered, node_departure, node_departed, resource_query,
-            resource_report, instance_deployment, instance_deployed,
-            instance_removal, instances_removed, instance_changed,
-            instance_reservation, instances_reserved, session_hello,
-            session_challenge, session_proof, session_accepted>(message);
+            resource_report, figures_query, figures_report, instance_deployment,
+            instance_deployed, instance_removal, instances_removed,
+            instance_changed, instance_reservation, instances_reserved,
+            session_hello, session_challenge, session_proof, session_accepted>(
+      message);
 }
 
 } // namespace

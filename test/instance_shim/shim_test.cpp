@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include <csignal>
+#include <cstdint>
+#include <cstring>
 #include <fstream>
 #include <sstream>
 
@@ -72,6 +74,19 @@ struct shim_run {
     return content_of(dir() + "/log." + std::to_string(offset));
   }
 
+  /// Offsets and times of what stands in a log file.
+  std::vector<std::pair<std::int64_t, std::int64_t>>
+  times(std::size_t offset) const {
+    const auto bytes = content_of(dir() + "/times." + std::to_string(offset));
+    std::vector<std::pair<std::int64_t, std::int64_t>> result;
+    for (std::size_t at = 0; at + 16 <= bytes.size(); at += 16) {
+      std::int64_t note[2];
+      std::memcpy(note, bytes.data() + at, sizeof(note));
+      result.emplace_back(note[0], note[1]);
+    }
+    return result;
+  }
+
   temp_folder folder;
   child_process process;
 };
@@ -96,7 +111,7 @@ TEST_CASE("the shim records an exit code, the output and the processes") {
   CHECK(run.pids()[0] == static_cast<unsigned long>(run.process.pid()));
   CHECK(run.pids()[1] > 0);
   CHECK(names_in(run.dir())
-        == std::vector<std::string>{"exit", "log.0", "pid"});
+        == std::vector<std::string>{"exit", "log.0", "pid", "times.0"});
 }
 
 TEST_CASE("the shim records the signal that ended its child") {
@@ -104,6 +119,31 @@ TEST_CASE("the shim records the signal that ended its child") {
   CHECK(run.process.wait() == 0);
   CHECK(run.exit()["code"].is_null());
   CHECK(run.exit()["signal"] == 9);
+}
+
+TEST_CASE("the shim notes when what stands in a log was written") {
+  shim_run run{"echo one; sleep 0.05; echo two"};
+  CHECK(run.process.wait() == 0);
+  CHECK(run.log(0) == "one\ntwo\n");
+  const auto notes = run.times(0);
+  REQUIRE(notes.size() == 2);
+  CHECK(notes[0].first == 0);
+  CHECK(notes[1].first == 4);
+  CHECK(notes[1].second >= notes[0].second + 40);
+  CHECK(notes[1].second <= run.exit()["at_unix_ms"].get<std::int64_t>());
+}
+
+TEST_CASE("the times of a log are bounded as the log is") {
+  // A program that is started for each line takes a millisecond at least, so
+  // the lines have times of their own: a quarter of a file's 2 KiB holds 32.
+  shim_run run{"for i in $(seq 100); do /bin/echo $i; sleep 0.002; done", 4096};
+  CHECK(run.process.wait() == 0);
+  REQUIRE(run.log_offsets().size() == 2);
+  CHECK(run.log_offsets().front() > 0);
+  for (const auto offset : run.log_offsets()) {
+    CHECK(run.times(offset).size() <= 32);
+    CHECK(run.times(offset).front().first == static_cast<std::int64_t>(offset));
+  }
 }
 
 TEST_CASE("the shim tells why a command could not be run") {
@@ -162,11 +202,13 @@ TEST_CASE("a log that exists is continued at its absolute offset") {
   child_process second{command, {}};
   CHECK(second.wait() == 0);
   CHECK(names_in(folder / "i")
-        == std::vector<std::string>{"exit", "log.0", "log.6", "pid"});
+        == std::vector<std::string>{"exit", "log.0", "log.6", "pid", "times.0",
+                                    "times.6"});
   child_process third{command, {}};
   CHECK(third.wait() == 0);
   CHECK(names_in(folder / "i")
-        == std::vector<std::string>{"exit", "log.12", "log.6", "pid"});
+        == std::vector<std::string>{"exit", "log.12", "log.6", "pid",
+                                    "times.12", "times.6"});
 }
 
 TEST_CASE("a log that cannot be written never holds the child back") {

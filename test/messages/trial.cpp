@@ -72,10 +72,10 @@ std::vector<trial> message_trials() {
                log_excerpt, node_description, skill_list, event>(result);
   try_messages<session_request, session_reply, session_notice,
                node_registration, node_registered, node_departure,
-               node_departed, resource_query, resource_report,
-               instance_deployment, instance_deployed, instance_removal,
-               instances_removed, instance_changed, instance_reservation,
-               instances_reserved>(result);
+               node_departed, resource_query, resource_report, figures_query,
+               figures_report, instance_deployment, instance_deployed,
+               instance_removal, instances_removed, instance_changed,
+               instance_reservation, instances_reserved>(result);
   try_messages<cell_formation, cell_formed, node_release, node_released,
                node_transfer, node_transferred, transfer_query,
                transfer_description, registration_query, registration_challenge,

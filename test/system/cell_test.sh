@@ -131,6 +131,35 @@ test_logs_are_read_through_the_coordinator() {
   to head logs "$instance" > "$scratch/log.txt" || fail "$(cat "$scratch/log.txt")"
 }
 
+test_a_task_is_drawn_and_described() {
+  start_cell arm
+  echo_task told arm > "$scratch/task.json"
+  to head request "$scratch/task.json" > "$scratch/reply.json" \
+    || fail "refused: $(cat "$scratch/reply.json")"
+  to head graph told | grep -q "on arm, running" || fail "no step is drawn"
+  to head graph told -o dot | grep -q "^digraph" || fail "it is no graph"
+  to head describe told-say > "$scratch/about" || fail "it is not described"
+  grep -q "^Node: *arm$" "$scratch/about" || fail "$(cat "$scratch/about")"
+  to head describe node arms 2> "$scratch/why" \
+    && fail "an unknown node is described"
+  grep -q "did you mean 'arm'" "$scratch/why" || fail "$(cat "$scratch/why")"
+  expect "a chosen column" \
+    "$(to head instances --no-headers --columns NODE,STATE)" "arm  running"
+  to head instances --columns PORT 2> "$scratch/why"
+  expect "exit code of an unknown column" $? 2
+  to head logs told > "$scratch/log.txt" || fail "the task has no log"
+  to head logs tolt 2> "$scratch/why" && fail "an unknown task has a log"
+  grep -q "did you mean 'told'" "$scratch/why" || fail "$(cat "$scratch/why")"
+}
+
+test_the_last_events_are_shown_without_waiting_for_more() {
+  start_cell arm
+  expect "the last ones" "$(timeout 10 "$ROSCELL" events -n 1000 --no-follow \
+    -o jsonl --to "$scratch/head/node.sock" | jq -r .event | grep -c node_joined)" 1
+  expect "the last one" "$(timeout 10 "$ROSCELL" events -n 1 --no-follow \
+    -o jsonl --to "$scratch/head/node.sock" | wc -l)" 1
+}
+
 test_a_node_leaves_in_order_on_sigterm() {
   start_cell arm
   stop_node arm TERM

@@ -86,9 +86,8 @@ std::string offered_by_fish(const std::string& line,
 TEST_CASE("completion offers every command", "[tools]") {
   CHECK(offered("roscell ''")
         == "node run stop restart check new request plan form transfer release "
-           "status cells nodes tasks instances skills transfers events logs "
-           "completion help version "
-           "--version --help\n");
+           "status cells nodes tasks instances skills transfers describe graph "
+           "events logs completion help version --version --help\n");
   CHECK(offered("roscell no") == "node nodes\n");
   CHECK(offered("roscell new ''") == "task\n");
   CHECK(offered("roscell skills s") == "show\n");
@@ -101,6 +100,7 @@ TEST_CASE("completion offers a command's options", "[tools]") {
 
 TEST_CASE("completion offers the values of an option", "[tools]") {
   CHECK(offered("roscell status -o ''") == "table json\n");
+  CHECK(offered("roscell graph -o ''") == "text wide dot mermaid json\n");
   CHECK(offered("roscell node --runtime po") == "podman\n");
   CHECK(offered("roscell node --interface l") == "lo\n");
   CHECK(offered("roscell completion ''") == "bash zsh fish\n");

@@ -73,7 +73,44 @@ TEST_CASE("an event line is one line whatever the event holds", "[tools]") {
       event_line(sample("a\nb", "c\x1b[2J", R"({"k":"v\nw","l":[1,2]})"));
   CHECK(line.find('\n') == line.npos);
   CHECK(line.find('\x1b') == line.npos);
-  CHECK(line.find("l=[1,2]") != line.npos);
+  CHECK(line.find("l=(1, 2)") != line.npos);
+}
+
+TEST_CASE("an event line says where steps were placed", "[tools]") {
+  const auto line = event_line(
+      sample("allocation_chosen", "t",
+             R"({"allocations":[{"bonus":0.0,"step":"camera","node":"head"},)"
+             R"({"step":"poses","node":"arm"}],"optimal":true,)"
+             R"("score":{"total":0.123456,"gap":0.0},"warnings":[]})"));
+  CHECK(line.find("  camera→head, poses→arm optimal=yes score=0.1235")
+        != line.npos);
+  CHECK(line.find('{') == line.npos);
+}
+
+TEST_CASE("on a narrow terminal an event line has no date", "[tools]") {
+  setenv("TZ", "UTC", 1);
+  tzset();
+  const auto e = sample("node_joined", "arm-1", "");
+  CHECK(event_line(e, 119).find("14:03:07.123 ") == 0);
+  CHECK(event_line(e, 120).find("2026-11-21 ") == 0);
+  for (const size_t width : {80, 200})
+    CHECK(event_line(e, width).find("node_joined")
+          == event_heading(width).find("EVENT"));
+}
+
+TEST_CASE("an event line says what has become of a step", "[tools]") {
+  const auto data = R"({"task":"t","step":"poses","state":"failed",)"
+                    R"("node":"arm-1","reason":"no room","exit_code":3})";
+  CHECK(event_particulars(sample("instance_changed", "t-poses-1", data))
+        == "poses failed on arm-1 exit_code=3 reason=no room");
+  CHECK(event_line(sample("instance_changed", "t-poses-1", data))
+            .find("instance_changed      t                 poses failed")
+        != std::string::npos);
+}
+
+TEST_CASE("no particular of an event is raw JSON", "[tools]") {
+  CHECK(event_particulars(sample("x", "y", R"({"a":{"b":[1,"two",true]}})"))
+        == "a=(b (1, two, yes))");
 }
 
 TEST_CASE("the heading stands above its columns", "[tools]") {

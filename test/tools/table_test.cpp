@@ -1,5 +1,8 @@
 #include "tools/roscell/view/table.hpp"
 
+#include "tools/roscell/exit_code.hpp"
+#include "tools/roscell/view/table/choice.hpp"
+
 #include <catch2/catch.hpp>
 
 using namespace roscell::cli;
@@ -42,6 +45,124 @@ TEST_CASE("no line is wider than the terminal", "[tools]") {
         == "NODE    CPU…\n"
            "arm-1     2…\n"
            "b      0.25…\n");
+}
+
+namespace {
+
+table ranked() {
+  return {{{"NODE"},
+           {"ADDRESS", align::left, 2, true},
+           {"CPU", align::right, 1},
+           {"REASON", align::left, 3}},
+          {{"arm-1", "10.0.0.1:8420", "2", "it has been silent for 8 s"},
+           {"b", "10.0.0.2:8420", "0.25", ""}}};
+}
+
+text_style of_width(size_t width) {
+  text_style result;
+  result.width = width;
+  return result;
+}
+
+} // namespace
+
+TEST_CASE("a table gives up width where it matters least", "[tools]") {
+  CHECK(ranked().render(of_width(46))
+        == "NODE   ADDRESS         CPU  REASON\n"
+           "arm-1  10.0.0.1:8420     2  it has been silen…\n"
+           "b      10.0.0.2:8420  0.25  -\n");
+}
+
+TEST_CASE("a table says which columns it has left out", "[tools]") {
+  CHECK(ranked().render(of_width(34))
+        == "NODE   ADDRESS         CPU\n"
+           "arm-1  10.0.0.1:8420     2\n"
+           "b      10.0.0.2:8420  0.25\n"
+           "1 column left out: REASON; -o wid…\n");
+  CHECK(ranked().render(of_width(12))
+        == "NODE    CPU\n"
+           "arm-1     2\n"
+           "b      0.25\n"
+           "2 columns l…\n");
+}
+
+TEST_CASE("a column in which nothing stands is the first that goes",
+          "[tools]") {
+  const table t{{{"A"}, {"EMPTY", align::left, 1}, {"B", align::left, 2}},
+                {{"some text", "", "more text"}}};
+  CHECK(t.render(of_width(20)).find("some text  more text\n")
+        != std::string::npos);
+}
+
+TEST_CASE("a wide table is neither cut nor without a column", "[tools]") {
+  table t{{{"A"}, {"B", align::left, only_wide}}, {{"a", "a long text"}}};
+  CHECK(t.render({}) == "A\na\n");
+  auto wide = of_width(5);
+  wide.tables.wide = true;
+  CHECK(t.render(wide) == "A  B\na  a long text\n");
+}
+
+TEST_CASE("a table can do without headings", "[tools]") {
+  text_style bare;
+  bare.tables.headings = false;
+  CHECK(sample().render(bare) == "arm-1     2  active\nb      0.25  lost\n");
+  const table t{{{"A LONG HEADING"}, {"B"}}, {{"a", "b"}}};
+  CHECK(t.render(bare) == "a  b\n");
+}
+
+TEST_CASE("columns are chosen by their names", "[tools]") {
+  text_style chosen;
+  chosen.tables.columns = {"state", "NODE"};
+  CHECK(sample().render(chosen) == "STATE   NODE\nactive  arm-1\nlost    b\n");
+  chosen.tables.columns = {"discovery-server"};
+  const table spaced{{{"DISCOVERY SERVER"}}, {{"x"}}};
+  CHECK(spaced.render(chosen) == "DISCOVERY SERVER\nx\n");
+}
+
+TEST_CASE("a column that there is not is refused with those that there are",
+          "[tools]") {
+  text_style wrong;
+  wrong.tables.columns = {"PORT"};
+  const auto refusal = [&] {
+    try {
+      sample().render(wrong);
+    } catch (const command_error& e) {
+      return e.what() + (": " + e.hint);
+    }
+    return std::string{};
+  };
+  const std::string hint =
+      "there is no column 'PORT': the columns are NODE, CPU, STATE";
+  CHECK(refusal() == hint);
+  wrong.tables = {};
+  wrong.tables.sort = "-PORT";
+  CHECK(refusal() == hint);
+}
+
+TEST_CASE("rows are sorted by the value of a column, or from its end",
+          "[tools]") {
+  const table t{{{"N"}, {"X", align::right}},
+                {{"a", "10"}, {"b", ""}, {"c", "9"}, {"d", "word"}}};
+  text_style sorted;
+  sorted.tables.headings = false;
+  sorted.tables.sort = "X";
+  CHECK(t.render(sorted) == "c     9\na    10\nd  word\nb     -\n");
+  sorted.tables.sort = "-x";
+  CHECK(t.render(sorted) == "d  word\na    10\nc     9\nb     -\n");
+}
+
+TEST_CASE("a cell's value is its number with its unit", "[tools]") {
+  CHECK(cell_value("12") == 12);
+  CHECK(cell_value("-1.5") == -1.5);
+  CHECK(cell_value("0.5/4") == 0.5);
+  CHECK(cell_value("29.9 Hz") == 29.9);
+  CHECK(*cell_value("1 GiB") == 1024 * *cell_value("1 MiB"));
+  CHECK(*cell_value("0.5/3.8 GiB") == 512 * *cell_value("1 MiB"));
+  CHECK(cell_value("42s") == 42);
+  CHECK(cell_value("3m05s") == 185);
+  CHECK(*cell_value("5d03h") > *cell_value("23h59m"));
+  for (const auto* text : {"", "arm-1", "t-a-1a2b", "10.0.0.1:8420", "-", "1x"})
+    CHECK_FALSE(cell_value(text));
 }
 
 TEST_CASE("colours change no column", "[tools]") {

@@ -101,10 +101,9 @@ TEST_CASE("a node's row shows use and capacity with units", "[tools]") {
   cell_description cell;
   cell.nodes = {row};
   const auto text = members_view(cell, at(61000));
-  CHECK(has(text, "CPU (cores)"));
-  CHECK(has(text, "MEMORY (MiB)"));
   CHECK(has(text, " 0.5/4 "));
-  CHECK(has(text, " 812/3911 "));
+  CHECK(has(text, " 0.8/3.8 GiB "));
+  CHECK(has(text, " 4.9/19.5 GiB "));
   CHECK(has(text, "lost   1m00s"));
   CHECK(has(text, "silent for 8 s"));
 }
@@ -132,9 +131,50 @@ TEST_CASE("a lost node's instance is not shown as running", "[tools]") {
   const task_description tasks{
       {{"t", task_state::degraded, 1000, {sample_instance(), lost}}}};
   CHECK(has(tasks_view(tasks, at(6000)), "1/2, 1 unknown since 5s  arm-1\n"));
+  cell_description cell;
+  cell.nodes.resize(1);
+  cell.nodes[0].instances = {sample_instance(), lost};
+  CHECK(has(members_view(cell, at(0)), " 2 (1 unknown)  "));
+  node_description node;
+  node.instances = {sample_instance(), lost};
+  CHECK(has(node_view(node, at(6000)), "1 running, 1 unknown\n"));
   const auto text = instances_view({{lost}}, at(6000));
   CHECK(has(text, "  unknown     5s  "));
   CHECK(has(text, "  its node is away; it was running\n"));
+}
+
+TEST_CASE("a node that has fallen silent says when it was heard last",
+          "[tools]") {
+  cell_description cell;
+  cell.free = {
+      {"arm-1", "u", "10.0.0.2:8420", node_state::independent, "", 1000}};
+  const auto text = members_view(cell, at(61'000));
+  CHECK(has(text, "\narm-1  primary  silent  1m00s  "));
+  CHECK(has(text, "last heard 1m00s ago"));
+}
+
+TEST_CASE("labels and devices of nodes are shown when all is wanted",
+          "[tools]") {
+  cell_description cell;
+  cell.nodes.resize(1);
+  cell.nodes[0].resources.labels = {{"host", "one"}, {"room", "lab"}};
+  cell.nodes[0].resources.devices = {"/dev/video0"};
+  auto style = at(0);
+  CHECK_FALSE(has(members_view(cell, style), "LABELS"));
+  style.text.tables.wide = true;
+  CHECK(has(members_view(cell, style), "host=one,room=lab  /dev/video0\n"));
+}
+
+TEST_CASE("an instance's row shows what its skill tells in figures",
+          "[tools]") {
+  auto row = sample_instance();
+  row.status = "frames=120 dropped=3 median_us=4125";
+  row.figures = {120, 29.97, 3, 4.125};
+  const auto text = instances_view({{row}}, at(2000));
+  CHECK(has(text, " 120  30 Hz        3  4.12 ms "));
+  CHECK_FALSE(has(text, "median_us"));
+  row.figures.rate_hz = 0;
+  CHECK(has(instances_view({{row}}, at(2000)), " 0 Hz "));
 }
 
 TEST_CASE("an instance's id is the first column", "[tools]") {
@@ -175,9 +215,8 @@ TEST_CASE("a skill has a row for each deployment option", "[tools]") {
   row.nodes = {"b", "a"};
   const auto text = skills_view({{row}}, at(0));
   CHECK(has(text, "0123456789ab  a,b\n"));
-  CHECK(has(text, "cpu                   1            96         150"
-                  "                 -"));
-  CHECK(has(text, "512  0123456789ab"));
+  CHECK(has(text, "cpu           1  96 MiB  150 MiB           -"));
+  CHECK(has(text, "512 MiB  0123456789ab"));
 }
 
 TEST_CASE("builds are told apart, and what is refused is shown", "[tools]") {
@@ -217,7 +256,7 @@ TEST_CASE("a status shows the node, its resources and instances", "[tools]") {
   CHECK(has(text, "cell          lab\n"));
   CHECK(has(text, "up for        1m30s\n"));
   CHECK(has(text, "instances     1 running\n"));
-  CHECK(has(text, "cpu (cores)    0.5         4    3.5\n"));
+  CHECK(has(text, "cpu (cores)      0.5         4       3.5\n"));
   CHECK(has(text, "t-poses-1a2b3c4d"));
   CHECK_FALSE(has(text, "coordinator"));
 }

@@ -10,15 +10,16 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 
 namespace roscell::shim {
 
 namespace {
 
-/// `log.` and a 64-bit number.
+/// `log.` or `times.` and a 64-bit number.
 struct file_name {
-  explicit file_name(std::uint64_t offset) {
-    std::snprintf(text, sizeof(text), "log.%llu",
+  explicit file_name(std::uint64_t offset, const char* what = "log") {
+    std::snprintf(text, sizeof(text), "%s.%llu", what,
                   static_cast<unsigned long long>(offset));
   }
 
@@ -41,6 +42,24 @@ std::uint64_t size_of(int directory, const char* name) {
   return static_cast<std::uint64_t>(info.st_size);
 }
 
+/// What `times.<offset>` holds.
+struct time_note {
+  std::uint64_t offset;
+  std::int64_t unix_ms;
+};
+
+std::int64_t now_ms() {
+  timespec now{};
+  ::clock_gettime(CLOCK_REALTIME, &now);
+  return static_cast<std::int64_t>(now.tv_sec) * 1000 + now.tv_nsec / 1'000'000;
+}
+
+void close_file(int& fd) {
+  if (fd >= 0)
+    ::close(fd);
+  fd = -1;
+}
+
 } // namespace
 
 log_files::log_files(int directory, std::uint64_t max_bytes)
@@ -50,8 +69,8 @@ log_files::log_files(int directory, std::uint64_t max_bytes)
 }
 
 log_files::~log_files() {
-  if (file_ >= 0)
-    ::close(file_);
+  close_file(file_);
+  close_file(times_);
 }
 
 void log_files::write(const char* data, std::size_t size) {
@@ -62,8 +81,13 @@ void log_files::write(const char* data, std::size_t size) {
 
 void log_files::drop_older() {
   if (has_older_)
-    ::unlinkat(directory_, file_name{older_start_}.text, 0);
+    remove(older_start_);
   has_older_ = false;
+}
+
+void log_files::remove(std::uint64_t offset) {
+  ::unlinkat(directory_, file_name{offset}.text, 0);
+  ::unlinkat(directory_, file_name{offset, "times"}.text, 0);
 }
 
 /// Keeps the newest file of an earlier run as the older one of this run.
@@ -79,7 +103,7 @@ void log_files::find_newest() {
     auto newer = !has_older_ || offset > older_start_;
     auto victim = newer ? older_start_ : offset;
     if (has_older_)
-      ::unlinkat(directory_, file_name{victim}.text, 0);
+      remove(victim);
     if (newer)
       older_start_ = offset;
     has_older_ = true;
@@ -99,26 +123,57 @@ bool log_files::ensure_open() {
   return file_ >= 0;
 }
 
+/// Both files of a pair begin and end together.
+bool log_files::is_full() const {
+  return size_ >= max_file_bytes_
+         || times_size_ + sizeof(time_note) > max_file_bytes_ / 4;
+}
+
+/// Notes the time of what is written next, unless that of what was written
+/// before is the same. Half a note would make those after it unreadable.
+void log_files::note_time() {
+  const auto now = now_ms();
+  if (times_size_ > 0 && now == noted_ms_)
+    return;
+  if (times_ < 0)
+    times_ =
+        ::openat(directory_, file_name{start_, "times"}.text,
+                 O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0640);
+  const time_note note{start_ + size_, now};
+  if (times_ < 0)
+    return;
+  const auto n = ::write(times_, &note, sizeof(note));
+  if (n == static_cast<ssize_t>(sizeof(note))) {
+    times_size_ += sizeof(note);
+    noted_ms_ = now;
+  } else if (n > 0
+             && ::ftruncate(times_, static_cast<off_t>(times_size_)) != 0) {
+    close_file(times_);
+    times_size_ = 0;
+  }
+}
+
 void log_files::rotate() {
-  if (file_ >= 0)
-    ::close(file_);
-  file_ = -1;
+  close_file(file_);
+  close_file(times_);
   // The oldest goes first, so that the bound holds at every moment.
   drop_older();
   older_start_ = start_;
   has_older_ = true;
   start_ += size_;
   size_ = 0;
+  times_size_ = 0;
 }
 
 /// Returns how many bytes were written.
 std::size_t log_files::append(const char* data, std::size_t size) {
   std::size_t done = 0;
   while (done < size) {
-    if (size_ >= max_file_bytes_)
+    if (is_full())
       rotate();
     if (!ensure_open())
       return done;
+    note_time();
     auto most = std::min<std::uint64_t>(size - done, max_file_bytes_ - size_);
     auto n = ::write(file_, data + done, most);
     if (n < 0 && errno == EINTR)

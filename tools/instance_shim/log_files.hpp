@@ -7,9 +7,12 @@ namespace roscell::shim {
 
 /// A log of bounded size. Its files are named `log.<offset>`, where the offset
 /// is the position of the file's first byte in all that was ever logged; the
-/// two newest are kept, each of at most half the bound. Never waits and never
-/// fails: what cannot be written is lost, and a line in the log says how much
-/// as soon as one can be written.
+/// two newest are kept, each of at most half the bound. Beside each lies
+/// `times.<offset>`, of at most a quarter of its bound: pairs of 64-bit numbers
+/// in the machine's own order, an offset and the milliseconds since 1970 at
+/// which what stands there and after was written. Never waits and never fails:
+/// what cannot be written is lost, and a line in the log says how much as soon
+/// as one can be written.
 class log_files {
 public:
   /// Continues the log in the folder `directory`, an open descriptor that must
@@ -28,7 +31,10 @@ public:
 
 private:
   void find_newest();
+  void remove(std::uint64_t offset);
   bool ensure_open();
+  bool is_full() const;
+  void note_time();
   void rotate();
   std::size_t append(const char* data, std::size_t size);
   void note_loss();
@@ -36,6 +42,9 @@ private:
   const int directory_;
   const std::uint64_t max_file_bytes_;
   int file_ = -1;
+  int times_ = -1;
+  std::int64_t noted_ms_ = 0; ///< The last time in the newest file of times.
+  std::uint64_t times_size_ = 0;
   std::uint64_t start_ = 0;
   std::uint64_t size_ = 0;
   std::uint64_t older_start_ = 0;

@@ -34,6 +34,8 @@ void add_new_command(CLI::App& app, action& chosen);
 /// `show`, below `skills`.
 void add_skill_show_command(CLI::App& skills, action& chosen);
 
+void add_graph_command(CLI::App& app, action& chosen);
+void add_describe_command(CLI::App& app, action& chosen);
 void add_events_command(CLI::App& app, action& chosen);
 void add_logs_command(CLI::App& app, action& chosen);
 void add_completion_command(CLI::App& app, action& chosen);

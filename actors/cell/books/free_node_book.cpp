@@ -6,6 +6,7 @@ namespace roscell {
 
 free_node_book::sighting free_node_book::see(const node_presence& who,
                                              time_point now) {
+  silent_.erase(who.uuid);
   const auto i = by_uuid_.find(who.uuid);
   if (i == by_uuid_.end()) {
     if (by_uuid_.size() >= limits::strangers::free_nodes)
@@ -20,21 +21,49 @@ free_node_book::sighting free_node_book::see(const node_presence& who,
   return sighting::changed;
 }
 
-bool free_node_book::vanish(const node_presence& who) {
+namespace {
+
+free_node row_of(const node_presence& who, int64_t silent_since_unix_ms = 0) {
+  return {who.name,
+          who.uuid,
+          who.address,
+          who.role == "orphaned" ? node_state::orphaned
+                                 : node_state::independent,
+          who.cell,
+          silent_since_unix_ms};
+}
+
+} // namespace
+
+void free_node_book::remember_silent(const node_presence& who,
+                                     int64_t now_unix_ms) {
+  if (silent_.size() >= limits::strangers::silent_nodes)
+    silent_.erase(std::min_element(
+        silent_.begin(), silent_.end(), [](const auto& x, const auto& y) {
+          return x.second.silent_since_unix_ms < y.second.silent_since_unix_ms;
+        }));
+  silent_[who.uuid] = row_of(who, now_unix_ms);
+}
+
+bool free_node_book::vanish(const node_presence& who, int64_t now_unix_ms) {
   const auto i = by_uuid_.find(who.uuid);
   if (i == by_uuid_.end() || i->second.epoch != who.epoch
       || i->second.role != who.role)
     return false;
+  const auto last = i->second;
   forget(who.uuid);
+  remember_silent(last, now_unix_ms);
   return true;
 }
 
 void free_node_book::forget(const std::string& uuid) {
   by_uuid_.erase(uuid);
+  silent_.erase(uuid);
   calls_.forget(uuid);
 }
 
 void free_node_book::registered(const node_identity& who) {
+  silent_.erase(who.uuid);
   const auto* known = find(who.uuid);
   if (known && known->epoch < who.epoch)
     forget(who.uuid);
@@ -56,10 +85,9 @@ const node_presence* free_node_book::find_name(const std::string& name) const {
 std::vector<free_node> free_node_book::rows() const {
   std::vector<free_node> result;
   for (const auto& [uuid, who] : by_uuid_)
-    result.push_back({who.name, who.uuid, who.address,
-                      who.role == "orphaned" ? node_state::orphaned
-                                             : node_state::independent,
-                      who.cell});
+    result.push_back(row_of(who));
+  for (const auto& [uuid, row] : silent_)
+    result.push_back(row);
   return result;
 }
 

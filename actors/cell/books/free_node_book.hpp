@@ -26,8 +26,8 @@ public:
   sighting see(const node_presence& who, time_point now);
 
   /// It announces itself no more. False if that was not known, or if a later
-  /// life of it is known.
-  bool vanish(const node_presence& who);
+  /// life of it is known. Its row stays for a while, and says since when.
+  bool vanish(const node_presence& who, int64_t now_unix_ms);
 
   /// Nobody answers at its address.
   void forget(const std::string& uuid);
@@ -41,6 +41,7 @@ public:
   /// Of several that claim the name the one with the highest epoch.
   const node_presence* find_name(const std::string& name) const;
 
+  /// Those that announce themselves, then those that do so no more.
   std::vector<free_node> rows() const;
 
   size_t size() const {
@@ -64,7 +65,10 @@ public:
   time_point next_question(const doubt& is_wanted) const;
 
 private:
+  void remember_silent(const node_presence& who, int64_t now_unix_ms);
+
   std::map<std::string, node_presence> by_uuid_;
+  std::map<std::string, free_node> silent_; ///< By UUID.
   stranger_calls calls_{limits::strangers::proof_calls};
 };
 

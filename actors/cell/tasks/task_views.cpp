@@ -84,7 +84,7 @@ std::vector<registry_row> describe_nodes(const cell_coordinator_state& st) {
   return result;
 }
 
-caf::result<instance_description>
+caf::expected<instance_description>
 describe_instances(const cell_coordinator_state& st,
                    const instance_query& query) {
   instance_description result;

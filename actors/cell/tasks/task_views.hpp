@@ -2,6 +2,8 @@
 
 #include "actors/cell/state/coordinator_state.hpp"
 
+#include <caf/expected.hpp>
+
 #include <vector>
 
 /// How the CELL COORDINATOR shows tasks and instances.
@@ -14,7 +16,7 @@ caf::result<task_description> describe_tasks(const cell_coordinator_state& st,
                                              const task_query& query);
 
 /// Errors: unknown_task.
-caf::result<instance_description>
+caf::expected<instance_description>
 describe_instances(const cell_coordinator_state& st,
                    const instance_query& query);
 

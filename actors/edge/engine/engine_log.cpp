@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <iterator>
 #include <utility>
 
 namespace roscell {
@@ -152,21 +153,40 @@ bool log_collector::take_frame(std::string_view frame) {
   if (!range_.last_part && !text_.empty()
       && text_.size() + line.size() > max_text_bytes)
     return false;
+  if (range_.times)
+    notes_.push_back(
+        {static_cast<int64_t>(text_.size()), *time / log_ticks_per_ms});
   text_ += line;
   next_offset_ = std::max(next_offset_, offset + 1);
   // Half as much again is kept, so that not every line moves the others.
   if (range_.last_part && text_.size() > 3 * max_text_bytes / 2)
-    text_.erase(0, text_.size() - max_text_bytes);
+    forget_front(text_.size() - max_text_bytes);
   return true;
+}
+
+/// The note of the line that is cut stays, for the rest of it.
+void log_collector::forget_front(size_t bytes) {
+  text_.erase(0, bytes);
+  const auto cut = static_cast<int64_t>(bytes);
+  for (auto& note : notes_)
+    note.offset -= cut;
+  const auto behind =
+      std::find_if(notes_.begin(), notes_.end(),
+                   [](const time_note& note) { return note.offset > 0; });
+  if (behind != notes_.begin())
+    notes_.erase(notes_.begin(), std::prev(behind));
 }
 
 log_part log_collector::part() const {
   log_part result;
   const auto cut =
       text_.size() > max_text_bytes ? text_.size() - max_text_bytes : 0;
-  result.text = valid_utf8(
-      range_.last_part ? std::string_view{text_}.substr(cut)
-                       : std::string_view{text_}.substr(0, max_text_bytes));
+  const auto from = range_.last_part ? cut : 0;
+  const auto bytes = std::string_view{text_}.substr(from, max_text_bytes);
+  if (range_.times)
+    result.times_unix_ms =
+        line_times(bytes, static_cast<int64_t>(from), notes_);
+  result.text = valid_utf8(bytes);
   result.next_offset = next_offset_;
   return result;
 }

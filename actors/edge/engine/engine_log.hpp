@@ -51,6 +51,7 @@ struct log_range {
   log_ticks origin = 0;   ///< Offsets count from here.
   int64_t from = 0;       ///< Offset of the first line that is wanted.
   bool last_part = false; ///< If it is too long, the end of it is wanted.
+  bool times = false;     ///< The times of the lines are wanted.
 };
 
 /// Collects one part of an engine's log, whose lines carry their times. An
@@ -72,11 +73,15 @@ public:
 
 private:
   bool take_frame(std::string_view frame);
+  void forget_front(size_t bytes);
 
   log_range range_;
   log_frames frames_;
   std::string text_;
   int64_t next_offset_;
+  /// When what stands there in `text_` was logged; the rest of a line that an
+  /// engine has cut is as old as its beginning.
+  std::vector<time_note> notes_;
 };
 
 } // namespace roscell

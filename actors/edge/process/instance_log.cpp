@@ -132,7 +132,62 @@ instance_log::chunk instance_log::read(int64_t from) const {
   return result;
 }
 
-log_part instance_log::read_from(int64_t offset) const {
+namespace {
+
+/// The note at `index` of a file of times; none behind its end.
+std::optional<time_note> note_at(int fd, int64_t index) {
+  time_note result;
+  const auto at = index * static_cast<int64_t>(sizeof(result));
+  const auto n = ::pread(fd, &result, sizeof(result), at);
+  if (n != static_cast<ssize_t>(sizeof(result)))
+    return std::nullopt;
+  return result;
+}
+
+/// How many notes of the file are at `offset` or before it.
+int64_t notes_before(int fd, int64_t count, int64_t offset) {
+  int64_t low = 0;
+  while (low < count) {
+    const auto middle = (low + count) / 2;
+    const auto note = note_at(fd, middle);
+    if (note && note->offset <= offset)
+      low = middle + 1;
+    else
+      count = middle;
+  }
+  return low;
+}
+
+/// Adds what the file tells of the bytes from `from` to `to`.
+void add_notes(const fs::path& path, int64_t from, int64_t to,
+               std::vector<time_note>& result) {
+  const unique_fd fd{::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW)};
+  struct stat info {};
+  if (!fd || ::fstat(fd.get(), &info) != 0 || !S_ISREG(info.st_mode))
+    return;
+  const auto count = info.st_size / static_cast<int64_t>(sizeof(time_note));
+  auto i = std::max<int64_t>(0, notes_before(fd.get(), count, from) - 1);
+  // A note tells of a byte at least, so this ends even with a file gone wrong.
+  for (auto left = to - from + 1; left > 0; --left) {
+    const auto note = note_at(fd.get(), i++);
+    if (!note || note->offset >= to)
+      return;
+    result.push_back(*note);
+  }
+}
+
+} // namespace
+
+std::vector<time_note> instance_log::notes(int64_t from, int64_t to) const {
+  std::vector<time_note> result;
+  for (const auto& x : files())
+    if (x.start < to && x.start + x.size > from)
+      add_notes(folder_ / ("times." + std::to_string(x.start)), from, to,
+                result);
+  return result;
+}
+
+log_part instance_log::read_from(int64_t offset, bool times) const {
   // Asked first: what the program wrote before it ended is then seen below.
   const bool ended = has_ended();
   auto [from, text, end] = read(offset);
@@ -143,17 +198,20 @@ log_part instance_log::read_from(int64_t offset) const {
   if (!result.ended)
     text.resize(text.size() - unfinished_utf8(text));
   result.next_offset = from + static_cast<int64_t>(text.size());
+  if (times)
+    result.times_unix_ms =
+        line_times(text, from, notes(from, result.next_offset));
   result.text = valid_utf8(text);
   return result;
 }
 
-log_part instance_log::read_tail(int64_t lines) const {
+log_part instance_log::read_tail(int64_t lines, bool times) const {
   const auto all = files();
   const auto end = all.empty() ? 0 : all.back().start + all.back().size;
   const auto last = read(std::max<int64_t>(0, end - limits::log::part_bytes));
   const auto wanted = std::clamp<int64_t>(lines, 0, limits::log::part_bytes);
-  return read_from(last.from
-                   + static_cast<int64_t>(tail_begin(last.bytes, wanted)));
+  return read_from(
+      last.from + static_cast<int64_t>(tail_begin(last.bytes, wanted)), times);
 }
 
 } // namespace roscell

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "actors/edge/process/line_times.hpp"
+
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -12,6 +14,9 @@ struct log_part {
   std::string text;        ///< Valid UTF-8; other bytes are replaced.
   int64_t next_offset = 0; ///< Of the first byte after the part.
   bool ended = false;      ///< Nothing will follow.
+  /// For each line of `text`, or the rest of one; empty if it was not asked
+  /// for, 0 where it is not known.
+  std::vector<int64_t> times_unix_ms;
 };
 
 /// Reads the bounded log that an instance's shim keeps in its folder: files
@@ -27,11 +32,11 @@ public:
   bool exists() const;
 
   /// What stands at `offset` and after; the oldest that is still there if that
-  /// is gone, nothing if it is not yet written.
-  log_part read_from(int64_t offset) const;
+  /// is gone, nothing if it is not yet written. With `times`, also when.
+  log_part read_from(int64_t offset, bool times = false) const;
 
   /// The last lines, as far as they fit into one part.
-  log_part read_tail(int64_t lines = default_lines) const;
+  log_part read_tail(int64_t lines = default_lines, bool times = false) const;
 
 private:
   struct file {
@@ -49,6 +54,7 @@ private:
   std::vector<file> files() const;
   std::string bytes(const file& x, int64_t from, int64_t most) const;
   chunk read(int64_t from) const;
+  std::vector<time_note> notes(int64_t from, int64_t to) const;
   bool has_ended() const;
 
   std::filesystem::path folder_;

@@ -98,7 +98,8 @@ engine_stream_callbacks collect(engine_runtime_pointer self, uint64_t call,
     auto part = collector.part();
     caf::anon_send(target,
                    engine_log_read{call, std::move(part.text), part.next_offset,
-                                   is_whole && is_good(end)});
+                                   is_whole && is_good(end),
+                                   std::move(part.times_unix_ms)});
   };
   return calls;
 }
@@ -135,7 +136,7 @@ void open_log(engine_runtime_pointer self, const engine_answered& x,
   request.target = log_target(text_at(found, "Id"), query, origin, follow);
   request.endless = follow;
   const log_range range{origin, std::max<int64_t>(0, query.offset),
-                        query.offset < 0};
+                        query.offset < 0, query.times};
   follower.stream =
       st.client->stream(std::move(request), collect(self, call, range, follow));
   st.followers.emplace(call, std::move(follower));
@@ -165,7 +166,8 @@ void on_log_read(engine_runtime_pointer self, const engine_log_read& part) {
   if (i == self->state.followers.end())
     return;
   const bool ended = !i->second.running && part.is_whole;
-  deliver(self, part.call, {{}, part.text, part.next_offset, ended});
+  deliver(self, part.call,
+          {{}, part.text, part.next_offset, ended, part.times_unix_ms});
 }
 
 void release_followers(engine_runtime_pointer self) {

@@ -24,9 +24,10 @@ log_excerpt look(process_runtime_pointer self, const log_query& query) {
   const auto log = log_of(self, query.instance);
   const auto lines =
       query.tail_lines > 0 ? query.tail_lines : instance_log::default_lines;
-  auto part =
-      query.offset < 0 ? log.read_tail(lines) : log.read_from(query.offset);
-  return {query.instance, std::move(part.text), part.next_offset, part.ended};
+  auto part = query.offset < 0 ? log.read_tail(lines, query.times)
+                               : log.read_from(query.offset, query.times);
+  return {query.instance, std::move(part.text), part.next_offset, part.ended,
+          std::move(part.times_unix_ms)};
 }
 
 bool says_something(const log_excerpt& x) {

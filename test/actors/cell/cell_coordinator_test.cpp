@@ -1,3 +1,4 @@
+#include "actors/house/limits.hpp"
 #include "test/actors/fakes/coordinator_fakes.hpp"
 
 namespace roscell::test {
@@ -214,6 +215,46 @@ TEST_CASE_METHOD(paper_cell,
   CHECK(shown.at("instances")[0].at("exit_code") == 3);
   REQUIRE(count("instance_changed") >= 1);
   CHECK(facts.back().data.at("reason") == "it exited with code 3");
+}
+
+TEST_CASE_METHOD(paper_cell,
+                 "Instances are shown with what their nodes say now",
+                 "[cell_coordinator]") {
+  auto& arm = add("arm");
+  request(echo_task("t", {echo_step("s0", 1, "arm")}));
+  auto& known = arm.running.begin()->second;
+  known.status = "frames=120";
+  known.figures = {120, 2.5, 3, 0.85};
+  const auto shown = [&] {
+    return request({{"type", "instance_query"}}).at("instances").at(0);
+  };
+  CHECK(shown().at("status") == "frames=120");
+  CHECK(shown().at("figures")
+        == json{{"frames", 120},
+                {"rate_hz", 2.5},
+                {"dropped", 3},
+                {"latency_ms", 0.85}});
+  SECTION("a node that is silent has no figures, and holds up nobody") {
+    arm.mute = true;
+    arm.tell(known);
+    const auto reply = post({{"type", "instance_query"}});
+    time.advance(limits::resource::collection);
+    const auto row = reply_of(reply).at("instances").at(0);
+    CHECK_FALSE(row.contains("figures"));
+    CHECK(row.at("state") == "running");
+  }
+  SECTION("a node that is away has none") {
+    arm.tell(known);
+    lose(arm);
+    CHECK_FALSE(shown().contains("figures"));
+    CHECK(shown().contains("unknown_since_unix_ms"));
+  }
+  SECTION("what has ended keeps its last ones") {
+    known.state = instance_state::stopped;
+    arm.tell(known);
+    time.settle();
+    CHECK(shown().at("figures").at("frames") == 120);
+  }
 }
 
 TEST_CASE_METHOD(paper_cell, "A task is degraded while a node of it is away",

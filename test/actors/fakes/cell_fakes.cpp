@@ -176,6 +176,11 @@ caf::behavior local_parts(caf::event_based_actor* self, fake_site* site,
       [=](const instance_query&) {
         return instance_description{node->instances};
       },
+      [](const figures_query&) {
+        figures_report result;
+        result.instances.push_back({"t-a-1", "frames=7", {7, 2.5, 0, 1.5}});
+        return result;
+      },
       [=](const ends_acknowledged& x) {
         auto& known = node->acknowledged;
         known.insert(known.end(), x.instances.begin(), x.instances.end());

@@ -82,6 +82,16 @@ caf::behavior agent(caf::event_based_actor* self, fake_agent* x) {
           result.instances.push_back(row);
         return result;
       },
+      [=](const figures_query&) -> caf::result<figures_report> {
+        if (x->mute) {
+          x->unanswered.push_back(self->make_response_promise());
+          return caf::delegated<figures_report>{};
+        }
+        figures_report result;
+        for (const auto& [id, row] : x->running)
+          result.instances.push_back({id, row.status, row.figures});
+        return result;
+      },
       [=](const log_query& query) {
         return log_excerpt{query.instance, "hello from " + x->identity.name, 5,
                            false};

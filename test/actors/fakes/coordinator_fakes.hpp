@@ -28,6 +28,7 @@ struct fake_agent {
   node_resources has; ///< `used` leaves instances out.
   temper mood = temper::happy;
   bool silent = false;        ///< Answers nothing about resources.
+  bool mute = false;          ///< Answers nothing about figures.
   bool slow_reports = false;  ///< Measures at once, answers when told to.
   bool slow_removals = false; ///< Removes when told to.
 

@@ -385,6 +385,11 @@ TEST_CASE("the listener hears of each state once") {
   CHECK(b.told->states()
         == words{"pending", "building", "starting", "running"});
   CHECK(b.row("i").status == "12 frames/s");
+  b.say("i", "frames=12 dropped=1");
+  CHECK(b.row("i").figures.frames == 12);
+  CHECK(b.row("i").figures.dropped == 1);
+  CHECK(b.told->states()
+        == words{"pending", "building", "starting", "running"});
 }
 
 TEST_CASE("the log of an instance is the runtime's, of others there is none") {

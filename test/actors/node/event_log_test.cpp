@@ -56,6 +56,19 @@ TEST_CASE_METHOD(log_fixture, "Facts are numbered from 1 without a gap",
   CHECK(seen[0].time_unix_ms > 0);
 }
 
+TEST_CASE_METHOD(log_fixture, "What is kept is told without listening on",
+                 "[event_log]") {
+  for (const auto* what : {"node_joined", "node_lost", "node_left"})
+    tell(what);
+  auto reply = time.ask<kept_events>(log, kept_events_query{1});
+  time.settle();
+  const auto& events = (*reply)->value().events;
+  REQUIRE(events.size() == 2);
+  CHECK(events[0].what == "node_lost");
+  CHECK(events[1].sequence == 3);
+  CHECK(state().at("listeners") == 0);
+}
+
 TEST_CASE_METHOD(log_fixture, "A late listener first gets what it has not seen",
                  "[event_log]") {
   for (int i = 0; i < 5; ++i)

@@ -120,6 +120,21 @@ TEST_CASE_METHOD(agent_fixture,
   CHECK(node.gpus.size() == 2);
 }
 
+TEST_CASE_METHOD(agent_fixture, "What live instances say is told when asked",
+                 "[node_agent]") {
+  add_instance("10:5", instance_state::running);
+  instances.back().spec.instance = "t-a-1";
+  instances.back().status = "frames=7";
+  instances.back().figures.frames = 7;
+  add_instance("11:5", instance_state::failed);
+  const auto told = ask<figures_report>(figures_query{});
+  REQUIRE(told);
+  REQUIRE(told->instances.size() == 1);
+  CHECK(told->instances[0].instance == "t-a-1");
+  CHECK(told->instances[0].status == "frames=7");
+  CHECK(told->instances[0].figures.frames == 7);
+}
+
 TEST_CASE_METHOD(agent_fixture, "What live instances have reserved is in use",
                  "[node_agent]") {
   add_instance("10:5", instance_state::running);

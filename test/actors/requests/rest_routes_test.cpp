@@ -68,6 +68,15 @@ TEST_CASE("Whoever asks for a proof of a registration gives a nonce",
         == json{{"type", "registration_query"}, {"nonce", "ab"}});
 }
 
+TEST_CASE("Events are followed unless it is refused", "[rest_routes]") {
+  auto follow = [](const http_request& x) {
+    return std::get<event_stream_request>(route_of(x)).follow;
+  };
+  CHECK(follow(get("/v1/events")));
+  CHECK(follow(get("/v1/events", {{"follow", "1"}})));
+  CHECK_FALSE(follow(get("/v1/events", {{"follow", "0"}})));
+}
+
 TEST_CASE("The event stream starts after a sequence number", "[rest_routes]") {
   auto since = [](const http_request& x) {
     return std::get<event_stream_request>(route_of(x)).since;

@@ -38,6 +38,13 @@ TEST_CASE_METHOD(cell_fixture, "a member is a node agent") {
     site.pass(1s);
     CHECK((*reply)->value().instances == std::vector<std::string>{"t-a-1"});
   }
+  SECTION("for what its instances say") {
+    auto reply = time.ask<figures_report>(member(), figures_query{});
+    site.pass(1s);
+    REQUIRE((*reply)->value().instances.size() == 1);
+    CHECK((*reply)->value().instances[0].figures.rate_hz == 2.5);
+    CHECK((*reply)->value().instances[0].status == "frames=7");
+  }
   SECTION("for logs") {
     auto reply = time.ask<log_excerpt>(member(), log_query{"t-a-1"});
     site.pass(1s);

@@ -21,12 +21,14 @@ private:
   std::string data_;
 };
 
-/// One line for people: time, number, fact, subject and the particulars as
-/// "key=value". No line end.
-std::string event_line(const event& e);
+/// One line for people: time, number, fact, subject and the particulars. Of an
+/// instance the subject is its task. No line end.
+/// @param width columns of the terminal; where it is narrow the date is left
+///   out. 0: no bound.
+std::string event_line(const event& e, size_t width = 0);
 
 /// Headings above such lines.
-std::string event_heading();
+std::string event_heading(size_t width = 0);
 
 /// The particulars of an event as "key=value", one blank between them.
 std::string event_particulars(const event& e);

@@ -139,6 +139,18 @@ void node_client::follow(const std::string& path, const line_handler& on_line,
     throw refused(document_of(to_, reply));
 }
 
+std::vector<event> kept_events_of(const node_client& node, uint64_t since) {
+  std::vector<event> result;
+  event_stream events;
+  node.follow("/v1/events?follow=0&since=" + std::to_string(since),
+              [&](std::string_view line) {
+                if (auto complete = events.add_line(line))
+                  result.push_back(std::move(*complete));
+                return true;
+              });
+  return result;
+}
+
 void follow_events(const node_client& node, uint64_t since,
                    const event_handler& on_event, const http_cancel* cancel) {
   event_stream events;

@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace CLI {
 class App;
@@ -76,6 +77,9 @@ private:
   target to_;
   http_client http_;
 };
+
+/// The events after number `since` that the node still has, the oldest first.
+std::vector<event> kept_events_of(const node_client& node, uint64_t since = 0);
 
 using event_handler = std::function<bool(const event& e)>;
 

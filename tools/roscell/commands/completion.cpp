@@ -7,6 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <memory>
 
 namespace roscell::cli {
@@ -21,7 +22,6 @@ struct value_source {
 
 // `words` takes a list, `files` and `dirs` are paths, `ids` asks the node.
 constexpr value_source sources[] = {
-    {"--output", "words table json"},
     {"--runtime", "words auto docker podman process"},
     {"--log-level", "words trace debug info warn error off"},
     {"--interface", "interfaces"},
@@ -55,7 +55,7 @@ std::string command_case(const CLI::App& command) {
   std::string arguments;
   for (const auto* option : command.get_options()) {
     if (option->get_positional()) {
-      arguments += " '" + std::string{action_of(option->get_name(true))} + "'";
+      arguments += " '" + action_of(*option) + "'";
       continue;
     }
     const auto names = names_of(*option);
@@ -64,7 +64,7 @@ std::string command_case(const CLI::App& command) {
       continue;
     with_value.insert(with_value.end(), names.begin(), names.end());
     values += "        " + joined(names, "|") + ") _roscell_"
-              + std::string{action_of(names.back())} + "; return ;;\n";
+              + action_of(*option) + "; return ;;\n";
   }
   std::vector<std::string> below;
   for (const auto* x :
@@ -180,10 +180,23 @@ std::string completion_of(const CLI::App& app, const std::string& shell) {
 
 } // namespace
 
-std::string_view action_of(std::string_view name) {
+std::string value_name(const CLI::Option& option) {
+  return option.get_positional() ? option.get_name(true)
+                                 : names_of(option).back();
+}
+
+std::string action_of(const CLI::Option& option) {
+  const auto name = value_name(option);
+  // Commands differ in the forms that they can print: "table|json [table]".
+  if (name == "--output") {
+    const auto& text = option.get_option_text();
+    auto words = text.substr(0, text.find(' '));
+    std::replace(words.begin(), words.end(), '|', ' ');
+    return "words " + words;
+  }
   for (const auto& source : sources)
     if (source.name == name)
-      return source.action;
+      return std::string{source.action};
   return "nothing";
 }
 

@@ -18,10 +18,13 @@ std::string bash_completion(const CLI::App& app);
 std::string zsh_completion(const CLI::App& app);
 std::string fish_completion(const CLI::App& app);
 
-/// What may follow an option, or stand as an argument, of this name: a function
-/// of each script without its prefix, and the function's arguments. `words`
-/// takes a list, `files` and `dirs` are paths, `ids` asks the node.
-std::string_view action_of(std::string_view name);
+/// The option's long name, or that of an argument.
+std::string value_name(const CLI::Option& option);
+
+/// What may follow an option, or stand as an argument: a function of each
+/// script without its prefix, and the function's arguments. `words` takes a
+/// list, `files` and `dirs` are paths, `ids` asks the node.
+std::string action_of(const CLI::Option& option);
 
 /// All names of an option, with their dashes; the long one last.
 std::vector<std::string> names_of(const CLI::Option& option);

@@ -19,8 +19,8 @@ std::string fish_word(const std::string& text) {
 }
 
 /// The words that are offered for what `action_of` says.
-std::string fish_offers(std::string_view name) {
-  return " -a '(__roscell_" + std::string{action_of(name)} + ")'";
+std::string fish_offers(const CLI::Option& option) {
+  return " -a '(__roscell_" + action_of(option) + ")'";
 }
 
 std::string fish_option(const CLI::App& command, const CLI::Option& option) {
@@ -32,7 +32,7 @@ std::string fish_option(const CLI::App& command, const CLI::Option& option) {
     line += " -l " + name;
   line += " -d " + fish_word(option.get_description());
   if (option.get_items_expected_max() != 0)
-    line += " -x" + fish_offers(names_of(option).back());
+    line += " -x" + fish_offers(option);
   return line + "\n";
 }
 
@@ -44,7 +44,7 @@ std::string fish_lines(const CLI::App& command) {
   std::vector<std::string> with_value;
   for (const auto* option : command.get_options()) {
     if (option->get_positional()) {
-      arguments.push_back(option->get_name(true));
+      arguments.push_back(fish_offers(*option));
       continue;
     }
     lines += fish_option(command, *option);
@@ -56,7 +56,7 @@ std::string fish_lines(const CLI::App& command) {
     lines += "complete -c roscell -n '__roscell_at " + command.get_name() + " "
              + std::to_string(i + 1)
              + (i + 1 < arguments.size() ? " one " : " on ")
-             + joined(with_value, " ") + "'" + fish_offers(arguments[i]) + "\n";
+             + joined(with_value, " ") + "'" + arguments[i] + "\n";
   return lines;
 }
 

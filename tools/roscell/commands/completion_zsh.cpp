@@ -21,8 +21,8 @@ std::string zsh_text(const std::string& text, std::string_view special = "") {
 
 /// How zsh zsh_action what `action_of` says. After a blank the arguments of a
 /// function stay what they are.
-std::string zsh_action(std::string_view name) {
-  return ":" + std::string{name} + ": _roscell_" + std::string{action_of(name)};
+std::string zsh_action(const CLI::Option& option) {
+  return ":" + value_name(option) + ": _roscell_" + action_of(option);
 }
 
 /// One line for each name of an option.
@@ -33,7 +33,7 @@ std::string zsh_options(const CLI::Option& option) {
   for (const auto& name : names)
     result += "        '*" + name + "["
               + zsh_text(option.get_description(), ":[]\\") + "]"
-              + (takes_value ? zsh_action(names.back()) : "") + "' \\\n";
+              + (takes_value ? zsh_action(option) : "") + "' \\\n";
   return result;
 }
 
@@ -43,7 +43,7 @@ std::string zsh_case(const CLI::App& command) {
   std::vector<std::string> arguments;
   for (const auto* option : command.get_options())
     if (option->get_positional())
-      arguments.push_back(zsh_action(option->get_name(true)));
+      arguments.push_back(zsh_action(*option));
     else
       options += zsh_options(*option);
   auto text =

@@ -62,11 +62,24 @@ struct show_options {
   connection_options connection;
   std::string output = "table";
   std::string argument;
+  table_options tables;
   bool watch = false;
   bool actors = false;
 
   bool as_json() const {
-    return output == "json";
+    return output == "json" || output == "jsonl";
+  }
+
+  std::string json_text(const json& reply) const {
+    return output == "json" ? pretty(reply) : compact(reply);
+  }
+
+  /// How a table looks now.
+  view_style style() const {
+    auto result = view_style_now();
+    result.text.tables = tables;
+    result.text.tables.wide = output == "wide";
+    return result;
   }
 };
 
@@ -80,7 +93,7 @@ int show(const show_options& options, const node_client& node,
     if (options.watch)
       return watch(node, options.as_json(), fetch, view);
     const auto reply = fetch();
-    print(options.as_json() ? pretty(reply) : view(reply));
+    print(options.as_json() ? options.json_text(reply) : view(reply));
     return exit_done;
   } catch (refused& e) {
     e.as_json = options.as_json();
@@ -95,13 +108,13 @@ int show_subject(const subject& what, const show_options& options) {
     path += "/" + percent_encode(options.argument);
   return show(
       options, node, [&] { return node.get(path); },
-      [&](const json& reply) { return what.view(reply, view_style_now()); });
+      [&](const json& reply) { return what.view(reply, options.style()); });
 }
 
 int show_status(const show_options& options) {
   const node_client node{options.connection};
   const auto view = [&](const json& reply) {
-    const auto style = view_style_now();
+    const auto style = options.style();
     const auto description = reply.get<node_description>();
     auto text = node_view(description, style);
     if (description.role == node_role::coordinator)
@@ -118,9 +131,9 @@ int show_transfers(const show_options& options) {
   const auto query = message_json(transfer_query{options.argument});
   return show(
       options, node, [&] { return node.ask(query, view_limit); },
-      [](const json& reply) {
+      [&](const json& reply) {
         return transfers_view(reply.get<transfer_description>(),
-                              view_style_now());
+                              options.style());
       });
 }
 
@@ -130,7 +143,6 @@ CLI::App* add_show_command(CLI::App& app, const char* name,
   auto* command = app.add_subcommand(name, description);
   command->footer(footer);
   add_connection_options(*command, options->connection);
-  add_output_option(*command, options->output);
   command->add_flag("-w,--watch", options->watch,
                     "Show it again whenever something happens; with -o json "
                     "one document per change and line. Ctrl-C ends");
@@ -146,6 +158,7 @@ void add_transfers_command(CLI::App& app, action& chosen) {
       "Examples:\n  roscell transfers --watch\n"
       "  roscell transfers lab-3-1 -o json",
       options);
+  add_table_options(*command, options->output, options->tables);
   command->add_option("TRANSFER", options->argument, "Only this one");
   command->callback([&chosen, options] {
     chosen = [options] { return show_transfers(*options); };
@@ -161,6 +174,7 @@ void add_show_commands(CLI::App& app, action& chosen) {
       "Examples:\n  roscell status\n  roscell status --watch\n"
       "  roscell status --actors --to 192.168.1.10",
       status_options);
+  add_output_option(*status, status_options->output);
   status->add_flag("--actors", status_options->actors,
                    "Also list the node's actors with their counters");
   status->callback([&chosen, status_options] {
@@ -170,6 +184,7 @@ void add_show_commands(CLI::App& app, action& chosen) {
     auto options = std::make_shared<show_options>();
     auto* command = add_show_command(app, what.name, what.description,
                                      what.footer, options);
+    add_table_options(*command, options->output, options->tables);
     if (what.argument != nullptr)
       command->add_option(what.argument, options->argument, "Only this one");
     command->callback([&chosen, &what, options, command] {

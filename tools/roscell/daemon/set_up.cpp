@@ -44,6 +44,8 @@ void set_up(CLI::App& app, action& chosen) {
   add_plan_command(app, chosen);
   add_form_commands(app, chosen);
   add_show_commands(app, chosen);
+  add_describe_command(app, chosen);
+  add_graph_command(app, chosen);
   add_events_command(app, chosen);
   add_logs_command(app, chosen);
   add_completion_command(app, chosen);

@@ -35,6 +35,30 @@ std::string format_mib(double mib) {
   return format_number(mib, std::abs(mib) < 10 ? 1 : 0);
 }
 
+namespace {
+
+constexpr double mib_per_gib = 1024;
+
+bool is_in_gib(double mib) {
+  return std::abs(mib) >= mib_per_gib;
+}
+
+std::string format_gib(double mib) {
+  return format_number(mib / mib_per_gib, 1);
+}
+
+} // namespace
+
+std::string format_memory(double mib) {
+  return is_in_gib(mib) ? format_gib(mib) + " GiB" : format_mib(mib) + " MiB";
+}
+
+std::string format_memory(double used_mib, double capacity_mib) {
+  return is_in_gib(capacity_mib)
+             ? format_gib(used_mib) + "/" + format_memory(capacity_mib)
+             : format_mib(used_mib) + "/" + format_memory(capacity_mib);
+}
+
 std::string format_bytes(double bytes) {
   constexpr std::array units{"B", "KiB", "MiB", "GiB", "TiB"};
   constexpr double next_unit = 1024;
@@ -144,6 +168,10 @@ std::string joined(const std::vector<std::string>& words,
     result += word;
   }
   return result;
+}
+
+std::string listed(const std::set<std::string>& names) {
+  return joined({names.begin(), names.end()});
 }
 
 size_t display_width(std::string_view text) {

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +21,12 @@ std::string format_significant(double value, int digits);
 /// An amount in MiB without its unit: whole numbers from 10 on, one decimal
 /// below.
 std::string format_mib(double mib);
+
+/// An amount in MiB with the unit that people read: "812 MiB", "23.5 GiB".
+std::string format_memory(double mib);
+
+/// Two amounts in MiB with the unit of the second: "0.8/3.8 GiB".
+std::string format_memory(double used_mib, double capacity_mib);
 
 /// A number of bytes with its binary unit, rounded as `format_mib` does:
 /// "512 B", "1.5 KiB", "12 MiB".
@@ -43,6 +50,9 @@ std::string printable(std::string_view text);
 /// The words in one line.
 std::string joined(const std::vector<std::string>& words,
                    std::string_view between = ",");
+
+/// Each name once, in order: "a,b".
+std::string listed(const std::set<std::string>& names);
 
 /// Columns that `text` takes: its code points.
 size_t display_width(std::string_view text);

@@ -62,11 +62,11 @@ std::string transfers_view(const transfer_description& transfers,
                            const view_style& style) {
   table t{{{"TRANSFER"},
            {"NODE"},
-           {"FROM"},
-           {"TO"},
+           {"FROM", align::left, 2},
+           {"TO", align::left, 2},
            {"STATE"},
-           {"SINCE", align::right},
-           {"REASON"}},
+           {"SINCE", align::right, 3},
+           {"REASON", align::left, 1}},
           {}};
   for (const auto& row : transfers.transfers)
     t.rows.push_back({row.transfer, row.node, row.from, destination(row.to),

@@ -13,11 +13,6 @@ namespace {
 /// Digits of a content hash that tell builds apart.
 constexpr size_t short_hash = 12;
 
-/// Each name once, in order.
-std::string listed(const std::set<std::string>& names) {
-  return joined({names.begin(), names.end()});
-}
-
 /// When the newest build of an operation came to a node.
 using newest_builds = std::map<std::pair<std::string, std::string>, int64_t>;
 
@@ -66,16 +61,16 @@ std::string short_version(const std::string& version) {
 
 std::string skills_view(const skill_list& skills, const view_style& style) {
   table t{{{"OPERATION"},
-           {"VERSION"},
-           {"BUILT FOR"},
+           {"VERSION", align::left, 5},
+           {"BUILT FOR", align::left, 7},
            {"MODEL"},
            {"DEPLOYMENT"},
-           {"CPU (cores)", align::right},
-           {"MEMORY (MiB)", align::right},
-           {"DISK (MiB)", align::right},
-           {"GPU MEMORY (MiB)", align::right},
-           {"BUILD"},
-           {"NODES"}},
+           {"CPU", align::right, 3},
+           {"MEMORY", align::right, 3},
+           {"DISK", align::right, 6},
+           {"GPU MEMORY", align::right, 4},
+           {"BUILD", align::left, 2},
+           {"NODES", align::left, 1}},
           {}};
   const auto newest = newest_of(skills);
   bool has_older = false;
@@ -91,8 +86,8 @@ std::string skills_view(const skill_list& skills, const view_style& style) {
              made_for.empty() ? "any"
                               : listed({made_for.begin(), made_for.end()}),
              model.name, option.name, format_number(r.cpu),
-             format_mib(r.memory_mib), format_mib(r.disk_mib),
-             r.needs_gpu() ? format_mib(r.gpu_memory_mib) : "",
+             format_memory(r.memory_mib), format_memory(r.disk_mib),
+             r.needs_gpu() ? format_memory(r.gpu_memory_mib) : "",
              row.skill.hash.substr(0, short_hash), nodes});
       }
   }

@@ -68,28 +68,28 @@ std::string resources_view(const node_resources& r, const view_style& style) {
            {"FREE", align::right}},
           {}};
   t.rows.push_back(resource_line("cpu (cores)", r.cpu, number));
-  t.rows.push_back(resource_line("memory (MiB)", r.memory_mib, format_mib));
-  t.rows.push_back(resource_line("disk (MiB)", r.disk_mib, format_mib));
+  t.rows.push_back(resource_line("memory", r.memory_mib, format_memory));
+  t.rows.push_back(resource_line("disk", r.disk_mib, format_memory));
   for (const auto& gpu : r.gpus) {
     auto name = "gpu " + std::to_string(gpu.index);
     if (r.unified_memory)
       t.rows.push_back({name + " (shares memory)"});
     else
       t.rows.push_back(
-          resource_line(name + " memory (MiB)", gpu.memory_mib, format_mib));
+          resource_line(name + " memory", gpu.memory_mib, format_memory));
   }
   return t.render(style.text);
 }
 
 /// "3 running, 1 failed"
 std::string counted(const std::vector<instance_row>& instances) {
-  std::map<instance_state, size_t> counts;
+  std::map<std::string, size_t> counts;
   for (const auto& row : instances)
-    ++counts[row.state];
+    ++counts[row.unknown_since_unix_ms == 0 ? to_string(row.state) : "unknown"];
   std::string result;
   for (const auto& [state, count] : counts)
-    result += (result.empty() ? "" : ", ") + std::to_string(count) + " "
-              + to_string(state);
+    result +=
+        (result.empty() ? "" : ", ") + std::to_string(count) + " " + state;
   return result.empty() ? "none" : result;
 }
 

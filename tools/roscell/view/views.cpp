@@ -16,15 +16,16 @@ std::string cores(const amount& a) {
   return format_number(a.used) + "/" + format_number(a.capacity);
 }
 
-std::string mib(const amount& a) {
-  if (a.capacity == 0)
-    return "";
-  return format_mib(a.used) + "/" + format_mib(a.capacity);
+std::string memory(const amount& a) {
+  return a.capacity == 0 ? "" : format_memory(a.used, a.capacity);
 }
 
-/// Each name once, in order.
-std::string listed(const std::set<std::string>& names) {
-  return joined({names.begin(), names.end()});
+/// "host=one,room=lab"
+std::string labels_text(const std::map<std::string, std::string>& labels) {
+  std::vector<std::string> words;
+  for (const auto& [key, value] : labels)
+    words.push_back(key + "=" + value);
+  return joined(words);
 }
 
 std::string or_nothing(const table& t, const char* what,
@@ -40,7 +41,18 @@ std::string remark(const instance_row& row) {
     return "its node is away; it was " + to_string(row.state);
   if (!row.reason.empty())
     return row.reason;
-  return row.trouble.empty() ? row.status : row.trouble;
+  if (!row.trouble.empty())
+    return row.trouble;
+  // The columns say it better.
+  return row.figures == instance_figures{} ? row.status : "";
+}
+
+std::string figure(double value, int decimals, const char* unit) {
+  return value < 0 ? "" : format_number(value, decimals) + unit;
+}
+
+std::string count_text(int64_t count) {
+  return count < 0 ? "" : std::to_string(count);
 }
 
 bool is_unknown(const instance_row& row) {
@@ -50,6 +62,13 @@ bool is_unknown(const instance_row& row) {
 /// What a node that is away runs is not known, whatever it ran before.
 std::string state_text(const instance_row& row) {
   return is_unknown(row) ? "unknown" : to_string(row.state);
+}
+
+/// How many there are, and of how many nobody knows what has become of them.
+std::string known_count(const std::vector<instance_row>& rows) {
+  const auto unknown = std::count_if(rows.begin(), rows.end(), is_unknown);
+  return std::to_string(rows.size())
+         + (unknown == 0 ? "" : " (" + std::to_string(unknown) + " unknown)");
 }
 
 std::string since_text(const instance_row& row, const view_style& style) {
@@ -95,11 +114,20 @@ std::string trouble_of(const cell_row& row, const cell_list& cells) {
 }
 
 /// A node that is in no cell has no row, so little is known of it.
-std::vector<std::string> free_row(const free_node& node) {
+std::vector<std::string> free_row(const free_node& node,
+                                  const view_style& style) {
+  std::vector<std::string> words;
+  if (node.silent_since_unix_ms != 0)
+    words.push_back("last heard "
+                    + format_since(node.silent_since_unix_ms, style.now_unix_ms)
+                    + " ago");
+  if (!node.cell.empty())
+    words.push_back("it was in cell '" + node.cell + "'");
+  const bool silent = node.silent_since_unix_ms != 0;
   return {node.name,
           to_string(node_role::primary),
-          to_string(node.state),
-          "",
+          silent ? "silent" : to_string(node.state),
+          format_since(node.silent_since_unix_ms, style.now_unix_ms),
           node.address,
           "",
           "",
@@ -107,7 +135,7 @@ std::vector<std::string> free_row(const free_node& node) {
           "",
           "",
           "",
-          node.cell.empty() ? "" : "it was in cell '" + node.cell + "'"};
+          joined(words, "; ")};
 }
 
 } // namespace
@@ -116,8 +144,8 @@ std::string cells_view(const cell_list& cells, const view_style& style) {
   table t{{{"CELL"},
            {"COORDINATOR"},
            {"NODES", align::right},
-           {"ADDRESS"},
-           {"DISCOVERY SERVER"}},
+           {"ADDRESS", align::left, 2, true},
+           {"DISCOVERY SERVER", align::left, 3, true}},
           {}};
   bool troubled = false;
   for (const auto& row : cells.cells) {
@@ -130,45 +158,48 @@ std::string cells_view(const cell_list& cells, const view_style& style) {
   }
   // The cells of a row are cut to the number of columns.
   if (troubled)
-    t.columns.push_back({"TROUBLE"});
+    t.columns.push_back({"TROUBLE", align::left, 1});
   return or_nothing(t, "cells", style);
 }
 
 std::string members_view(const cell_description& cell,
                          const view_style& style) {
   table t{{{"NODE"},
-           {"ROLE"},
+           {"ROLE", align::left, 4, true},
            {"STATE"},
-           {"SINCE", align::right},
-           {"ADDRESS"},
-           {"ARCH"},
-           {"CPU (cores)", align::right},
-           {"MEMORY (MiB)", align::right},
-           {"DISK (MiB)", align::right},
-           {"GPUS", align::right},
-           {"INSTANCES", align::right},
-           {"REASON"}},
+           {"SINCE", align::right, 3},
+           {"ADDRESS", align::left, 5, true},
+           {"ARCH", align::left, 7},
+           {"CPU", align::right, 1},
+           {"MEMORY", align::right, 1},
+           {"DISK", align::right, 6},
+           {"GPUS", align::right, 4},
+           {"INSTANCES", align::right, 3},
+           {"REASON", align::left, 2},
+           {"LABELS", align::left, only_wide},
+           {"DEVICES", align::left, only_wide}},
           {}};
   for (const auto& row : cell.nodes) {
     const auto& r = row.resources;
-    t.rows.push_back(
-        {row.identity.name, to_string(row.role), to_string(row.state),
-         format_since(row.since_unix_ms, style.now_unix_ms),
-         row.identity.address, r.architecture, cores(r.cpu), mib(r.memory_mib),
-         mib(r.disk_mib), std::to_string(r.gpus.size()),
-         std::to_string(row.instances.size()), row.reason});
+    t.rows.push_back({row.identity.name, to_string(row.role),
+                      to_string(row.state),
+                      format_since(row.since_unix_ms, style.now_unix_ms),
+                      row.identity.address, r.architecture, cores(r.cpu),
+                      memory(r.memory_mib), memory(r.disk_mib),
+                      std::to_string(r.gpus.size()), known_count(row.instances),
+                      row.reason, labels_text(r.labels), joined(r.devices)});
   }
   for (const auto& node : cell.free)
-    t.rows.push_back(free_row(node));
+    t.rows.push_back(free_row(node, style));
   return or_nothing(t, "nodes", style);
 }
 
 std::string tasks_view(const task_description& tasks, const view_style& style) {
   table t{{{"TASK"},
            {"STATE"},
-           {"AGE", align::right},
+           {"AGE", align::right, 2},
            {"RUNNING", align::right},
-           {"NODES"}},
+           {"NODES", align::left, 1}},
           {}};
   for (const auto& row : tasks.tasks) {
     std::set<std::string> nodes;
@@ -184,20 +215,28 @@ std::string tasks_view(const task_description& tasks, const view_style& style) {
 std::string instances_view(const instance_description& instances,
                            const view_style& style) {
   table t{{{"INSTANCE"},
-           {"TASK"},
-           {"STEP"},
+           {"TASK", align::left, 6, true},
+           {"STEP", align::left, 5, true},
            {"NODE"},
            {"STATE"},
-           {"SINCE", align::right},
-           {"DEPLOYMENT"},
-           {"EXIT", align::right},
-           {"REMARK"}},
+           {"SINCE", align::right, 2},
+           {"FRAMES", align::right, 4},
+           {"RATE", align::right, 1},
+           {"DROPPED", align::right, 3},
+           {"LATENCY", align::right, 2},
+           {"DEPLOYMENT", align::left, 7},
+           {"EXIT", align::right, 3},
+           {"REMARK", align::left, 4}},
           {}};
-  for (const auto& row : instances.instances)
+  for (const auto& row : instances.instances) {
+    const auto& x = row.figures;
     t.rows.push_back({row.spec.instance, row.spec.task, row.spec.step, row.node,
                       state_text(row), since_text(row, style),
+                      count_text(x.frames), figure(x.rate_hz, 1, " Hz"),
+                      count_text(x.dropped), figure(x.latency_ms, 2, " ms"),
                       row.spec.model + "/" + row.spec.deployment,
                       exit_text(row.exit_code), remark(row)});
+  }
   return or_nothing(t, "instances", style);
 }
 

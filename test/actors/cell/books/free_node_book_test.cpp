@@ -4,6 +4,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+
 namespace roscell::test {
 
 namespace {
@@ -46,12 +48,47 @@ TEST_CASE("A free node is told as it announced itself last",
 TEST_CASE("A farewell of an earlier life drops nobody", "[free_node_book]") {
   free_node_book book;
   book.see(seen_node("arm", "u1", 2), time_zero);
-  CHECK_FALSE(book.vanish(seen_node("arm", "u1", 1)));
-  CHECK_FALSE(book.vanish(seen_node("arm", "u1", 2, "orphaned")));
-  CHECK_FALSE(book.vanish(seen_node("leg", "u2", 2)));
+  CHECK_FALSE(book.vanish(seen_node("arm", "u1", 1), 7000));
+  CHECK_FALSE(book.vanish(seen_node("arm", "u1", 2, "orphaned"), 7000));
+  CHECK_FALSE(book.vanish(seen_node("leg", "u2", 2), 7000));
   CHECK(book.find("u1"));
-  CHECK(book.vanish(seen_node("arm", "u1", 2)));
+  CHECK(book.vanish(seen_node("arm", "u1", 2), 7000));
   CHECK_FALSE(book.find("u1"));
+}
+
+TEST_CASE("A node that has fallen silent says since when, until it is back",
+          "[free_node_book]") {
+  free_node_book book;
+  book.see(seen_node("arm", "u1"), time_zero);
+  CHECK(book.rows()[0].silent_since_unix_ms == 0);
+  CHECK(book.vanish(seen_node("arm", "u1"), 5000));
+  REQUIRE(book.rows().size() == 1);
+  CHECK(book.rows()[0].name == "arm");
+  CHECK(book.rows()[0].silent_since_unix_ms == 5000);
+  CHECK(book.size() == 0);
+  SECTION("it announces itself") {
+    book.see(seen_node("arm", "u1"), time_zero);
+    REQUIRE(book.rows().size() == 1);
+    CHECK(book.rows()[0].silent_since_unix_ms == 0);
+  }
+  SECTION("it registers here") {
+    book.registered({"arm", "u1", 1, ""});
+    CHECK(book.rows().empty());
+  }
+}
+
+TEST_CASE("Of the silent nodes the last ones are remembered",
+          "[free_node_book]") {
+  free_node_book book;
+  for (size_t i = 0; i <= limits::strangers::silent_nodes; ++i) {
+    const auto node = seen_node("n", "u" + std::to_string(i));
+    book.see(node, time_zero);
+    book.vanish(node, static_cast<int64_t>(i) + 1);
+  }
+  const auto rows = book.rows();
+  CHECK(rows.size() == limits::strangers::silent_nodes);
+  CHECK(std::none_of(rows.begin(), rows.end(),
+                     [](const auto& x) { return x.uuid == "u0"; }));
 }
 
 TEST_CASE("Looking for a node that announced nothing makes none",
@@ -94,7 +131,7 @@ TEST_CASE("Strangers fill no more than a bound", "[free_node_book]") {
   CHECK(book.size() == limits::strangers::free_nodes);
   CHECK(book.see(seen_node("n", "u5", 2), time_zero)
         == free_node_book::sighting::changed);
-  book.vanish(seen_node("n", "u5", 2));
+  book.vanish(seen_node("n", "u5", 2), 7000);
   CHECK(book.see(seen_node("late", "late"), time_zero)
         == free_node_book::sighting::appeared);
 }
@@ -135,7 +172,7 @@ TEST_CASE("The answer of a node that has gone meanwhile counts for nothing",
   free_node_book book;
   book.see(seen_node("arm", "u1"), time_zero);
   REQUIRE(book.begin_questions(always, time_zero).size() == 1);
-  book.vanish(seen_node("arm", "u1"));
+  book.vanish(seen_node("arm", "u1"), 7000);
   CHECK_FALSE(book.question_answered("u1"));
 }
 

@@ -3,6 +3,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+
 using namespace roscell;
 
 namespace {
@@ -97,6 +99,29 @@ TEST_CASE("what is no log is noticed") {
   log_collector timeless{{origin, 0, false}};
   CHECK(timeless.take(frame("no time at all\n")));
   CHECK(timeless.empty());
+}
+
+TEST_CASE("a part of a log tells when its lines were logged, if asked") {
+  const auto bytes = line(1, "one") + line(20'000, "two");
+  log_collector silent{{origin, 0, false}};
+  silent.take(bytes);
+  CHECK(silent.part().times_unix_ms.empty());
+  log_collector telling{{origin, 0, false, true}};
+  telling.take(bytes);
+  const auto first = telling.part().times_unix_ms;
+  REQUIRE(first.size() == 2);
+  CHECK(first[1] == first[0] + 20);
+}
+
+TEST_CASE("the end of a log that is too long keeps the times of its lines") {
+  const std::string text(999, 'x');
+  log_collector collector{{origin, 0, true, true}};
+  for (int i = 0; i < 200; ++i)
+    collector.take(line(i * 1000, text));
+  const auto part = collector.part();
+  const auto lines = std::count(part.text.begin(), part.text.end(), '\n');
+  REQUIRE(part.times_unix_ms.size() == static_cast<size_t>(lines));
+  CHECK(part.times_unix_ms.back() - part.times_unix_ms.front() == lines - 1);
 }
 
 TEST_CASE("bytes that are no text are replaced") {

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+namespace roscell {
+
+/// What stands at `offset` in a log, and after it up to the next note, was
+/// written then. A shim's file of times is an array of these.
+struct time_note {
+  int64_t offset = 0;
+  int64_t unix_ms = 0;
+};
+
+/// When each line of `bytes`, or the rest of one, was written: the notes are in
+/// the order of their offsets, and `from` is the offset of the first byte. 0
+/// where no note tells.
+std::vector<int64_t> line_times(std::string_view bytes, int64_t from,
+                                const std::vector<time_note>& notes);
+
+} // namespace roscell

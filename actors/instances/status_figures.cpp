@@ -1,0 +1,84 @@
+#include "actors/instances/status_figures.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <string>
+
+namespace roscell {
+
+namespace {
+
+/// Shorter times between two words say little of a rate.
+constexpr std::chrono::milliseconds least_span{500};
+
+/// Largest number that JSON carries exactly, as its schema says.
+constexpr int64_t most = 9'007'199'254'740'991;
+
+/// Nothing goes faster, or takes longer.
+constexpr double most_figure = 1e9;
+
+/// A whole number that is not negative; nothing for any other text.
+std::optional<int64_t> whole_number(std::string_view text) {
+  int64_t result = 0;
+  const auto* end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, result);
+  if (error != std::errc{} || rest != end || result < 0 || result > most)
+    return std::nullopt;
+  return result;
+}
+
+void take_word(std::string_view word, instance_figures& to) {
+  const auto equals = word.find('=');
+  if (equals == std::string_view::npos)
+    return;
+  const auto name = word.substr(0, equals);
+  const auto value = whole_number(word.substr(equals + 1));
+  if (!value)
+    return;
+  if (name == "frames")
+    to.frames = *value;
+  else if (name == "dropped")
+    to.dropped = *value;
+  else if (name == "median_us")
+    to.latency_ms = std::min(static_cast<double>(*value) / 1000, most_figure);
+}
+
+} // namespace
+
+instance_figures figures_in(std::string_view status) {
+  instance_figures result;
+  while (!status.empty()) {
+    const auto end = std::min(status.find(' '), status.size());
+    take_word(status.substr(0, end), result);
+    status.remove_prefix(std::min(end + 1, status.size()));
+  }
+  // A median of no frames is none.
+  if (result.frames == 0)
+    result.latency_ms = -1;
+  return result;
+}
+
+void figures_book::hear(std::string_view status, time_point now) {
+  const auto rate = known_.rate_hz;
+  known_ = figures_in(status);
+  if (known_.frames < 0) {
+    counted_.reset();
+    return;
+  }
+  known_.rate_hz = rate;
+  // Fewer frames than before are those of a program that began anew.
+  if (!counted_ || known_.frames < counted_->frames) {
+    counted_ = count{known_.frames, now};
+    known_.rate_hz = -1;
+    return;
+  }
+  const std::chrono::duration<double> span = now - counted_->when;
+  if (span < least_span)
+    return;
+  known_.rate_hz = std::min(
+      static_cast<double>(known_.frames - counted_->frames) / span.count(),
+      most_figure);
+  counted_ = count{known_.frames, now};
+}
+
+} // namespace roscell

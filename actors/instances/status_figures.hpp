@@ -1,0 +1,41 @@
+#pragma once
+
+#include "messages/instance.hpp"
+
+#include <chrono>
+#include <optional>
+#include <string_view>
+
+namespace roscell {
+
+/// The figures in a status line of the form that bundled skills send:
+/// "frames=120 dropped=0 median_us=850". Words that are no figure, and figures
+/// that cannot be read, are passed over, for a status is written for people.
+/// There is no rate in it.
+instance_figures figures_in(std::string_view status);
+
+/// What one instance has told of itself, and how fast it has gone between its
+/// last two words. Pure: it is told the time.
+class figures_book {
+public:
+  using time_point = std::chrono::steady_clock::time_point;
+
+  /// Takes one status line. Those that follow within half a second count as
+  /// one, so that a late word makes no rate of its own.
+  void hear(std::string_view status, time_point now);
+
+  const instance_figures& known() const {
+    return known_;
+  }
+
+private:
+  struct count {
+    int64_t frames = 0;
+    time_point when;
+  };
+
+  instance_figures known_;
+  std::optional<count> counted_; ///< What the next rate is measured from.
+};
+
+} // namespace roscell

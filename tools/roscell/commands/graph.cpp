@@ -1,0 +1,78 @@
+#include "actors/edge/http/http_target.hpp"
+#include "messages/task.hpp"
+#include "tools/roscell/client/node_client.hpp"
+#include "tools/roscell/commands.hpp"
+#include "tools/roscell/exit_code.hpp"
+#include "tools/roscell/view/graph/graph_view.hpp"
+#include "tools/roscell/view/terminal.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <memory>
+
+namespace roscell::cli {
+
+namespace {
+
+/// The coordinator asks the members, and waits no longer than this.
+constexpr std::chrono::seconds figures_limit{10};
+
+struct graph_options {
+  connection_options connection;
+  std::string task;
+  std::string output = "text";
+};
+
+task_graph ask_for_graph(const node_client& node, const std::string& task) {
+  // Refused, with a reason, if there is no such task.
+  node.get("/v1/tasks/" + percent_encode(task));
+  instance_query query;
+  query.task = task;
+  return graph_of(task, node.ask(message_json(query), figures_limit)
+                            .get<instance_description>()
+                            .instances);
+}
+
+std::string text_of(const task_graph& graph, const graph_options& options) {
+  if (options.output == "dot")
+    return dot_text(graph);
+  if (options.output == "mermaid")
+    return mermaid_text(graph);
+  if (options.output == "json")
+    return pretty(graph_json(graph));
+  auto style = view_style_now();
+  style.text.tables.wide = options.output == "wide";
+  return graph_view(graph, style);
+}
+
+int show_graph(const graph_options& options) {
+  const node_client node{options.connection};
+  try {
+    print(text_of(ask_for_graph(node, options.task), options));
+  } catch (refused& e) {
+    e.as_json = options.output == "json";
+    throw;
+  }
+  return exit_done;
+}
+
+} // namespace
+
+void add_graph_command(CLI::App& app, action& chosen) {
+  auto options = std::make_shared<graph_options>();
+  auto* command = app.add_subcommand(
+      "graph", "Draw the steps of a task and what flows between them.");
+  command->footer("Only a coordinator can answer.\n\nExamples:\n"
+                  "  roscell graph fleet-poses\n"
+                  "  roscell graph fleet-poses -o dot | dot -Tsvg > poses.svg");
+  add_connection_options(*command, options->connection);
+  command->add_option("TASK", options->task, "Name of the task")->required();
+  command->add_option("-o,--output", options->output, "Form of what is printed")
+      ->check(CLI::IsMember({"text", "wide", "dot", "mermaid", "json"}))
+      ->option_text("text|wide|dot|mermaid|json [text]");
+  command->callback([&chosen, options] {
+    chosen = [options] { return show_graph(*options); };
+  });
+}
+
+} // namespace roscell::cli

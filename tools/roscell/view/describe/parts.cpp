@@ -1,0 +1,156 @@
+#include "tools/roscell/view/describe/parts.hpp"
+
+#include "tools/roscell/client/event_stream.hpp"
+#include "tools/roscell/view/format.hpp"
+#include "tools/roscell/view/graph/task_graph.hpp"
+
+#include <algorithm>
+
+namespace roscell::cli {
+
+namespace {
+
+std::vector<std::string> amount_row(const std::string& name, const amount& a,
+                                    bool is_memory) {
+  const auto put = [&](double value) {
+    return is_memory ? format_memory(value) : format_number(value);
+  };
+  return {name, put(a.used), put(a.capacity),
+          put(std::max(0.0, a.capacity - a.used))};
+}
+
+/// What a declared parameter may be: "0 to 10".
+std::string range_of(const json& declared) {
+  const auto bound = [&](const char* key) {
+    return declared.contains(key) ? declared[key].dump() : std::string{};
+  };
+  const auto least = bound("minimum");
+  const auto most = bound("maximum");
+  if (least.empty() && most.empty())
+    return {};
+  return least.empty()  ? "at most " + most
+         : most.empty() ? "at least " + least
+                        : least + " to " + most;
+}
+
+std::string word_at(const json& declared, const char* key) {
+  const auto found = declared.find(key);
+  if (found == declared.end())
+    return {};
+  return found->is_string() ? found->get<std::string>() : found->dump();
+}
+
+bool is_declaration(const json& value) {
+  return value.is_object()
+         && (value.contains("type") || value.contains("default"));
+}
+
+} // namespace
+
+table resources_table(const node_resources& r) {
+  table t{{{"RESOURCE"},
+           {"USED", align::right},
+           {"CAPACITY", align::right},
+           {"FREE", align::right}},
+          {}};
+  t.rows.push_back(amount_row("cpu (cores)", r.cpu, false));
+  t.rows.push_back(amount_row("memory", r.memory_mib, true));
+  t.rows.push_back(amount_row("disk", r.disk_mib, true));
+  for (const auto& gpu : r.gpus) {
+    const auto name = "gpu " + std::to_string(gpu.index)
+                      + (gpu.name.empty() ? "" : " " + gpu.name);
+    if (r.unified_memory)
+      t.rows.push_back({name + " (shares memory)"});
+    else
+      t.rows.push_back(amount_row(name, gpu.memory_mib, true));
+  }
+  return t;
+}
+
+table events_table(const std::vector<event>& events, const view_style& style) {
+  table t{{{"AGE", align::right}, {"EVENT"}, {"OF", align::left, 1}, {"WHAT"}},
+          {}};
+  for (const auto& e : events)
+    t.rows.push_back({format_since(e.time_unix_ms, style.now_unix_ms), e.what,
+                      e.subject, event_particulars(e)});
+  return t;
+}
+
+table instances_table(const std::vector<instance_row>& rows,
+                      const view_style& style) {
+  table t{{{"INSTANCE"},
+           {"STEP", align::left, 2},
+           {"NODE"},
+           {"STATE"},
+           {"FIGURES", align::left, 1}},
+          {}};
+  for (const auto& row : rows)
+    t.rows.push_back({row.spec.instance, row.spec.step, row.node,
+                      state_words(row, style), figures_text(row.figures)});
+  return t;
+}
+
+table ports_table(const instance_spec& spec) {
+  table t{{{"PORT"}, {"ENDPOINT"}, {"PROTOCOL"}, {"TYPE", align::left, 1}}, {}};
+  for (const auto& x : spec.input)
+    t.rows.push_back({"in", x.endpoint, x.protocol, x.data_type});
+  for (const auto& x : spec.output)
+    t.rows.push_back({"out", x.endpoint, x.protocol, x.data_type});
+  return t;
+}
+
+table parameters_table(const std::string& parameters) {
+  table t{{{"PARAMETER"},
+           {"VALUE"},
+           {"TYPE", align::left, 3},
+           {"RANGE", align::left, 2},
+           {"UNIT", align::left, 2},
+           {"MEANING", align::left, 1}},
+          {}};
+  const auto all = json::parse(parameters, nullptr, false);
+  if (!all.is_object())
+    return t;
+  for (const auto& [name, value] : all.items())
+    if (is_declaration(value))
+      t.rows.push_back({name, word_at(value, "default"), word_at(value, "type"),
+                        range_of(value), word_at(value, "unit"),
+                        word_at(value, "description")});
+    else
+      t.rows.push_back(
+          {name, value.is_string() ? value.get<std::string>() : value.dump()});
+  return t;
+}
+
+std::string state_words(const instance_row& row, const view_style& style) {
+  const auto since = [&](int64_t unix_ms) {
+    return format_since(unix_ms, style.now_unix_ms);
+  };
+  if (row.unknown_since_unix_ms != 0)
+    return "unknown since " + since(row.unknown_since_unix_ms) + ", it was "
+           + to_string(row.state);
+  return to_string(row.state) + " since " + since(row.since_unix_ms);
+}
+
+std::string time_words(int64_t unix_ms, const view_style& style) {
+  return unix_ms <= 0 ? ""
+                      : format_since(unix_ms, style.now_unix_ms) + " ago ("
+                            + format_time(unix_ms) + ")";
+}
+
+std::string request_words(const resource_request& r) {
+  auto result = "cpu " + format_number(r.cpu) + ", memory "
+                + format_memory(r.memory_mib) + ", disk "
+                + format_memory(r.disk_mib);
+  if (r.needs_gpu())
+    result += ", gpu memory " + format_memory(r.gpu_memory_mib);
+  return result;
+}
+
+std::string pairs_words(const std::map<std::string, std::string>& pairs) {
+  std::vector<std::string> words;
+  for (const auto& [key, value] : pairs)
+    words.push_back(key + "=" + value);
+  return joined(words);
+}
+
+} // namespace roscell::cli

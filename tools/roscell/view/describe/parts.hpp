@@ -1,0 +1,38 @@
+#pragma once
+
+#include "messages/event.hpp"
+#include "messages/node.hpp"
+#include "tools/roscell/view/describe/page.hpp"
+#include "tools/roscell/view/views.hpp"
+
+#include <string>
+#include <vector>
+
+/// INTERNAL to descriptions: tables and words that several of them have.
+namespace roscell::cli {
+
+table resources_table(const node_resources& r);
+table events_table(const std::vector<event>& events, const view_style& style);
+table instances_table(const std::vector<instance_row>& rows,
+                      const view_style& style);
+
+/// A row for each stream: whether it goes in or out, and where.
+table ports_table(const instance_spec& spec);
+
+/// A row for each parameter. A value may be a plain one, or an object that
+/// declares it with type, default, minimum, maximum, unit and description.
+table parameters_table(const std::string& parameters);
+
+/// "running, since 5m03s (2026-11-22 17:01:02)", or "unknown, ...".
+std::string state_words(const instance_row& row, const view_style& style);
+
+/// "5m03s ago (2026-11-22 17:01:02.345)"; empty for a time that is not known.
+std::string time_words(int64_t unix_ms, const view_style& style);
+
+/// "cpu 1, memory 96 MiB, disk 150 MiB"
+std::string request_words(const resource_request& r);
+
+/// "key=value,key=value"
+std::string pairs_words(const std::map<std::string, std::string>& pairs);
+
+} // namespace roscell::cli

@@ -1,0 +1,202 @@
+#include "tools/roscell/view/describe/things.hpp"
+
+#include "tools/roscell/client/event_stream.hpp"
+#include "tools/roscell/view/describe/parts.hpp"
+#include "tools/roscell/view/format.hpp"
+#include "tools/roscell/view/graph/task_graph.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <set>
+
+namespace roscell::cli {
+
+namespace {
+
+/// Rows of which the predicate holds.
+template <class Row, class Predicate>
+std::vector<Row> those(const std::vector<Row>& all, Predicate&& is_meant) {
+  std::vector<Row> result;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(result), is_meant);
+  return result;
+}
+
+std::vector<instance_row> on_node(const known_cell& known,
+                                  const std::string& node) {
+  return those(known.instances, [&](const auto& x) { return x.node == node; });
+}
+
+std::vector<instance_row> of_task(const known_cell& known,
+                                  const std::string& task) {
+  return those(known.instances,
+               [&](const auto& x) { return x.spec.task == task; });
+}
+
+std::string skills_on(const known_cell& known, const std::string& node) {
+  std::set<std::string> names;
+  for (const auto& x : known.skills.skills)
+    if (std::find(x.nodes.begin(), x.nodes.end(), node) != x.nodes.end())
+      names.insert(x.skill.descriptor.operation);
+  return joined({names.begin(), names.end()}, ", ");
+}
+
+void describe_member(page& out, const known_cell& known,
+                     const registry_row& row, const view_style& style) {
+  const auto& name = row.identity.name;
+  out.fact("Role", to_string(row.role));
+  out.fact("State", to_string(row.state));
+  out.fact("Since", time_words(row.since_unix_ms, style));
+  out.fact("Reason", row.reason);
+  out.fact("Cell", known.cell.cell);
+  out.fact("Address", row.identity.address);
+  out.fact("UUID", row.identity.uuid);
+  out.fact("Epoch", std::to_string(row.identity.epoch));
+  out.fact("Architecture", row.resources.architecture);
+  out.fact("Labels", pairs_words(row.resources.labels));
+  out.fact("Devices", joined(row.resources.devices, ", "));
+  out.fact("Skills", skills_on(known, name));
+  out.section("Resources", resources_table(row.resources));
+  out.section("Instances", instances_table(on_node(known, name), style));
+}
+
+void describe_free(page& out, const free_node& node, const view_style& style) {
+  const bool silent = node.silent_since_unix_ms != 0;
+  out.fact("State", silent ? "silent" : to_string(node.state));
+  out.fact("Last heard", time_words(node.silent_since_unix_ms, style));
+  out.fact("Former cell", node.cell);
+  out.fact("Address", node.address);
+  out.fact("UUID", node.uuid);
+}
+
+/// Where the task's steps were placed, and the score of that, if the node still
+/// has the event.
+std::string allocation_words(const known_cell& known, const std::string& task) {
+  const auto& all = known.events;
+  const auto last = std::find_if(all.rbegin(), all.rend(), [&](const auto& e) {
+    return e.what == "allocation_chosen" && e.subject == task;
+  });
+  return last == all.rend() ? "" : event_particulars(*last);
+}
+
+} // namespace
+
+void describe_node(page& out, const known_cell& known, const std::string& name,
+                   const view_style& style) {
+  for (const auto& row : known.cell.nodes)
+    if (row.identity.name == name)
+      return describe_member(out, known, row, style);
+  for (const auto& node : known.cell.free)
+    if (node.name == name)
+      return describe_free(out, node, style);
+}
+
+void describe_task(page& out, const known_cell& known, const std::string& name,
+                   const view_style& style) {
+  for (const auto& row : known.cell.tasks) {
+    if (row.task != name)
+      continue;
+    out.fact("State", to_string(row.state));
+    out.fact("Submitted", time_words(row.submitted_unix_ms, style));
+  }
+  out.fact("Allocation", allocation_words(known, name));
+  const auto steps = of_task(known, name);
+  out.section("Steps", instances_table(steps, style));
+  for (const auto& x : steps) {
+    out.section("Step " + printable(x.spec.step) + ": "
+                    + printable(x.spec.operation + " " + x.spec.model + "/"
+                                + x.spec.deployment),
+                ports_table(x.spec));
+    if (auto parameters = parameters_table(x.spec.parameters);
+        !parameters.rows.empty())
+      out.section("Parameters of step " + printable(x.spec.step), parameters);
+  }
+}
+
+void describe_instance(page& out, const known_cell& known,
+                       const std::string& name, const view_style& style) {
+  const auto found = those(
+      known.instances, [&](const auto& x) { return x.spec.instance == name; });
+  const auto& row = found.front();
+  const auto& spec = row.spec;
+  out.fact("Task", spec.task);
+  out.fact("Step", spec.step);
+  out.fact("Node", row.node);
+  out.fact("State", state_words(row, style));
+  out.fact("Reason", row.reason);
+  out.fact("Exit code", row.exit_code < 0 ? "" : std::to_string(row.exit_code));
+  out.fact("Trouble", row.trouble);
+  out.fact("Frames",
+           row.figures.frames < 0 ? "" : std::to_string(row.figures.frames));
+  out.fact("Figures", figures_text(row.figures));
+  out.fact("Says", row.status);
+  out.fact("Operation", spec.operation);
+  out.fact("Model", spec.model + "/" + spec.deployment);
+  out.fact("Build", spec.skill.substr(0, 12));
+  out.fact("Needs", request_words(spec.resources));
+  out.fact("GPU", spec.gpu < 0 ? "" : std::to_string(spec.gpu));
+  out.fact("Container", row.container);
+  out.fact("Image", row.image);
+  out.section("Ports", ports_table(spec));
+  out.section("Parameters", parameters_table(spec.parameters));
+  table environment{{{"VARIABLE"}, {"VALUE"}}, {}};
+  for (const auto& [key, value] : spec.environment)
+    environment.rows.push_back({key, value});
+  out.section("Environment", environment);
+}
+
+void describe_cell(page& out, const known_cell& known,
+                   const view_style& style) {
+  const auto& cell = known.cell;
+  out.fact("Coordinator", cell.coordinator);
+  out.fact("Address", cell.address);
+  out.fact("Discovery", cell.discovery_server);
+  out.fact("Incarnation",
+           cell.incarnation == 0 ? "" : std::to_string(cell.incarnation));
+  auto inner = style;
+  inner.text.width = page::inner_width(style.text.width);
+  out.section("Nodes", members_view(cell, inner));
+  out.section("Tasks", tasks_view({cell.tasks}, inner));
+}
+
+json json_of(const known_cell& known, const known_thing& what) {
+  switch (what.kind) {
+  case thing_kind::node:
+    for (const auto& row : known.cell.nodes)
+      if (row.identity.name == what.name)
+        return row;
+    for (const auto& node : known.cell.free)
+      if (node.name == what.name)
+        return node;
+    break;
+  case thing_kind::task:
+    for (const auto& row : known.cell.tasks)
+      if (row.task == what.name) {
+        auto result = row;
+        result.instances = of_task(known, what.name);
+        return result;
+      }
+    break;
+  case thing_kind::instance:
+    for (const auto& row : known.instances)
+      if (row.spec.instance == what.name)
+        return row;
+    break;
+  case thing_kind::skill:
+    return builds_of(known, what.name);
+  case thing_kind::cell:
+    return known.cell;
+  }
+  return nullptr;
+}
+
+std::string printable_lines(const std::string& text) {
+  std::string result;
+  for (size_t at = 0; at < text.size();) {
+    const auto end = std::min(text.find('\n', at), text.size());
+    result += printable(std::string_view{text}.substr(at, end - at)) + "\n";
+    at = end + 1;
+  }
+  return result;
+}
+
+} // namespace roscell::cli
