@@ -85,6 +85,10 @@ public:
   void OnScalar(const YAML::Mark& mark, const std::string& tag,
                 YAML::anchor_t anchor, const std::string& value) override {
     refuse_anchor(mark, anchor);
+    // The parser writes the characters of two escapes as single bytes.
+    if (valid_utf8_prefix(value) < value.size())
+      refuse(mark, "the escapes \\N and \\_ are not taken; write the "
+                   "characters themselves, or \\u0085 and \\u00a0");
     const auto length = scalar_length(text_, offset(mark), value);
     if (tag == quoted_tag)
       return scalar(mark, value, length);

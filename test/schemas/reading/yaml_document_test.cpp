@@ -189,6 +189,13 @@ TEST_CASE("YAML that is not UTF-8, or holds control characters, is refused") {
         == json::parse("{\"a\":\"\\u00e4\\n\",\"b\":1}"));
 }
 
+TEST_CASE("an escape that would become bytes that are no UTF-8 is refused") {
+  for (const auto* text : {R"("a\N")", R"("\_": 1)", R"(- "\_")"})
+    CHECK(says(refusal(text), "escapes"));
+  CHECK(document(R"(["\u0085\u00a0\L\x41\U0001F916"])")
+        == json::parse(R"(["\u0085\u00a0\u2028A\ud83e\udd16"])"));
+}
+
 TEST_CASE("a YAML document is bounded like JSON") {
   document_limits limits;
   limits.max_bytes = 10;
