@@ -88,11 +88,14 @@ bool is_complete(const std::vector<scene_comparison>& scenes,
 
 std::string tables(const std::vector<scene_comparison>& scenes,
                    const arguments& given) {
-  std::string text;
+  std::string tags;
   if (!given.summary_only)
     for (const auto& scene : scenes)
-      text += tag_table(scene) + "\n";
-  return text + scene_table(scenes);
+      tags += tag_table(scene) + "\n";
+  // A live text is cut at its end, another one is read from its end.
+  if (given.watch && !tags.empty())
+    return scene_table(scenes) + "\n" + tags;
+  return tags + scene_table(scenes);
 }
 
 /// Shows tables again and again.
