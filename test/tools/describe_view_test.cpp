@@ -116,8 +116,9 @@ TEST_CASE("a lost node's instance is described as unknown", "[tools]") {
 
 TEST_CASE("a declared parameter is described with its meaning", "[tools]") {
   const auto text = described(sample(), "poses");
-  CHECK(has(text, "  rate_hz    -      number   1 to 30  Hz    -\n"));
-  CHECK(has(text, "  refine     true   boolean  -        -     finer\n"));
+  CHECK(has(text, "rate_hz, a number from 1 to 30 (Hz)\n"));
+  CHECK(has(text, "refine: true, true or false\n"));
+  CHECK(has(text, "      finer\n"));
 }
 
 TEST_CASE("a cell is described with its nodes and tasks", "[tools]") {

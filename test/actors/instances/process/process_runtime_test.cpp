@@ -117,7 +117,11 @@ TEST_CASE("what a killed shim's program has started elsewhere ends, too") {
   }
   SECTION("while it is away") {
     b.leave();
+    // The kernel may take a moment.
+    const unique_fd shim{::pidfd_open(pid_of(container), 0)};
     ::kill(pid_of(container), SIGKILL);
+    pollfd ended{shim.get(), POLLIN, 0};
+    CHECK(::poll(&ended, 1, 30'000) == 1);
     b.restart();
     CHECK_FALSE(
         b.get<container_adopted>(adopt_container{"i", container}).running);

@@ -19,32 +19,6 @@ std::vector<std::string> amount_row(const std::string& name, const amount& a,
           put(std::max(0.0, a.capacity - a.used))};
 }
 
-/// What a declared parameter may be: "0 to 10".
-std::string range_of(const json& declared) {
-  const auto bound = [&](const char* key) {
-    return declared.contains(key) ? declared[key].dump() : std::string{};
-  };
-  const auto least = bound("minimum");
-  const auto most = bound("maximum");
-  if (least.empty() && most.empty())
-    return {};
-  return least.empty()  ? "at most " + most
-         : most.empty() ? "at least " + least
-                        : least + " to " + most;
-}
-
-std::string word_at(const json& declared, const char* key) {
-  const auto found = declared.find(key);
-  if (found == declared.end())
-    return {};
-  return found->is_string() ? found->get<std::string>() : found->dump();
-}
-
-bool is_declaration(const json& value) {
-  return value.is_object()
-         && (value.contains("type") || value.contains("default"));
-}
-
 } // namespace
 
 table resources_table(const node_resources& r) {
@@ -100,22 +74,10 @@ table ports_table(const instance_spec& spec) {
 }
 
 table parameters_table(const std::string& parameters) {
-  table t{{{"PARAMETER"},
-           {"VALUE"},
-           {"TYPE", align::left, 3},
-           {"RANGE", align::left, 2},
-           {"UNIT", align::left, 2},
-           {"MEANING", align::left, 1}},
-          {}};
+  table t{{{"PARAMETER"}, {"VALUE"}}, {}};
   const auto all = json::parse(parameters, nullptr, false);
-  if (!all.is_object())
-    return t;
-  for (const auto& [name, value] : all.items())
-    if (is_declaration(value))
-      t.rows.push_back({name, word_at(value, "default"), word_at(value, "type"),
-                        range_of(value), word_at(value, "unit"),
-                        word_at(value, "description")});
-    else
+  if (all.is_object())
+    for (const auto& [name, value] : all.items())
       t.rows.push_back(
           {name, value.is_string() ? value.get<std::string>() : value.dump()});
   return t;

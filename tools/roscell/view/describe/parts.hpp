@@ -19,8 +19,7 @@ table instances_table(const std::vector<instance_row>& rows,
 /// A row for each stream: whether it goes in or out, and where.
 table ports_table(const instance_spec& spec);
 
-/// A row for each parameter. A value may be a plain one, or an object that
-/// declares it with type, default, minimum, maximum, unit and description.
+/// A row for each parameter of an instance.
 table parameters_table(const std::string& parameters);
 
 /// "running, since 5m03s (2026-11-22 17:01:02)", or "unknown, ...".
