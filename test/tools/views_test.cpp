@@ -143,14 +143,13 @@ TEST_CASE("a lost node's instance is not shown as running", "[tools]") {
   CHECK(has(text, "  its node is away; it was running\n"));
 }
 
-TEST_CASE("a node that has fallen silent says when it was heard last",
-          "[tools]") {
+TEST_CASE("a node that has fallen silent says when it was missed", "[tools]") {
   cell_description cell;
   cell.free = {
       {"arm-1", "u", "10.0.0.2:8420", node_state::independent, "", 1000}};
   const auto text = members_view(cell, at(61'000));
   CHECK(has(text, "\narm-1  primary  silent  1m00s  "));
-  CHECK(has(text, "last heard 1m00s ago"));
+  CHECK(has(text, "missed 1m00s ago"));
 }
 
 TEST_CASE("labels and devices of nodes are shown when all is wanted",

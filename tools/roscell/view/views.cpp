@@ -118,7 +118,7 @@ std::vector<std::string> free_row(const free_node& node,
                                   const view_style& style) {
   std::vector<std::string> words;
   if (node.silent_since_unix_ms != 0)
-    words.push_back("last heard "
+    words.push_back("missed "
                     + format_since(node.silent_since_unix_ms, style.now_unix_ms)
                     + " ago");
   if (!node.cell.empty())

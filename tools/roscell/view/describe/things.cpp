@@ -62,7 +62,7 @@ void describe_member(page& out, const known_cell& known,
 void describe_free(page& out, const free_node& node, const view_style& style) {
   const bool silent = node.silent_since_unix_ms != 0;
   out.fact("State", silent ? "silent" : to_string(node.state));
-  out.fact("Last heard", time_words(node.silent_since_unix_ms, style));
+  out.fact("Missed", time_words(node.silent_since_unix_ms, style));
   out.fact("Former cell", node.cell);
   out.fact("Address", node.address);
   out.fact("UUID", node.uuid);

@@ -151,6 +151,7 @@ std::string beside(const std::vector<std::pair<std::string, size_t>>& groups) {
 std::string drawing(const text_boxes& boxes,
                     const std::vector<drawn_arrow>& arrows, size_t width) {
   std::vector<graph_arc> arcs;
+  arcs.reserve(arrows.size());
   for (const auto& x : arrows)
     arcs.emplace_back(x.from, x.to);
   std::string result;

@@ -56,6 +56,7 @@ std::vector<drawn_arrow> arrows_of(const task_graph& graph) {
                   + (rate.empty() ? "" : "  " + rate)));
   }
   std::vector<drawn_arrow> result;
+  result.reserve(labels.size());
   for (auto& [ends, texts] : labels)
     result.push_back({ends.first, ends.second, std::move(texts)});
   return result;

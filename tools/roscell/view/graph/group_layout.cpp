@@ -141,6 +141,7 @@ group_layout laid_out(const std::vector<size_t>& members,
                       const std::vector<std::vector<std::string>>& boxes,
                       const std::vector<drawn_arrow>& arrows, size_t width) {
   std::vector<graph_arc> arcs;
+  arcs.reserve(arrows.size());
   for (const auto& x : arrows)
     arcs.emplace_back(x.from, x.to);
   auto result = layering{members, arrows, layers(boxes.size(), arcs)}.result;

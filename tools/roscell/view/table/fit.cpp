@@ -49,6 +49,7 @@ bool shorten(const std::vector<column_wish>& columns, size_t width,
 std::vector<size_t> fitted(const std::vector<column_wish>& columns,
                            size_t width) {
   std::vector<size_t> natural;
+  natural.reserve(columns.size());
   for (const auto& x : columns)
     natural.push_back(std::max<size_t>(1, x.natural));
   while (true) {
