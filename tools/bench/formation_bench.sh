@@ -84,7 +84,7 @@ hosts_bench() {
   done
   begin=$(now_ms)
   form alpha "${names[@]}" > "$scratch/formed.json"
-  figure "formation of 20 by name, first CPU sample included" \
+  figure "formation of 20 by name" \
     $(($(now_ms) - begin)) ms
   figure "formation of 20 by name: joined" \
     "$(jq '[.outcomes[] | select(.result == "joined")] | length' \
