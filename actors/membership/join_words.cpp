@@ -66,12 +66,6 @@ join_diagnosis silent_server(const evidence& x, const node_hello& who,
 }
 
 join_diagnosis mute_server(const evidence& x, const node_hello& who) {
-  if (who.domain_id != x.asked.domain_id)
-    return {"coordinator " + quoted(who.node) + of_cell(who)
-                + " uses the ROS domain " + std::to_string(who.domain_id)
-                + ", this node " + std::to_string(x.asked.domain_id),
-            "start this node with --domain-id "
-                + std::to_string(who.domain_id)};
   return {"the discovery server of coordinator " + quoted(who.node)
               + of_cell(who) + " answers on " + x.udp()
               + ", but what it announces does not arrive",
@@ -146,7 +140,7 @@ join_diagnosis other_server(const evidence& x) {
   return {"a discovery server answers on " + x.udp() + " of " + x.host()
               + ", but no coordinator of ROSCell announces itself there",
           "give the address of a coordinator of ROSCell; the server may be "
-          "one of ROS 2 alone, or of another --domain-id"};
+          "one of ROS 2 alone"};
 }
 
 join_diagnosis other_program(const evidence& x, const scouted_port& port) {

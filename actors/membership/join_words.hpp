@@ -13,12 +13,11 @@ struct join_diagnosis {
   std::string hint;    ///< The same; may be empty.
 };
 
-/// What is tried, and by whom.
+/// What is tried.
 struct join_question {
   std::string
       address;       ///< "host:port" of the discovery server, as it was given.
   uint16_t port = 0; ///< Of `address`.
-  int64_t domain_id = 0; ///< Of the node that wants to join.
 };
 
 /// What is wrong at an address whose discovery server has not answered.

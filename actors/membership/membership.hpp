@@ -41,8 +41,7 @@ struct membership_config {
   std::optional<membership_record> restored;
   std::string configured;    ///< How the node is started now; see the record.
   std::string site_token;    ///< Proves switches; empty: none is installed.
-  int64_t domain_id = 0;     ///< The ROS domain that this node uses.
-  int64_t public_domain = 0; ///< In which it sees others.
+  int64_t public_domain = 0; ///< In which the node sees others.
 };
 
 /// Whether the node goes on where an earlier run of it was: it is started in

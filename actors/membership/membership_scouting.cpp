@@ -46,8 +46,7 @@ void on_scouted(self_pointer self, const address_scouted& found) {
   const auto server = parse_host_address(st.wanted);
   if (!server)
     return;
-  const auto why =
-      diagnose({st.wanted, server->port, st.config.domain_id}, found);
+  const auto why = diagnose({st.wanted, server->port}, found);
   st.diagnosed = true;
   complain(self, why.trouble, why.hint);
 }

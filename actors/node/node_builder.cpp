@@ -267,7 +267,6 @@ private:
     result.restored = data_.membership;
     result.configured = config.wait ? "wait" : config.join;
     result.site_token = data_.site_token;
-    result.domain_id = config.ros_domain_id;
     result.public_domain = config.public_domain_id;
     return result;
   }

@@ -111,7 +111,7 @@ const std::vector<row> rows{
 TEST_CASE("each cause of a failed join has its own words and remedy") {
   for (const auto& x : rows) {
     INFO(x.what);
-    const auto said = diagnose({"base.local:11811", 11811, 0}, x.found);
+    const auto said = diagnose({"base.local:11811", 11811}, x.found);
     CHECK_THAT(said.trouble, Contains(x.trouble));
     CHECK_THAT(said.hint, Contains(x.hint));
   }
@@ -120,20 +120,11 @@ TEST_CASE("each cause of a failed join has its own words and remedy") {
 TEST_CASE("who gives the HTTP port is told the discovery port") {
   const address_scouted found{port_answer::silent,
                               {{8420, port_answer::found, {coordinator()}}}};
-  const auto said = diagnose({"10.0.0.1:8420", 8420, 0}, found);
+  const auto said = diagnose({"10.0.0.1:8420", 8420}, found);
   CHECK(said.trouble
         == "port 8420 is the HTTP port of coordinator 'head' of cell "
            "'lab', not its discovery server");
   CHECK(said.hint == "use --join 10.0.0.1:11811");
-}
-
-TEST_CASE("another ROS domain than the cell's is told as what it is") {
-  auto who = coordinator();
-  who.domain_id = 7;
-  const auto said =
-      diagnose({"10.0.0.1:11811", 11811, 0}, sight(port_answer::found, who));
-  CHECK_THAT(said.trouble, Contains("uses the ROS domain 7, this node 0"));
-  CHECK_THAT(said.hint, Contains("--domain-id 7"));
 }
 
 TEST_CASE("a node that sees nobody is told which public domain it looks at") {
