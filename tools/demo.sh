@@ -193,7 +193,7 @@ fi
 say "a coordination node and three primary nodes, each a process of its own"
 start head --coordinator --cell demo
 export ROSCELL_TO=$dir/head/node.sock
-server=$("$bin/roscell" cells -o json | jq -r '.cells[0].discovery_server')
+server=$("$bin/roscell" cells -o json | jq -r '.[0].discovery_server')
 for name in arm belt camera; do
   start "$name" --join "$server"
 done
@@ -232,8 +232,7 @@ if [[ -n $images ]]; then
   [[ -s $dir/out/scene_1.jsonl ]] \
     || { echo "no picture could be read; the log of camera_1:"; code=1
          "$bin/roscell" logs "$("$bin/roscell" instances -o json \
-           | jq -r '.instances[] | select(.spec.step == "camera_1")
-             | .spec.instance')"; }
+           | jq -r '.[] | select(.spec.step == "camera_1") | .name')"; }
 elif $once; then
   say "poses beside the truth"
   "$bin/compare_poses" --summary --wait 60 --frames 5 --nodes "$where" \

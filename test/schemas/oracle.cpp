@@ -53,4 +53,11 @@ bool oracle_accepts(const std::string& schema, const json& document) {
   return validator.validate(*parsed, adapter{document}, nullptr);
 }
 
+bool oracle_accepts(const json& schema, const json& document) {
+  valijson::Schema parsed;
+  valijson::SchemaParser{valijson::SchemaParser::kDraft7}.populateSchema(
+      adapter{schema}, parsed);
+  return valijson::Validator{}.validate(parsed, adapter{document}, nullptr);
+}
+
 } // namespace roscell::test

@@ -245,7 +245,7 @@ test_a_cell_name_in_use_is_refused_unless_forced() {
   start_node other --interface lo --coordinator --cell alpha --force
   await alpha '.event == "cell_name_conflict"' > /dev/null
   expect "both are shown" "$(to alpha cells -o json \
-    | jq -c '[.cells[].coordinator] | sort')" '["alpha","other"]'
+    | jq -c '[.[].coordinator] | sort')" '["alpha","other"]'
 }
 
 # A switch by the REST API of a node, with a proof that is none.

@@ -142,11 +142,11 @@ test_a_member_has_its_coordinator_answer_for_the_cell() {
   start_node head --interface lo --coordinator --cell line
   start_node arm --interface lo --join "$(discovery_of head)"
   await_joined head arm
-  to arm nodes -o json | jq -e '.nodes | length == 2' > /dev/null \
+  to arm nodes -o json | jq -e 'length == 2' > /dev/null \
     || fail "no nodes from the member"
   echo_task say | to arm request - > "$scratch/reply"
   expect "reply" "$(jq -r .type "$scratch/reply")" task_accepted
-  expect "tasks" "$(to arm tasks -o json | jq -r '.tasks[0].task')" say
+  expect "tasks" "$(to arm tasks -o json | jq -r '.[0].name')" say
   to arm cells > /dev/null || fail "no cells from the member"
   to arm release belt > "$scratch/refused" 2>&1 && fail "it was passed on"
   grep -q "coordinator of cell 'line' at 127.0.0.1" "$scratch/refused" \

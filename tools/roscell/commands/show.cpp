@@ -5,12 +5,14 @@
 #include "tools/roscell/common_options.hpp"
 #include "tools/roscell/exit_code.hpp"
 #include "tools/roscell/view/formation_view.hpp"
+#include "tools/roscell/view/shape/shape.hpp"
 #include "tools/roscell/view/terminal.hpp"
 #include "tools/roscell/view/views.hpp"
 
 #include <CLI/CLI.hpp>
 
 #include <memory>
+#include <string_view>
 
 namespace roscell::cli {
 
@@ -26,6 +28,7 @@ struct subject {
   const char* footer;
   const char* argument; ///< Name of an optional argument; nullptr: none.
   const char* path;     ///< Where the answer is; the argument is appended.
+  reply_parts parts;    ///< What is listed of it.
   std::string (*view)(const json& reply, const view_style& style);
 };
 
@@ -35,27 +38,45 @@ std::string view_of(const json& reply, const view_style& style) {
 }
 
 const subject subjects[] = {
-    {"cells", "List the cells that the node knows of.",
-     "Examples:\n  roscell cells\n  roscell cells --watch", nullptr,
-     "/v1/cells", view_of<cell_list, cells_view>},
+    {"cells",
+     "List the cells that the node knows of.",
+     "Examples:\n  roscell cells\n  roscell cells --watch",
+     nullptr,
+     "/v1/cells",
+     {"cells"},
+     view_of<cell_list, cells_view>},
     {"nodes",
      "List the nodes of the cell with their resources (used/capacity), then "
      "those that are in no cell.",
      "A member asks its coordinator.\n\nExamples:\n  roscell nodes\n"
      "  roscell nodes --watch --to 192.168.1.10",
-     nullptr, "/v1/cell", view_of<cell_description, members_view>},
-    {"tasks", "List the tasks of the cell.",
+     nullptr,
+     "/v1/cell",
+     {"nodes", "free"},
+     view_of<cell_description, members_view>},
+    {"tasks",
+     "List the tasks of the cell.",
      "A member asks its coordinator.\n\nExamples:\n  roscell tasks --watch\n"
      "  roscell tasks fleet-poses -o json",
-     "TASK", "/v1/tasks", view_of<task_description, tasks_view>},
-    {"instances", "List the skill instances of the cell, or of a lone node.",
+     "TASK",
+     "/v1/tasks",
+     {"tasks"},
+     view_of<task_description, tasks_view>},
+    {"instances",
+     "List the skill instances of the cell, or of a lone node.",
      "Examples:\n  roscell instances\n"
      "  roscell instances fleet-poses-camera-1a2b3c4d -o json",
-     "INSTANCE", "/v1/instances",
+     "INSTANCE",
+     "/v1/instances",
+     {"instances"},
      view_of<instance_description, instances_view>},
-    {"skills", "List the skills that the cell, or a lone node, can run.",
-     "Examples:\n  roscell skills\n  roscell skills -o json", nullptr,
-     "/v1/skills", view_of<skill_list, skills_view>},
+    {"skills",
+     "List the skills that the cell, or a lone node, can run.",
+     "Examples:\n  roscell skills\n  roscell skills -o json",
+     nullptr,
+     "/v1/skills",
+     {"skills"},
+     view_of<skill_list, skills_view>},
 };
 
 struct show_options {
@@ -70,8 +91,13 @@ struct show_options {
     return output == "json" || output == "jsonl";
   }
 
-  std::string json_text(const json& reply) const {
-    return output == "json" ? pretty(reply) : compact(reply);
+  std::string json_text(const json& things) const {
+    if (output == "json")
+      return pretty(things);
+    std::string lines;
+    for (const auto& x : things)
+      lines += compact(x);
+    return lines;
   }
 
   /// How a table looks now.
@@ -85,15 +111,20 @@ struct show_options {
 
 using options_ptr = std::shared_ptr<show_options>;
 
-/// Shows what `fetch` gets, once or at every change.
+/// Shows what `fetch` gets, once or at every change; programs get the things in
+/// these parts of it.
 int show(const show_options& options, const node_client& node,
          const std::function<json()>& fetch,
-         const std::function<std::string(const json&)>& view) {
+         const std::function<std::string(const json&)>& view,
+         const reply_parts& parts) {
+  const auto fetch_things = [&] { return shaped_list(fetch(), parts); };
   try {
+    if (options.watch && options.as_json())
+      return watch(node, true, fetch_things, view);
     if (options.watch)
-      return watch(node, options.as_json(), fetch, view);
-    const auto reply = fetch();
-    print(options.as_json() ? options.json_text(reply) : view(reply));
+      return watch(node, false, fetch, view);
+    print(options.as_json() ? options.json_text(fetch_things())
+                            : view(fetch()));
     return exit_done;
   } catch (refused& e) {
     e.as_json = options.as_json();
@@ -108,7 +139,8 @@ int show_subject(const subject& what, const show_options& options) {
     path += "/" + percent_encode(options.argument);
   return show(
       options, node, [&] { return node.get(path); },
-      [&](const json& reply) { return what.view(reply, options.style()); });
+      [&](const json& reply) { return what.view(reply, options.style()); },
+      what.parts);
 }
 
 int show_status(const show_options& options) {
@@ -122,8 +154,7 @@ int show_status(const show_options& options) {
     return text;
   };
   const auto* path = options.actors ? "/v1/node?actors=1" : "/v1/node";
-  return show(
-      options, node, [&] { return node.get(path); }, view);
+  return show(options, node, [&] { return node.get(path); }, view, {});
 }
 
 int show_transfers(const show_options& options) {
@@ -134,7 +165,8 @@ int show_transfers(const show_options& options) {
       [&](const json& reply) {
         return transfers_view(reply.get<transfer_description>(),
                               options.style());
-      });
+      },
+      {"transfers"});
 }
 
 CLI::App* add_show_command(CLI::App& app, const char* name,

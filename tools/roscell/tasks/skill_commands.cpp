@@ -4,6 +4,7 @@
 #include "tools/roscell/tasks/known_skills.hpp"
 #include "tools/roscell/tasks/skeleton.hpp"
 #include "tools/roscell/tasks/task_view.hpp"
+#include "tools/roscell/view/shape/shape.hpp"
 #include "tools/roscell/view/terminal.hpp"
 
 #include <CLI/CLI.hpp>
@@ -37,7 +38,7 @@ int show_skill(const skill_options& options) {
   auto list = json::array();
   for (const auto& row : rows)
     list.push_back(row);
-  print(pretty(list));
+  print(pretty(shaped(list)));
   return exit_done;
 }
 

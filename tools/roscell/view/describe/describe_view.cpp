@@ -4,6 +4,7 @@
 #include "tools/roscell/view/describe/parts.hpp"
 #include "tools/roscell/view/describe/things.hpp"
 #include "tools/roscell/view/format.hpp"
+#include "tools/roscell/view/shape/shape.hpp"
 
 #include <algorithm>
 #include <set>
@@ -86,7 +87,7 @@ json describe_json(const known_cell& known, const known_thing& what,
     events.push_back(message_json(e));
   json result{{"kind", to_string(what.kind)},
               {"name", what.name},
-              {"about", json_of(known, what)},
+              {"about", shaped(json_of(known, what))},
               {"events", std::move(events)}};
   if (!log.empty())
     result["log"] = log;
