@@ -54,6 +54,7 @@ std::vector<instance_row> find_instances(const std::vector<instance_row>& known,
   if (found.size() == 1)
     return found;
   std::vector<std::string> ids;
+  ids.reserve(found.size());
   for (const auto& row : found)
     ids.push_back(row.spec.instance);
   throw command_error{exit_usage, "several instances begin with '" + word + "'",

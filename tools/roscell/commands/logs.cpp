@@ -93,6 +93,7 @@ private:
 /// several instances mix by lines.
 void follow_all(std::vector<log_printer>& printers) {
   std::vector<std::future<void>> ends;
+  ends.reserve(printers.size());
   for (auto& printer : printers)
     ends.push_back(
         std::async(std::launch::async, [&printer] { printer.run(); }));

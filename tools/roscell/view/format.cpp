@@ -174,6 +174,14 @@ std::string listed(const std::set<std::string>& names) {
   return joined({names.begin(), names.end()});
 }
 
+std::string listed(const std::map<std::string, std::string>& pairs) {
+  std::vector<std::string> words;
+  words.reserve(pairs.size());
+  for (const auto& [key, value] : pairs)
+    words.push_back(key + "=" + value);
+  return joined(words);
+}
+
 size_t display_width(std::string_view text) {
   size_t width = 0;
   for (const auto c : text)

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <map>
 #include <set>
 #include <string>
 #include <string_view>
@@ -53,6 +54,9 @@ std::string joined(const std::vector<std::string>& words,
 
 /// Each name once, in order: "a,b".
 std::string listed(const std::set<std::string>& names);
+
+/// Labels and the like: "host=one,room=lab".
+std::string listed(const std::map<std::string, std::string>& pairs);
 
 /// Columns that `text` takes: its code points.
 size_t display_width(std::string_view text);

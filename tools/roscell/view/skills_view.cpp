@@ -84,7 +84,8 @@ std::string skills_view(const skill_list& skills, const view_style& style) {
         t.rows.push_back(
             {row.skill.descriptor.operation, short_version(row.skill.version),
              made_for.empty() ? "any"
-                              : listed({made_for.begin(), made_for.end()}),
+                              : listed(std::set<std::string>{made_for.begin(),
+                                                             made_for.end()}),
              model.name, option.name, format_number(r.cpu),
              format_memory(r.memory_mib), format_memory(r.disk_mib),
              r.needs_gpu() ? format_memory(r.gpu_memory_mib) : "",

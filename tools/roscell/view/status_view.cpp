@@ -1,3 +1,4 @@
+#include "tools/roscell/view/describe/parts.hpp"
 #include "tools/roscell/view/format.hpp"
 #include "tools/roscell/view/views.hpp"
 
@@ -48,38 +49,6 @@ private:
   const view_style& style_;
   std::string text_;
 };
-
-using number_format = std::string (*)(double);
-
-std::string number(double value) {
-  return format_number(value);
-}
-
-std::vector<std::string> resource_line(const std::string& name, const amount& a,
-                                       number_format put) {
-  return {name, put(a.used), put(a.capacity),
-          put(std::max(0.0, a.capacity - a.used))};
-}
-
-std::string resources_view(const node_resources& r, const view_style& style) {
-  table t{{{"RESOURCE"},
-           {"USED", align::right},
-           {"CAPACITY", align::right},
-           {"FREE", align::right}},
-          {}};
-  t.rows.push_back(resource_line("cpu (cores)", r.cpu, number));
-  t.rows.push_back(resource_line("memory", r.memory_mib, format_memory));
-  t.rows.push_back(resource_line("disk", r.disk_mib, format_memory));
-  for (const auto& gpu : r.gpus) {
-    auto name = "gpu " + std::to_string(gpu.index);
-    if (r.unified_memory)
-      t.rows.push_back({name + " (shares memory)"});
-    else
-      t.rows.push_back(
-          resource_line(name + " memory", gpu.memory_mib, format_memory));
-  }
-  return t.render(style.text);
-}
 
 /// "3 running, 1 failed"
 std::string counted(const std::vector<instance_row>& instances) {
@@ -156,7 +125,8 @@ std::string node_view(const node_description& node, const view_style& style) {
   facts.add("disk written", disk_writes(node, style.now_unix_ms));
   facts.add("skills", std::to_string(node.skills.size()));
   facts.add("instances", counted(node.instances));
-  auto text = facts.text() + "\n" + resources_view(node.resources, style);
+  auto text =
+      facts.text() + "\n" + resources_table(node.resources).render(style.text);
   if (!node.instances.empty())
     text += "\n" + instances_view({node.instances}, style);
   if (!node.actors.empty())

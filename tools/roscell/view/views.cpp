@@ -20,14 +20,6 @@ std::string memory(const amount& a) {
   return a.capacity == 0 ? "" : format_memory(a.used, a.capacity);
 }
 
-/// "host=one,room=lab"
-std::string labels_text(const std::map<std::string, std::string>& labels) {
-  std::vector<std::string> words;
-  for (const auto& [key, value] : labels)
-    words.push_back(key + "=" + value);
-  return joined(words);
-}
-
 std::string or_nothing(const table& t, const char* what,
                        const view_style& style) {
   return t.rows.empty() ? std::string{"no "} + what + "\n"
@@ -187,7 +179,7 @@ std::string members_view(const cell_description& cell,
                       row.identity.address, r.architecture, cores(r.cpu),
                       memory(r.memory_mib), memory(r.disk_mib),
                       std::to_string(r.gpus.size()), known_count(row.instances),
-                      row.reason, labels_text(r.labels), joined(r.devices)});
+                      row.reason, listed(r.labels), joined(r.devices)});
   }
   for (const auto& node : cell.free)
     t.rows.push_back(free_row(node, style));

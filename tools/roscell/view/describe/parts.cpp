@@ -36,7 +36,7 @@ table resources_table(const node_resources& r) {
     if (r.unified_memory)
       t.rows.push_back({name + " (shares memory)"});
     else
-      t.rows.push_back(amount_row(name, gpu.memory_mib, true));
+      t.rows.push_back(amount_row(name + " memory", gpu.memory_mib, true));
   }
   return t;
 }
@@ -106,13 +106,6 @@ std::string request_words(const resource_request& r) {
   if (r.needs_gpu())
     result += ", gpu memory " + format_memory(r.gpu_memory_mib);
   return result;
-}
-
-std::string pairs_words(const std::map<std::string, std::string>& pairs) {
-  std::vector<std::string> words;
-  for (const auto& [key, value] : pairs)
-    words.push_back(key + "=" + value);
-  return joined(words);
 }
 
 } // namespace roscell::cli

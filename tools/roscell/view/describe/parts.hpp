@@ -31,7 +31,4 @@ std::string time_words(int64_t unix_ms, const view_style& style);
 /// "cpu 1, memory 96 MiB, disk 150 MiB"
 std::string request_words(const resource_request& r);
 
-/// "key=value,key=value"
-std::string pairs_words(const std::map<std::string, std::string>& pairs);
-
 } // namespace roscell::cli

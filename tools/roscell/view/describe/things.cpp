@@ -52,7 +52,7 @@ void describe_member(page& out, const known_cell& known,
   out.fact("UUID", row.identity.uuid);
   out.fact("Epoch", std::to_string(row.identity.epoch));
   out.fact("Architecture", row.resources.architecture);
-  out.fact("Labels", pairs_words(row.resources.labels));
+  out.fact("Labels", listed(row.resources.labels));
   out.fact("Devices", joined(row.resources.devices, ", "));
   out.fact("Skills", skills_on(known, name));
   out.section("Resources", resources_table(row.resources));
