@@ -33,15 +33,18 @@ task_file read_task_file(const std::string& name) {
 
 namespace {
 
-/// The marks say what is wrong, so the hint that they are there says nothing.
+/// The marks, or the rejected candidates, say what is wrong, so the hint that
+/// they are there says nothing.
 void show_places(const wrong_document& e, const json& reply) {
   const auto marks = marked_errors(e.file.name, e.file.text, reply);
-  if (const auto rejected = rejected_in(e.why); !rejected.empty())
+  const auto rejected = rejected_in(e.why);
+  if (!rejected.empty())
     print_text(rejected_view(rejected, stdout_style()));
   if (marks.empty())
     return print_refusal(reply);
   print_text(marks);
-  if (e.why.code != error_code::schema_violation && !e.why.hint.empty())
+  if (e.why.code != error_code::schema_violation && rejected.empty()
+      && !e.why.hint.empty())
     print_note("hint: " + printable(e.why.hint));
 }
 
