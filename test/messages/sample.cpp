@@ -12,6 +12,7 @@ constexpr std::pair<std::string_view, std::string_view> forms[] = {
     {"address", "10.0.0.7:N"},
     {"discovery_server", "10.0.0.8:N"},
     {"node_description.coordinator", "10.0.0.9:N"},
+    {"node_hello.coordinator", "10.0.0.9:N"},
     {"hash", "H"},
     {"skill", "H"},
     {"nonce", "H"},

@@ -10,7 +10,10 @@ constexpr auto descriptor = R"({
   "operation": "work", "engine": "primitive", "entry_point": ["bin/work"],
   "input": { "data_types": ["text/plain"], "protocols": ["file"] },
   "output": { "data_types": ["text/plain"], "protocols": ["file"] },
-  "models": [ { "name": "plain", "deployments": [
+  "models": [ { "name": "plain", "parameters": {
+    "ready_ms": { "type": "integer" }, "ends_ms": { "type": "integer" },
+    "exit_code": { "type": "integer" }, "stop_ms": { "type": "integer" },
+    "cannot_start": { "type": "boolean" } }, "deployments": [
     { "name": "hundredth", "base_image": "debian:bookworm-slim",
       "architectures": ["amd64"],
       "resources": { "cpu": 0.01, "memory_mib": 1, "disk_mib": 1 } },

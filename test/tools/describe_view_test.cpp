@@ -96,7 +96,7 @@ TEST_CASE("a task is described with its steps, ports and allocation",
   const auto text = described(sample(), "t");
   CHECK(has(text, "Allocation:     poses→arm-1 score=0.25\n"));
   CHECK(has(text, "  in    /image    ros2      sensor_msgs/msg/Image\n"));
-  CHECK(has(text, "  tag_size_m  0.16 "));
+  CHECK(has(text, "  tag_size_m  0.16\n"));
 }
 
 TEST_CASE("an instance is described with its words, figures and log",
