@@ -21,8 +21,11 @@ EOF
 
 # await_line FILE TEXT: waits until a line of the file is that.
 await_line() {
-  timeout "$deadline_s" tail -n +1 -F "$1" 2> /dev/null | grep -qxm 1 "$2" \
-    || fail "no line '$2' in $1"
+  local line
+  while read -r -t "$deadline_s" line; do
+    [[ $line != "$2" ]] || return 0
+  done < <(exec tail --pid=$$ -n +1 -F "$1" 2> /dev/null)
+  fail "no line '$2' in $1"
 }
 
 # instance_of TASK STEP
@@ -67,8 +70,8 @@ test_a_failed_step_is_healed_by_the_same_request() {
   local old
   old=$(instance_of chain two)
   pkill -KILL -P "$(cut -d' ' -f1 "$scratch/head/instances/$old/pid")"
-  await head ".event == \"instance_failed\" and .subject == \"$old\"" \
-    > /dev/null
+  await head ".event == \"instance_changed\" and .subject == \"$old\"
+              and .data.state == \"failed\"" > /dev/null
   to head run "$scratch/chain.yaml" > "$scratch/out" || fail "it was not healed"
   grep -q 'started again: two' "$scratch/out" || fail "healing is not told"
   expect "state" "$(get head /v1/tasks/chain | jq -r '.tasks[0].state')" running

@@ -40,7 +40,8 @@ test_the_tutorial_does_what_it_says() {
   own_network
   own_tree
   play docs/tutorial.md --alike head,arm \
-    --instead "ninja -C build/release roscell=ninja -C build/release -n roscell"
+    --instead "ninja -C build/release roscell=ninja -C build/release -n roscell" \
+    --instead "roscell run $scratch/tut/task.yaml=roscell run $scratch/tut/task.yaml 2> $scratch/busy"
   [[ ! -e skills/shout ]] || fail "it left something in the sources"
 }
 
@@ -48,6 +49,6 @@ test_a_cell_in_five_lines_runs_a_task() {
   own_network
   own_tree
   ln -s "$skills" "$tree/build/release/skills"
-  sed -i "s|/tmp/|$scratch/|" "$tree/docs/examples/hello.json"
+  sed -i "s|/tmp/|$scratch/|g" "$tree/docs/examples/hello.json"
   play README.md --section "A cell in five lines"
 }

@@ -2,6 +2,7 @@
 
 #include "actors/house/limits.hpp"
 #include "actors/placement/instance_specs.hpp"
+#include "actors/placement/reading/start_order.hpp"
 #include "actors/placement/reading/task_reading.hpp"
 
 #include <algorithm>
@@ -183,20 +184,62 @@ failure step_failure(const instance_spec& spec, const std::string& node,
 
 } // namespace
 
-void deploy(const request_context& context, intended_task task,
-            outcome<deployed_task> done) {
-  auto tally = std::make_shared<deployment_tally>(
-      deployment_tally{task.task, task.specs.size(), done});
-  for (size_t i = 0; i < task.specs.size(); ++i) {
-    const auto& spec = task.specs[i];
-    context.self
-        ->request(task.agents[i], limits::task::deployment_answer,
-                  instance_deployment{spec})
-        .then([tally](const instance_deployed&) { tally->add_success(); },
-              [tally, spec, node = task.nodes[i], i](const caf::error& why) {
-                tally->add_failure(step_failure(spec, node, why, i));
+namespace {
+
+/// Starts the steps of a task, each once those run whose files it reads. Lives
+/// as long as the requests that hold it.
+class deploying : public std::enable_shared_from_this<deploying> {
+public:
+  deploying(const request_context& context, intended_task task,
+            const outcome<deployed_task>& done)
+      : context_(context), task_(std::move(task)),
+        before_(start_order(task_.specs)), tally_{task_.task,
+                                                  task_.specs.size(), done} {}
+
+  void begin() {
+    for (size_t i = 0; i < before_.size(); ++i)
+      if (before_[i].empty())
+        start(i);
+  }
+
+private:
+  void start(size_t i) {
+    auto self = shared_from_this();
+    context_.self
+        ->request(task_.agents[i], limits::task::deployment_answer,
+                  instance_deployment{task_.specs[i]})
+        .then([self, i](const instance_deployed&) { self->on_running(i); },
+              [self, i](const caf::error& why) {
+                self->tally_.add_failure(step_failure(
+                    self->task_.specs[i], self->task_.nodes[i], why, i));
               });
   }
+
+  /// Others may have waited for this one alone.
+  void on_running(size_t ran) {
+    tally_.add_success();
+    for (size_t i = 0; i < before_.size(); ++i) {
+      auto& open = before_[i];
+      const auto waited = std::find(open.begin(), open.end(), ran);
+      if (waited == open.end())
+        continue;
+      open.erase(waited);
+      if (open.empty() && tally_.open > 0)
+        start(i);
+    }
+  }
+
+  request_context context_;
+  intended_task task_;
+  std::vector<std::vector<size_t>> before_; ///< Of each step, what must run.
+  deployment_tally tally_;
+};
+
+} // namespace
+
+void deploy(const request_context& context, intended_task task,
+            outcome<deployed_task> done) {
+  std::make_shared<deploying>(context, std::move(task), done)->begin();
 }
 
 namespace {

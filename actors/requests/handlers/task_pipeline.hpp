@@ -67,7 +67,8 @@ void present_plan(const request_context&, allocated_task, outcome<task_plan>);
 void place_with_room(const request_context&, resolved_task,
                      outcome<reserved_task>);
 void record_plan(const request_context&, reserved_task, outcome<intended_task>);
-/// Starts all steps at once and waits until all run or one has failed.
+/// Starts the steps, each once those run whose files it reads, and waits until
+/// all run or one has failed.
 void deploy(const request_context&, intended_task, outcome<deployed_task>);
 /// A failed deployment is rolled back before its error is returned.
 void record_result(const request_context&, deployed_task,

@@ -40,6 +40,7 @@ std::vector<known_thing> those(const std::vector<known_thing>& all,
 [[noreturn]] void refuse_ambiguous(const std::vector<known_thing>& found,
                                    const std::string& name) {
   std::vector<std::string> words;
+  words.reserve(found.size());
   for (const auto& x : found)
     words.push_back(to_string(x.kind) + " " + x.name);
   throw command_error{exit_usage, "several things are called '" + name + "'",

@@ -146,8 +146,8 @@ private:
 
   /// Topics are made up where a step reads them; a file is not.
   std::string output_text(const port_description& port, task_step& step) const {
-    const auto gives = "    # gives " + joined(port.data_types, ", ") + " by "
-                       + joined(port.protocols, ", ") + "\n";
+    auto gives = "    # gives " + joined(port.data_types, ", ") + " by "
+                 + joined(port.protocols, ", ") + "\n";
     if (!speaks(port, "file"))
       return gives;
     const auto end = placeholder(port, task_ + "/" + step.id);
