@@ -34,6 +34,11 @@ bool is_shared(const io_endpoint& x) {
   return x.data_type == "tf2_msgs/msg/TFMessage";
 }
 
+/// Pictures go into a folder, each under a name of its own.
+bool is_folder(const io_endpoint& x) {
+  return x.endpoint.back() == '/' || x.data_type.rfind("image/", 0) == 0;
+}
+
 bool same_topic(const io_endpoint& x, const io_endpoint& y) {
   return is_topic_end(x) && is_topic_end(y)
          && full_topic(x.endpoint) == full_topic(y.endpoint);
@@ -215,8 +220,8 @@ private:
                          const std::string& at, const written_end& first) {
     const auto both = "the file " + in_quotes(end.endpoint, 80)
                       + " is written by " + first.words + ", too";
-    if (first.elsewhere)
-      warn(at, both + "; on one node they would overwrite each other");
+    if (first.elsewhere || is_folder(end))
+      warn(at, both + "; what has one name there is overwritten");
     else if (contradiction(steps_[i].step, steps_[first.step].step).empty())
       refuse(at, both);
   }

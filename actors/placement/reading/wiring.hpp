@@ -23,9 +23,9 @@ struct wiring {
 /// write. Errors: a topic that nobody writes and that is not `external`; types
 /// that differ; a file that two steps write; a file between steps whose labels
 /// keep them apart. Warnings: a topic that two write, but for transforms, which
-/// many write; what another task writes as well; an external topic that is
-/// written by the task itself, or by nobody in `topics` yet, if these are
-/// known.
+/// many write; a folder that two write; what another task writes as well; an
+/// external topic that is written by the task itself, or by nobody in `topics`
+/// yet, if these are known.
 wiring find_wiring(const std::string& task,
                    const std::vector<written_step>& steps,
                    const std::vector<deployed_end>& cell,

@@ -139,6 +139,14 @@ TEST_CASE("A file that two steps write is refused, unless labels part them",
   CHECK(x.warnings.size() == 1);
 }
 
+TEST_CASE("A folder that two steps write into is warned of", "[wiring]") {
+  auto pictures = file("/tmp/pictures");
+  pictures.data_type = "image/png";
+  const auto x = wired({step("a", {}, {pictures}), step("b", {}, {pictures})});
+  CHECK(x.errors.empty());
+  CHECK(x.warnings.size() == 1);
+}
+
 TEST_CASE("Steps that are joined by a file must share a node", "[wiring]") {
   const auto x = wired({step("a", {}, {file("/tmp/one/")}),
                         step("b", {file("/tmp/one")}, {file("/tmp/two")}),
