@@ -250,7 +250,7 @@ test_a_skill_that_exits_at_once_is_told_with_its_code_and_last_lines() {
   start_alone
   expect "code" "$(refusal "$(echo_task a)")" engine_failed
   expect "exit code" "$(jq -r .error.exit_code "$scratch/refusal.json")" 42
-  jq -r .error.log_tail "$scratch/refusal.json" | grep -q 'no camera' \
+  jq -r .error.log_tail "$scratch/refusal.json" | has_line 'no camera' \
     || fail "$(cat "$scratch/refusal.json")"
   still_up
   expect "instances" "$(get head /v1/instances | jq '.instances | length')" 0
@@ -262,7 +262,7 @@ test_a_missing_entry_point_is_named() {
   await head '.event == "skill_refused" and .data.where == "/entry_point/0"
     and (.data.message | contains("bin/echo"))' > /dev/null
   expect "code" "$(refusal "$(echo_task a)")" unknown_operation
-  jq -r .error.hint "$scratch/refusal.json" | grep -q "$scratch/.*bin/echo" \
+  jq -r .error.hint "$scratch/refusal.json" | has_line "$scratch/.*bin/echo" \
     || fail "the hint does not name the program: $(cat "$scratch/refusal.json")"
   still_up
 }
@@ -285,7 +285,7 @@ test_if_one_step_fails_the_others_are_rolled_back() {
     | .pipeline[0].operation = "good" | .pipeline[1].id = "other"
     | .pipeline[1].output.endpoint += "2"')
   expect "code" "$(refusal "$request")" engine_failed
-  jq -r .error.message "$scratch/refusal.json" | grep -q "other" \
+  jq -r .error.message "$scratch/refusal.json" | has_line "other" \
     || fail "the error does not name the step: $(cat "$scratch/refusal.json")"
   expect "instances" "$(get head /v1/instances | jq '.instances | length')" 0
   still_up

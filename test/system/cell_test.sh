@@ -136,8 +136,8 @@ test_a_task_is_drawn_and_described() {
   echo_task told arm > "$scratch/task.json"
   to head request "$scratch/task.json" > "$scratch/reply.json" \
     || fail "refused: $(cat "$scratch/reply.json")"
-  to head graph told | grep -q "on arm, running" || fail "no step is drawn"
-  to head graph told -o dot | grep -q "^digraph" || fail "it is no graph"
+  to head graph told | has_line "on arm, running" || fail "no step is drawn"
+  to head graph told -o dot | has_line "^digraph" || fail "it is no graph"
   to head describe told-say > "$scratch/about" || fail "it is not described"
   grep -q "^Node: *arm$" "$scratch/about" || fail "$(cat "$scratch/about")"
   to head describe node arms 2> "$scratch/why" \

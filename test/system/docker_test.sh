@@ -151,9 +151,9 @@ SCRIPT
   expect "its exit code" "$(jq .exit_code "$scratch/row.json")" 137
   expect "its reason" "$(jq -r .reason "$scratch/row.json")" \
     "it ended by signal 9"
-  jq -r .log_tail "$scratch/row.json" | grep -q "last words" \
+  jq -r .log_tail "$scratch/row.json" | has_line "last words" \
     || fail "$(cat "$scratch/row.json")"
-  to head logs "$instance" | grep -q "last words" || fail "not in its log"
+  to head logs "$instance" | has_line "last words" || fail "not in its log"
   terminate doomed
 }
 
@@ -173,7 +173,7 @@ refused() {
 }
 
 says() {
-  jq -r ".error.$1" "$scratch/refusal.json" | grep -q "$2" \
+  jq -r ".error.$1" "$scratch/refusal.json" | has_line "$2" \
     || fail "no '$2' in: $(cat "$scratch/refusal.json")"
 }
 
@@ -247,7 +247,7 @@ test_an_engine_that_dies_in_the_middle_of_a_run_is_told_and_asked_again() {
   await head '.event == "engine_found" or .event == "engine_lost"' > /dev/null
   get head "/v1/instances/$instance" | jq '.instances[0]' > "$scratch/row.json"
   expect "the state" "$(jq -r .state "$scratch/row.json")" running
-  jq -r .trouble "$scratch/row.json" | grep -q "$engine_socket" \
+  jq -r .trouble "$scratch/row.json" | has_line "$engine_socket" \
     || fail "no trouble: $(cat "$scratch/row.json")"
   # A new task is refused at once, and says why.
   refused other

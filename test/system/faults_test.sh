@@ -39,7 +39,7 @@ test_a_fifth_of_all_packets_lost_costs_no_member() {
   lose_packets 20
   loses_nobody head "${ROSCELL_FAULT_SECONDS:-40}"
   ip netns exec "${hosts[0]}" nft list table inet loss \
-    | grep -q 'packets [1-9]' || fail "no packet was lost"
+    | has_line 'packets [1-9]' || fail "no packet was lost"
   expect "active rows" "$(active_rows)" 6
 }
 

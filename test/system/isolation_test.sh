@@ -115,7 +115,7 @@ guest_receives() {
   expect "what the guest reads" "$(seen_by guest \
     | jq -r 'select(.seen == "sample") | .frame_id' | sort -u | xargs)" \
     "$2 stray"
-  seen_by guest | grep '"writer"' | grep -q '"rt/scene/camera_info"' \
+  seen_by guest | grep '"writer"' | has_line '"rt/scene/camera_info"' \
     || fail "it does not see the writer"
 }
 

@@ -142,6 +142,12 @@ echo_task() {
       + (if $node == "" then {} else {labels: {place: $node}} end)]}'
 }
 
+# has_line PATTERN: grep -q that reads on, for who writes into a closed pipe
+# fails, and the pipe with it.
+has_line() {
+  grep "$@" > /dev/null
+}
+
 # expect WHAT ACTUAL EXPECTED
 expect() {
   [[ $2 == "$3" ]] || fail "$1: expected '$3', got '$2'"

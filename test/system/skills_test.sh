@@ -55,7 +55,7 @@ test_an_edited_skill_folder_does_not_run_under_its_old_hash() {
   echo_task hello > "$scratch/task.json"
   to head request "$scratch/task.json" > "$scratch/reply.json"
   expect "code" "$(jq -r .error.code "$scratch/reply.json")" engine_failed
-  jq -r .error.message "$scratch/reply.json" | grep -q "was edited" \
+  jq -r .error.message "$scratch/reply.json" | has_line "was edited" \
     || fail "$(cat "$scratch/reply.json")"
 }
 

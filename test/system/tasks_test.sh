@@ -47,7 +47,7 @@ test_a_task_in_short_forms_is_checked_run_and_stopped() {
   grep -q 'task chain runs' "$scratch/out" || fail "run says: $(cat "$scratch/out")"
   echo hello >> "$scratch/data/in.txt"
   await_line "$scratch/data/out.txt" '2 1 hello'
-  to head stop chain | grep -q 'chain is gone, with 2 instances' \
+  to head stop chain | has_line 'chain is gone, with 2 instances' \
     || fail "stop does not say so"
   expect "tasks" "$(get head /v1/tasks | jq '.tasks | length')" 0
 }
