@@ -1,6 +1,6 @@
 #include "actors/requests/timed_log.hpp"
 
-#include "actors/edge/io/iso_time.hpp"
+#include "actors/edge/io/time_text.hpp"
 
 #include <cstddef>
 

@@ -10,7 +10,8 @@ namespace roscell {
 namespace {
 
 /// What the primitive engine (skills/engine) understands whatever the model,
-/// under "", and what each of its protocols does. In the form of a descriptor.
+/// under "", and what its protocols do, under their names. In the form of a
+/// descriptor.
 constexpr const char* primitive_engine = R"({
   "": {
     "queue_length": {
@@ -31,6 +32,12 @@ constexpr const char* primitive_engine = R"({
       "type": "boolean", "default": true,
       "description": "Wait for more lines and files; else the skill ends when all is processed."
     },
+    "max_frame_mib": {
+      "type": "integer", "default": 64, "minimum": 1, "maximum": 65536,
+      "unit": "MiB", "description": "A larger frame of a file is skipped."
+    }
+  },
+  "file video": {
     "loop": {
       "type": "boolean", "default": false,
       "description": "Begin again after the last file or at the end of a film."
@@ -38,10 +45,6 @@ constexpr const char* primitive_engine = R"({
     "rate_hz": {
       "type": "number", "default": 0, "minimum": 0, "maximum": 1000000,
       "unit": "Hz", "description": "Most frames per second of an input; 0 is no limit."
-    },
-    "max_frame_mib": {
-      "type": "integer", "default": 64, "minimum": 1, "maximum": 65536,
-      "unit": "MiB", "description": "A larger frame of a file is skipped."
     }
   },
   "ros2": {
@@ -70,22 +73,20 @@ constexpr const char* primitive_engine = R"({
     "frame_id": {
       "type": "string", "default": "camera",
       "description": "Frame that the pictures are taken in."
-    },
-    "loop": {
-      "type": "boolean", "default": false,
-      "description": "Begin again after the last file or at the end of a film."
-    },
-    "rate_hz": {
-      "type": "number", "default": 0, "minimum": 0, "maximum": 1000000,
-      "unit": "Hz", "description": "Most frames per second of an input; 0 is no limit."
     }
   }
 })";
 
+/// Whether a protocol is among names with blanks between them.
+bool is_among(const std::string& protocol, const std::string& names) {
+  return (" " + names + " ").find(" " + protocol + " ") != std::string::npos;
+}
+
 void add_parameters(const json& engine, const std::string& protocol,
                     declared_parameters& to) {
-  if (engine.contains(protocol))
-    to = read_parameters(engine[protocol], to);
+  for (const auto& [names, parameters] : engine.items())
+    if (protocol.empty() ? names.empty() : is_among(protocol, names))
+      to = read_parameters(parameters, to);
 }
 
 std::string unknown_parameter_words(const declared_parameters& known,

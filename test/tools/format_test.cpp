@@ -1,5 +1,7 @@
 #include "tools/roscell/view/format.hpp"
 
+#include "actors/edge/io/time_text.hpp"
+
 #include <catch2/catch.hpp>
 
 #include <cmath>
@@ -77,9 +79,9 @@ TEST_CASE("an age survives any two clocks", "[tools]") {
 TEST_CASE("a time is shown in local time with milliseconds", "[tools]") {
   setenv("TZ", "UTC", 1);
   tzset();
-  CHECK(format_time(0) == "1970-01-01 00:00:00.000");
-  CHECK(format_time(1795269787123) == "2026-11-21 14:03:07.123");
-  CHECK(format_time(-1) == "1969-12-31 23:59:59.999");
+  CHECK(roscell::local_time(0) == "1970-01-01 00:00:00.000");
+  CHECK(roscell::local_time(1795269787123) == "2026-11-21 14:03:07.123");
+  CHECK(roscell::local_time(-1) == "1969-12-31 23:59:59.999");
 }
 
 TEST_CASE("a terminal gets no control characters", "[tools]") {

@@ -1,5 +1,6 @@
 #include "tools/roscell/client/event_stream.hpp"
 
+#include "actors/edge/io/time_text.hpp"
 #include "tools/roscell/view/format.hpp"
 
 #include <algorithm>
@@ -172,7 +173,7 @@ std::string event_line(const event& e, size_t width) {
   std::array<char, 24> sequence{};
   std::snprintf(sequence.data(), sequence.size(), "%7llu",
                 static_cast<unsigned long long>(e.sequence));
-  const auto time = format_time(e.time_unix_ms);
+  const auto time = local_time(e.time_unix_ms);
   const auto rest = event_particulars(e);
   const auto subject = subject_of(e);
   auto line = (is_narrow(width) ? time.substr(date_width) : time) + " "

@@ -8,7 +8,7 @@ namespace {
 
 constexpr auto exit_codes_and_examples = R"(Exit codes:
   0  done
-  1  refused; the node's JSON error is on standard output
+  1  refused; standard error says why, or the JSON error on standard output
   2  wrong usage
   3  no node could be reached
 
@@ -21,7 +21,7 @@ Examples:
   roscell node --coordinator --interface eth0
   roscell node --interface eth0 --join 192.168.1.10
   roscell form arm-1 arm-2
-  roscell request task.yaml
+  roscell run task.yaml
   roscell tasks --watch
 `roscell COMMAND --help` explains a command and shows how it is used.)";
 

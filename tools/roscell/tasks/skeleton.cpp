@@ -118,8 +118,8 @@ private:
       return false;
     step.input = {{"", "", "", steps_.back().id, false}};
     auto both = std::vector<task_step>{steps_.back(), step};
-    if (!both[0].input.empty())
-      both[0].input.clear();
+    // What that one reads in turn does not matter here.
+    both[0].input.clear();
     if (write_out(task_, both, skills_, "").errors.empty())
       return true;
     step.input.clear();

@@ -4,7 +4,6 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <stdexcept>
 
 namespace roscell::cli {
@@ -96,22 +95,6 @@ std::string format_since(int64_t since_unix_ms, int64_t now_unix_ms) {
   if (since_unix_ms > now_unix_ms)
     return "0s";
   return format_age(std::chrono::milliseconds{now_unix_ms - since_unix_ms});
-}
-
-std::string format_time(int64_t unix_ms) {
-  auto seconds = static_cast<std::time_t>(unix_ms / 1000);
-  auto millis = static_cast<int>(unix_ms % 1000);
-  if (millis < 0) {
-    millis += 1000;
-    --seconds;
-  }
-  std::tm parts{};
-  if (localtime_r(&seconds, &parts) == nullptr)
-    return "-";
-  std::array<char, 64> buffer{};
-  auto n = std::strftime(buffer.data(), buffer.size(), "%F %T", &parts);
-  std::snprintf(buffer.data() + n, buffer.size() - n, ".%03d", millis);
-  return buffer.data();
 }
 
 namespace {

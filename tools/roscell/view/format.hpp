@@ -41,9 +41,6 @@ std::string format_age(std::chrono::milliseconds age);
 /// known (0), "0s" for one to come, because the clocks of two machines differ.
 std::string format_since(int64_t since_unix_ms, int64_t now_unix_ms);
 
-/// Local time: "2026-11-21 14:03:07.250".
-std::string format_time(int64_t unix_ms);
-
 /// Bytes of `text` that are safe in one line of a terminal: control characters
 /// and what is not UTF-8 are shown as '?'.
 std::string printable(std::string_view text);

@@ -1,5 +1,6 @@
 #include "tools/roscell/view/describe/parts.hpp"
 
+#include "actors/edge/io/time_text.hpp"
 #include "tools/roscell/client/event_stream.hpp"
 #include "tools/roscell/view/format.hpp"
 #include "tools/roscell/view/graph/task_graph.hpp"
@@ -96,7 +97,7 @@ std::string state_words(const instance_row& row, const view_style& style) {
 std::string time_words(int64_t unix_ms, const view_style& style) {
   return unix_ms <= 0 ? ""
                       : format_since(unix_ms, style.now_unix_ms) + " ago ("
-                            + format_time(unix_ms) + ")";
+                            + local_time(unix_ms) + ")";
 }
 
 std::string request_words(const resource_request& r) {

@@ -1,6 +1,6 @@
 #include "tools/roscell/view/shape/shape.hpp"
 
-#include "actors/edge/io/iso_time.hpp"
+#include "actors/edge/io/time_text.hpp"
 
 #include <string>
 

@@ -1,4 +1,4 @@
-#include "actors/edge/io/iso_time.hpp"
+#include "actors/edge/io/time_text.hpp"
 
 #include <catch2/catch.hpp>
 
