@@ -73,12 +73,23 @@ using engine_runtime_actor =
                           // INTERNAL: alarm number N is due.
                           caf::reacts_to<caf::tick_atom, uint64_t>>;
 
+/// Told of the endpoints of one program: its skill instance.
+using endpoint_listener_actor =
+    caf::typed_actor<caf::reacts_to<endpoints_missing>>;
+
+/// The GRAPH WATCH: what the node's discovery server knows of the programs on
+/// this node.
+using graph_watch_actor = introspected_actor::extend<
+    // What is missing is told to the sender.
+    caf::reacts_to<watch_endpoints>, caf::reacts_to<graph_changed>>;
+
 /// The SKILL INSTANCE: one instance's life, a state machine around a container.
 /// All that comes of it is told to the supervisor as `instance_changed`; the
 /// actor ends with its instance.
 using skill_instance_actor = introspected_actor::extend<
     caf::reacts_to<start_instance>, caf::reacts_to<stop_instance>,
     caf::reacts_to<container_exited>, caf::reacts_to<instance_notified>,
+    caf::reacts_to<endpoints_missing>,
     // INTERNAL: a deadline of phase number N has passed.
     caf::reacts_to<caf::tick_atom, uint64_t>>;
 
@@ -102,8 +113,8 @@ using container_supervisor_actor = introspected_actor::extend<
     caf::replies_to<instance_query>::with<instance_description>,
     caf::replies_to<log_query>::with<log_excerpt>,
     caf::reacts_to<listen_to_instances>, caf::reacts_to<ends_acknowledged>,
-    caf::reacts_to<container_exited>, caf::reacts_to<instance_notified>,
-    caf::reacts_to<runtime_troubled>,
+    caf::reacts_to<use_environment>, caf::reacts_to<container_exited>,
+    caf::reacts_to<instance_notified>, caf::reacts_to<runtime_troubled>,
     // INTERNAL: from a skill instance.
     caf::reacts_to<instance_changed>>;
 
@@ -168,11 +179,14 @@ using discovery_listener_actor =
 using presence_listener_actor = caf::typed_actor<caf::reacts_to<presence_seen>,
                                                  caf::reacts_to<presence_gone>>;
 
-/// The DISCOVERY edge of a node: its CLIENT and its public participant.
+/// The DISCOVERY edge of a node: its CLIENT, its own discovery server, and its
+/// public participant.
 using discovery_actor = introspected_actor::extend<
     // Errors: unreachable (the local address cannot be used).
     caf::replies_to<find_coordinator>::with<caf::ok_atom>,
-    caf::reacts_to<forget_coordinator>,
+    // Errors: conflict (the port is in use), unreachable, internal.
+    caf::replies_to<serve_programs>::with<programs_served>,
+    caf::reacts_to<stop_serving>, caf::reacts_to<forget_coordinator>,
     // What is seen is told to the sender.
     caf::reacts_to<announce_presence>, caf::reacts_to<withdraw_presence>,
     // INTERNAL: alarm number N, to look a peer's name up again.
@@ -265,6 +279,7 @@ using cell_coordinator_actor = introspected_actor::extend<
     caf::reacts_to<instance_changed>,
     caf::replies_to<cell_query>::with<cell_description>,
     caf::replies_to<cell_list_query>::with<cell_list>,
+    caf::replies_to<topic_query>::with<topic_list>,
     // Errors of the queries: unknown_task.
     caf::replies_to<task_query>::with<task_description>,
     caf::replies_to<instance_query>::with<instance_description>,

@@ -4,6 +4,7 @@
 #include "messages/task.hpp"
 
 #include <array>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -77,6 +78,8 @@ struct cell_description {
   std::vector<registry_row> nodes;
   std::vector<task_row> tasks;
   std::vector<free_node> free; ///< Visible nodes that are in no cell.
+  /// What a ROS 2 program in this cell needs of its environment.
+  std::map<std::string, std::string> environment;
 
   static constexpr auto fields() {
     return field_list{
@@ -87,7 +90,8 @@ struct cell_description {
         required("incarnation", &cell_description::incarnation),
         required("nodes", &cell_description::nodes),
         required("tasks", &cell_description::tasks),
-        optional("free", &cell_description::free)};
+        optional("free", &cell_description::free),
+        optional("environment", &cell_description::environment)};
   }
 };
 
@@ -108,6 +112,8 @@ struct cell_row {
   int64_t size = 0; ///< Active rows, the coordinator included.
   /// Why the coordinator that is asked does not know more of this cell.
   std::string trouble;
+  /// The cell's ROS_DISCOVERY_SERVER and ROS_DOMAIN_ID; empty: not known.
+  std::map<std::string, std::string> environment;
 
   static constexpr auto fields() {
     return field_list{required("cell", &cell_row::cell),
@@ -115,7 +121,8 @@ struct cell_row {
                       required("address", &cell_row::address),
                       required("discovery_server", &cell_row::discovery_server),
                       required("size", &cell_row::size),
-                      optional("trouble", &cell_row::trouble)};
+                      optional("trouble", &cell_row::trouble),
+                      optional("environment", &cell_row::environment)};
   }
 };
 

@@ -100,12 +100,16 @@ struct instance_figures {
   double rate_hz = -1;    ///< Frames a second between its last two words.
   int64_t dropped = -1;   ///< Frames that came too fast for it.
   double latency_ms = -1; ///< Median time to process a frame.
+  /// Median time from the stamp of a frame, which its sensor gave it, to the
+  /// output of what came of it; by the clocks of both hosts.
+  double age_ms = -1;
 
   static constexpr auto fields() {
     return field_list{optional("frames", &instance_figures::frames),
                       optional("rate_hz", &instance_figures::rate_hz),
                       optional("dropped", &instance_figures::dropped),
-                      optional("latency_ms", &instance_figures::latency_ms)};
+                      optional("latency_ms", &instance_figures::latency_ms),
+                      optional("age_ms", &instance_figures::age_ms)};
   }
 };
 

@@ -27,4 +27,5 @@
 #include "messages/skill.hpp"
 #include "messages/skill_descriptor.hpp"
 #include "messages/task.hpp"
+#include "messages/topic.hpp"
 #include "messages/type_ids.hpp"

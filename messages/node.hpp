@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,21 @@ struct node_identity {
                       required("uuid", &node_identity::uuid),
                       required("epoch", &node_identity::epoch),
                       required("address", &node_identity::address)};
+  }
+};
+
+/// Where the discovery server of a member belongs.
+struct discovery_place {
+  int64_t server_id = -1; ///< Its own id, unique in the cell.
+  int64_t domain_id = 0;  ///< The ROS domain of the cell.
+  std::string remote;     ///< "ip:port" of the coordinator's server.
+  int64_t remote_id = 0;  ///< Id of that one.
+
+  static constexpr auto fields() {
+    return field_list{required("server_id", &discovery_place::server_id),
+                      required("domain_id", &discovery_place::domain_id),
+                      required("remote", &discovery_place::remote),
+                      required("remote_id", &discovery_place::remote_id)};
   }
 };
 
@@ -103,6 +119,9 @@ struct node_description {
   int64_t stored_bytes = 0; ///< Written to the database since the start.
   std::vector<skill_problem> refused_skills; ///< The first of them.
   std::vector<join_trouble> joining; ///< At most one; empty: it does not try.
+  /// What a ROS 2 program on this node needs to be in its cell; empty: it is in
+  /// none.
+  std::map<std::string, std::string> environment;
 
   static constexpr auto fields() {
     return field_list{
@@ -120,7 +139,8 @@ struct node_description {
         optional("actors", &node_description::actors),
         optional("stored_bytes", &node_description::stored_bytes),
         optional("refused_skills", &node_description::refused_skills),
-        optional("joining", &node_description::joining)};
+        optional("joining", &node_description::joining),
+        optional("environment", &node_description::environment)};
   }
 };
 

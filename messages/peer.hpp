@@ -65,6 +65,9 @@ struct cell_standing {
   bool rebalance = true; ///< Takes part in evening out.
   std::vector<member_claim> members;
   std::string cell_uuid; ///< Of the cell.
+  /// Of its discovery server, and the ROS domain; negative: an older peer.
+  int64_t server_id = -1;
+  int64_t domain_id = -1;
 
   static constexpr auto fields() {
     return field_list{required("place", &cell_standing::place),
@@ -73,7 +76,9 @@ struct cell_standing {
                       required("size", &cell_standing::size),
                       required("rebalance", &cell_standing::rebalance),
                       required("members", &cell_standing::members),
-                      optional("cell_uuid", &cell_standing::cell_uuid)};
+                      optional("cell_uuid", &cell_standing::cell_uuid),
+                      optional("server_id", &cell_standing::server_id),
+                      optional("domain_id", &cell_standing::domain_id)};
   }
 };
 

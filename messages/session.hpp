@@ -59,6 +59,10 @@ struct node_registration {
   std::vector<skill_problem> refused_skills; ///< The first of them.
   /// The only cell that the node comes back to; empty: whichever this is.
   std::string cell_uuid;
+  /// Id of the discovery server that the node ran last, and the UUID of the
+  /// cell that gave it; negative: none.
+  int64_t server_id = -1;
+  std::string server_cell;
 
   static constexpr auto fields() {
     return field_list{
@@ -70,7 +74,9 @@ struct node_registration {
         optional("origin", &node_registration::origin),
         optional("transfer", &node_registration::transfer),
         optional("refused_skills", &node_registration::refused_skills),
-        optional("cell_uuid", &node_registration::cell_uuid)};
+        optional("cell_uuid", &node_registration::cell_uuid),
+        optional("server_id", &node_registration::server_id),
+        optional("server_cell", &node_registration::server_cell)};
   }
 };
 
@@ -101,13 +107,16 @@ struct node_registered {
   int64_t incarnation = 0;
   std::vector<instance_verdict> verdicts;
   std::string cell_uuid; ///< Empty: an older coordinator, which has none.
+  /// At most one; none when the cell has no id left, or is older.
+  std::vector<discovery_place> discovery;
 
   static constexpr auto fields() {
     return field_list{required("cell", &node_registered::cell),
                       required("coordinator", &node_registered::coordinator),
                       required("incarnation", &node_registered::incarnation),
                       required("verdicts", &node_registered::verdicts),
-                      optional("cell_uuid", &node_registered::cell_uuid)};
+                      optional("cell_uuid", &node_registered::cell_uuid),
+                      one_or_many("discovery", &node_registered::discovery)};
   }
 };
 

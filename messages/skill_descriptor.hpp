@@ -58,25 +58,51 @@ struct implementation_model {
   }
 };
 
+/// A ROS 2 program that runs as it is, for the engine "ros2_standalone".
+struct ros2_program {
+  std::string package;    ///< Found by the ament index.
+  std::string executable; ///< Of the package, or an absolute path.
+  std::string launch;     ///< A launch file of the package, in its place.
+  std::vector<std::string> setup; ///< Files to source first, "setup.bash".
+  /// The program's own name for a topic, and the end of the step that it
+  /// stands for: "input", "output", "input:1", "output:0".
+  std::map<std::string, std::string> topics;
+  /// Given to the program; to a launch file as "NAME:=VALUE".
+  std::vector<std::string> arguments;
+  std::string parameters; ///< JSON object: ROS parameters of its nodes.
+
+  static constexpr auto fields() {
+    return field_list{optional("package", &ros2_program::package),
+                      optional("executable", &ros2_program::executable),
+                      optional("launch", &ros2_program::launch),
+                      optional("setup", &ros2_program::setup),
+                      optional("topics", &ros2_program::topics),
+                      optional("arguments", &ros2_program::arguments),
+                      raw_json("parameters", &ros2_program::parameters)};
+  }
+};
+
 /// JSON form: schemas/skill_descriptor.schema.json.
 struct skill_descriptor {
   std::string operation;
   std::string version; ///< Raised by the author; empty: see installed_skill.
-  std::string engine;  ///< "primitive".
+  std::string engine;  ///< "primitive" or "ros2_standalone".
   std::vector<std::string>
       entry_point; ///< Program below the folder, arguments.
   port_description input;
   port_description output;
   std::vector<implementation_model> models;
+  std::vector<ros2_program> ros2; ///< One for "ros2_standalone", else none.
 
   static constexpr auto fields() {
     return field_list{required("operation", &skill_descriptor::operation),
                       optional("version", &skill_descriptor::version),
                       required("engine", &skill_descriptor::engine),
-                      required("entry_point", &skill_descriptor::entry_point),
+                      optional("entry_point", &skill_descriptor::entry_point),
                       required("input", &skill_descriptor::input),
                       required("output", &skill_descriptor::output),
-                      required("models", &skill_descriptor::models)};
+                      required("models", &skill_descriptor::models),
+                      one_or_many("ros2", &skill_descriptor::ros2)};
   }
 };
 

@@ -29,6 +29,8 @@
   X(cell_description)                                                          \
   X(cell_list_query)                                                           \
   X(cell_list)                                                                 \
+  X(topic_query)                                                               \
+  X(topic_list)                                                                \
   X(cell_formation)                                                            \
   X(cell_formed)                                                               \
   X(node_release)                                                              \
@@ -97,6 +99,13 @@
   X(pack_image)                                                                \
   X(image_packed)                                                              \
   X(start_instance)                                                            \
+  X(serve_programs)                                                            \
+  X(programs_served)                                                           \
+  X(stop_serving)                                                              \
+  X(watch_endpoints)                                                           \
+  X(endpoints_missing)                                                         \
+  X(graph_changed)                                                             \
+  X(use_environment)                                                           \
   X(stop_instance)                                                             \
   X(listen_to_instances)                                                       \
   X(store_record)                                                              \

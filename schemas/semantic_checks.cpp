@@ -147,6 +147,56 @@ void check_entry_point(error_list& errors, const place& words) {
            "the program to be a path below the skill's folder, without '..'");
 }
 
+/// "input", "output", or with a place among them, "input:1".
+bool is_end_of_step(std::string text) {
+  if (const auto colon = text.find(':'); colon != std::string::npos) {
+    if (colon + 1 == text.size() || text.find(':', colon + 1) < text.size())
+      return false;
+    text.erase(colon);
+  }
+  return text == "input" || text == "output";
+}
+
+void check_topics(error_list& errors, const place& topics) {
+  if (!topics.value.is_object())
+    return;
+  for (const auto& [name, end] : topics.value.items())
+    if (end.is_string() && !is_end_of_step(end.get<std::string>()))
+      refuse(errors, {end, topics.at / name},
+             "an end of the step: input, output, or with its place, input:1");
+}
+
+/// Who runs a ROS 2 program says which; anybody else brings a program along.
+void check_program(error_list& errors, const place& skill) {
+  if (!skill.value.is_object())
+    return;
+  const bool is_ros2 = (skill / "engine").text() == "ros2_standalone";
+  const auto program = skill / "ros2";
+  check_topics(errors, program / "topics");
+  if (!is_ros2) {
+    if ((skill / "entry_point").value.is_null())
+      refuse(errors, skill / "entry_point",
+             "the program below the folder, and its arguments");
+    if (!program.value.is_null())
+      refuse(errors, program,
+             "no ROS 2 program without \"engine\": "
+             "\"ros2_standalone\"");
+    return;
+  }
+  const auto executable = program / "executable";
+  const auto launch = program / "launch";
+  const auto& said = launch.value.is_null() ? executable : launch;
+  if (!(skill / "entry_point").value.is_null())
+    refuse(errors, skill / "entry_point",
+           "no program of the folder: \"ros2\" names the one that is run");
+  if (executable.value.is_null() == launch.value.is_null())
+    refuse(errors, executable, "either an executable or a launch file");
+  else if (said.text().rfind('/', 0) != 0
+           && (program / "package").value.is_null())
+    refuse(errors, program / "package",
+           "the package of " + said.text() + ", or an absolute path there");
+}
+
 void append(error_list& errors, const error_list& others) {
   errors.insert(errors.end(), others.begin(), others.end());
 }
@@ -170,6 +220,13 @@ void check_descriptor(error_list& errors, const place& skill) {
   }
 }
 
+/// As an author writes it. What a member registers has been looked at when it
+/// read the file.
+void check_written_descriptor(error_list& errors, const place& skill) {
+  check_program(errors, skill);
+  check_descriptor(errors, skill);
+}
+
 void check_plan_document(error_list& errors, const place& plan) {
   check_unique(errors, plan / "nodes", "name", "a name that no other node has");
   for (const auto& node : (plan / "nodes").items()) {
@@ -177,7 +234,7 @@ void check_plan_document(error_list& errors, const place& plan) {
     check_gpu_memory(errors, node);
   }
   for (const auto& skill : (plan / "skills").items())
-    check_descriptor(errors, skill);
+    check_written_descriptor(errors, skill);
   check_pipeline(errors, plan / "request");
 }
 
@@ -238,7 +295,7 @@ constexpr std::array<std::pair<std::string_view, check>, 10> checks{{
     {"node_registration", check_registration},
     {"plan_document", check_plan_document},
     {"resource_report", check_reported_resources},
-    {"skill_descriptor", check_descriptor},
+    {"skill_descriptor", check_written_descriptor},
     {"task_plan_query", check_plan_query},
     {"task_request", check_pipeline},
 }};

@@ -7,6 +7,7 @@
 #include "actors/cell/cell_peers.hpp"
 #include "actors/cell/cell_places.hpp"
 #include "actors/cell/cell_presences.hpp"
+#include "actors/cell/cell_topics.hpp"
 #include "actors/cell/cell_transfers.hpp"
 #include "actors/cell/state/arrivals.hpp"
 #include "actors/cell/state/coordinator_timer.hpp"
@@ -32,7 +33,15 @@ cell_description describe(coordinator_pointer self) {
   return {st.setup.cell,          st.setup.self.name,
           st.setup.self.address,  st.setup.discovery_server,
           st.setup.incarnation,   describe_nodes(st),
-          describe_all_tasks(st), list_free_nodes(st)};
+          describe_all_tasks(st), list_free_nodes(st),
+          st.setup.environment};
+}
+
+topic_list list_topics(coordinator_pointer self, const topic_query& query) {
+  const auto& graph = self->state.setup.graph;
+  if (!graph)
+    return {};
+  return {topic_rows(graph->endpoints(), query.topic)};
 }
 
 caf::result<log_excerpt> fetch_log(coordinator_pointer self,
@@ -136,6 +145,7 @@ cell_coordinator(coordinator_pointer self, const house& context,
       [self](const cell_list_query&) {
         return cell_list{list_cells(self->state)};
       },
+      [self](const topic_query& x) { return list_topics(self, x); },
       [self](const task_query& x) { return describe_tasks(self->state, x); },
       [self](const instance_query& x) {
         return describe_instances_now(self, x);

@@ -25,9 +25,16 @@ void stop_searches_on(const cell_coordinator_state& st,
     st.setup.searches->node_left(node);
 }
 
-registry_entry entry_of(const register_node& request) {
+registry_entry entry_of(const cell_coordinator_state& st,
+                        const register_node& request) {
   const auto& node = request.registration;
   registry_entry result;
+  const bool is_ours =
+      !node.server_cell.empty() && node.server_cell == st.setup.cell_uuid;
+  auto taken = st.peers.server_ids();
+  taken.insert(st.setup.server_id);
+  result.server_id = st.registry.choose_server_id(
+      node.identity.uuid, node.server_id, is_ours, std::move(taken));
   result.row.identity = node.identity;
   result.row.resources = node.resources;
   result.row.resources.name = node.identity.name;
@@ -37,6 +44,14 @@ registry_entry entry_of(const register_node& request) {
   result.member = request.member;
   result.origin = node.origin;
   return result;
+}
+
+std::vector<discovery_place> place_of(const cell_coordinator_state& st,
+                                      const registry_entry& entry) {
+  if (entry.server_id < 0)
+    return {};
+  return {{entry.server_id, st.setup.ros_domain_id, st.setup.discovery_server,
+           st.setup.server_id}};
 }
 
 /// The row may be shown now.
@@ -66,9 +81,9 @@ void on_registration_kept(
                    {"epoch", who.epoch},
                    {"address", who.address},
                    {"size", st.registry.active_count()}});
-  promise.deliver(
-      node_registered{st.setup.cell, st.setup.self.name, st.setup.incarnation,
-                      take_up_instances(self, node), st.setup.cell_uuid});
+  promise.deliver(node_registered{
+      st.setup.cell, st.setup.self.name, st.setup.incarnation,
+      take_up_instances(self, node), st.setup.cell_uuid, place_of(st, *entry)});
   settle_arrivals(self, who.uuid, nullptr);
   on_node_returned(self, who.uuid);
 }
@@ -142,10 +157,11 @@ caf::result<node_registered> register_member(coordinator_pointer self,
   if (auto why = st.registry.refusal(who, now_of(self)))
     return to_error(*why);
   auto promise = self->make_response_promise<node_registered>();
-  const bool known = st.registry.is_known(who, request.registration.origin);
+  auto entry = entry_of(st, request);
+  const bool known = st.registry.is_known(who, entry.origin, entry.server_id);
   self->monitor(request.member);
   keep_records(
-      self, st.registry.propose(entry_of(request)),
+      self, st.registry.propose(std::move(entry)),
       [=] { on_registration_kept(self, request, promise); },
       [=](const failure& why) {
         // What is on disk will do: only the epoch there is an older one.

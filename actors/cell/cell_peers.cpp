@@ -22,6 +22,8 @@ cell_standing standing_of(const cell_coordinator_state& st) {
   result.size = static_cast<int64_t>(st.registry.size());
   result.rebalance = st.setup.rebalance;
   result.members = st.registry.claims();
+  result.server_id = st.setup.server_id;
+  result.domain_id = st.setup.ros_domain_id;
   return result;
 }
 

@@ -144,7 +144,8 @@ std::vector<cell_row> list_cells(const cell_coordinator_state& st) {
                      st.setup.self.address,
                      st.setup.discovery_server,
                      static_cast<int64_t>(st.registry.active_count()),
-                     ""};
+                     "",
+                     st.setup.environment};
   auto result = st.peers.rows(own);
   result.insert(result.begin(), own);
   return result;

@@ -44,7 +44,9 @@ void spawn_actor(container_supervisor_self self, supervised_instance& x,
       st.config.skills,
       x.row,
       adopt,
-      st.config.builds_images};
+      st.config.builds_images,
+      st.config.graph,
+      st.environment};
   x.actor = spawn(self->system(), st.config.context, skill_instance, config);
   self->monitor(x.actor);
   caf::anon_send(x.actor, start_instance{});
@@ -340,6 +342,9 @@ container_supervisor(container_supervisor_self self,
       [self](const log_query& x) { return read_log(self, x); },
       [self](const listen_to_instances& x) {
         self->state.listener = x.listener;
+      },
+      [self](const use_environment& x) {
+        self->state.environment = x.environment;
       },
       [self](const ends_acknowledged& x) {
         acknowledge_ends(self, x.instances);

@@ -25,6 +25,7 @@ struct container_supervisor_config {
   /// That runtime needs an image of a skill before it can start it.
   bool builds_images = true;
   state_store_actor store;
+  graph_watch_actor graph; ///< Invalid: no ROS 2 program is looked after.
   /// What the store knew when the node started.
   std::vector<instance_row> restored;
   /// What an earlier run may have left and no record knows: it is ended.
@@ -61,6 +62,8 @@ struct container_supervisor_state {
   int runtime_deaths = 0;
   std::string trouble; ///< Of the engine under the runtime; empty: none.
   instance_listener_actor listener;
+  /// What this node says of the cell to instances that it starts.
+  std::map<std::string, std::string> environment;
   std::map<std::string, supervised_instance> instances;
   std::vector<pending_removal> removals;
 };

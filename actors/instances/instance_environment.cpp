@@ -16,9 +16,11 @@ std::string text_of(const json& value) {
 
 std::map<std::string, std::string>
 instance_environment(const instance_spec& spec,
-                     const deployment_option& deployment) {
+                     const deployment_option& deployment,
+                     const std::map<std::string, std::string>& of_node) {
   using std::chrono::microseconds;
-  auto result = spec.environment;
+  auto result = of_node;
+  result.insert(spec.environment.begin(), spec.environment.end());
   result.insert(deployment.environment.begin(), deployment.environment.end());
   const std::map<std::string, std::string> contract{
       {"ROSCELL_TASK", spec.task},

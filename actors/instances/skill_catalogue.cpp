@@ -21,7 +21,7 @@ namespace {
 /// Where a build leaves the version of its sources.
 constexpr const char* version_name = "skill.version";
 
-std::string sentence(const edge_error& why) {
+std::string problem_words(const edge_error& why) {
   return why.hint.empty() ? why.message : why.message + " (" + why.hint + ")";
 }
 
@@ -107,10 +107,14 @@ void skill_catalogue::add_folder(const fs::path& folder) {
 
 void skill_catalogue::add_build(const fs::path& path,
                                 skill_descriptor descriptor) {
-  const auto program = find_program(path, descriptor.entry_point);
-  if (const auto* why = std::get_if<edge_error>(&program))
-    return blame(descriptor_of(path), sentence(*why), "/entry_point/0");
-  const auto made_for = architecture_of_program(std::get<fs::path>(program));
+  std::string made_for;
+  // A ROS 2 program is in the base image, or on the host.
+  if (descriptor.ros2.empty()) {
+    const auto program = find_program(path, descriptor.entry_point);
+    if (const auto* why = std::get_if<edge_error>(&program))
+      return blame(descriptor_of(path), problem_words(*why), "/entry_point/0");
+    made_for = architecture_of_program(std::get<fs::path>(program));
+  }
   if (!runs_on(made_for, host_))
     return blame(path,
                  "is built for " + made_for + ", and this node is " + host_);

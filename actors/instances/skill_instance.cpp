@@ -46,13 +46,25 @@ void on_exited(skill_instance_pointer self, const container_exited& x) {
              "it ended " + exit_words(x.exit_code) + " before it was ready");
 }
 
-/// The deadline has passed. Nobody is judged before what waits at its socket
-/// has been read: where this process was stopped or starved, words lie there.
-void listen_before_judging(skill_instance_pointer self) {
-  auto& st = self->state;
-  st.listening = true;
-  self->send(st.config.runtime, hear_container{st.row.spec.instance});
-  limit(self, limits::instance::hearing);
+std::string list_of(const std::vector<std::string>& words) {
+  std::string result;
+  for (const auto& x : words)
+    result += (result.empty() ? "" : ", ") + x;
+  return result;
+}
+
+/// Why a stock ROS 2 program is taken down.
+std::string verdict_on_endpoints(const skill_instance_state& st) {
+  using std::to_string;
+  const bool ran = st.row.state == instance_state::running;
+  const auto missing =
+      st.missing.empty() ? std::string{"its endpoints"} : list_of(st.missing);
+  if (ran)
+    return "it runs, but for " + to_string(limits::instance::watchdog.count())
+           + " s the cell has not seen " + missing;
+  return "it was not ready within " + to_string(limits::instance::ready.count())
+         + " s: the cell has not seen " + missing
+         + "; is it a ROS 2 program, and does \"topics\" name its topics?";
 }
 
 /// Nothing was to be heard.
@@ -63,7 +75,9 @@ void judge(skill_instance_pointer self) {
   // Where we were stopped the program may have been, too.
   if (st.was_away && !std::exchange(st.excused, true))
     return limit(self, limits::instance::pause_grace);
-  if (st.row.state == instance_state::running)
+  if (st.endpoints)
+    take_down(self, instance_state::failed, verdict_on_endpoints(st));
+  else if (st.row.state == instance_state::running)
     // What hangs does not listen, so force comes at once.
     take_down(self, instance_state::failed,
               "no sign of life for "
@@ -73,6 +87,17 @@ void judge(skill_instance_pointer self) {
     take_down(self, instance_state::failed,
               "it was not ready within "
                   + to_string(limits::instance::ready.count()) + " s");
+}
+
+/// The deadline has passed. Nobody is judged before what waits at its socket
+/// has been read: where this process was stopped or starved, words lie there.
+void listen_before_judging(skill_instance_pointer self) {
+  auto& st = self->state;
+  if (st.endpoints)
+    return judge(self);
+  st.listening = true;
+  self->send(st.config.runtime, hear_container{st.row.spec.instance});
+  limit(self, limits::instance::hearing);
 }
 
 void on_alarm(skill_instance_pointer self) {
@@ -85,6 +110,20 @@ void on_alarm(skill_instance_pointer self) {
   st.was_away =
       st.was_away || now - *st.deadline > limits::instance::pause_tolerance;
   listen_before_judging(self);
+}
+
+/// What a stock program's endpoints say of it.
+void on_endpoints(skill_instance_pointer self, const endpoints_missing& x) {
+  auto& st = self->state;
+  st.missing = x.missing;
+  if (st.concluding || !st.endpoints)
+    return;
+  if (st.row.state == instance_state::starting && st.missing.empty())
+    on_running(self);
+  else if (st.row.state == instance_state::running && st.missing.empty())
+    st.deadline.reset();
+  else if (st.row.state == instance_state::running && !st.deadline)
+    limit(self, limits::instance::watchdog);
 }
 
 void on_sign_of_life(skill_instance_pointer self) {
@@ -134,6 +173,7 @@ skill_instance(skill_instance_pointer self,
       [self](const stop_instance& x) { on_stop(self, x.reason); },
       [self](const container_exited& x) { on_exited(self, x); },
       [self](const instance_notified& x) { on_notified(self, x); },
+      [self](const endpoints_missing& x) { on_endpoints(self, x); },
       [self](caf::tick_atom, uint64_t number) {
         if (self->state.timer.rings(number))
           on_alarm(self);

@@ -6,8 +6,10 @@
 #include "messages/messages.hpp"
 
 #include <chrono>
+#include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace roscell {
 
@@ -20,6 +22,9 @@ struct skill_instance_config {
   instance_row row;          ///< What is known of the instance.
   bool adopt = false;        ///< It may run already.
   bool builds_images = true; ///< The runtime needs an image of the skill.
+  graph_watch_actor graph;   ///< Sees ROS 2 programs; may be invalid in tests.
+  /// What this node says of the cell; it counts more than what the spec says.
+  std::map<std::string, std::string> environment;
 };
 
 /// Owns one instance from intent to end. The diagram is in docs/protocols.md.
@@ -48,6 +53,11 @@ struct skill_instance_state {
 
   /// It has ended, and only the end of its log is waited for.
   bool concluding = false;
+
+  /// Of a stock ROS 2 program, which neither says that it is ready nor that it
+  /// is alive: its endpoints say both. None: it speaks for itself.
+  std::optional<watch_endpoints> endpoints;
+  std::vector<std::string> missing; ///< Of these, as they were told last.
 
   std::optional<alarm::time_point> deadline;
   alarm timer;

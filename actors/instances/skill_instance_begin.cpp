@@ -1,8 +1,10 @@
 #include "actors/house/limits.hpp"
 #include "actors/instances/instance_environment.hpp"
 #include "actors/instances/instance_words.hpp"
+#include "actors/instances/ros2/ros2_program_start.hpp"
 #include "actors/instances/skill_instance_steps.hpp"
 
+#include <csignal>
 #include <utility>
 
 namespace roscell {
@@ -19,9 +21,15 @@ const deployment_option* find_deployment(const skill_folder& folder,
   return nullptr;
 }
 
+/// What is run, and how.
+struct program_plan {
+  std::vector<std::string> command;
+  std::map<std::string, std::string> environment; ///< Before the contract's.
+  int stop_signal = SIGTERM;
+};
+
 void on_built(skill_instance_pointer self, const std::string& image,
-              const std::vector<std::string>& command,
-              const deployment_option& option) {
+              const program_plan& program, const deployment_option& option) {
   auto& st = self->state;
   const auto& spec = st.row.spec;
   st.row.image = image;
@@ -29,8 +37,11 @@ void on_built(skill_instance_pointer self, const std::string& image,
   start_container wish;
   wish.instance = spec.instance;
   wish.image = image;
-  wish.command = command;
-  wish.environment = instance_environment(spec, option);
+  wish.command = program.command;
+  wish.stop_signal = program.stop_signal;
+  wish.environment = instance_environment(spec, option, st.config.environment);
+  wish.environment.insert(program.environment.begin(),
+                          program.environment.end());
   wish.labels = {
       {"task", spec.task}, {"instance", spec.instance}, {"cell", spec.cell}};
   wish.limits = spec.resources;
@@ -47,6 +58,23 @@ void on_built(skill_instance_pointer self, const std::string& image,
       });
 }
 
+/// A stock program's own way of ending is the one that ROS 2 knows. None, with
+/// the instance concluded, when it cannot be run as this step.
+std::optional<program_plan> program_of(skill_instance_pointer self,
+                                       const skill_descriptor& descriptor) {
+  auto& st = self->state;
+  if (descriptor.ros2.empty())
+    return program_plan{descriptor.entry_point, {}};
+  auto start = ros2_start_of(descriptor.ros2.front(), st.row.spec);
+  if (const auto* why = std::get_if<failure>(&start)) {
+    conclude(self, instance_state::failed, sentence(to_error(*why)));
+    return std::nullopt;
+  }
+  auto& x = std::get<ros2_start>(start);
+  st.endpoints = x.endpoints;
+  return program_plan{std::move(x.command), std::move(x.environment), SIGINT};
+}
+
 void build(skill_instance_pointer self) {
   auto& st = self->state;
   const auto* folder = st.config.skills->find(st.row.spec.skill);
@@ -55,16 +83,19 @@ void build(skill_instance_pointer self) {
   if (option == nullptr)
     return conclude(self, instance_state::failed,
                     "this node does not have its skill any more");
+  const auto& descriptor = folder->skill.descriptor;
+  const auto program = program_of(self, descriptor);
+  if (!program)
+    return;
   if (st.config.builds_images)
     enter(self, instance_state::building);
-  const auto command = folder->skill.descriptor.entry_point;
   ask<image_prepared>(
       self, st.config.runtime, limits::instance::build,
       prepare_image{st.row.spec.instance, st.row.spec.operation,
                     folder->path.string(), folder->skill.hash, folder->look,
-                    command, option->base_image},
+                    descriptor.entry_point, option->base_image},
       [=, chosen = *option](const image_prepared& x) {
-        on_built(self, x.image, command, chosen);
+        on_built(self, x.image, *program, chosen);
       },
       [=](const caf::error& error) {
         self->state.row.log_tail =
@@ -90,15 +121,28 @@ void begin_anew(skill_instance_pointer self) {
 
 namespace {
 
+/// A node that has started again looks for the same endpoints as before.
+void recall_endpoints(skill_instance_pointer self) {
+  auto& st = self->state;
+  const auto* folder = st.config.skills->find(st.row.spec.skill);
+  if (folder == nullptr || folder->skill.descriptor.ros2.empty())
+    return;
+  auto start =
+      ros2_start_of(folder->skill.descriptor.ros2.front(), st.row.spec);
+  if (const auto* x = std::get_if<ros2_start>(&start))
+    st.endpoints = x->endpoints;
+}
+
 void resume(skill_instance_pointer self, const std::string& container) {
   auto& st = self->state;
   ++st.phase;
   st.row.container = container;
+  recall_endpoints(self);
   switch (st.row.state) {
   case instance_state::running:
     record_event(self, "instance_adopted");
     report(self);
-    return limit(self, limits::instance::watchdog);
+    return expect_life(self);
   case instance_state::stopping:
     return take_down(self, instance_state::stopped, st.row.reason);
   default:
@@ -106,7 +150,7 @@ void resume(skill_instance_pointer self, const std::string& container) {
     st.row.state = instance_state::starting;
     record_event(self, "instance_adopted");
     report(self);
-    return limit(self, limits::instance::ready);
+    return expect_ready(self);
   }
 }
 

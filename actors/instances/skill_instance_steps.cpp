@@ -155,9 +155,33 @@ void take_down(skill_instance_pointer self, instance_state last,
       });
 }
 
+namespace {
+
+void watch(skill_instance_pointer self) {
+  const auto& st = self->state;
+  if (st.config.graph)
+    self->send(st.config.graph, *st.endpoints);
+}
+
+} // namespace
+
+void expect_ready(skill_instance_pointer self) {
+  if (self->state.endpoints)
+    watch(self);
+  limit(self, limits::instance::ready);
+}
+
+void expect_life(skill_instance_pointer self) {
+  if (self->state.endpoints)
+    watch(self);
+  else
+    limit(self, limits::instance::watchdog);
+}
+
 void on_running(skill_instance_pointer self) {
   enter(self, instance_state::running);
-  limit(self, limits::instance::watchdog);
+  if (!self->state.endpoints)
+    limit(self, limits::instance::watchdog);
   note(self);
 }
 
@@ -166,7 +190,7 @@ void on_started(skill_instance_pointer self, const std::string& container) {
   if (self->state.ready)
     return on_running(self);
   report(self);
-  limit(self, limits::instance::ready);
+  expect_ready(self);
   note(self);
 }
 

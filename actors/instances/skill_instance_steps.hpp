@@ -64,6 +64,14 @@ void take_down(skill_instance_pointer self, instance_state last,
                const std::string& reason,
                std::chrono::milliseconds grace = limits::instance::stop_grace);
 
+/// From here on it has to say in time that it is ready; a stock ROS 2 program
+/// says so by its endpoints.
+void expect_ready(skill_instance_pointer self);
+
+/// From here on it has to give signs of life; of a stock ROS 2 program only its
+/// end, and that of its endpoints, is a sign.
+void expect_life(skill_instance_pointer self);
+
 /// The program has said that it is ready.
 void on_running(skill_instance_pointer self);
 

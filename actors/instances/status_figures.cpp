@@ -27,6 +27,10 @@ std::optional<int64_t> whole_number(std::string_view text) {
   return result;
 }
 
+double milliseconds_of(int64_t us) {
+  return std::min(static_cast<double>(us) / 1000, most_figure);
+}
+
 void take_word(std::string_view word, instance_figures& to) {
   const auto equals = word.find('=');
   if (equals == std::string_view::npos)
@@ -40,7 +44,9 @@ void take_word(std::string_view word, instance_figures& to) {
   else if (name == "dropped")
     to.dropped = *value;
   else if (name == "median_us")
-    to.latency_ms = std::min(static_cast<double>(*value) / 1000, most_figure);
+    to.latency_ms = milliseconds_of(*value);
+  else if (name == "age_us")
+    to.age_ms = milliseconds_of(*value);
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "actors/edge/dds/discovery_client.hpp"
+#include "actors/edge/dds/discovery_server.hpp"
 #include "actors/edge/dds/public_presence.hpp"
 #include "actors/house/alarm.hpp"
 #include "actors/house/backoff.hpp"
@@ -20,10 +21,14 @@ struct discovery_config {
   std::string node; ///< Name, for the announcement.
   std::string uuid;
   uint32_t public_domain_id = 99;
-  std::vector<std::string> peers; ///< "HOST[:PORT]" besides multicast.
+  std::vector<std::string> peers;  ///< "HOST[:PORT]" besides multicast.
+  uint16_t discovery_port = 11811; ///< Of the node's own discovery server.
+  /// What that server knows; null: nobody wants to know.
+  std::shared_ptr<ros_graph> graph;
 };
 
-/// Owns the participants of a node: its CLIENT, and the public one. Making and
+/// Owns the participants of a node: its CLIENT, its own discovery server, and
+/// the public one. Making and
 /// deleting them takes some milliseconds, so this actor is spawned detached.
 struct discovery_state {
   static constexpr const char* name = "discovery";
@@ -32,7 +37,9 @@ struct discovery_state {
   discovery_config config;
   std::string looking_for;
   std::unique_ptr<cell_client> client;
-  std::string announced; ///< In wire form; empty: nothing.
+  std::unique_ptr<cell_server> server;
+  discovery_place served; ///< By `server`.
+  std::string announced;  ///< In wire form; empty: nothing.
   std::unique_ptr<public_presence> presence;
   presence_listener_actor listener; ///< Of `presence`.
   std::vector<std::string> peers;   ///< Of `presence`, in numbers.

@@ -41,6 +41,7 @@ void finish_leaving(self_pointer self) {
   st.switching.reset();
   if (auto cell = std::exchange(st.cell, {}); !cell.empty())
     tell(self, "cell_left", {{"cell", cell}});
+  stop_programs(self);
   st.cell_uuid.clear();
   st.coordinator.clear();
   st.address.clear();
@@ -127,6 +128,7 @@ void resume(self_pointer self) {
   st.cell = st.stored->cell;
   st.cell_uuid = st.stored->cell_uuid;
   st.standing = node_state::orphaned;
+  resume_programs(self);
   begin_attempt(self);
 }
 
@@ -179,7 +181,8 @@ membership_state answer(const membership_status& st) {
           st.cell,
           st.address,
           st.wanted,
-          member ? std::vector<join_trouble>{} : st.report.rows()};
+          member ? std::vector<join_trouble>{} : st.report.rows(),
+          program_environment(st)};
 }
 
 } // namespace

@@ -76,6 +76,13 @@ struct switch_attempt {
   join_origin origin = join_origin::given;
 };
 
+/// The node's own discovery server.
+struct program_service {
+  discovery_place place;
+  std::string cell_uuid; ///< Of the cell that gave its id.
+  std::string address;   ///< "ip:port"; empty: it does not run.
+};
+
 /// Owns the node's belonging to a cell.
 struct membership_status {
   static constexpr const char* name = "membership";
@@ -110,6 +117,7 @@ struct membership_status {
   std::string address;     ///< Of its HTTP port.
   int64_t incarnation = 0;
   time_point joined_at;
+  std::optional<program_service> programs; ///< None: the cell gave no place.
 
   /// Counts attempts, so that answers to an earlier one can be told.
   uint64_t attempt = 0;

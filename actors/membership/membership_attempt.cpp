@@ -64,6 +64,7 @@ void on_registered(self_pointer self, const node_registered& reply) {
         {"incarnation", st.incarnation},
         {"epoch", st.config.identity.epoch}});
   acknowledge_ends(self);
+  serve_programs_of(self, reply);
   apply(self, reply.verdicts);
   for (const auto& [instance, fact] : std::exchange(st.unsent, {}))
     notify(self, fact);
@@ -89,6 +90,10 @@ node_registration registration_of(const membership_status& st) {
   result.refused_skills = st.config.refused_skills;
   result.instances = *st.instances;
   result.origin = st.origin;
+  if (st.programs) {
+    result.server_id = st.programs->place.server_id;
+    result.server_cell = st.programs->cell_uuid;
+  }
   if (st.switching)
     result.transfer = st.switching->order.transfer;
   else if (st.standing == node_state::orphaned)

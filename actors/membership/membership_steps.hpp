@@ -7,6 +7,7 @@
 
 #include <chrono>
 #include <functional>
+#include <map>
 #include <string>
 
 /// INTERNAL to the membership: the steps that its files share.
@@ -102,6 +103,20 @@ void on_session_lost(self_pointer self, const std::string& reason);
 /// Does what the lease wants.
 void keep_lease(self_pointer self);
 void notify(self_pointer self, const instance_changed& fact);
+
+// -- membership_programs.cpp: the node's own discovery server -----------------
+
+/// Runs it where the cell wants it, from now on.
+void serve_programs_of(self_pointer self, const node_registered& reply);
+/// Takes up the one that an earlier run of the node had.
+void resume_programs(self_pointer self);
+/// The node is in no cell any more.
+void stop_programs(self_pointer self);
+/// UDP port of the one that runs; 0: none does.
+uint16_t program_port(const membership_status& st);
+/// What a ROS 2 program on this node needs; empty: it is in no cell.
+std::map<std::string, std::string>
+program_environment(const membership_status& st);
 
 // -- membership_verdicts.cpp --------------------------------------------------
 

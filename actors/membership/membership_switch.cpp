@@ -117,6 +117,11 @@ membership_record record_of(const membership_status& st) {
     result.cell = st.cell;
     result.cell_uuid = st.cell_uuid;
     result.origin = st.origin;
+    if (const auto port = program_port(st); port != 0) {
+      result.discovery = {st.programs->place};
+      result.discovery_port = port;
+      result.server_cell = st.programs->cell_uuid;
+    }
   }
   return result;
 }

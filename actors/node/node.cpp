@@ -46,6 +46,7 @@ node_description first_draft(node_pointer self, const node_query& query) {
     result.state = node_state::member;
     result.cell = parts.config.cell;
     result.coordinator = parts.identity.address;
+    result.environment = parts.edges->environment;
   }
   return result;
 }
@@ -62,6 +63,7 @@ void ask_membership(node_pointer self, const shared_draft& draft) {
             draft->result.cell = x.cell;
             draft->result.coordinator = x.coordinator;
             draft->result.joining = x.joining;
+            draft->result.environment = x.environment;
             draft->finish_one();
           },
           [draft](const caf::error&) { draft->finish_one(); });

@@ -5,6 +5,7 @@
 #include "actors/edge/io/socket_address.hpp"
 #include "actors/house/edge_failure.hpp"
 #include "actors/instances/container_supervisor.hpp"
+#include "actors/instances/graph_watch.hpp"
 #include "actors/membership/discovery.hpp"
 #include "actors/membership/join_scout.hpp"
 #include "actors/membership/membership.hpp"
@@ -33,14 +34,6 @@ namespace roscell {
 namespace {
 
 constexpr uint16_t default_discovery_port = 11811;
-
-std::vector<io_endpoint> topics_of(const cell_server& server) {
-  std::vector<io_endpoint> result;
-  for (auto& x : server.topics())
-    result.push_back(
-        {"ros2", std::move(x.topic), std::move(x.data_type), "", false});
-  return result;
-}
 
 /// Refuses words that would make every message of this node invalid.
 caf::error check_words(const std::string& option,
@@ -175,6 +168,7 @@ private:
                         data_.identity.uuid, *parts_.edges->io);
     supervision.builds_images = !runtime_.socket.empty();
     supervision.store = store_;
+    supervision.graph = start(graph_watch, parts_.edges->graph);
     supervision.restored = data_.instances;
     supervision.strays = data_.strays;
     parts_.services->supervisor = start(container_supervisor, supervision);
@@ -195,10 +189,7 @@ private:
     coordinator_setup setup;
     setup.cell = config.cell;
     setup.discovery_server = parts_.edges->discovery_server;
-    setup.topics = [edges = std::weak_ptr<node_edges>{parts_.edges}] {
-      const auto open = edges.lock();
-      return open ? topics_of(*open->discovery) : std::vector<io_endpoint>{};
-    };
+    setup.graph = parts_.edges->graph;
     setup.incarnation = data_.incarnation;
     setup.cell_uuid = data_.cell_uuid;
     setup.self = parts_.identity;
@@ -212,10 +203,8 @@ private:
     setup.transfers = data_.transfers;
     setup.server_id = parts_.edges->server_id;
     setup.rebalance = config.rebalance;
-    setup.environment = {
-        {"ROS_DOMAIN_ID", std::to_string(config.ros_domain_id)},
-        {"ROS_DISCOVERY_SERVER", std::string(parts_.edges->server_id, ';')
-                                     + parts_.edges->discovery_server}};
+    setup.ros_domain_id = config.ros_domain_id;
+    setup.environment = parts_.edges->environment;
     setup.searches = std::make_shared<search_guard>();
     setup.scheduler = start_scheduler(setup.searches);
     setup.discovery = start_discovery();
@@ -248,7 +237,8 @@ private:
         discovery, parts_.context,
         discovery_config{config.address, config.ros_domain_id, config.name,
                          parts_.identity.uuid, config.public_domain_id,
-                         config.peers});
+                         config.peers, config.discovery_port,
+                         parts_.edges->graph});
   }
 
   session_connector_actor start_connector() {

@@ -7,6 +7,7 @@
 #include "actors/house/edge_failure.hpp"
 #include "actors/house/limits.hpp"
 #include "actors/session/wire_session.hpp"
+#include "dds/server_ids.hpp"
 #include "messages/failure.hpp"
 
 #include <chrono>
@@ -95,12 +96,17 @@ caf::error open_discovery(const node_config& config, const node_data& data,
   options.server_id = edges.server_id;
   options.domain_id = config.ros_domain_id;
   options.announcement = encode(said);
+  options.graph = edges.graph;
   auto opened = cell_server::open(options);
   if (auto* why = std::get_if<edge_error>(&opened))
     return to_caf(*why);
   edges.discovery = std::get<std::unique_ptr<cell_server>>(std::move(opened));
   edges.discovery_server =
       config.address + ":" + std::to_string(edges.discovery->port());
+  edges.environment = {
+      {"ROS_DOMAIN_ID", std::to_string(config.ros_domain_id)},
+      {"ROS_DISCOVERY_SERVER",
+       ros_discovery_server(edges.server_id, edges.discovery_server)}};
   return caf::none;
 }
 

@@ -10,6 +10,7 @@
 #include <caf/expected.hpp>
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -48,6 +49,10 @@ struct node_edges {
   std::string http_address;               ///< "ip:port"
   std::string socket_path;
   std::string discovery_server; ///< "ip:port"; coordinators only.
+  /// What a ROS 2 program needs to be in the cell; coordinators only.
+  std::map<std::string, std::string> environment;
+  /// What the node's discovery server knows, whichever it is at present.
+  std::shared_ptr<ros_graph> graph = std::make_shared<ros_graph>();
 };
 
 /// Opens the ports of a node. Errors: conflict (a port is in use), unreachable

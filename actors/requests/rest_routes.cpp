@@ -112,6 +112,8 @@ rest_route query_route(const http_request& request,
       return ask({{"type", "cell_list_query"}});
     if (what == "tasks")
       return ask({{"type", "task_query"}});
+    if (what == "topics")
+      return ask({{"type", "topic_query"}});
     if (what == "instances")
       return ask({{"type", "instance_query"}});
     if (what == "skills")

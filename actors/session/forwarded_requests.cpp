@@ -5,6 +5,7 @@
 #include "messages/cell.hpp"
 #include "messages/formation.hpp"
 #include "messages/task.hpp"
+#include "messages/topic.hpp"
 
 #include <array>
 #include <string_view>
@@ -14,9 +15,9 @@ namespace roscell {
 namespace {
 
 /// What the coordinator answers from what it knows.
-constexpr std::array<std::string_view, 4> queries{
+constexpr std::array<std::string_view, 5> queries{
     cell_query::type, cell_list_query::type, task_query::type,
-    transfer_query::type};
+    transfer_query::type, topic_query::type};
 
 /// What it has to do something for.
 constexpr std::array<std::string_view, 4> commands{

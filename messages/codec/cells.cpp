@@ -3,6 +3,7 @@
 #include "messages/formation.hpp"
 #include "messages/inside/membership.hpp"
 #include "messages/peer.hpp"
+#include "messages/topic.hpp"
 
 namespace roscell {
 
@@ -13,6 +14,10 @@ ROSCELL_CODEC(cell_description)
 ROSCELL_CODEC(cell_list_query)
 ROSCELL_CODEC(cell_row)
 ROSCELL_CODEC(cell_list)
+ROSCELL_CODEC(topic_end)
+ROSCELL_CODEC(topic_row)
+ROSCELL_CODEC(topic_query)
+ROSCELL_CODEC(topic_list)
 ROSCELL_CODEC(cell_formation)
 ROSCELL_CODEC(formation_outcome)
 ROSCELL_CODEC(cell_formed)

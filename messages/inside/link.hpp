@@ -142,6 +142,72 @@ struct forget_coordinator {
   }
 };
 
+/// Runs the node's own discovery server, for the ROS 2 programs on this node,
+/// from now on. Repeating it is harmless.
+struct serve_programs {
+  discovery_place place;
+  uint16_t port = 0; ///< UDP, as before; 0: as the node is set up.
+  /// The coordinator's server is there: ask it at once.
+  bool remote_is_there = false;
+
+  static constexpr auto fields() {
+    return field_list{
+        required("place", &serve_programs::place),
+        required("port", &serve_programs::port),
+        required("remote_is_there", &serve_programs::remote_is_there)};
+  }
+};
+
+struct programs_served {
+  std::string address; ///< "ip:port" of the server.
+
+  static constexpr auto fields() {
+    return field_list{required("address", &programs_served::address)};
+  }
+};
+
+/// The node is in no cell any more: its server says farewell.
+struct stop_serving {
+  static constexpr auto fields() {
+    return field_list{};
+  }
+};
+
+/// Looks after the endpoints that a program on this node should have, as long
+/// as the sender lives. It is told what is missing, at once and whenever
+/// that changes.
+struct watch_endpoints {
+  std::string instance;
+  std::string program; ///< Name of its DDS participant; empty: any.
+  std::vector<std::string> written; ///< Topics that it should write,
+  std::vector<std::string> read;    ///< and read: "/scene_1/image".
+
+  static constexpr auto fields() {
+    return field_list{required("instance", &watch_endpoints::instance),
+                      required("program", &watch_endpoints::program),
+                      required("written", &watch_endpoints::written),
+                      required("read", &watch_endpoints::read)};
+  }
+};
+
+/// A fact: what of the watched endpoints is not there.
+struct endpoints_missing {
+  std::string instance;
+  std::vector<std::string> missing; ///< "a writer of /scene_1/image"
+
+  static constexpr auto fields() {
+    return field_list{required("instance", &endpoints_missing::instance),
+                      required("missing", &endpoints_missing::missing)};
+  }
+};
+
+/// INTERNAL to the graph watch: the discovery server has learned something.
+struct graph_changed {
+  static constexpr auto fields() {
+    return field_list{};
+  }
+};
+
 /// A fact: the discovery server has told who coordinates its cell.
 struct coordinator_found {
   std::string cell;

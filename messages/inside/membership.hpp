@@ -4,6 +4,7 @@
 #include "messages/inside/link.hpp"
 #include "messages/inside/runtime.hpp"
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,8 @@ struct membership_state {
   std::string coordinator;      ///< Address of the coordinator's HTTP port.
   std::string discovery_server; ///< Of the cell, as "host:port".
   std::vector<join_trouble> joining; ///< At most one; empty: it does not try.
+  /// What a ROS 2 program on this node needs; empty: it is in no cell.
+  std::map<std::string, std::string> environment;
 
   static constexpr auto fields() {
     return field_list{
@@ -31,7 +34,8 @@ struct membership_state {
         required("cell", &membership_state::cell),
         required("coordinator", &membership_state::coordinator),
         required("discovery_server", &membership_state::discovery_server),
-        required("joining", &membership_state::joining)};
+        required("joining", &membership_state::joining),
+        required("environment", &membership_state::environment)};
   }
 };
 
@@ -62,6 +66,11 @@ struct membership_record {
   std::string cell;
   join_origin origin = join_origin::given;
   std::string cell_uuid; ///< Empty: its coordinator has not told it.
+  /// Of the node's own discovery server, and its UDP port; at most one.
+  std::vector<discovery_place> discovery;
+  uint16_t discovery_port = 0;
+  /// The cell that gave its id.
+  std::string server_cell;
 
   static constexpr auto fields() {
     return field_list{
@@ -69,7 +78,10 @@ struct membership_record {
         required("discovery_server", &membership_record::discovery_server),
         required("cell", &membership_record::cell),
         required("origin", &membership_record::origin),
-        optional("cell_uuid", &membership_record::cell_uuid)};
+        optional("cell_uuid", &membership_record::cell_uuid),
+        one_or_many("discovery", &membership_record::discovery),
+        optional("discovery_port", &membership_record::discovery_port),
+        optional("server_cell", &membership_record::server_cell)};
   }
 };
 

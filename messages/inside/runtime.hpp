@@ -20,8 +20,8 @@ struct prepare_image {
   std::string skill_dir; ///< Absolute path of the skill folder.
   std::string skill;     ///< Its content hash.
   std::string look;      ///< How it looked when it was hashed.
-  std::vector<std::string> entry_point;
-  std::string base_image; ///< Ignored by the process runtime.
+  std::vector<std::string> entry_point; ///< Empty: a program of the base image.
+  std::string base_image;               ///< Ignored by the process runtime.
 
   static constexpr auto fields() {
     return field_list{required("instance", &prepare_image::instance),
@@ -54,6 +54,7 @@ struct start_container {
   std::vector<io_endpoint> output; ///< and of these written.
   std::vector<std::string> devices;
   std::vector<std::string> volumes; ///< "/host/path:/container/path[:ro]".
+  int stop_signal = 15;             ///< What asks the program to end.
 
   static constexpr auto fields() {
     return field_list{required("instance", &start_container::instance),
@@ -66,7 +67,8 @@ struct start_container {
                       one_or_many("input", &start_container::input),
                       one_or_many("output", &start_container::output),
                       required("devices", &start_container::devices),
-                      required("volumes", &start_container::volumes)};
+                      required("volumes", &start_container::volumes),
+                      optional("stop_signal", &start_container::stop_signal)};
   }
 };
 
@@ -236,6 +238,16 @@ struct ends_acknowledged {
 
   static constexpr auto fields() {
     return field_list{required("instances", &ends_acknowledged::instances)};
+  }
+};
+
+/// What instances that are started from now on need to be in the cell, by this
+/// node: it replaces what their specs say of the same variables.
+struct use_environment {
+  std::map<std::string, std::string> environment;
+
+  static constexpr auto fields() {
+    return field_list{required("environment", &use_environment::environment)};
   }
 };
 

@@ -49,6 +49,9 @@ void output_ports::write(frame result, std::size_t number) {
     throw;
   }
   write_time_ += std::chrono::steady_clock::now() - start;
+  const auto age = std::chrono::system_clock::now() - result.time;
+  if (age >= age.zero())
+    ages_.add(age);
 }
 
 void output_ports::fill_in(frame& result, port& target) {

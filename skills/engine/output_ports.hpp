@@ -2,6 +2,7 @@
 
 #include "skills/engine/executor.hpp"
 #include "skills/engine/handlers.hpp"
+#include "skills/engine/life/processing_times.hpp"
 
 #include <chrono>
 #include <cstdint>
@@ -29,6 +30,12 @@ public:
     return write_time_;
   }
 
+  /// How old the data of results were when they had been written, by this
+  /// host's clock; what is said to come from the future is left out.
+  const processing_times& ages() const noexcept {
+    return ages_;
+  }
+
   /// Why an output broke, or empty. Kept here because an executor may catch
   /// the exception.
   const std::string& failure() const noexcept {
@@ -52,6 +59,7 @@ private:
   const frame* input_ = nullptr;
   std::size_t emitted_ = 0;
   std::chrono::steady_clock::duration write_time_{};
+  processing_times ages_;
   std::string failure_;
 };
 

@@ -87,15 +87,18 @@ void primitive_base_engine::request_stop() {
 }
 
 std::string primitive_base_engine::status() const {
-  auto us = [this](double q) {
+  auto us = [](const processing_times& times, double q) {
     using namespace std::chrono;
     return std::to_string(
-        duration_cast<microseconds>(times_.quantile(q)).count());
+        duration_cast<microseconds>(times.quantile(q)).count());
   };
+  const auto age = outputs_.ages().count() > 0
+                       ? " age_us=" + us(outputs_.ages(), 0.5)
+                       : std::string{};
   return "frames=" + std::to_string(times_.count())
-         + " dropped=" + std::to_string(queue_.dropped())
-         + " failed=" + std::to_string(failed_.load()) + " median_us=" + us(0.5)
-         + " p99_us=" + us(0.99);
+         + " dropped=" + std::to_string(queue_.dropped()) + " failed="
+         + std::to_string(failed_.load()) + " median_us=" + us(times_, 0.5)
+         + " p99_us=" + us(times_, 0.99) + age;
 }
 
 void primitive_base_engine::make_parts() {

@@ -1,11 +1,13 @@
 #include "skills/ros2/participant_qos.hpp"
 
+#include "dds/host_transport.hpp"
+#include "dds/participant_ids.hpp"
+#include "dds/server_ids.hpp"
+
 #include <fastdds/rtps/flowcontrol/FlowControllerDescriptor.hpp>
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
-#include <fastrtps/utils/IPLocator.h>
 
 #include <algorithm>
-#include <random>
 #include <string_view>
 
 namespace roscell::ros2 {
@@ -14,7 +16,6 @@ namespace {
 
 using namespace eprosima::fastdds;
 using eprosima::fastrtps::rtps::DiscoveryProtocol_t;
-using eprosima::fastrtps::rtps::Locator_t;
 
 /// The most that Fast DDS puts into one datagram.
 constexpr std::uint32_t max_datagram_bytes = 65500;
@@ -47,30 +48,6 @@ constexpr std::int32_t repeat_period_ns = 100'000'000;
 /// each other by port.
 constexpr std::uint32_t first_place = 40;
 
-Locator_t udp_locator(const std::string& address, std::uint32_t port) {
-  Locator_t result;
-  eprosima::fastrtps::rtps::IPLocator::createLocator(LOCATOR_KIND_UDPv4,
-                                                     address, port, result);
-  return result;
-}
-
-/// The prefix that ROS 2 expects of server `id`, in hexadecimal digits
-/// 44.53.ID.5f.45.50.52.4f.53.49.4d.41: "DS", the id, and "_EPROSIMA".
-void set_server_prefix(eprosima::fastrtps::rtps::GuidPrefix_t& prefix,
-                       std::uint8_t id) {
-  std::copy_n("DS\0_EPROSIMA", sizeof(prefix.value), prefix.value);
-  prefix.value[2] = id;
-}
-
-/// Fast DDS makes the GUID of a participant of the process id and 16 random
-/// bits, and processes in containers have the same few process ids.
-std::int32_t make_participant_id() {
-  constexpr std::int32_t lowest = 1000; // Above those that Fast DDS hands out.
-  constexpr std::int32_t highest = 25000;
-  std::random_device source;
-  return std::uniform_int_distribution<std::int32_t>{lowest, highest}(source);
-}
-
 void use_servers(dds::WireProtocolConfigQos& wire,
                  const participant_config& config, const std::string& address) {
   auto& discovery = wire.builtin.discovery_config;
@@ -78,7 +55,8 @@ void use_servers(dds::WireProtocolConfigQos& wire,
   discovery.discoveryServer_client_syncperiod = {0, repeat_period_ns};
   for (const auto& server : config.servers) {
     rtps::RemoteServerAttributes remote;
-    set_server_prefix(remote.guidPrefix, server.id);
+    const auto prefix = server_prefix(server.id);
+    std::copy(prefix.begin(), prefix.end(), remote.guidPrefix.value);
     remote.metatrafficUnicastLocatorList.push_back(
         udp_locator(server.address, server.port));
     discovery.m_DiscoveryServers.push_back(remote);
@@ -93,6 +71,15 @@ void use_servers(dds::WireProtocolConfigQos& wire,
                         7400 + 250 * config.domain_id + 10 + 2 * first_place);
   wire.builtin.metatrafficUnicastLocatorList.push_back(at);
   wire.default_unicast_locator_list.push_back(at);
+}
+
+/// For simple discovery, which uses multicast on every interface.
+std::shared_ptr<rtps::UDPv4TransportDescriptor> udp_everywhere() {
+  auto result = std::make_shared<rtps::UDPv4TransportDescriptor>();
+  result->maxMessageSize = max_datagram_bytes;
+  result->sendBufferSize = socket_buffer_bytes;
+  result->receiveBufferSize = socket_buffer_bytes;
+  return result;
 }
 
 /// What readers and writers have in common.
@@ -118,20 +105,17 @@ dds::DomainParticipantQos to_participant_qos(const participant_config& config) {
   result.name(config.node_name);
   constexpr std::string_view enclave = "enclave=/;";
   result.user_data().data_vec({enclave.begin(), enclave.end()});
-  auto udp = std::make_shared<rtps::UDPv4TransportDescriptor>();
-  udp->maxMessageSize = max_datagram_bytes;
-  udp->sendBufferSize = socket_buffer_bytes;
-  udp->receiveBufferSize = socket_buffer_bytes;
   result.transport().use_builtin_transports = false;
-  result.transport().user_transports.push_back(udp);
   auto& wire = result.wire_protocol();
-  wire.builtin.use_WriterLivelinessProtocol = false;
   wire.builtin.discovery_config.leaseDuration = {lease_s, 0};
   wire.builtin.discovery_config.leaseDuration_announcementperiod = {
       announcement_period_s, 0};
-  if (!config.servers.empty()) {
+  if (config.servers.empty()) {
+    result.transport().user_transports = {udp_everywhere()};
+  } else {
     auto address = local_address_towards(config.servers.front());
-    udp->interfaceWhiteList = {address};
+    result.transport().user_transports = {
+        host_transport({address, max_datagram_bytes, socket_buffer_bytes})};
     use_servers(wire, config, address);
   }
   auto pace = std::make_shared<rtps::FlowControllerDescriptor>();

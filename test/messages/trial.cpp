@@ -6,6 +6,7 @@
 #include "messages/event.hpp"
 #include "messages/reservation.hpp"
 #include "messages/session.hpp"
+#include "messages/topic.hpp"
 #include "schemas/decode.hpp"
 #include "schemas/document.hpp"
 #include "test/messages/member_count.hpp"
@@ -64,11 +65,12 @@ void try_messages(std::vector<trial>& result) {
 
 std::vector<trial> message_trials() {
   std::vector<trial> result;
-  try_messages<cell_query, cell_list_query, task_request, task_plan_query,
-               task_query, task_termination, task_restart, instance_query,
-               log_query, node_query, hello_query, skill_query>(result);
-  try_messages<cell_description, cell_list, task_accepted, task_plan,
-               task_description, task_terminated, task_restarted,
+  try_messages<cell_query, cell_list_query, topic_query, task_request,
+               task_plan_query, task_query, task_termination, task_restart,
+               instance_query, log_query, node_query, hello_query, skill_query>(
+      result);
+  try_messages<cell_description, cell_list, topic_list, task_accepted,
+               task_plan, task_description, task_terminated, task_restarted,
                instance_description, log_excerpt, node_description, node_hello,
                skill_list, event>(result);
   try_messages<session_request, session_reply, session_notice,

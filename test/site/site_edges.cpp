@@ -241,6 +241,10 @@ caf::behavior site_edge(caf::event_based_actor* self, site* place,
         return caf::ok_atom_v;
       },
       [=](const forget_coordinator&) { me->looking_for.clear(); },
+      [](const serve_programs&) { return programs_served{"10.0.0.9:11811"}; },
+      [](const stop_serving&) {
+        // No program runs on this site.
+      },
       [=](const open_session& x) { return open(self, place, me, x); },
       [=](const switch_node& x) { return switch_over(self, place, me, x); },
       [=](const prove_standing& x) { return ask_standing(self, place, me, x); },

@@ -84,10 +84,12 @@ std::string offered_by_fish(const std::string& line,
 } // namespace
 
 TEST_CASE("completion offers every command", "[tools]") {
-  CHECK(offered("roscell ''")
-        == "node run stop restart check new request plan form transfer release "
-           "status cells nodes tasks instances skills transfers describe graph "
-           "events logs completion help version --version --help\n");
+  CHECK(
+      offered("roscell ''")
+      == "node run stop restart check new request plan form transfer release "
+         "status cells nodes tasks instances topics skills transfers describe "
+         "graph env hz bw events logs completion help version --version "
+         "--help\n");
   CHECK(offered("roscell no") == "node nodes\n");
   CHECK(offered("roscell new ''") == "task\n");
   CHECK(offered("roscell skills s") == "show\n");

@@ -49,11 +49,19 @@ TEST_CASE("an empty list says so in words", "[tools]") {
 }
 
 TEST_CASE("a cell's row shows its size and where to join it", "[tools]") {
-  const cell_list cells{
-      {{"lab", "arm-1", "10.0.0.1:8420", "10.0.0.1:11811", 3}}};
+  const cell_list cells{{{"lab",
+                          "arm-1",
+                          "10.0.0.1:8420",
+                          "10.0.0.1:11811",
+                          3,
+                          "",
+                          {{"ROS_DISCOVERY_SERVER", ";10.0.0.1:11811"},
+                           {"ROS_DOMAIN_ID", "7"}}}}};
   CHECK(cells_view(cells, at(0))
-        == "CELL  COORDINATOR  NODES  ADDRESS        DISCOVERY SERVER\n"
-           "lab   arm-1            3  10.0.0.1:8420  10.0.0.1:11811\n");
+        == "CELL  COORDINATOR  NODES  ADDRESS        DISCOVERY SERVER  "
+           "ROS_DISCOVERY_SERVER  ROS_DOMAIN_ID\n"
+           "lab   arm-1            3  10.0.0.1:8420  10.0.0.1:11811    "
+           ";10.0.0.1:11811                   7\n");
 }
 
 TEST_CASE("trouble has a column only if a cell has some", "[tools]") {
@@ -62,10 +70,11 @@ TEST_CASE("trouble has a column only if a cell has some", "[tools]") {
        {"hall", "arm-2", "10.0.0.2:8420", "10.0.0.2:11811", 0, "no route"}}};
   CHECK(cells_view(cells, at(0))
         == "CELL  COORDINATOR  NODES  ADDRESS        DISCOVERY SERVER  "
-           "TROUBLE\n"
-           "lab   arm-1            3  10.0.0.1:8420  10.0.0.1:11811    -\n"
+           "ROS_DISCOVERY_SERVER  ROS_DOMAIN_ID  TROUBLE\n"
+           "lab   arm-1            3  10.0.0.1:8420  10.0.0.1:11811    "
+           "-                                 -  -\n"
            "hall  arm-2            -  10.0.0.2:8420  10.0.0.2:11811    "
-           "no route\n");
+           "-                                 -  no route\n");
 }
 
 TEST_CASE("both claims of a cell's name are shown as trouble", "[tools]") {
@@ -75,7 +84,8 @@ TEST_CASE("both claims of a cell's name are shown as trouble", "[tools]") {
   const auto text = cells_view(cells, at(0));
   CHECK(has(text, "2 coordinators claim this name\n"));
   CHECK(has(text, "told\n"));
-  CHECK(has(text, "10.0.0.3:8420  -                 -\n"));
+  CHECK(has(text, "10.0.0.3:8420  -                 -                       "
+                  "          -  -\n"));
 }
 
 TEST_CASE("nodes in no cell are listed below the members", "[tools]") {

@@ -9,7 +9,8 @@
 ///   exit          {"code","signal","at_unix_ms"}, durable before the shim ends
 ///   *.tmp         not yet complete; to be ignored
 ///
-/// SIGTERM to the shim is passed on to the command's process group, SIGQUIT
+/// SIGTERM to the shim is passed on to the command's process group, as the
+/// signal that the shim was told, SIGQUIT
 /// kills that group. The shim closes the stdout and stderr it was given when
 /// `pid` is written; what comes out of them before is the reason for a failure.
 /// Exit code: 0 when `exit` is written, 1 for a failure, 2 for wrong usage.
@@ -96,12 +97,12 @@ bool drain(int output, log_files& log) {
 }
 
 /// Returns whether the child has ended.
-bool on_signal(int signals, pid_t child, int& wait_status) {
+bool on_signal(int signals, pid_t child, int stop_signal, int& wait_status) {
   signalfd_siginfo info{};
   auto ended = false;
   while (::read(signals, &info, sizeof(info)) == sizeof(info)) {
     if (info.ssi_signo == SIGTERM)
-      ::kill(-child, SIGTERM);
+      ::kill(-child, stop_signal);
     else if (info.ssi_signo == SIGQUIT)
       ::kill(-child, SIGKILL);
     else
@@ -111,13 +112,15 @@ bool on_signal(int signals, pid_t child, int& wait_status) {
 }
 
 /// Returns the wait status of the child when it has ended.
-int supervise(pid_t child, int output, int signals, log_files& log) {
+int supervise(pid_t child, int output, int signals, int stop_signal,
+              log_files& log) {
   auto wait_status = 0;
   pollfd waited[] = {{signals, POLLIN, 0}, {output, POLLIN, 0}};
   for (;;) {
     if (::poll(waited, 2, -1) < 1)
       continue; // Interrupted.
-    if (waited[0].revents != 0 && on_signal(signals, child, wait_status))
+    if (waited[0].revents != 0
+        && on_signal(signals, child, stop_signal, wait_status))
       return wait_status;
     // The child may close its output long before it ends.
     if (waited[1].revents != 0 && !drain(output, log))
@@ -147,7 +150,7 @@ int run(const options& o) {
     return result;
   }
   release_standard_streams();
-  auto wait_status = supervise(child, pipe[0], signals, log);
+  auto wait_status = supervise(child, pipe[0], signals, o.stop_signal, log);
   kill_leftovers(child, signals);
   // A process that could not be killed may still hold the other end.
   for (auto i = 0; i < max_last_portions && drain(pipe[0], log); ++i) {

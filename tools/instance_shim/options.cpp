@@ -20,10 +20,18 @@ bool read_bytes(const char* text, std::uint64_t& result) {
   return *end == '\0' && result >= least_log_bytes && result <= most_log_bytes;
 }
 
+bool read_signal(const char* text, int& result) {
+  constexpr long last_signal = 31;
+  char* end = nullptr;
+  const auto value = std::strtol(text, &end, 10);
+  result = static_cast<int>(value);
+  return end != text && *end == '\0' && value >= 1 && value <= last_signal;
+}
+
 bool usage() {
   ::dprintf(2, "usage: roscell-instance-shim --dir DIR --log-bytes N "
-               "[--cwd DIR] -- COMMAND [ARGS...]\n"
-               "N is a whole number of at least 1024.\n");
+               "[--cwd DIR] [--stop-signal S] -- COMMAND [ARGS...]\n"
+               "N is a whole number of at least 1024, S one from 1 to 31.\n");
   return false;
 }
 
@@ -37,8 +45,10 @@ bool read_options(int argc, char** argv, options& result) {
       result.directory = value;
     else if (std::strcmp(argv[i], "--cwd") == 0)
       result.working_dir = value;
-    else if (std::strcmp(argv[i], "--log-bytes") != 0
-             || !read_bytes(value, result.log_bytes))
+    else if (std::strcmp(argv[i], "--log-bytes") == 0
+                 ? !read_bytes(value, result.log_bytes)
+                 : std::strcmp(argv[i], "--stop-signal") != 0
+                       || !read_signal(value, result.stop_signal))
       return usage();
   }
   result.command = argv + i + 1;

@@ -20,7 +20,7 @@ void add_plan_command(CLI::App& app, action& chosen);
 /// form, transfer, release.
 void add_form_commands(CLI::App& app, action& chosen);
 
-/// status, cells, nodes, transfers, tasks, instances, skills.
+/// status, cells, nodes, transfers, tasks, instances, topics, skills.
 void add_show_commands(CLI::App& app, action& chosen);
 
 /// run, stop, restart.
@@ -33,6 +33,12 @@ void add_new_command(CLI::App& app, action& chosen);
 
 /// `show`, below `skills`.
 void add_skill_show_command(CLI::App& skills, action& chosen);
+
+/// env.
+void add_env_command(CLI::App& app, action& chosen);
+
+/// hz, bw.
+void add_topic_commands(CLI::App& app, action& chosen);
 
 void add_graph_command(CLI::App& app, action& chosen);
 void add_describe_command(CLI::App& app, action& chosen);

@@ -59,6 +59,7 @@ void cell_registry::expect(const member_record& known,
   entry.row.reason = "not seen since the coordinator was started";
   entry.inactive_since = now.steady;
   entry.origin = known.origin;
+  entry.server_id = known.server_id;
   settle_owner(known.identity.name);
 }
 

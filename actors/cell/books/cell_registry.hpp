@@ -8,6 +8,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,7 @@ struct registry_entry {
   member_actor member;    ///< Invalid for the coordinator's own node.
   std::chrono::steady_clock::time_point inactive_since;
   join_origin origin = join_origin::given;
+  int64_t server_id = -1; ///< Of its discovery server; negative: none.
   std::chrono::steady_clock::time_point held_until; ///< Reserved rows.
 };
 
@@ -35,10 +37,12 @@ struct registry_entry {
 struct member_record {
   node_identity identity;
   join_origin origin = join_origin::given;
+  int64_t server_id = -1; ///< Of its discovery server; negative: none.
 
   static constexpr auto fields() {
     return field_list{required("identity", &member_record::identity),
-                      required("origin", &member_record::origin)};
+                      required("origin", &member_record::origin),
+                      optional("server_id", &member_record::server_id)};
   }
 };
 
@@ -55,6 +59,14 @@ public:
   /// already seen, or there are too many rows.
   std::optional<failure> refusal(const node_identity& who,
                                  const registry_time& now) const;
+
+  /// An id for the node's own discovery server that no other row has, nor any
+  /// of `coordinators`, the lowest. `last` is the one that it had: kept if this
+  /// cell gave it, avoided if another did, whose programs may still look for
+  /// it. Negative: none is left.
+  int64_t choose_server_id(const std::string& uuid, int64_t last,
+                           bool last_is_ours,
+                           std::set<int64_t> coordinators) const;
 
   // -- a registration ---------------------------------------------------------
 
@@ -78,7 +90,8 @@ public:
   void withdraw(const caf::actor_addr& member);
 
   /// Whether nothing but the epoch would change on disk.
-  bool is_known(const node_identity& who, join_origin origin) const;
+  bool is_known(const node_identity& who, join_origin origin,
+                int64_t server_id) const;
 
   // -- rows -------------------------------------------------------------------
 

@@ -1,5 +1,7 @@
 #include "actors/cell/books/peer_book.hpp"
 
+#include "dds/server_ids.hpp"
+
 #include "actors/house/limits.hpp"
 
 #include <algorithm>
@@ -248,6 +250,32 @@ const peer_entry* peer_book::find_holder(const std::string& node) const {
   return result;
 }
 
+namespace {
+
+/// What a ROS 2 program needs to be in that cell.
+std::map<std::string, std::string>
+environment_of(const cell_standing& standing) {
+  if (standing.server_id < 0 || standing.domain_id < 0)
+    return {};
+  return {{"ROS_DOMAIN_ID", std::to_string(standing.domain_id)},
+          {"ROS_DISCOVERY_SERVER",
+           ros_discovery_server(static_cast<uint8_t>(standing.server_id),
+                                standing.place.discovery_server)}};
+}
+
+} // namespace
+
+std::set<int64_t> peer_book::server_ids() const {
+  std::set<int64_t> result;
+  for (const auto& [uuid, x] : by_uuid_) {
+    if (x.announced)
+      result.insert(x.announced->server_id);
+    if (x.session.told)
+      result.insert(x.session.standing.server_id);
+  }
+  return result;
+}
+
 std::vector<cell_row> peer_book::rows(const cell_row& own) const {
   std::vector<cell_row> result;
   for (const auto& [uuid, x] : by_uuid_) {
@@ -259,14 +287,16 @@ std::vector<cell_row> peer_book::rows(const cell_row& own) const {
              place.address,
              place.discovery_server,
              x.session.standing.size,
-             ""};
+             "",
+             environment_of(x.session.standing)};
     } else if (x.announced) {
       row = {x.announced->cell,
              x.announced->name,
              x.announced->address,
              x.announced->discovery_server,
              0,
-             calls_.trouble(uuid)};
+             calls_.trouble(uuid),
+             {}};
     } else {
       continue;
     }

@@ -8,6 +8,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -105,6 +106,9 @@ public:
   void for_each_session(
       const std::function<void(const std::string&, const peer_entry&)>& visit)
       const;
+
+  /// Ids of the discovery servers of other cells, as far as they are known.
+  std::set<int64_t> server_ids() const;
 
   /// A row for each coordinator that is known, without the own one.
   /// @param own the row of the own cell, whose name another may claim too.

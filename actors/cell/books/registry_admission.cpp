@@ -2,6 +2,7 @@
 
 #include "actors/house/limits.hpp"
 
+#include <cstdint>
 #include <utility>
 
 /// Who gets a row: names, UUIDs, and registrations that are written down.
@@ -117,6 +118,29 @@ registry_entry* cell_registry::find_name(const std::string& name) {
   return const_cast<registry_entry*>(std::as_const(*this).find_name(name));
 }
 
+// -- discovery servers --------------------------------------------------------
+
+int64_t cell_registry::choose_server_id(const std::string& uuid, int64_t last,
+                                        bool last_is_ours,
+                                        std::set<int64_t> coordinators) const {
+  auto used = std::move(coordinators);
+  for (const auto* rows : {&by_uuid_, &proposed_})
+    for (const auto& [other, x] : *rows)
+      if (other != uuid)
+        used.insert(x.server_id);
+  const auto is_free = [&](int64_t id) {
+    return id >= 0 && used.count(id) == 0 && (last_is_ours || id != last);
+  };
+  if (last_is_ours && is_free(last))
+    return last;
+  if (const auto* known = find_uuid(uuid); known && is_free(known->server_id))
+    return known->server_id;
+  for (int64_t id = 0; id <= UINT8_MAX; ++id)
+    if (is_free(id))
+      return id;
+  return -1;
+}
+
 // -- a registration -----------------------------------------------------------
 
 std::vector<store_record> cell_registry::propose(registry_entry entry) {
@@ -126,7 +150,8 @@ std::vector<store_record> cell_registry::propose(registry_entry entry) {
     if (uuid != who.uuid && x.row.identity.name == who.name)
       result.push_back({"members", uuid, ""});
   result.push_back(
-      {"members", who.uuid, json(member_record{who, entry.origin}).dump()});
+      {"members", who.uuid,
+       json(member_record{who, entry.origin, entry.server_id}).dump()});
   proposed_[who.uuid] = std::move(entry);
   return result;
 }
@@ -161,11 +186,12 @@ bool cell_registry::expects(const std::string& uuid) const {
   return find_uuid(uuid) != nullptr || proposed_.count(uuid) > 0;
 }
 
-bool cell_registry::is_known(const node_identity& who,
-                             join_origin origin) const {
+bool cell_registry::is_known(const node_identity& who, join_origin origin,
+                             int64_t server_id) const {
   const auto* x = find_uuid(who.uuid);
   return x && x->row.state != row_state::reserved
-         && x->row.identity.name == who.name && x->origin == origin;
+         && x->row.identity.name == who.name && x->origin == origin
+         && x->server_id == server_id;
 }
 
 } // namespace roscell

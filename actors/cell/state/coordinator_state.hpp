@@ -8,6 +8,7 @@
 #include "actors/cell/books/task_book.hpp"
 #include "actors/cell/books/transfer_book.hpp"
 #include "actors/cell/tasks/task_desk.hpp"
+#include "actors/edge/dds/ros_graph.hpp"
 #include "actors/house/alarm.hpp"
 #include "actors/house/house.hpp"
 #include "actors/placement/search_guard.hpp"
@@ -50,10 +51,11 @@ struct coordinator_setup {
   registration_client_actor registration;
   scheduler_actor scheduler; ///< Places what leaves with a node.
   int64_t server_id = 0;     ///< Of the discovery server.
+  int64_t ros_domain_id = 0; ///< Of the cell's skills.
   bool rebalance = true;     ///< Cells are evened out.
-  /// The topics that are written in the cell's DDS domain, as its discovery
-  /// server knows them; does not block. May be empty in tests.
-  std::function<std::vector<io_endpoint>()> topics;
+  /// What the cell's discovery server knows of ROS 2 topics. May be null in
+  /// tests.
+  std::shared_ptr<ros_graph> graph;
   /// The scheduler's; may be empty in tests.
   std::shared_ptr<search_guard> searches;
 };

@@ -1,5 +1,6 @@
 #include "actors/cell/tasks/cell_resources.hpp"
 
+#include "actors/cell/cell_topics.hpp"
 #include "actors/house/limits.hpp"
 #include "actors/placement/reservation.hpp"
 
@@ -39,8 +40,8 @@ void complete_tally(coordinator_pointer self, resource_tally& tally) {
   result.cell = st.setup.cell;
   result.skills = {st.registry.skills(""), st.registry.refused_skills()};
   result.written = written_in(st);
-  if (st.setup.topics)
-    result.topics = st.setup.topics();
+  if (st.setup.graph)
+    result.topics = written_topics(*st.setup.graph);
   for (auto& [name, node] : tally.nodes) {
     const auto* entry = st.registry.find_name(name);
     if (!entry || entry->row.state != row_state::active)

@@ -3,16 +3,17 @@
 #include "actors/edge/dds/announcement.hpp"
 #include "actors/edge/dds/rtps/discovery_transport.hpp"
 #include "actors/house/limits.hpp"
+#include "dds/host_transport.hpp"
 
 #include <fastdds/rtps/RTPSDomain.h>
 #include <fastdds/rtps/participant/ParticipantDiscoveryInfo.h>
 #include <fastdds/rtps/participant/RTPSParticipant.h>
+#include <fastdds/rtps/reader/ReaderDiscoveryInfo.h>
 #include <fastdds/rtps/writer/WriterDiscoveryInfo.h>
 #include <fastrtps/utils/IPLocator.h>
 
 #include <algorithm>
-#include <random>
-#include <sstream>
+#include <array>
 #include <utility>
 
 namespace roscell {
@@ -24,16 +25,6 @@ using eprosima::fastrtps::Duration_t;
 
 Duration_t to_duration(std::chrono::seconds x) {
   return {static_cast<std::int32_t>(x.count()), 0};
-}
-
-/// With an id per participant, the GUID prefix of one that replaces another
-/// differs, also when the farewell of the first got lost. Fast DDS derives a
-/// port from the id, which must stay below 65536.
-std::int32_t make_participant_id() {
-  constexpr std::int32_t lowest = 1000; // Above those that Fast DDS hands out.
-  constexpr std::int32_t highest = 25000;
-  std::random_device source;
-  return std::uniform_int_distribution<std::int32_t>{lowest, highest}(source);
 }
 
 /// Collections grow by one entry as needed, up to what a flood may cost us.
@@ -56,6 +47,42 @@ sighting::kind to_kind(ParticipantDiscoveryInfo::DISCOVERY_STATUS status) {
   default:
     return sighting::kind::lost;
   }
+}
+
+bool is_there(sighting::kind what) {
+  return what == sighting::kind::appeared || what == sighting::kind::changed;
+}
+
+endpoint_guid to_guid(const GUID_t& x) {
+  endpoint_guid result{};
+  auto* end = std::copy(std::begin(x.guidPrefix.value),
+                        std::end(x.guidPrefix.value), result.begin());
+  std::copy(std::begin(x.entityId.value), std::end(x.entityId.value), end);
+  return result;
+}
+
+/// `durability` is DDS 1.4's, 2.2.3.4: later ones promise more.
+std::string durability_word(int durability) {
+  constexpr std::array<const char*, 4> words{"volatile", "transient_local",
+                                             "transient", "persistent"};
+  const auto last = static_cast<int>(words.size()) - 1;
+  return words.at(static_cast<std::size_t>(std::clamp(durability, 0, last)));
+}
+
+/// `data` is what is known of a reader or a writer.
+template <class ProxyData>
+void note(ros_graph& graph, const ProxyData& data, bool writes, bool gone) {
+  const auto which = to_guid(data.guid());
+  if (gone)
+    return graph.remove(which);
+  graph_endpoint end;
+  end.topic = data.topicName().to_string();
+  end.data_type = data.typeName().to_string();
+  end.writes = writes;
+  end.reliable = data.m_qos.m_reliability.kind
+                 == eprosima::fastdds::dds::RELIABLE_RELIABILITY_QOS;
+  end.durability = durability_word(data.m_qos.m_durability.kind);
+  graph.add(which, std::move(end));
 }
 
 sighting to_sighting(const ParticipantDiscoveryInfo& info) {
@@ -94,19 +121,16 @@ std::optional<edge_error> check_settings(std::uint32_t domain_id,
   return check_announcement(settings.announcement);
 }
 
-Locator_t udp_locator(const std::string& address, std::uint16_t port) {
-  Locator_t result;
-  IPLocator::createLocator(LOCATOR_KIND_UDPv4, address, port, result);
-  return result;
-}
-
 RTPSParticipantAttributes make_attributes(const participant_settings& settings,
                                           std::uint16_t port) {
   RTPSParticipantAttributes result;
   result.setName("roscell");
   result.useBuiltinTransports = false;
-  result.userTransports.push_back(
-      guarded_udp_transport(settings.address, settings.max_message_bytes));
+  const host_transport_options udp{settings.address,
+                                   settings.max_message_bytes};
+  result.userTransports.push_back(guarded(
+      settings.serves_programs ? host_transport(udp) : udp_transport(udp),
+      settings.route));
   result.userData.assign(settings.announcement.begin(),
                          settings.announcement.end());
   auto at = udp_locator(settings.address, port);
@@ -115,7 +139,8 @@ RTPSParticipantAttributes make_attributes(const participant_settings& settings,
   result.defaultUnicastLocatorList.push_back(at);
   // All ports are given above, so nothing depends on the domain's own.
   result.port.domainIDGain = 0;
-  result.builtin.use_WriterLivelinessProtocol = false;
+  // Stock programs ask for it for ever where it is missing.
+  result.builtin.use_WriterLivelinessProtocol = settings.serves_programs;
   auto& discovery = result.builtin.discovery_config;
   discovery.leaseDuration = to_duration(settings.lease);
   discovery.leaseDuration_announcementperiod =
@@ -125,16 +150,16 @@ RTPSParticipantAttributes make_attributes(const participant_settings& settings,
   return result;
 }
 
-rtps_participant::rtps_participant(on_sighting callback, topic_watch* topics)
-    : callback_(std::move(callback)), topics_(topics) {}
+rtps_participant::rtps_participant(on_sighting callback,
+                                   std::shared_ptr<ros_graph> graph)
+    : callback_(std::move(callback)), graph_(std::move(graph)) {}
 
-std::unique_ptr<rtps_participant>
-rtps_participant::create(std::uint32_t domain_id,
-                         RTPSParticipantAttributes attributes,
-                         on_sighting callback, topic_watch* topics) {
+std::unique_ptr<rtps_participant> rtps_participant::create(
+    std::uint32_t domain_id, RTPSParticipantAttributes attributes,
+    on_sighting callback, std::shared_ptr<ros_graph> graph) {
   attributes.participantID = make_participant_id();
   std::unique_ptr<rtps_participant> result{
-      new rtps_participant(std::move(callback), topics)};
+      new rtps_participant(std::move(callback), std::move(graph))};
   result->participant_ =
       RTPSDomain::createParticipant(domain_id, true, attributes, result.get());
   if (result->participant_ == nullptr)
@@ -170,22 +195,27 @@ std::uint16_t rtps_participant::port() const {
 void rtps_participant::onParticipantDiscovery(RTPSParticipant*,
                                               ParticipantDiscoveryInfo&& info) {
   auto seen = to_sighting(info);
+  if (graph_ && is_there(seen.what))
+    graph_->name_participant(seen.prefix, seen.name);
+  else if (graph_)
+    graph_->remove_participant(seen.prefix);
   std::lock_guard<std::mutex> lock{mutex_};
   if (callback_)
     callback_(seen);
 }
 
+void rtps_participant::onReaderDiscovery(RTPSParticipant*,
+                                         ReaderDiscoveryInfo&& info) {
+  if (graph_)
+    note(*graph_, info.info, false,
+         info.status == ReaderDiscoveryInfo::REMOVED_READER);
+}
+
 void rtps_participant::onWriterDiscovery(RTPSParticipant*,
                                          WriterDiscoveryInfo&& info) {
-  if (topics_ == nullptr)
-    return;
-  std::ostringstream writer;
-  writer << info.info.guid();
-  if (info.status == WriterDiscoveryInfo::REMOVED_WRITER)
-    topics_->remove(writer.str());
-  else
-    topics_->add(writer.str(), info.info.topicName().to_string(),
-                 info.info.typeName().to_string());
+  if (graph_)
+    note(*graph_, info.info, true,
+         info.status == WriterDiscoveryInfo::REMOVED_WRITER);
 }
 
 } // namespace roscell

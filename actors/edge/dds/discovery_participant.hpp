@@ -1,9 +1,11 @@
 #pragma once
 
 #include "actors/edge/dds/discovery_sighting.hpp"
-#include "actors/edge/dds/rtps/topic_watch.hpp"
+#include "actors/edge/dds/ros_graph.hpp"
+#include "actors/edge/dds/rtps/discovery_transport.hpp"
 #include "actors/edge/io/edge_error.hpp"
 #include "actors/house/limits.hpp"
+#include "dds/participant_ids.hpp"
 
 #include <chrono>
 #include <cstdint>
@@ -33,6 +35,10 @@ struct participant_settings {
   /// The most bytes in one datagram, sent or received. It costs memory: a
   /// buffer of this size for each direction.
   std::uint32_t max_message_bytes = 16384;
+  /// Programs of others are its clients: it hears those of this host at
+  /// 127.0.0.1, too, and answers what they ask about liveliness.
+  bool serves_programs = false;
+  std::shared_ptr<route_gate> route; ///< Null: none is ever shut.
 };
 
 /// `schema_violation` when it is over `limits::discovery::announcement_bytes`.
@@ -41,9 +47,6 @@ std::optional<edge_error> check_announcement(const std::string& bytes);
 /// `schema_violation` for a domain, periods or an announcement out of bounds.
 std::optional<edge_error> check_settings(std::uint32_t domain_id,
                                          const participant_settings& settings);
-
-eprosima::fastrtps::rtps::Locator_t udp_locator(const std::string& address,
-                                                std::uint16_t port);
 
 /// Attributes with everything set that does not depend on the kind of
 /// participant. Its discovery and user traffic share `port`.
@@ -55,12 +58,12 @@ class rtps_participant final
     : eprosima::fastrtps::rtps::RTPSParticipantListener {
 public:
   /// Null when Fast DDS refuses, which it explains in its log only.
-  /// `attributes` get a participant id of our own making. `topics` is told of
-  /// the writers that it hears of, and must outlive it.
+  /// `attributes` get a participant id of our own making. `graph` is told of
+  /// the endpoints that it hears of.
   static std::unique_ptr<rtps_participant>
   create(std::uint32_t domain_id,
          eprosima::fastrtps::rtps::RTPSParticipantAttributes attributes,
-         on_sighting callback, topic_watch* topics = nullptr);
+         on_sighting callback, std::shared_ptr<ros_graph> graph = nullptr);
 
   /// Says farewell to the others. The callback is not called any more once
   /// this has begun; not to be called by the callback.
@@ -80,11 +83,15 @@ public:
   std::uint16_t port() const;
 
 private:
-  rtps_participant(on_sighting callback, topic_watch* topics);
+  rtps_participant(on_sighting callback, std::shared_ptr<ros_graph> graph);
 
   void onParticipantDiscovery(
       eprosima::fastrtps::rtps::RTPSParticipant*,
       eprosima::fastrtps::rtps::ParticipantDiscoveryInfo&& info) override;
+
+  void
+  onReaderDiscovery(eprosima::fastrtps::rtps::RTPSParticipant*,
+                    eprosima::fastrtps::rtps::ReaderDiscoveryInfo&&) override;
 
   void
   onWriterDiscovery(eprosima::fastrtps::rtps::RTPSParticipant*,
@@ -92,7 +99,7 @@ private:
 
   std::mutex mutex_; // Held while the callback runs.
   on_sighting callback_;
-  topic_watch* topics_;
+  const std::shared_ptr<ros_graph> graph_;
   eprosima::fastrtps::rtps::RTPSParticipant* participant_ = nullptr;
 };
 

@@ -34,7 +34,18 @@ participant_settings to_settings(const cell_server_options& options) {
   result.lease = options.lease;
   result.announcement_period = options.announcement_period;
   result.max_message_bytes = max_server_message_bytes;
+  result.serves_programs = true;
   return result;
+}
+
+void add_remote(eprosima::fastrtps::rtps::DiscoverySettings& discovery,
+                const remote_server& x) {
+  eprosima::fastdds::rtps::RemoteServerAttributes remote;
+  const auto prefix = server_prefix(x.id);
+  std::copy(prefix.begin(), prefix.end(), remote.guidPrefix.value);
+  remote.metatrafficUnicastLocatorList.push_back(
+      udp_locator(x.address, x.port));
+  discovery.m_DiscoveryServers.push_back(remote);
 }
 
 /// The port that was chosen, or any, if it is free now.
@@ -45,14 +56,23 @@ edge_result<std::uint16_t> chosen_port(const cell_server_options& options) {
   return ntohs(std::get<udp_socket>(bound).local().sin_port);
 }
 
-auto server_attributes(const cell_server_options& options, std::uint16_t port) {
-  auto result = make_attributes(to_settings(options), port);
+auto server_attributes(const cell_server_options& options, std::uint16_t port,
+                       std::shared_ptr<route_gate> route) {
+  auto settings = to_settings(options);
+  settings.route = std::move(route);
+  auto result = make_attributes(settings, port);
   auto prefix = server_prefix(options.server_id);
   std::copy(prefix.begin(), prefix.end(), result.prefix.value);
   auto& discovery = result.builtin.discovery_config;
   discovery.discoveryProtocol = DiscoveryProtocol_t::SERVER;
   discovery.discoveryServer_client_syncperiod = {0, serve_repeat_period_ns};
+  if (options.remote)
+    add_remote(discovery, *options.remote);
   return result;
+}
+
+bool is_end(sighting::kind what) {
+  return what == sighting::kind::left || what == sighting::kind::lost;
 }
 
 } // namespace
@@ -70,9 +90,15 @@ public:
 
   bool open(const cell_server_options& options, std::uint16_t port) {
     port_ = port;
+    if (options.remote) {
+      remote_ = server_prefix(options.remote->id);
+      route_ = std::make_shared<route_gate>(options.remote->address,
+                                            options.remote->port);
+    }
+    graph_ = options.graph ? options.graph : std::make_shared<ros_graph>();
     participant_ = rtps_participant::create(
-        options.domain_id, server_attributes(options, port),
-        [this](const sighting& seen) { on_client(seen); }, &topics_);
+        options.domain_id, server_attributes(options, port, route_),
+        [this](const sighting& seen) { on_client(seen); }, graph_);
     if (participant_ == nullptr)
       return false;
     greeter_.start();
@@ -83,8 +109,13 @@ public:
     return port_;
   }
 
-  std::vector<written_topic> topics() const {
-    return topics_.topics();
+  const std::shared_ptr<ros_graph>& graph() const {
+    return graph_;
+  }
+
+  void reach_remote(bool is_there) {
+    if (route_)
+      route_->open(is_there);
   }
 
   void update_announcement(const std::string& bytes) {
@@ -101,6 +132,8 @@ private:
   void on_client(const sighting& seen) {
     if (seen.name == probe_name)
       return;
+    if (route_ && seen.prefix == remote_ && is_end(seen.what))
+      route_->open(false);
     count(seen);
     if (callback_)
       callback_(seen);
@@ -108,7 +141,7 @@ private:
 
   void count(const sighting& seen) {
     std::lock_guard<std::mutex> lock{mutex_};
-    if (seen.what == sighting::kind::left || seen.what == sighting::kind::lost)
+    if (is_end(seen.what))
       clients_.erase(seen.prefix);
     else if (clients_.insert(seen.prefix).second
              && clients_.size() <= max_greeted_clients)
@@ -120,7 +153,9 @@ private:
   std::mutex mutex_; // Guards what follows.
   std::set<guid_prefix> clients_;
   herald greeter_;
-  topic_watch topics_;
+  std::shared_ptr<ros_graph> graph_;
+  std::shared_ptr<route_gate> route_; // Null: there is no remote server.
+  guid_prefix remote_{};
   std::unique_ptr<rtps_participant> participant_;
 };
 
@@ -152,8 +187,12 @@ std::uint16_t cell_server::port() const {
   return impl_->port();
 }
 
-std::vector<written_topic> cell_server::topics() const {
-  return impl_->topics();
+const std::shared_ptr<ros_graph>& cell_server::graph() const {
+  return impl_->graph();
+}
+
+void cell_server::reach_remote(bool is_there) {
+  impl_->reach_remote(is_there);
 }
 
 std::optional<edge_error>

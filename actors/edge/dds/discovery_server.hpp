@@ -1,7 +1,7 @@
 #pragma once
 
 #include "actors/edge/dds/discovery_sighting.hpp"
-#include "actors/edge/dds/rtps/topic_watch.hpp"
+#include "actors/edge/dds/ros_graph.hpp"
 #include "actors/edge/io/edge_error.hpp"
 #include "actors/house/limits.hpp"
 
@@ -14,6 +14,13 @@
 
 namespace roscell {
 
+/// Another discovery server, which tells this one of its own clients.
+struct remote_server {
+  std::string address; ///< IPv4.
+  std::uint16_t port = 11811;
+  std::uint8_t id = 0;
+};
+
 struct cell_server_options {
   std::string address;         ///< An IPv4 address of this host.
   std::uint16_t port = 11811;  ///< UDP; 0 picks a free one.
@@ -25,10 +32,17 @@ struct cell_server_options {
   std::chrono::seconds lease = limits::discovery::lease;
   std::chrono::seconds announcement_period =
       limits::discovery::announcement_period; ///< Shorter than the lease.
+  std::optional<remote_server> remote;
+  std::shared_ptr<ros_graph> graph; ///< Null: one of its own.
 };
 
-/// A cell's discovery server: the SERVER participant that ROS 2 nodes of the
-/// cell, and our own `cell_client`s, register with.
+/// A discovery server: the SERVER participant that ROS 2 programs of the cell,
+/// and our own `cell_client`s, register with. The coordinator runs the cell's,
+/// and each member one for the programs on its host, whose remote server is the
+/// cell's. It hears programs of its own host at 127.0.0.1, too.
+///
+/// A remote server that is not there would cost 4.6 kB/s, so nothing is sent to
+/// it unless `reach_remote` has said that it is there.
 ///
 /// Fast DDS itself would take 110 ms to tell a new client the announcement.
 /// We send it as soon as a client appears, to all clients, as Fast DDS cannot
@@ -64,8 +78,12 @@ public:
   /// Where it listens.
   std::uint16_t port() const;
 
-  /// The ROS 2 topics that clients of this server write, an entry a writer.
-  std::vector<written_topic> topics() const;
+  /// What is known of the ends of ROS 2 topics, by remote servers' clients too.
+  const std::shared_ptr<ros_graph>& graph() const;
+
+  /// Whether to speak to the remote server. Not at first, nor after its
+  /// farewell or its silence of a lease.
+  void reach_remote(bool is_there);
 
   /// Tells all clients. `schema_violation` when it is too long.
   std::optional<edge_error> update_announcement(const std::string& bytes);

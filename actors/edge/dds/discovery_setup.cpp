@@ -1,6 +1,7 @@
 #include "actors/edge/dds/discovery_setup.hpp"
 
 #include <fastdds/dds/log/Log.hpp>
+#include <fastrtps/xmlparser/XMLProfileManager.h>
 
 #include <cstdlib>
 #include <memory>
@@ -32,6 +33,12 @@ void prepare_dds_environment(std::function<void(const std::string&)> on_error) {
                            "FASTRTPS_DEFAULT_PROFILES_FILE"})
     unsetenv(name);
   setenv("SKIP_DEFAULT_XML", "1", 1);
+  // Servers of two cells may have the same id, and so their GUID prefixes; in
+  // one process Fast DDS would take the one for the other.
+  eprosima::fastrtps::LibrarySettingsAttributes settings;
+  settings.intraprocess_delivery =
+      eprosima::fastrtps::IntraprocessDeliveryType::INTRAPROCESS_OFF;
+  eprosima::fastrtps::xmlparser::XMLProfileManager::library_settings(settings);
   Log::ClearConsumers();
   Log::SetVerbosity(Log::Error);
   if (on_error)

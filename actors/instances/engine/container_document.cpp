@@ -235,7 +235,7 @@ json container_document(const start_container& wish,
                         const container_files& files,
                         const container_setting& setting,
                         const std::string& notify_dir) {
-  return {
+  json result{
       {"Image", wish.image},
       {"User", std::to_string(::geteuid()) + ':' + std::to_string(::getegid())},
       {"Env", environment_json(wish)},
@@ -243,7 +243,12 @@ json container_document(const start_container& wish,
       // Signs of life come by the NOTIFY_SOCKET; the base image's own
       // check would only cost.
       {"Healthcheck", {{"Test", json::array({"NONE"})}}},
-      {"HostConfig", host_json(wish, files, setting, notify_dir)}};
+      {"HostConfig", host_json(wish, files, setting, notify_dir)},
+      {"StopSignal", std::to_string(wish.stop_signal)}};
+  // A program of the base image; else the image says which.
+  if (!wish.command.empty() && wish.command.front().front() == '/')
+    result["Entrypoint"] = wish.command;
+  return result;
 }
 
 } // namespace roscell

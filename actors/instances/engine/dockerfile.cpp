@@ -53,7 +53,8 @@ std::string dockerfile_of(const image_recipe& recipe) {
     text += std::string{"ENV LD_LIBRARY_PATH="} + image_library_dir + "\n";
   text += std::string{"WORKDIR "} + image_skill_dir + "\n";
   text += "LABEL roscell.skill=" + recipe.skill + "\n";
-  text += "ENTRYPOINT " + in_one_line(program_in_image(recipe)) + "\n";
+  if (!recipe.entry_point.empty())
+    text += "ENTRYPOINT " + in_one_line(program_in_image(recipe)) + "\n";
   return text;
 }
 

@@ -14,9 +14,9 @@ constexpr const char* image_library_dir = "/opt/roscell/lib";
 /// What the image of a skill is made from.
 struct image_recipe {
   std::string operation;
-  std::string skill;      ///< Content hash of the skill folder.
-  std::string base_image; ///< Printable and without spaces.
-  std::vector<std::string> entry_point;
+  std::string skill;                    ///< Content hash of the skill folder.
+  std::string base_image;               ///< Printable and without spaces.
+  std::vector<std::string> entry_point; ///< Empty: the base image's program.
   std::vector<shared_library> libraries;
 };
 

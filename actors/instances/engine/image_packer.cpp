@@ -18,13 +18,21 @@ namespace {
 using image_packer_self =
     image_packer_actor::stateful_pointer<image_packer_state>;
 
-caf::result<image_planned> plan(image_packer_self self,
-                                const prepare_image& wish) {
+/// What the base image may lack of what the skill's own program needs.
+edge_result<std::vector<shared_library>>
+libraries_for(const prepare_image& wish) {
+  if (wish.entry_point.empty())
+    return std::vector<shared_library>{};
   const auto program = find_program(wish.skill_dir, wish.entry_point);
   if (const auto* error = std::get_if<edge_error>(&program))
-    return to_caf(*error);
-  auto libraries =
-      find_libraries(wish.skill_dir, std::get<std::filesystem::path>(program));
+    return *error;
+  return find_libraries(wish.skill_dir,
+                        std::get<std::filesystem::path>(program));
+}
+
+caf::result<image_planned> plan(image_packer_self self,
+                                const prepare_image& wish) {
+  auto libraries = libraries_for(wish);
   if (const auto* error = std::get_if<edge_error>(&libraries))
     return to_caf(*error);
   image_recipe recipe{

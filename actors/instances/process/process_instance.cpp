@@ -52,11 +52,16 @@ program shim_for(const process_runtime_config& config, const fs::path& dir,
                  const start_container& wish) {
   program result;
   result.path = config.shim;
-  result.arguments = {
-      "--dir",       dir.string(),
-      "--log-bytes", std::to_string(config.log_bytes),
-      "--cwd",       wish.image,
-      "--",          (fs::path{wish.image} / wish.command.at(0)).string()};
+  result.arguments = {"--dir",
+                      dir.string(),
+                      "--log-bytes",
+                      std::to_string(config.log_bytes),
+                      "--cwd",
+                      wish.image,
+                      "--stop-signal",
+                      std::to_string(wish.stop_signal),
+                      "--",
+                      (fs::path{wish.image} / wish.command.at(0)).string()};
   result.arguments.insert(result.arguments.end(), wish.command.begin() + 1,
                           wish.command.end());
   result.environment = wish.environment;

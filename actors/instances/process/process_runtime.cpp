@@ -69,9 +69,11 @@ bool is_outdated(const running_process& x, const std::string& container) {
 }
 
 caf::result<image_prepared> prepare(const prepare_image& wish) {
-  const auto found = find_program(wish.skill_dir, wish.entry_point);
-  if (const auto* error = std::get_if<edge_error>(&found))
-    return to_caf(*error);
+  if (!wish.entry_point.empty()) {
+    const auto found = find_program(wish.skill_dir, wish.entry_point);
+    if (const auto* error = std::get_if<edge_error>(&found))
+      return to_caf(*error);
+  }
   const auto same = check_build(wish);
   if (const auto* error = std::get_if<edge_error>(&same))
     return to_caf(*error);

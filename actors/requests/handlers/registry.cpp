@@ -40,6 +40,7 @@ void add_cell_queries(request_registry& registry) {
   const auto whom = &services::coordinator;
   registry.add(forward_within<cell_query, cell_description>(soon, whom));
   registry.add(forward_within<cell_list_query, cell_list>(soon, whom));
+  registry.add(forward_within<topic_query, topic_list>(soon, whom));
   registry.add(forward_within<task_query, task_description>(soon, whom));
   registry.add(
       forward_within<instance_query, instance_description>(soon, whom));

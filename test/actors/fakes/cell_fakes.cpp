@@ -30,8 +30,8 @@ caf::result<node_registered> enter(fake_site* site, const register_node& x) {
   if (row.member && row.member != x.member)
     caf::anon_send(row.member, close_session{"it has registered again"});
   row = {who, x.member, true, "", x.registration};
-  return node_registered{base.cell, base.name, base.incarnation, base.verdicts,
-                         base.cell_uuid};
+  return node_registered{base.cell,     base.name,      base.incarnation,
+                         base.verdicts, base.cell_uuid, base.discovery};
 }
 
 node_departed drop(fake_site* site, const depart_node& x) {
@@ -70,7 +70,7 @@ caf::behavior coordinator(caf::event_based_actor* self, fake_site* site) {
         for (auto& promise : std::exchange(base.unanswered, {}))
           promise.deliver(node_registered{base.cell, base.name,
                                           base.incarnation, base.verdicts,
-                                          base.cell_uuid});
+                                          base.cell_uuid, base.discovery});
       },
       [=](const depart_node& x) { return drop(site, x); },
       [=](const member_lost& fact) { lose(site, fact); },
@@ -161,6 +161,13 @@ caf::behavior local_parts(caf::event_based_actor* self, fake_site* site,
           self->send(node->membership, announcement(site->base));
       },
       [=](const forget_coordinator&) { node->searching = false; },
+      [=](const serve_programs& x) {
+        node->served = x;
+        const auto port = x.port != 0 ? x.port : 11811;
+        return programs_served{"10.0.0.9:" + std::to_string(port)};
+      },
+      [=](const stop_serving&) { node->served.reset(); },
+      [=](const use_environment& x) { node->environment = x.environment; },
       [](const announce_presence&) {
         // Nobody else is on this site.
       },

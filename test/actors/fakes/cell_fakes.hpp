@@ -33,7 +33,8 @@ struct fake_row {
 struct fake_coordinator {
   cell_coordinator_actor actor; ///< Invalid while it is down.
   std::string cell = "cell-1";
-  std::string cell_uuid; ///< Empty: it tells none.
+  std::string cell_uuid;                  ///< Empty: it tells none.
+  std::vector<discovery_place> discovery; ///< What it gives every node.
   std::string name = "base";
   int64_t incarnation = 1;
   std::map<std::string, fake_row> rows; ///< By name.
@@ -55,10 +56,12 @@ struct fake_node {
   caf::actor local; ///< Plays every part that a membership works with.
   bool searching = false;
   size_t searches = 0;
-  wire_ptr link;                  ///< The latest.
-  std::optional<failure> refusal; ///< Of sessions.
-  address_scouted scouted;        ///< What the scout sees; nothing answers.
-  size_t looks = 0;               ///< Of the scout.
+  std::optional<serve_programs> served;           ///< Its own discovery server.
+  std::map<std::string, std::string> environment; ///< Of its instances.
+  wire_ptr link;                                  ///< The latest.
+  std::optional<failure> refusal;                 ///< Of sessions.
+  address_scouted scouted; ///< What the scout sees; nothing answers.
+  size_t looks = 0;        ///< Of the scout.
   std::map<std::string, std::string> names; ///< Of hosts, to addresses.
   std::vector<std::string> sought;          ///< Discovery servers.
   std::optional<failure> deployment_refusal;

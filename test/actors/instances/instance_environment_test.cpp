@@ -44,6 +44,17 @@ TEST_CASE("an instance is told who it is, what it works on, and how") {
   CHECK(env.count("ROSCELL_GPU") == 0);
 }
 
+TEST_CASE("what the node says of the cell counts more than what the spec "
+          "says, and less than the contract") {
+  auto spec = example();
+  spec.environment = {{"ROS_DOMAIN_ID", "1"}, {"LEVEL", "2"}};
+  const auto env = instance_environment(
+      spec, {}, {{"ROS_DOMAIN_ID", "7"}, {"ROSCELL_TASK", "x"}});
+  CHECK(env.at("ROS_DOMAIN_ID") == "7");
+  CHECK(env.at("LEVEL") == "2");
+  CHECK(env.at("ROSCELL_TASK") == "t");
+}
+
 TEST_CASE("an instance without parameters gets an empty object") {
   auto spec = example();
   spec.parameters.clear();

@@ -4,6 +4,7 @@
 #include "tools/roscell/commands/watch.hpp"
 #include "tools/roscell/common_options.hpp"
 #include "tools/roscell/exit_code.hpp"
+#include "tools/roscell/ros2/topics_view.hpp"
 #include "tools/roscell/view/formation_view.hpp"
 #include "tools/roscell/view/shape/shape.hpp"
 #include "tools/roscell/view/terminal.hpp"
@@ -70,6 +71,16 @@ const subject subjects[] = {
      "/v1/instances",
      {"instances"},
      view_of<instance_description, instances_view>},
+    {"topics",
+     "List the ROS 2 topics of the cell, who writes and who reads them.",
+     "Each end is named by its instance; a stock ROS 2 program by its enclave, "
+     "which is / unless\nit was given another. Ends whose QoS does not match "
+     "are told below the table.\nA member asks its coordinator.\n\n"
+     "Examples:\n  roscell topics\n  roscell topics -o json",
+     nullptr,
+     "/v1/topics",
+     {"topics"},
+     view_of<topic_list, topics_view>},
     {"skills",
      "List the skills that the cell, or a lone node, can run.",
      "Examples:\n  roscell skills\n  roscell skills -o json",

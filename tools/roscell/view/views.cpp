@@ -105,6 +105,11 @@ std::string trouble_of(const cell_row& row, const cell_list& cells) {
   return std::to_string(claims) + " coordinators claim this name";
 }
 
+std::string variable_of(const cell_row& row, const char* name) {
+  const auto i = row.environment.find(name);
+  return i == row.environment.end() ? "" : i->second;
+}
+
 /// A node that is in no cell has no row, so little is known of it.
 std::vector<std::string> free_row(const free_node& node,
                                   const view_style& style) {
@@ -137,7 +142,9 @@ std::string cells_view(const cell_list& cells, const view_style& style) {
            {"COORDINATOR"},
            {"NODES", align::right},
            {"ADDRESS", align::left, 2, true},
-           {"DISCOVERY SERVER", align::left, 3, true}},
+           {"DISCOVERY SERVER", align::left, 4, true},
+           {"ROS_DISCOVERY_SERVER", align::left, 3, true},
+           {"ROS_DOMAIN_ID", align::right, 3}},
           {}};
   bool troubled = false;
   for (const auto& row : cells.cells) {
@@ -146,7 +153,9 @@ std::string cells_view(const cell_list& cells, const view_style& style) {
     // A coordinator counts itself, so nobody has told a size of 0.
     t.rows.push_back({row.cell, row.coordinator,
                       row.size == 0 ? "" : std::to_string(row.size),
-                      row.address, row.discovery_server, trouble});
+                      row.address, row.discovery_server,
+                      variable_of(row, "ROS_DISCOVERY_SERVER"),
+                      variable_of(row, "ROS_DOMAIN_ID"), trouble});
   }
   // The cells of a row are cut to the number of columns.
   if (troubled)
@@ -216,6 +225,7 @@ std::string instances_view(const instance_description& instances,
            {"RATE", align::right, 1},
            {"DROPPED", align::right, 3},
            {"LATENCY", align::right, 2},
+           {"DATA AGE", align::right, 2},
            {"DEPLOYMENT", align::left, 7},
            {"EXIT", align::right, 3},
            {"REMARK", align::left, 4}},
@@ -226,6 +236,7 @@ std::string instances_view(const instance_description& instances,
                       state_text(row), since_text(row, style),
                       count_text(x.frames), figure(x.rate_hz, 1, " Hz"),
                       count_text(x.dropped), figure(x.latency_ms, 2, " ms"),
+                      figure(x.age_ms, 1, " ms"),
                       row.spec.model + "/" + row.spec.deployment,
                       exit_text(row.exit_code), remark(row)});
   }

@@ -129,16 +129,6 @@ bytes data_message(const guid_prefix& self, std::uint8_t flags,
 
 } // namespace
 
-guid_prefix server_prefix(std::uint8_t id) {
-  return {0x44, 0x53, id, 0x5f, 0x45, 0x50, 0x52, 0x4f, 0x53, 0x49, 0x4d, 0x41};
-}
-
-std::optional<std::uint8_t> server_id_of(const guid_prefix& prefix) {
-  if (prefix != server_prefix(prefix[2]))
-    return std::nullopt;
-  return prefix[2];
-}
-
 std::string to_text(const guid_prefix& prefix) {
   constexpr const char* digits = "0123456789abcdef";
   std::string result;

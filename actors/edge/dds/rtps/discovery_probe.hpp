@@ -1,6 +1,7 @@
 #pragma once
 
-#include <array>
+#include "dds/server_ids.hpp"
+
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -10,16 +11,6 @@
 #include <netinet/in.h>
 
 namespace roscell {
-
-/// Which participant an RTPS datagram comes from.
-using guid_prefix = std::array<std::uint8_t, 12>;
-
-/// The GUID prefix that ROS 2 users expect of discovery server `id`:
-/// 44.53.ID.5f.45.50.52.4f.53.49.4d.41.
-guid_prefix server_prefix(std::uint8_t id);
-
-/// The id of the server that has `prefix`, none if it is no such prefix.
-std::optional<std::uint8_t> server_id_of(const guid_prefix& prefix);
 
 /// "44.53.03.5f.…"
 std::string to_text(const guid_prefix& prefix);

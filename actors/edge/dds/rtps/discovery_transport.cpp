@@ -1,6 +1,7 @@
 #include "actors/edge/dds/rtps/discovery_transport.hpp"
 
 #include "actors/edge/dds/rtps/discovery_filter.hpp"
+#include "dds/participant_ids.hpp"
 
 #include <fastdds/rtps/transport/ChainingTransport.h>
 #include <fastdds/rtps/transport/ChainingTransportDescriptor.h>
@@ -10,6 +11,7 @@
 
 #include <mutex>
 #include <set>
+#include <utility>
 #include <vector>
 
 namespace roscell {
@@ -20,9 +22,14 @@ namespace rtps = eprosima::fastrtps::rtps;
 using namespace eprosima::fastdds::rtps;
 
 struct guarded_descriptor : ChainingTransportDescriptor {
-  using ChainingTransportDescriptor::ChainingTransportDescriptor;
+  guarded_descriptor(std::shared_ptr<TransportDescriptorInterface> lower,
+                     std::shared_ptr<route_gate> shut_route)
+      : ChainingTransportDescriptor(std::move(lower)),
+        route(std::move(shut_route)) {}
 
   TransportInterface* create_transport() const override;
+
+  std::shared_ptr<route_gate> route;
 };
 
 class guarded_transport : public ChainingTransport {
@@ -53,7 +60,8 @@ public:
     {
       std::lock_guard<std::mutex> lock{mutex_};
       for (; *first != *last; ++*first)
-        if (opened_.count(**first) != 0)
+        if (opened_.count(**first) != 0
+            && (!descriptor_.route || descriptor_.route->passes(**first)))
           opened.push_back(**first);
     }
     Locators begin{opened.cbegin()};
@@ -83,13 +91,22 @@ TransportInterface* guarded_descriptor::create_transport() const {
 
 } // namespace
 
+route_gate::route_gate(const std::string& address, std::uint16_t port)
+    : to_(udp_locator(address, port)) {}
+
 std::shared_ptr<TransportDescriptorInterface>
-guarded_udp_transport(const std::string& address,
-                      std::uint32_t max_message_bytes) {
-  auto udp = std::make_shared<UDPv4TransportDescriptor>();
-  udp->interfaceWhiteList = {address};
-  udp->maxMessageSize = max_message_bytes;
-  return std::make_shared<guarded_descriptor>(udp);
+udp_transport(const host_transport_options& options) {
+  auto result = std::make_shared<UDPv4TransportDescriptor>();
+  result->interfaceWhiteList = {options.address};
+  result->maxMessageSize = options.max_message_bytes;
+  return result;
+}
+
+std::shared_ptr<TransportDescriptorInterface>
+guarded(std::shared_ptr<TransportDescriptorInterface> lower,
+        std::shared_ptr<route_gate> route) {
+  return std::make_shared<guarded_descriptor>(std::move(lower),
+                                              std::move(route));
 }
 
 } // namespace roscell

@@ -46,6 +46,42 @@ TEST_CASE("A name belongs to one UUID while its row is active",
         == "the name 'arm' belongs to the node with UUID u1 at 10.0.0.2:8420");
 }
 
+TEST_CASE("A node's discovery server gets an id that no other has",
+          "[cell_registry]") {
+  cell_registry registry;
+  CHECK(registry.choose_server_id("u1", -1, false, {0}) == 1);
+  auto arm = node("arm", "u1");
+  arm.server_id = 1;
+  registry.activate(arm, at(0ms));
+  CHECK(registry.choose_server_id("u2", -1, false, {0, 2}) == 3);
+  CHECK(registry.choose_server_id("u2", 1, true, {0}) == 2);
+  CHECK(registry.choose_server_id("u2", 7, true, {0}) == 7);
+}
+
+TEST_CASE("A node keeps the id of its discovery server, unless another cell "
+          "gave it the same",
+          "[cell_registry]") {
+  cell_registry registry;
+  registry.expect({{"arm", "u1", 1, ""}, join_origin::given, 9}, at(0ms));
+  CHECK(registry.choose_server_id("u1", -1, false, {0}) == 9);
+  CHECK(registry.choose_server_id("u1", 12, false, {0}) == 9);
+  CHECK(registry.choose_server_id("u1", 9, true, {0}) == 9);
+  CHECK(registry.choose_server_id("u1", 9, false, {0}) == 1);
+  CHECK(registry.choose_server_id("u2", 1, false, {0}) == 2);
+}
+
+TEST_CASE("A cell runs out of ids for discovery servers, and says so",
+          "[cell_registry]") {
+  cell_registry registry;
+  for (int i = 1; i < 256; ++i) {
+    auto x = node("n" + std::to_string(i), "u" + std::to_string(i));
+    x.server_id = i;
+    registry.activate(x, at(0ms));
+  }
+  CHECK(registry.choose_server_id("more", -1, false, {0}) == -1);
+  CHECK(registry.choose_server_id("u7", 7, true, {0}) == 7);
+}
+
 TEST_CASE("A lost node keeps its name for one lease", "[cell_registry]") {
   cell_registry registry;
   auto& row = registry.activate(node("arm", "u1"), at(0ms));

@@ -54,6 +54,8 @@ json name_of(const json& x) {
       return name;
   if (x.contains("submitted_unix_ms"))
     return text_at(x, {"task"});
+  if (x.contains("writers"))
+    return text_at(x, {"topic"});
   return x.contains("discovery_server") ? text_at(x, {"cell"}) : json{};
 }
 

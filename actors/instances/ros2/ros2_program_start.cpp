@@ -1,0 +1,183 @@
+#include "actors/instances/ros2/ros2_program_start.hpp"
+
+#include "messages/codec/json_codec.hpp"
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+
+namespace roscell {
+
+namespace {
+
+/// Finds the program by the ament index, as `ros2 run` and `ros2 launch` do,
+/// and becomes it. Arguments: what it is, its package, its name, how many files
+/// to source, those files, and its own arguments.
+constexpr const char* start_script = R"(
+fail() { echo "ros2_standalone: $*" >&2; exit 127; }
+kind=$1 package=$2 name=$3 setups=$4
+shift 4
+if (( setups == 0 )) && [[ -z ${AMENT_PREFIX_PATH:-} ]]; then
+  for file in /opt/ros/*/setup.bash; do
+    [[ -r $file ]] && source "$file"
+  done
+fi
+for (( ; setups > 0; --setups )); do
+  [[ -r $1 ]] || fail "there is no '$1' to source; correct \"setup\""
+  source "$1"
+  shift
+done
+if [[ $name == /* ]]; then
+  path=$name
+else
+  IFS=: read -ra prefixes <<< "${AMENT_PREFIX_PATH:-}"
+  for prefix in "${prefixes[@]}"; do
+    [[ -e $prefix/share/ament_index/resource_index/packages/$package ]] \
+      && { found=$prefix; break; }
+  done
+  [[ -n ${found:-} ]] \
+    || fail "there is no package '$package' in AMENT_PREFIX_PATH" \
+            "'${AMENT_PREFIX_PATH:-}'; correct \"package\", or name the" \
+            "workspace's setup.bash in \"setup\""
+  path=$found/lib/$package/$name
+  if [[ $kind == launch ]]; then
+    path=$found/share/$package/launch/$name
+    [[ -e $path ]] || path=$found/share/$package/$name
+  fi
+fi
+if [[ $kind == launch ]]; then
+  [[ -r $path ]] || fail "there is no launch file '$path'"
+  command -v ros2 > /dev/null || fail "there is no 'ros2' to launch '$path'"
+  exec ros2 launch "$path" "$@"
+fi
+[[ -x $path ]] || fail "there is no program '$path'"
+exec "$path" "$@"
+)";
+
+using word_list = std::vector<std::string>;
+
+/// A word that ROS 2 takes for a name: other characters become '_'.
+std::string ros_name(std::string_view text) {
+  std::string result{text};
+  std::replace_if(
+      result.begin(), result.end(),
+      [](char c) {
+        return !((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z')
+                 || (c >= '0' && c <= '9') || c == '_');
+      },
+      '_');
+  const bool begins_badly =
+      result.empty() || (result[0] >= '0' && result[0] <= '9');
+  return begins_badly ? "_" + result : result;
+}
+
+/// "input:1" is the second input, "input" the first.
+const io_endpoint* find_end(const instance_spec& spec,
+                            const std::string& place) {
+  const auto& ends = place.rfind("input", 0) == 0 ? spec.input : spec.output;
+  const auto colon = place.find(':');
+  const size_t number =
+      colon == std::string::npos ? 0 : std::stoul(place.substr(colon + 1));
+  return number < ends.size() ? &ends[number] : nullptr;
+}
+
+/// The descriptor's, replaced by what model and step say.
+json parameters_of(const ros2_program& program, const instance_spec& spec) {
+  json result = json::object();
+  for (const auto* text : {&program.parameters, &spec.parameters}) {
+    const auto said = json::parse(*text, nullptr, false);
+    if (said.is_object())
+      result.update(said);
+  }
+  return result;
+}
+
+/// ROS 2 reads values as YAML, of which JSON is a part.
+std::string value_text(const json& value) {
+  return value.dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
+/// Launch files read text as it is.
+std::string argument_text(const json& value) {
+  return value.is_string() ? value.get<std::string>() : value_text(value);
+}
+
+void add_endpoint(watch_endpoints& to, const std::string& place,
+                  const std::string& topic) {
+  (place.rfind("input", 0) == 0 ? to.read : to.written).push_back(topic);
+}
+
+word_list ros_arguments(const ros2_program& program, const instance_spec& spec,
+                        const std::string& enclave,
+                        const std::map<std::string, std::string>& topics) {
+  auto result = program.arguments;
+  result.insert(result.end(),
+                {"--ros-args", "-r", "__node:=" + ros_name(spec.step), "-r",
+                 "__ns:=/" + ros_name(spec.task), "--enclave", enclave});
+  for (const auto& [own, topic] : topics)
+    result.insert(result.end(), {"-r", own + ":=" + topic});
+  const auto parameters = parameters_of(program, spec);
+  for (const auto& [name, value] : parameters.items())
+    result.insert(result.end(), {"-p", name + ":=" + value_text(value)});
+  return result;
+}
+
+word_list launch_arguments(const ros2_program& program,
+                           const instance_spec& spec,
+                           const std::map<std::string, std::string>& topics) {
+  auto result = program.arguments;
+  for (const auto& [name, topic] : topics)
+    result.push_back(name + ":=" + topic);
+  const auto parameters = parameters_of(program, spec);
+  for (const auto& [name, value] : parameters.items())
+    result.push_back(name + ":=" + argument_text(value));
+  return result;
+}
+
+} // namespace
+
+std::variant<ros2_start, failure> ros2_start_of(const ros2_program& program,
+                                                const instance_spec& spec) {
+  ros2_start result;
+  result.endpoints.instance = spec.instance;
+  std::map<std::string, std::string> topics;
+  for (const auto& [own, place] : program.topics) {
+    const auto* end = find_end(spec, place);
+    if (end == nullptr)
+      return failure{error_code::engine_failed,
+                     "the topic '" + own + "' of its program stands for "
+                         + place + ", which step '" + spec.step + "' has not",
+                     "",
+                     "give the step that " + place.substr(0, place.find(':'))
+                         + ", or correct \"topics\" in its skill.json"};
+    topics[own] = end->endpoint;
+    add_endpoint(result.endpoints, place, end->endpoint);
+  }
+  // What every node of ROS 2 writes.
+  if (topics.empty())
+    result.endpoints.written = {"/rosout"};
+  const bool launches = !program.launch.empty();
+  const auto enclave = "/" + ros_name(spec.instance);
+  if (!launches)
+    result.endpoints.program = enclave;
+  result.command = {"/bin/bash",
+                    "-c",
+                    start_script,
+                    "ros2_standalone",
+                    launches ? "launch" : "run",
+                    program.package,
+                    launches ? program.launch : program.executable,
+                    std::to_string(program.setup.size())};
+  const auto add = [&](const word_list& words) {
+    result.command.insert(result.command.end(), words.begin(), words.end());
+  };
+  add(program.setup);
+  add(launches ? launch_arguments(program, spec, topics)
+               : ros_arguments(program, spec, enclave, topics));
+  result.environment = {{"RMW_IMPLEMENTATION", "rmw_fastrtps_cpp"},
+                        {"ROS_LOCALHOST_ONLY", "0"},
+                        {"PYTHONUNBUFFERED", "1"}};
+  return result;
+}
+
+} // namespace roscell

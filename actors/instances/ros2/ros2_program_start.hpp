@@ -1,0 +1,31 @@
+#pragma once
+
+#include "messages/failure.hpp"
+#include "messages/inside/link.hpp"
+#include "messages/instance.hpp"
+#include "messages/skill_descriptor.hpp"
+
+#include <map>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace roscell {
+
+/// How a stock ROS 2 program is run as a step, and how it is known when it
+/// does.
+struct ros2_start {
+  std::vector<std::string> command;
+  std::map<std::string, std::string> environment;
+  watch_endpoints endpoints; ///< That it has once it is ready.
+};
+
+/// An executable gets `--ros-args`: its node's name and namespace ("/task",
+/// "step"), the topics of the step in place of its own, the parameters, and an
+/// enclave of its own, which names its DDS participant. A launch file gets its
+/// arguments, and topics and parameters as such; all that it starts counts.
+/// Refused when a topic stands for an end that the step has not.
+std::variant<ros2_start, failure> ros2_start_of(const ros2_program& program,
+                                                const instance_spec& spec);
+
+} // namespace roscell

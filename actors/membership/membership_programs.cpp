@@ -1,0 +1,100 @@
+#include "actors/edge/io/socket_address.hpp"
+#include "actors/house/limits.hpp"
+#include "actors/membership/membership_steps.hpp"
+#include "dds/server_ids.hpp"
+#include "messages/failure.hpp"
+
+#include <utility>
+
+namespace roscell::membership_steps {
+
+namespace {
+
+/// Instances that run have the environment that they were started with: it
+/// names the server, whose id and port stay the same in a cell.
+void publish_environment(self_pointer self) {
+  self->send(self->state.parts.supervisor,
+             use_environment{program_environment(self->state)});
+}
+
+void on_served(self_pointer self, const discovery_place& place,
+               const programs_served& reply) {
+  auto& st = self->state;
+  if (!st.programs || !(st.programs->place == place))
+    return;
+  st.programs->address = reply.address;
+  publish_environment(self);
+  // The server hears from the coordinator's what the CLIENT heard.
+  if (st.phase == membership_phase::joined)
+    self->send(st.parts.discovery, forget_coordinator{});
+  if (st.standing == node_state::member)
+    store_membership(self);
+}
+
+/// Without it programs use the coordinator's server: slower to find each other
+/// when the coordinator is away, but no reason to leave the cell.
+void on_unserved(self_pointer self, const caf::error& why) {
+  tell(self, "edge_trouble",
+       {{"message",
+         "this node's own discovery server: " + to_failure(why).message}});
+}
+
+void ask_to_serve(self_pointer self, uint16_t port, bool remote_is_there) {
+  auto& st = self->state;
+  const auto place = st.programs->place;
+  self->request(st.parts.discovery, limits::local::part,
+                serve_programs{place, port, remote_is_there})
+      .then([self,
+             place](const programs_served& x) { on_served(self, place, x); },
+            [self](const caf::error& why) { on_unserved(self, why); });
+}
+
+} // namespace
+
+uint16_t program_port(const membership_status& st) {
+  const auto at =
+      st.programs ? parse_socket_address(st.programs->address) : std::nullopt;
+  return at ? at->port : 0;
+}
+
+void serve_programs_of(self_pointer self, const node_registered& reply) {
+  auto& st = self->state;
+  if (reply.discovery.empty())
+    return stop_programs(self);
+  const auto& place = reply.discovery.front();
+  const auto port = program_port(st);
+  if (!st.programs || !(st.programs->place == place))
+    st.programs = program_service{place, reply.cell_uuid, {}};
+  st.programs->cell_uuid = reply.cell_uuid;
+  ask_to_serve(self, port, true);
+}
+
+void resume_programs(self_pointer self) {
+  auto& st = self->state;
+  if (!st.stored || st.stored->discovery.empty())
+    return;
+  st.programs =
+      program_service{st.stored->discovery.front(), st.stored->server_cell, {}};
+  ask_to_serve(self, st.stored->discovery_port, false);
+}
+
+void stop_programs(self_pointer self) {
+  auto& st = self->state;
+  if (!std::exchange(st.programs, std::nullopt))
+    return;
+  self->send(st.parts.discovery, stop_serving{});
+  publish_environment(self);
+}
+
+std::map<std::string, std::string>
+program_environment(const membership_status& st) {
+  if (!st.programs || st.programs->address.empty())
+    return {};
+  const auto& place = st.programs->place;
+  return {{"ROS_DOMAIN_ID", std::to_string(place.domain_id)},
+          {"ROS_DISCOVERY_SERVER",
+           ros_discovery_server(static_cast<uint8_t>(place.server_id),
+                                st.programs->address)}};
+}
+
+} // namespace roscell::membership_steps

@@ -1,0 +1,95 @@
+#include "actors/instances/graph_watch.hpp"
+
+#include "test/actors/fakes/supervision_fakes.hpp"
+
+using namespace roscell;
+using namespace roscell::test;
+
+namespace {
+
+using words = std::vector<std::string>;
+
+endpoint_guid guid(std::uint8_t who, std::uint8_t number) {
+  endpoint_guid result{};
+  result[0] = who;
+  result[15] = number;
+  return result;
+}
+
+graph_endpoint image(bool writes) {
+  return {"rt/image", "sensor_msgs::msg::dds_::Image_",
+          writes,     true,
+          "volatile", ""};
+}
+
+/// A watch between a graph and somebody who wants a writer and a reader.
+struct watch_bench : virtual_time {
+  watch_bench() {
+    watch = roscell::spawn(system, context, graph_watch, graph);
+  }
+
+  ~watch_bench() {
+    kill(watch);
+  }
+
+  /// Sends `wish` and keeps what is told.
+  caf::actor ask(const watch_endpoints& wish) {
+    auto told_to = &told;
+    auto result = system.spawn(
+        [=, to = watch](caf::event_based_actor* self) -> caf::behavior {
+          self->send(to, wish);
+          return {[=](const endpoints_missing& x) {
+            told_to->push_back(x.missing);
+          }};
+        });
+    settle();
+    return result;
+  }
+
+  std::shared_ptr<ros_graph> graph = std::make_shared<ros_graph>();
+  graph_watch_actor watch;
+  std::vector<words> told;
+};
+
+} // namespace
+
+TEST_CASE_METHOD(watch_bench, "what a program lacks is told at once and when "
+                              "it changes") {
+  const auto who = ask({"i", "/i", {"/image"}, {"/image"}});
+  REQUIRE(told.size() == 1);
+  CHECK(told[0] == words{"a writer of /image", "a reader of /image"});
+  graph->name_participant({1}, "/i");
+  graph->add(guid(1, 1), image(true));
+  settle();
+  REQUIRE(told.size() == 2);
+  CHECK(told[1] == words{"a reader of /image"});
+  graph->add(guid(1, 2), image(false));
+  settle();
+  CHECK(told.back().empty());
+  graph->remove(guid(1, 1));
+  settle();
+  CHECK(told.back() == words{"a writer of /image"});
+  caf::anon_send_exit(who, caf::exit_reason::kill);
+}
+
+TEST_CASE_METHOD(watch_bench, "ends of other programs count only where any "
+                              "will do") {
+  graph->name_participant({2}, "/");
+  graph->add(guid(2, 1), image(true));
+  const auto strict = ask({"i", "/i", {"/image"}, {}});
+  CHECK(told.back() == words{"a writer of /image"});
+  const auto any = ask({"j", "", {"/image"}, {}});
+  CHECK(told.back().empty());
+  caf::anon_send_exit(strict, caf::exit_reason::kill);
+  caf::anon_send_exit(any, caf::exit_reason::kill);
+}
+
+TEST_CASE_METHOD(watch_bench, "who has ended is forgotten") {
+  const auto who = ask({"i", "/i", {"/image"}, {}});
+  caf::anon_send_exit(who, caf::exit_reason::kill);
+  settle();
+  graph->name_participant({1}, "/i");
+  graph->add(guid(1, 1), image(true));
+  settle();
+  CHECK(told.size() == 1);
+}

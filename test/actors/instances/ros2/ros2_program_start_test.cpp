@@ -1,0 +1,111 @@
+#include "actors/instances/ros2/ros2_program_start.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+
+using namespace roscell;
+
+namespace {
+
+using words = std::vector<std::string>;
+
+/// What stands before a program's own words.
+constexpr size_t script_words = 8;
+
+instance_spec detector() {
+  instance_spec result;
+  result.instance = "fleet-tags-0a1b2c3d";
+  result.task = "fleet";
+  result.step = "tags-1";
+  result.input = {{"ros2", "/fleet/camera/image", "sensor_msgs/msg/Image"},
+                  {"ros2", "/fleet/camera/info", "sensor_msgs/msg/CameraInfo"}};
+  result.output = {{"ros2", "/fleet/tags", "apriltag_msgs/msg/X"}};
+  result.parameters = R"({"size":0.2})";
+  return result;
+}
+
+ros2_program apriltag() {
+  ros2_program result;
+  result.package = "apriltag_ros";
+  result.executable = "apriltag_node";
+  result.parameters = R"({"family":"36h11","size":0.16})";
+  result.topics = {{"image_rect", "input"},
+                   {"camera_info", "input:1"},
+                   {"detections", "output:0"}};
+  return result;
+}
+
+ros2_start must_start(const ros2_program& program) {
+  auto result = ros2_start_of(program, detector());
+  if (const auto* why = std::get_if<failure>(&result))
+    FAIL(why->message);
+  return std::get<ros2_start>(result);
+}
+
+words own_words(const ros2_start& start) {
+  return {start.command.begin() + script_words, start.command.end()};
+}
+
+} // namespace
+
+TEST_CASE("a ROS 2 program gets its names, topics and parameters as ROS "
+          "arguments") {
+  const auto start = must_start(apriltag());
+  CHECK(own_words(start)
+        == words{"--ros-args", "-r", "__node:=tags_1", "-r", "__ns:=/fleet",
+                 "--enclave", "/fleet_tags_0a1b2c3d", "-r",
+                 "camera_info:=/fleet/camera/info", "-r",
+                 "detections:=/fleet/tags", "-r",
+                 "image_rect:=/fleet/camera/image", "-p", R"(family:="36h11")",
+                 "-p", "size:=0.2"});
+  CHECK(start.command[4] == "run");
+  CHECK(start.command[5] == "apriltag_ros");
+  CHECK(start.command[6] == "apriltag_node");
+  CHECK(start.command[7] == "0");
+}
+
+TEST_CASE("a ROS 2 program is ready once it has the ends of its step") {
+  const auto& ends = must_start(apriltag()).endpoints;
+  CHECK(ends.instance == "fleet-tags-0a1b2c3d");
+  CHECK(ends.program == "/fleet_tags_0a1b2c3d");
+  CHECK(ends.written == words{"/fleet/tags"});
+  auto read = ends.read;
+  std::sort(read.begin(), read.end());
+  CHECK(read == words{"/fleet/camera/image", "/fleet/camera/info"});
+}
+
+TEST_CASE("a ROS 2 program without topics is known by what every node "
+          "writes") {
+  auto program = apriltag();
+  program.topics.clear();
+  CHECK(must_start(program).endpoints.written == words{"/rosout"});
+}
+
+TEST_CASE("a launch file gets topics and parameters as its arguments") {
+  auto program = apriltag();
+  program.executable.clear();
+  program.launch = "tags.launch.py";
+  program.setup = {"/opt/line/setup.bash"};
+  program.arguments = {"mode:=fast"};
+  const auto start = must_start(program);
+  CHECK(start.command[4] == "launch");
+  CHECK(start.command[6] == "tags.launch.py");
+  CHECK(start.command[7] == "1");
+  CHECK(own_words(start)
+        == words{"/opt/line/setup.bash", "mode:=fast",
+                 "camera_info:=/fleet/camera/info", "detections:=/fleet/tags",
+                 "image_rect:=/fleet/camera/image", "family:=36h11",
+                 "size:=0.2"});
+  CHECK(start.endpoints.program.empty());
+}
+
+TEST_CASE("a topic that stands for an end that the step has not is refused") {
+  auto program = apriltag();
+  program.topics["depth"] = "input:2";
+  const auto start = ros2_start_of(program, detector());
+  REQUIRE(std::holds_alternative<failure>(start));
+  CHECK(std::get<failure>(start).message
+        == "the topic 'depth' of its program stands for input:2, which step "
+           "'tags-1' has not");
+}

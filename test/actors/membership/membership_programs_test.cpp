@@ -1,0 +1,69 @@
+#include "test/actors/fakes/cell_fakes.hpp"
+
+namespace {
+
+using namespace roscell;
+using namespace roscell::test;
+
+/// A cell that gives its member a place for a discovery server.
+struct programs_test : cell_fixture {
+  programs_test() {
+    site.base.cell_uuid = "c-1";
+    site.base.discovery = {{254, 7, "10.0.0.1:11811", 0}};
+  }
+};
+
+} // namespace
+
+TEST_CASE_METHOD(programs_test, "a member runs the discovery server that its "
+                                "cell gives it a place for") {
+  form_cell();
+  REQUIRE(node.served);
+  CHECK(node.served->place == site.base.discovery.front());
+  CHECK(node.served->remote_is_there);
+  CHECK(node.environment.at("ROS_DOMAIN_ID") == "7");
+  CHECK(node.environment.at("ROS_DISCOVERY_SERVER")
+        == std::string(254, ';') + "10.0.0.9:11811");
+  CHECK(site.standing(node).environment == node.environment);
+  // The coordinator's server is heard by the own one.
+  CHECK_FALSE(node.searching);
+}
+
+TEST_CASE_METHOD(programs_test, "a member that comes back tells which server "
+                                "it has") {
+  form_cell();
+  cut(*node.link);
+  site.pass(30s);
+  REQUIRE(site.standing(node).state == node_state::member);
+  const auto& told = site.base.rows.at("arm-1").registration;
+  CHECK(told.server_id == 254);
+  CHECK(told.server_cell == "c-1");
+}
+
+TEST_CASE_METHOD(programs_test, "an orphan's programs keep their server") {
+  form_cell();
+  const auto environment = node.environment;
+  site.kill_coordinator();
+  cut(*node.link);
+  site.pass(60s);
+  REQUIRE(site.standing(node).state == node_state::orphaned);
+  CHECK(node.served);
+  CHECK(node.environment == environment);
+}
+
+TEST_CASE_METHOD(programs_test, "a node that leaves its cell ends its server "
+                                "and takes the environment back") {
+  form_cell();
+  REQUIRE(time.ask<node_departed>(node.membership, leave_cell{"bye"}));
+  site.pass(100ms);
+  CHECK_FALSE(node.served);
+  CHECK(node.environment.empty());
+  CHECK(site.standing(node).environment.empty());
+}
+
+TEST_CASE_METHOD(cell_fixture, "a member of a cell without places runs no "
+                               "server of its own") {
+  form_cell();
+  CHECK_FALSE(node.served);
+  CHECK(node.environment.empty());
+}

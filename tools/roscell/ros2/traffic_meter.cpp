@@ -1,0 +1,63 @@
+#include "tools/roscell/ros2/traffic_meter.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace roscell::cli {
+
+namespace {
+
+using milliseconds = std::chrono::duration<double, std::milli>;
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<int>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+} // namespace
+
+traffic_meter::traffic_meter(std::size_t most_messages)
+    : most_(std::max<std::size_t>(most_messages, 2)) {}
+
+void traffic_meter::add(clock::time_point when, std::size_t bytes,
+                        std::chrono::nanoseconds age) {
+  ++total_;
+  arrivals_.push_back({when, bytes, age});
+  if (arrivals_.size() > most_)
+    arrivals_.pop_front();
+}
+
+std::optional<traffic_figures> traffic_meter::figures() const {
+  const milliseconds span =
+      arrivals_.size() < 2 ? milliseconds{0}
+                           : arrivals_.back().when - arrivals_.front().when;
+  if (span <= milliseconds{0})
+    return std::nullopt;
+  const auto gaps = static_cast<double>(arrivals_.size() - 1);
+  const double mean_gap = span.count() / gaps;
+  traffic_figures result;
+  result.messages = arrivals_.size();
+  result.rate_hz = 1000 / mean_gap;
+  result.least_gap_ms = span.count();
+  std::vector<double> ages{milliseconds{arrivals_.front().age}.count()};
+  double squares = 0;
+  double bytes = 0;
+  for (std::size_t i = 1; i < arrivals_.size(); ++i) {
+    const auto& x = arrivals_[i];
+    const double gap = milliseconds{x.when - arrivals_[i - 1].when}.count();
+    result.least_gap_ms = std::min(result.least_gap_ms, gap);
+    result.most_gap_ms = std::max(result.most_gap_ms, gap);
+    squares += (gap - mean_gap) * (gap - mean_gap);
+    bytes += static_cast<double>(x.bytes);
+    ages.push_back(milliseconds{x.age}.count());
+  }
+  result.gap_deviation_ms = std::sqrt(squares / gaps);
+  result.mean_bytes = bytes / gaps;
+  result.bytes_per_s = bytes / span.count() * 1000;
+  result.median_age_ms = median(std::move(ages));
+  return result;
+}
+
+} // namespace roscell::cli

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <deque>
+#include <optional>
+
+namespace roscell::cli {
+
+/// What has come on a topic lately.
+struct traffic_figures {
+  std::size_t messages = 0;
+  double rate_hz = 0;      ///< Between the first and the last of them.
+  double least_gap_ms = 0; ///< Between two messages.
+  double most_gap_ms = 0;
+  double gap_deviation_ms = 0;
+  double bytes_per_s = 0;
+  double mean_bytes = 0;
+  double median_age_ms = 0; ///< Since they were sent, or since their stamps.
+};
+
+/// Measures what comes on a topic, over the last messages. Told the time.
+class traffic_meter {
+public:
+  using clock = std::chrono::steady_clock;
+
+  explicit traffic_meter(std::size_t most_messages);
+
+  void add(clock::time_point when, std::size_t bytes,
+           std::chrono::nanoseconds age);
+
+  /// Nothing before there are two messages.
+  std::optional<traffic_figures> figures() const;
+
+  /// All that have come, those that are forgotten too.
+  std::size_t total() const {
+    return total_;
+  }
+
+private:
+  struct arrival {
+    clock::time_point when;
+    std::size_t bytes;
+    std::chrono::nanoseconds age;
+  };
+
+  const std::size_t most_;
+  std::size_t total_ = 0;
+  std::deque<arrival> arrivals_;
+};
+
+} // namespace roscell::cli
