@@ -6,6 +6,8 @@ find_package(SQLite3 REQUIRED)
 find_package(fastrtps REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(spdlog REQUIRED)
+# Makes structs from definitions of ROS 2 messages while building.
+find_package(Python3 3.9 REQUIRED COMPONENTS Interpreter)
 
 find_path(NLOHMANN_INCLUDE nlohmann/json.hpp REQUIRED)
 find_path(VALIJSON_INCLUDE valijson/validator.hpp REQUIRED)

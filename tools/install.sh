@@ -18,7 +18,7 @@ esac
 
 packages=(
   # To build: docs/decisions.md gives the reason for each.
-  g++ cmake ninja-build ccache pkg-config
+  g++ cmake ninja-build ccache pkg-config python3-minimal
   libcaf-dev libfastrtps-dev nlohmann-json3-dev libvalijson-dev
   libboost-dev libssl-dev libsqlite3-dev libcli11-dev libspdlog-dev catch2
   # For the skills that look at images. OpenCV's parts instead of all of it.
@@ -32,7 +32,7 @@ if [[ "${1:-}" == --with-tests ]]; then
   packages+=(
     # To check: format, lint and fuzzers; namespaces, HTTP and JSON in scripts.
     clang clang-format clang-tidy libclang-rt-14-dev libfuzzer-14-dev
-    iproute2 nftables curl procps python3-minimal
+    iproute2 nftables curl procps
     # A DDS implementation that is not ours, and a look at the wire.
     cyclonedds-dev cyclonedds-tools tcpdump
   )

@@ -3,6 +3,10 @@
 #include "skills/engine/errors.hpp"
 #include "skills/engine/log_line.hpp"
 #include "skills/ros2/messages/cdr.hpp"
+#include "skills/ros2/messages/image_view.hpp"
+#include "skills/ros2/messages/sensor_msgs.hpp"
+#include "skills/ros2/messages/stamp.hpp"
+#include "skills/ros2/messages/std_msgs.hpp"
 #include "skills/vision/calibration.hpp"
 
 #include <chrono>
@@ -26,8 +30,8 @@ vision::pixel_format format_of(const engine::parameters& options) {
 
 void check_outputs(const engine::environment& env) {
   for (const auto& out : env.outputs)
-    if (out.data_type != ros2::image::type_name
-        && out.data_type != ros2::camera_info::type_name)
+    if (out.data_type != ros2::sensor_msgs::image::type_name
+        && out.data_type != ros2::sensor_msgs::camera_info::type_name)
       throw start_error("output '" + out.endpoint + "' has the type '"
                         + out.data_type
                         + "'; this skill gives sensor_msgs/msg/Image and "
@@ -35,7 +39,8 @@ void check_outputs(const engine::environment& env) {
 }
 
 /// Named and timed like the picture, so that all its messages agree.
-engine::frame message_of(const engine::frame& input, const ros2::header& header,
+engine::frame message_of(const engine::frame& input,
+                         const ros2::std_msgs::header& header,
                          std::string payload) {
   engine::frame result;
   result.payload = std::move(payload);
@@ -62,8 +67,9 @@ image_source::image_source(const engine::environment& env,
   for (const auto& input : env.inputs)
     add_camera(env, input);
   auto count = cameras_.size();
-  typed_outputs images{env.outputs, ros2::image::type_name, count};
-  typed_outputs infos{env.outputs, ros2::camera_info::type_name, count};
+  typed_outputs images{env.outputs, ros2::sensor_msgs::image::type_name, count};
+  typed_outputs infos{env.outputs, ros2::sensor_msgs::camera_info::type_name,
+                      count};
   for (std::size_t k = 0; k < count; ++k) {
     cameras_[k].images = images.of_source(k);
     cameras_[k].infos = infos.of_source(k);
@@ -83,7 +89,7 @@ void image_source::add_camera(const engine::environment& env,
 void image_source::process(const engine::frame& input,
                            engine::emitter& output) {
   auto& eye = cameras_.at(input.port);
-  if (input.data_type != ros2::image::type_name) {
+  if (input.data_type != ros2::sensor_msgs::image::type_name) {
     process_file(input, eye, output);
     return;
   }
@@ -106,8 +112,8 @@ void image_source::process_file(const engine::frame& input, camera& eye,
     broken_files_.skip(input.name, e.what());
     return;
   }
-  ros2::header header{ros2::to_time(std::chrono::system_clock::now()),
-                      frame_id_};
+  ros2::std_msgs::header header{ros2::to_time(std::chrono::system_clock::now()),
+                                frame_id_};
   if (eye.images != typed_outputs::none)
     output.emit(
         message_of(input, header, ros2::serialize(view(picture, header))),
@@ -115,13 +121,13 @@ void image_source::process_file(const engine::frame& input, camera& eye,
   emit_info(eye, header, picture.width, picture.height, input, output);
 }
 
-void image_source::emit_info(camera& eye, const ros2::header& header,
+void image_source::emit_info(camera& eye, const ros2::std_msgs::header& header,
                              std::uint32_t width, std::uint32_t height,
                              const engine::frame& input,
                              engine::emitter& output) {
   if (eye.infos == typed_outputs::none)
     return;
-  auto info = eye.calibration.value_or(ros2::camera_info{});
+  auto info = eye.calibration.value_or(ros2::sensor_msgs::camera_info{});
   info.header = header;
   // Intrinsics from parameters, and none at all, are for any size.
   if (info.width == 0 && info.height == 0) {

@@ -4,6 +4,7 @@
 #include "skills/engine/handlers.hpp"
 #include "skills/engine/typed_ports.hpp"
 #include "skills/ros2/messages/sensor_msgs.hpp"
+#include "skills/ros2/messages/std_msgs.hpp"
 #include "skills/vision/broken_files.hpp"
 #include "skills/vision/image_codec.hpp"
 
@@ -48,7 +49,7 @@ private:
   /// One input, with what belongs to it.
   struct camera {
     std::string name;
-    std::optional<ros2::camera_info> calibration;
+    std::optional<ros2::sensor_msgs::camera_info> calibration;
     std::size_t images = engine::typed_outputs::none;
     std::size_t infos = engine::typed_outputs::none;
     bool size_said = false;
@@ -57,9 +58,9 @@ private:
   void add_camera(const engine::environment& env, const engine::stream& input);
   void process_file(const engine::frame& input, camera& eye,
                     engine::emitter& output);
-  void emit_info(camera& eye, const ros2::header& header, std::uint32_t width,
-                 std::uint32_t height, const engine::frame& input,
-                 engine::emitter& output);
+  void emit_info(camera& eye, const ros2::std_msgs::header& header,
+                 std::uint32_t width, std::uint32_t height,
+                 const engine::frame& input, engine::emitter& output);
 
   const engine::say_function say_;
   const std::string frame_id_;

@@ -7,7 +7,7 @@ namespace roscell::pose {
 
 namespace {
 
-bool all_zero(const ros2::camera_info& info) {
+bool all_zero(const ros2::sensor_msgs::camera_info& info) {
   auto zero = [](double x) { return x == 0; };
   return std::all_of(info.k.begin(), info.k.end(), zero)
          && std::all_of(info.p.begin(), info.p.end(), zero);
@@ -19,7 +19,7 @@ bool makes_sense(double fx, double fy, double cx, double cy) {
 }
 
 /// What is wrong with the distortion, or nothing.
-std::string check_distortion(const ros2::camera_info& info) {
+std::string check_distortion(const ros2::sensor_msgs::camera_info& info) {
   const auto& model = info.distortion_model;
   if (!std::all_of(info.d.begin(), info.d.end(),
                    [](double x) { return std::isfinite(x); }))
@@ -42,7 +42,7 @@ std::string check_distortion(const ros2::camera_info& info) {
 } // namespace
 
 std::variant<camera_model, std::string>
-camera_model::of(const ros2::camera_info& info, bool rectified) {
+camera_model::of(const ros2::sensor_msgs::camera_info& info, bool rectified) {
   if (all_zero(info))
     return "is all zero, so the camera is not calibrated; calibrate it, or "
            "give the parameters 'fx', 'fy', 'cx' and 'cy'";
@@ -110,7 +110,8 @@ Eigen::Vector2d camera_model::undistort(const Eigen::Vector2d& pixel) const {
   return to_pixel(direction);
 }
 
-ros2::camera_info describe_sent_images(ros2::camera_info info) {
+ros2::sensor_msgs::camera_info
+describe_sent_images(ros2::sensor_msgs::camera_info info) {
   // Zero means the whole image, and zero binning none.
   const auto& part = info.roi;
   if (part.width != 0 && part.height != 0) {

@@ -24,7 +24,7 @@ public:
   /// it. Of a raw image, K and the distortion count (plumb_bob and
   /// rational_polynomial); of a rectified one P, as in apriltag_ros.
   static std::variant<camera_model, std::string>
-  of(const ros2::camera_info& info, bool rectified);
+  of(const ros2::sensor_msgs::camera_info& info, bool rectified);
 
   /// The pixel at which a pinhole camera without distortion sees `point`.
   Eigen::Vector2d project(const Eigen::Vector3d& point) const;
@@ -68,6 +68,7 @@ private:
 /// A CameraInfo describes the camera's full resolution, and apart from that
 /// which part of it is sent and how coarsely. Returns one that describes the
 /// images as they are sent, as image_geometry::PinholeCameraModel has it.
-ros2::camera_info describe_sent_images(ros2::camera_info info);
+ros2::sensor_msgs::camera_info
+describe_sent_images(ros2::sensor_msgs::camera_info info);
 
 } // namespace roscell::pose

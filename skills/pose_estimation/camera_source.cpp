@@ -8,7 +8,8 @@ namespace {
 /// the first CameraInfo of a healthy camera.
 constexpr auto patient_images = 5U;
 
-bool same_calibration(const ros2::camera_info& a, const ros2::camera_info& b) {
+bool same_calibration(const ros2::sensor_msgs::camera_info& a,
+                      const ros2::sensor_msgs::camera_info& b) {
   return a.width == b.width && a.height == b.height && a.k == b.k && a.p == b.p
          && a.d == b.d && a.distortion_model == b.distortion_model;
 }
@@ -19,7 +20,7 @@ std::string size(std::uint32_t width, std::uint32_t height) {
 
 } // namespace
 
-void camera_source::calibrate(const ros2::camera_info& sent) {
+void camera_source::calibrate(const ros2::sensor_msgs::camera_info& sent) {
   auto info = describe_sent_images(sent);
   // It comes with every image, and hardly ever changes.
   if (info_ && same_calibration(*info_, info))

@@ -22,7 +22,7 @@ public:
   }
 
   /// Takes the camera's calibration, the first one or a new one.
-  void calibrate(const ros2::camera_info& sent);
+  void calibrate(const ros2::sensor_msgs::camera_info& sent);
 
   /// The model for an image of this size. Nothing if there is none: no
   /// CameraInfo yet, a bad one, or one of another size.
@@ -37,7 +37,7 @@ private:
   const bool expects_info_;
   const bool rectified_;
   const engine::say_function say_;
-  std::optional<ros2::camera_info> info_;
+  std::optional<ros2::sensor_msgs::camera_info> info_;
   std::optional<camera_model> model_;
   /// Why the last calibration gave no model.
   std::string fault_;

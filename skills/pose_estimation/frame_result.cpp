@@ -8,7 +8,7 @@ namespace {
 
 using nlohmann::json;
 
-ros2::april_tag_point to_point(const Eigen::Vector2d& pixel) {
+ros2::apriltag_msgs::point to_point(const Eigen::Vector2d& pixel) {
   return {pixel.x(), pixel.y()};
 }
 
@@ -37,7 +37,7 @@ json to_json(const found_tag& tag, const std::string& family) {
           {"pose", tag.pose ? to_json(*tag.pose) : json{}}};
 }
 
-ros2::transform to_transform(const tag_pose& pose) {
+ros2::geometry_msgs::transform to_transform(const tag_pose& pose) {
   const auto& p = pose.position;
   const auto& q = pose.orientation;
   return {{p.x(), p.y(), p.z()}, {q.x(), q.y(), q.z(), q.w()}};
@@ -45,8 +45,8 @@ ros2::transform to_transform(const tag_pose& pose) {
 
 } // namespace
 
-ros2::tf_message to_tf_message(const frame_result& result) {
-  ros2::tf_message message;
+ros2::tf2_msgs::tf_message to_tf_message(const frame_result& result) {
+  ros2::tf2_msgs::tf_message message;
   for (const auto& tag : result.tags)
     if (tag.pose)
       message.transforms.push_back(
@@ -56,11 +56,12 @@ ros2::tf_message to_tf_message(const frame_result& result) {
   return message;
 }
 
-ros2::april_tag_detection_array to_detection_array(const frame_result& result) {
-  ros2::april_tag_detection_array message;
+ros2::apriltag_msgs::april_tag_detection_array
+to_detection_array(const frame_result& result) {
+  ros2::apriltag_msgs::april_tag_detection_array message;
   message.header = result.header;
   for (const auto& tag : result.tags) {
-    ros2::april_tag_detection one;
+    ros2::apriltag_msgs::april_tag_detection one;
     one.family = result.family;
     one.id = tag.detection.id;
     one.hamming = tag.detection.hamming;

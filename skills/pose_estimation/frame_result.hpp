@@ -2,6 +2,7 @@
 
 #include "skills/pose_estimation/tag_detector.hpp"
 #include "skills/ros2/messages/apriltag_msgs.hpp"
+#include "skills/ros2/messages/std_msgs.hpp"
 #include "skills/ros2/messages/tf2_msgs.hpp"
 
 #include <nlohmann/json.hpp>
@@ -23,7 +24,7 @@ struct found_tag {
 struct frame_result {
   std::string frame_name; ///< What a person calls the image, e.g. its file.
   std::size_t source = 0; ///< Number of the image input.
-  ros2::header header;    ///< Of the image.
+  ros2::std_msgs::header header; ///< Of the image.
   std::uint32_t width = 0;
   std::uint32_t height = 0;
   std::string family;
@@ -36,10 +37,11 @@ struct frame_result {
 
 /// One transform from the camera to each tag with a pose; the child frame is
 /// named like `tag36h11:7`.
-ros2::tf_message to_tf_message(const frame_result& result);
+ros2::tf2_msgs::tf_message to_tf_message(const frame_result& result);
 
 /// Filled in as apriltag_ros does.
-ros2::april_tag_detection_array to_detection_array(const frame_result& result);
+ros2::apriltag_msgs::april_tag_detection_array
+to_detection_array(const frame_result& result);
 
 /// One object per image; lengths in metres, pixels where it says px:
 ///

@@ -2,7 +2,12 @@
 
 #include "skills/engine/errors.hpp"
 #include "skills/pose_estimation/overlay.hpp"
+#include "skills/ros2/messages/apriltag_msgs.hpp"
 #include "skills/ros2/messages/cdr.hpp"
+#include "skills/ros2/messages/image_view.hpp"
+#include "skills/ros2/messages/sensor_msgs.hpp"
+#include "skills/ros2/messages/stamp.hpp"
+#include "skills/ros2/messages/tf2_msgs.hpp"
 #include "skills/vision/calibration.hpp"
 
 #include <algorithm>
@@ -15,11 +20,11 @@ using engine::start_error;
 using engine::typed_outputs;
 
 bool is_camera_info(const engine::stream& input) {
-  return input.data_type == ros2::camera_info::type_name;
+  return input.data_type == ros2::sensor_msgs::camera_info::type_name;
 }
 
 bool is_image_message(const std::string& data_type) {
-  return data_type == ros2::image::type_name;
+  return data_type == ros2::sensor_msgs::image::type_name;
 }
 
 void check_types(const engine::environment& env) {
@@ -32,8 +37,9 @@ void check_types(const engine::environment& env) {
                           "image/png, image/jpeg and sensor_msgs/msg/"
                           "CameraInfo");
   for (const auto& out : env.outputs)
-    if (out.data_type != ros2::tf_message::type_name
-        && out.data_type != ros2::april_tag_detection_array::type_name
+    if (out.data_type != ros2::tf2_msgs::tf_message::type_name
+        && out.data_type
+               != ros2::apriltag_msgs::april_tag_detection_array::type_name
         && out.data_type != "application/json" && out.data_type != "image/png")
       throw start_error("output '" + out.endpoint + "' has the type '"
                         + out.data_type
@@ -99,9 +105,11 @@ void pose_estimator::add_sources(const engine::environment& env) {
     if (!is_camera_info(env.inputs[i]))
       add_source(env, i, source_of_port_[i] < infos);
   auto count = sources_.size();
-  typed_outputs transforms{env.outputs, ros2::tf_message::type_name, count};
-  typed_outputs detections{env.outputs,
-                           ros2::april_tag_detection_array::type_name, count};
+  typed_outputs transforms{env.outputs, ros2::tf2_msgs::tf_message::type_name,
+                           count};
+  typed_outputs detections{
+      env.outputs, ros2::apriltag_msgs::april_tag_detection_array::type_name,
+      count};
   typed_outputs lines{env.outputs, "application/json", count};
   typed_outputs pictures{env.outputs, "image/png", count};
   for (std::size_t k = 0; k < count; ++k) {
@@ -129,11 +137,12 @@ void pose_estimator::add_source(const engine::environment& env,
 
 void pose_estimator::process(const engine::frame& input,
                              engine::emitter& output) {
-  if (input.data_type == ros2::camera_info::type_name) {
+  if (input.data_type == ros2::sensor_msgs::camera_info::type_name) {
     if (given_)
       return;
     auto& camera = sources_.at(source_of_port_.at(input.port)).camera;
-    camera.calibrate(ros2::deserialize<ros2::camera_info>(input.payload));
+    camera.calibrate(
+        ros2::deserialize<ros2::sensor_msgs::camera_info>(input.payload));
   } else if (is_image_message(input.data_type)) {
     process_image(ros2::view_image(input.payload), input, output);
   } else {

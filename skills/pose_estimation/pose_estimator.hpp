@@ -87,7 +87,7 @@ private:
   const std::string frame_id_;
   const double picture_rate_hz_;
   /// From the parameters; CameraInfo then does not count.
-  const std::optional<ros2::camera_info> given_;
+  const std::optional<ros2::sensor_msgs::camera_info> given_;
   tag_detector detector_;
   std::vector<source> sources_;
   /// By input port: the number of its source.

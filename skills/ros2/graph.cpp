@@ -1,6 +1,8 @@
 #include "skills/ros2/graph.hpp"
 
 #include "skills/ros2/messages/cdr.hpp"
+#include "skills/ros2/messages/rmw_dds_common.hpp"
+#include "skills/ros2/messages/rmw_dds_common_iron.hpp"
 
 #include <algorithm>
 
@@ -8,34 +10,37 @@ namespace roscell::ros2 {
 
 namespace {
 
-template <std::size_t Bytes>
-gid<Bytes> to_gid(const guid& x) {
-  gid<Bytes> result;
+template <class Gid>
+Gid to_gid(const guid& x) {
+  Gid result;
   std::copy(x.begin(), x.end(), result.data.begin());
   return result;
 }
 
-template <std::size_t Bytes>
+template <class Gid>
 auto to_gids(const std::vector<guid>& list) {
-  std::vector<gid<Bytes>> result(list.size());
-  std::transform(list.begin(), list.end(), result.begin(), to_gid<Bytes>);
+  std::vector<Gid> result(list.size());
+  std::transform(list.begin(), list.end(), result.begin(), to_gid<Gid>);
   return result;
 }
 
-template <std::size_t Bytes>
+template <class Message>
 std::string serialize_as(const graph_node& node) {
-  participant_entities_info<Bytes> message;
-  message.gid = to_gid<Bytes>(node.participant);
-  message.node_entities_info_seq = {{"/", node.name,
-                                     to_gids<Bytes>(node.readers),
-                                     to_gids<Bytes>(node.writers)}};
+  using gid = decltype(Message::gid);
+  Message message;
+  message.gid = to_gid<gid>(node.participant);
+  message.node_entities_info_seq = {
+      {"/", node.name, to_gids<gid>(node.readers), to_gids<gid>(node.writers)}};
   return serialize(message);
 }
 
 } // namespace
 
 std::string serialize(const graph_node& node, std::size_t gid_bytes) {
-  return gid_bytes == 16 ? serialize_as<16>(node) : serialize_as<24>(node);
+  using humble = rmw_dds_common::participant_entities_info;
+  using iron = rmw_dds_common_iron::participant_entities_info;
+  return gid_bytes == 16 ? serialize_as<iron>(node)
+                         : serialize_as<humble>(node);
 }
 
 } // namespace roscell::ros2

@@ -3,6 +3,9 @@
 #include "skills/engine/errors.hpp"
 #include "skills/engine/pacer.hpp"
 #include "skills/ros2/messages/cdr.hpp"
+#include "skills/ros2/messages/image_view.hpp"
+#include "skills/ros2/messages/sensor_msgs.hpp"
+#include "skills/ros2/messages/stamp.hpp"
 
 #include <opencv2/imgproc.hpp>
 
@@ -90,7 +93,7 @@ engine::frame video_input::make_frame(const cv::Mat& picture) {
   auto pixels = convert(picture, gray_);
   engine::frame result;
   result.time = std::chrono::system_clock::now();
-  result.data_type = ros2::image::type_name;
+  result.data_type = ros2::sensor_msgs::image::type_name;
   result.name = std::to_string(count_++);
   ros2::image_view view;
   view.header = {ros2::to_time(result.time), frame_id_};

@@ -24,8 +24,8 @@ std::string model_of(std::size_t coefficients) {
   return coefficients == 8 ? "rational_polynomial" : "plumb_bob";
 }
 
-void set_intrinsics(ros2::camera_info& info, double fx, double fy, double cx,
-                    double cy) {
+void set_intrinsics(ros2::sensor_msgs::camera_info& info, double fx, double fy,
+                    double cx, double cy) {
   info.k = {fx, 0, cx, 0, fy, cy, 0, 0, 1};
   info.r = {1, 0, 0, 0, 1, 0, 0, 0, 1};
   info.p = {fx, 0, cx, 0, 0, fy, cy, 0, 0, 0, 1, 0};
@@ -85,7 +85,7 @@ std::optional<std::string> find_file(const engine::stream& input,
 
 } // namespace
 
-std::optional<ros2::camera_info>
+std::optional<ros2::sensor_msgs::camera_info>
 calibration_of(const engine::parameters& options) {
   const auto& values = options.values();
   auto given = 0;
@@ -97,7 +97,7 @@ calibration_of(const engine::parameters& options) {
     throw start_error("parameters 'fx', 'fy', 'cx' and 'cy' belong together: "
                       "give all four of them or none");
   constexpr auto far = 1e6;
-  ros2::camera_info result;
+  ros2::sensor_msgs::camera_info result;
   set_intrinsics(result, options.number("fx", 0, 1e-3, far),
                  options.number("fy", 0, 1e-3, far),
                  options.number("cx", 0, -far, far),
@@ -108,11 +108,11 @@ calibration_of(const engine::parameters& options) {
   return result;
 }
 
-ros2::camera_info parse_calibration(const std::string& text) {
+ros2::sensor_msgs::camera_info parse_calibration(const std::string& text) {
   auto document = YAML::Load(text);
   if (!document.IsMap())
     throw std::runtime_error("is no calibration");
-  ros2::camera_info result;
+  ros2::sensor_msgs::camera_info result;
   in_field("image_width",
            [&] { result.width = document["image_width"].as<std::uint32_t>(); });
   in_field("image_height", [&] {
@@ -135,7 +135,7 @@ ros2::camera_info parse_calibration(const std::string& text) {
   return result;
 }
 
-ros2::camera_info read_calibration(const std::string& path) {
+ros2::sensor_msgs::camera_info read_calibration(const std::string& path) {
   std::error_code error;
   auto size = fs::file_size(path, error);
   if (error)
@@ -155,7 +155,7 @@ ros2::camera_info read_calibration(const std::string& path) {
   }
 }
 
-std::optional<ros2::camera_info>
+std::optional<ros2::sensor_msgs::camera_info>
 calibration_beside(const engine::stream& input,
                    const engine::parameters& options) {
   auto path = find_file(input, options);

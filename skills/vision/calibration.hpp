@@ -22,23 +22,23 @@ namespace roscell::vision {
 ///
 /// Nothing if none of them is given. Width and height stay 0, which means: of
 /// any size. Throws start_error when they are incomplete or make no sense.
-std::optional<ros2::camera_info>
+std::optional<ros2::sensor_msgs::camera_info>
 calibration_of(const engine::parameters& options);
 
 /// The calibration in a text as camera_calibration and camera_info_manager
 /// write it in YAML; JSON with the same names is a part of YAML. Throws
 /// std::runtime_error, naming what is wrong.
-ros2::camera_info parse_calibration(const std::string& text);
+ros2::sensor_msgs::camera_info parse_calibration(const std::string& text);
 
 /// Reads such a text. Throws start_error, naming the file and what is wrong.
-ros2::camera_info read_calibration(const std::string& path);
+ros2::sensor_msgs::camera_info read_calibration(const std::string& path);
 
 /// The calibration beside the images of an input: if its endpoint is a folder,
 /// the file in it that parameter `camera_file` names, or `camera.json`,
 /// `camera.yaml` or `camera_info.yaml`, whichever is found first. An absolute
 /// `camera_file` is taken for an input of any protocol. Throws start_error
 /// when the file is not as it should be, or `camera_file` is not there.
-std::optional<ros2::camera_info>
+std::optional<ros2::sensor_msgs::camera_info>
 calibration_beside(const engine::stream& input,
                    const engine::parameters& options);
 

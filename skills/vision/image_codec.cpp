@@ -90,7 +90,7 @@ const char* encoding_name(pixel_format format) {
   return format == pixel_format::mono8 ? "mono8" : "bgr8";
 }
 
-ros2::image_view view(const picture& source, ros2::header header) {
+ros2::image_view view(const picture& source, ros2::std_msgs::header header) {
   return {std::move(header),
           source.height,
           source.width,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "skills/ros2/messages/image_view.hpp"
+#include "skills/ros2/messages/std_msgs.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -31,7 +32,7 @@ struct picture {
 
 /// The picture as a ROS message without a copy of its pixels, which must live
 /// as long as the result.
-ros2::image_view view(const picture& source, ros2::header header);
+ros2::image_view view(const picture& source, ros2::std_msgs::header header);
 
 /// Bytes that are no picture, or one that is too large. The text is for people.
 struct image_error : std::runtime_error {

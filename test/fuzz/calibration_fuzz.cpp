@@ -12,7 +12,7 @@ using namespace roscell;
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, size_t size) {
   const std::string text{reinterpret_cast<const char*>(data),
                          std::min<size_t>(size, 65536)};
-  ros2::camera_info info;
+  ros2::sensor_msgs::camera_info info;
   try {
     info = vision::parse_calibration(text);
   } catch (const std::runtime_error&) {

@@ -1,5 +1,7 @@
 #include "skills/pose_estimation/pose_estimator.hpp"
 #include "skills/ros2/messages/cdr.hpp"
+#include "skills/ros2/messages/sensor_msgs.hpp"
+#include "skills/ros2/messages/tf2_msgs.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -13,7 +15,7 @@ namespace {
 class checking_emitter : public engine::emitter {
   void write(engine::frame result, std::size_t port) override {
     if (port == 0)
-      ros2::deserialize<ros2::tf_message>(result.payload);
+      ros2::deserialize<ros2::tf2_msgs::tf_message>(result.payload);
     else
       nlohmann::json::parse(result.payload);
   }
@@ -21,9 +23,10 @@ class checking_emitter : public engine::emitter {
 
 engine::environment make_environment() {
   engine::environment env;
-  env.inputs = {{"ros2", "/image", ros2::image::type_name},
-                {"ros2", "/camera_info", ros2::camera_info::type_name}};
-  env.outputs = {{"ros2", "/tf", ros2::tf_message::type_name},
+  env.inputs = {
+      {"ros2", "/image", ros2::sensor_msgs::image::type_name},
+      {"ros2", "/camera_info", ros2::sensor_msgs::camera_info::type_name}};
+  env.outputs = {{"ros2", "/tf", ros2::tf2_msgs::tf_message::type_name},
                  {"file", "/poses", "application/json"}};
   return env;
 }
@@ -54,7 +57,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, size_t size) {
   pose::pose_estimator estimator{make_environment(), [](const std::string&) {}};
   const std::string bytes{reinterpret_cast<const char*>(data) + 2, size - 2};
   const auto length = std::min<size_t>(data[0] + 256U * data[1], bytes.size());
-  offer(estimator, 1, ros2::camera_info::type_name, bytes.substr(0, length));
-  offer(estimator, 0, ros2::image::type_name, bytes.substr(length));
+  offer(estimator, 1, ros2::sensor_msgs::camera_info::type_name,
+        bytes.substr(0, length));
+  offer(estimator, 0, ros2::sensor_msgs::image::type_name,
+        bytes.substr(length));
   return 0;
 }

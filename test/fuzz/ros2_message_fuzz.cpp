@@ -1,4 +1,10 @@
+#include "skills/ros2/messages/apriltag_msgs.hpp"
 #include "skills/ros2/messages/cdr.hpp"
+#include "skills/ros2/messages/geometry_msgs.hpp"
+#include "skills/ros2/messages/rmw_dds_common.hpp"
+#include "skills/ros2/messages/sensor_msgs.hpp"
+#include "skills/ros2/messages/std_msgs.hpp"
+#include "skills/ros2/messages/tf2_msgs.hpp"
 
 #include <cstdint>
 #include <cstdlib>
@@ -31,28 +37,28 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
   std::string_view bytes{reinterpret_cast<const char*>(data) + 1, size - 1};
   switch (data[0] % 8) {
   case 0:
-    check<ros2::header>(bytes);
+    check<ros2::std_msgs::header>(bytes);
     break;
   case 1:
-    check<ros2::string>(bytes);
+    check<ros2::std_msgs::string>(bytes);
     break;
   case 2:
-    check<ros2::image>(bytes);
+    check<ros2::sensor_msgs::image>(bytes);
     break;
   case 3:
-    check<ros2::camera_info>(bytes);
+    check<ros2::sensor_msgs::camera_info>(bytes);
     break;
   case 4:
-    check<ros2::pose_stamped>(bytes);
+    check<ros2::geometry_msgs::pose_stamped>(bytes);
     break;
   case 5:
-    check<ros2::tf_message>(bytes);
+    check<ros2::tf2_msgs::tf_message>(bytes);
     break;
   case 6:
-    check<ros2::april_tag_detection_array>(bytes);
+    check<ros2::apriltag_msgs::april_tag_detection_array>(bytes);
     break;
   default:
-    check<ros2::participant_entities_info<24>>(bytes);
+    check<ros2::rmw_dds_common::participant_entities_info>(bytes);
   }
   return 0;
 }

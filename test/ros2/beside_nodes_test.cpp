@@ -3,6 +3,7 @@
 #include "actors/edge/dds/discovery_client.hpp"
 
 #include "skills/ros2/messages/cdr.hpp"
+#include "skills/ros2/messages/std_msgs.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -11,7 +12,7 @@ using namespace roscell::test;
 
 namespace {
 
-constexpr const char* text = ros2::string::type_name;
+constexpr const char* text = ros2::std_msgs::string::type_name;
 
 /// A node that registers with the discovery server, as a member of the cell.
 class member {
@@ -42,12 +43,15 @@ void check_message(const cell& home) {
   skill writing{home.environment("writer")};
   running_input input{reading.input("/chatter", text)};
   auto output = writing.output("/chatter", text);
-  output->write(frame_of(text, ros2::serialize(ros2::string{"early"})));
+  output->write(
+      frame_of(text, ros2::serialize(ros2::std_msgs::string{"early"})));
   REQUIRE(writing.log.wait_for("has come; now 1"));
-  output->write(frame_of(text, ros2::serialize(ros2::string{"hello"})));
+  output->write(
+      frame_of(text, ros2::serialize(ros2::std_msgs::string{"hello"})));
   auto got = input.sink().wait_for(0);
   REQUIRE(got);
-  CHECK(ros2::deserialize<ros2::string>(got->payload).data == "hello");
+  CHECK(ros2::deserialize<ros2::std_msgs::string>(got->payload).data
+        == "hello");
 }
 
 } // namespace

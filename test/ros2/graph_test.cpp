@@ -3,6 +3,8 @@
 #include "cell_fixture.hpp"
 
 #include "skills/ros2/messages/cdr.hpp"
+#include "skills/ros2/messages/rmw_dds_common.hpp"
+#include "skills/ros2/messages/std_msgs.hpp"
 #include "skills/ros2/participant.hpp"
 #include "skills/ros2/participant_qos.hpp"
 #include "skills/ros2/serialized_type.hpp"
@@ -16,7 +18,7 @@ using namespace roscell::test;
 
 namespace {
 
-using info = ros2::participant_entities_info<24>;
+using info = ros2::rmw_dds_common::participant_entities_info;
 
 /// What `ros2 node list` reads: the graph, as a participant of the cell.
 class graph_reader : ros2::dds::DataReaderListener {
@@ -83,7 +85,7 @@ private:
 TEST_CASE("the ROS graph shows a skill as a node with its topics") {
   cell home{3};
   skill shown{home.environment("task-1.poses")};
-  auto output = shown.output("/out", ros2::string::type_name);
+  auto output = shown.output("/out", ros2::std_msgs::string::type_name);
   graph_reader graph{home.environment("graph")};
   auto first = graph.wait_for("task_1_poses", 0, 1);
   REQUIRE(first);
@@ -96,7 +98,7 @@ TEST_CASE("the ROS graph shows a skill as a node with its topics") {
   CHECK(node.writer_gid_seq[0].data[15] == 0x03);
   CHECK(node.writer_gid_seq[0].data[16] == 0);
   {
-    auto input = shown.input("/in", ros2::string::type_name);
+    auto input = shown.input("/in", ros2::std_msgs::string::type_name);
     input->open();
     CHECK(graph.wait_for("task_1_poses", 1, 1));
   }

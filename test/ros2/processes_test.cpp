@@ -2,6 +2,7 @@
 #include "this_program.hpp"
 
 #include "skills/ros2/messages/cdr.hpp"
+#include "skills/ros2/messages/std_msgs.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -10,7 +11,7 @@ using namespace roscell::test;
 
 namespace {
 
-constexpr const char* text = ros2::string::type_name;
+constexpr const char* text = ros2::std_msgs::string::type_name;
 constexpr std::size_t message_count = 3;
 
 } // namespace
@@ -24,8 +25,8 @@ TEST_CASE("what the writer's process does", "[.][writer]") {
   auto output = writing.output("/chatter", text);
   REQUIRE(writing.log.wait_for("a reader has come"));
   for (std::size_t i = 0; i < message_count; ++i)
-    output->write(
-        frame_of(text, ros2::serialize(ros2::string{std::to_string(i)})));
+    output->write(frame_of(
+        text, ros2::serialize(ros2::std_msgs::string{std::to_string(i)})));
   output->close();
 }
 
@@ -37,7 +38,7 @@ TEST_CASE("messages go from process to process, and none is lost at the end") {
   for (std::size_t i = 0; i < message_count; ++i) {
     auto got = input.sink().wait_for(i);
     REQUIRE(got);
-    CHECK(ros2::deserialize<ros2::string>(got->payload).data
+    CHECK(ros2::deserialize<ros2::std_msgs::string>(got->payload).data
           == std::to_string(i));
   }
   auto code = writer.wait();

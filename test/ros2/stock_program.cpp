@@ -2,6 +2,7 @@
 #include "this_program.hpp"
 
 #include "skills/ros2/messages/cdr.hpp"
+#include "skills/ros2/messages/std_msgs.hpp"
 #include "skills/ros2/participant.hpp"
 #include "skills/ros2/serialized_type.hpp"
 
@@ -15,7 +16,7 @@ using namespace roscell::test;
 
 namespace {
 
-constexpr const char* text = ros2::string::type_name;
+constexpr const char* text = ros2::std_msgs::string::type_name;
 
 /// Keeps the first text it reads.
 class text_listener : public ros2::dds::DataReaderListener {
@@ -25,7 +26,7 @@ public:
     ros2::dds::SampleInfo info;
     if (reader->take_next_sample(&payload, &info)
         == eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK)
-      log.say()(ros2::deserialize<ros2::string>(payload).data);
+      log.say()(ros2::deserialize<ros2::std_msgs::string>(payload).data);
   }
 
   logbook log;
@@ -66,7 +67,8 @@ TEST_CASE("a program of ROS 2 joins the cell by the same variables") {
   auto output = writing.output("/chatter", text);
   auto program = this_program("[stock]", home.environment("program"));
   REQUIRE(writing.log.wait_for("a reader has come"));
-  output->write(frame_of(text, ros2::serialize(ros2::string{"hello"})));
+  output->write(
+      frame_of(text, ros2::serialize(ros2::std_msgs::string{"hello"})));
   auto code = program.wait();
   CAPTURE(program.output());
   CHECK(code == 0);

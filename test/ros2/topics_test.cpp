@@ -2,6 +2,11 @@
 
 #include "skills/engine/errors.hpp"
 #include "skills/ros2/messages/cdr.hpp"
+#include "skills/ros2/messages/image_view.hpp"
+#include "skills/ros2/messages/sensor_msgs.hpp"
+#include "skills/ros2/messages/stamp.hpp"
+#include "skills/ros2/messages/std_msgs.hpp"
+#include "skills/ros2/messages/tf2_msgs.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -10,15 +15,16 @@ using namespace roscell::test;
 
 namespace {
 
-constexpr const char* text = ros2::string::type_name;
-constexpr const char* image = ros2::image::type_name;
+constexpr const char* text = ros2::std_msgs::string::type_name;
+constexpr const char* image = ros2::sensor_msgs::image::type_name;
 
 engine::frame text_frame(const std::string& data) {
-  return frame_of(text, ros2::serialize(ros2::string{data}));
+  return frame_of(text, ros2::serialize(ros2::std_msgs::string{data}));
 }
 
 std::string text_of(const std::optional<engine::frame>& x) {
-  return x ? ros2::deserialize<ros2::string>(x->payload).data : "nothing";
+  return x ? ros2::deserialize<ros2::std_msgs::string>(x->payload).data
+           : "nothing";
 }
 
 /// An image with a stamp, of one row for each number of pixels.
@@ -124,17 +130,17 @@ TEST_CASE("an image whose sizes lie is refused by who looks at it") {
 }
 
 TEST_CASE("a reader that comes late gets the static transforms") {
-  const auto* type = ros2::tf_message::type_name;
+  const auto* type = ros2::tf2_msgs::tf_message::type_name;
   cell home{0};
   skill writing{home.environment("writer")};
   auto output = writing.output("/tf_static", type);
-  ros2::tf_message sent{{{{{1, 2}, "map"}, "camera", {}}}};
+  ros2::tf2_msgs::tf_message sent{{{{{1, 2}, "map"}, "camera", {}}}};
   output->write(frame_of(type, ros2::serialize(sent)));
   skill reading{home.environment("reader")};
   running_input input{reading.input("/tf_static", type)};
   auto got = input.sink().wait_for(0);
   REQUIRE(got);
-  CHECK(ros2::deserialize<ros2::tf_message>(got->payload) == sent);
+  CHECK(ros2::deserialize<ros2::tf2_msgs::tf_message>(got->payload) == sent);
 }
 
 TEST_CASE("a reader that wants more than is offered says which parameter to "

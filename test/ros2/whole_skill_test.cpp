@@ -2,6 +2,9 @@
 
 #include "skills/engine/primitive_base_engine.hpp"
 #include "skills/ros2/messages/cdr.hpp"
+#include "skills/ros2/messages/image_view.hpp"
+#include "skills/ros2/messages/sensor_msgs.hpp"
+#include "skills/ros2/messages/std_msgs.hpp"
 #include "skills/ros2/protocol.hpp"
 
 #include <catch2/catch.hpp>
@@ -11,16 +14,16 @@ using namespace roscell::test;
 
 namespace {
 
-constexpr const char* text = ros2::string::type_name;
-constexpr const char* image = ros2::image::type_name;
+constexpr const char* text = ros2::std_msgs::string::type_name;
+constexpr const char* image = ros2::sensor_msgs::image::type_name;
 
 /// Says how large an image is.
 class size_teller : public engine::executor {
 public:
   void process(const engine::frame& input, engine::emitter& output) override {
     auto x = ros2::view_image(input.payload);
-    output.emit(ros2::serialize(ros2::string{std::to_string(x.width) + "x"
-                                             + std::to_string(x.height)}));
+    output.emit(ros2::serialize(ros2::std_msgs::string{
+        std::to_string(x.width) + "x" + std::to_string(x.height)}));
   }
 
   void release() override {
@@ -66,7 +69,7 @@ private:
 std::string gray_image(std::uint32_t height, std::uint32_t width) {
   std::vector<std::uint8_t> pixels(std::size_t{height} * width);
   return ros2::serialize(
-      ros2::image{{}, height, width, "mono8", 0, width, pixels});
+      ros2::sensor_msgs::image{{}, height, width, "mono8", 0, width, pixels});
 }
 
 } // namespace
@@ -87,7 +90,7 @@ TEST_CASE("a skill goes on after an image whose sizes lie") {
   images->write(frame_of(image, gray_image(2, 3)));
   auto got = sizes.sink().wait_for(0);
   REQUIRE(got);
-  CHECK(ros2::deserialize<ros2::string>(got->payload).data == "3x2");
+  CHECK(ros2::deserialize<ros2::std_msgs::string>(got->payload).data == "3x2");
   CHECK(teller.log.wait_for("frame 'image-1' failed (1 in a row): field "
                             "'step': 3 bytes are too few for 7 pixels"));
   CHECK(teller.stop() == engine::exit_code::done);

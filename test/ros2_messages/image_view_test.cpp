@@ -1,6 +1,8 @@
 #include "skills/ros2/messages/image_view.hpp"
 
 #include "skills/ros2/messages/cdr.hpp"
+#include "skills/ros2/messages/sensor_msgs.hpp"
+#include "skills/ros2/messages/std_msgs.hpp"
 
 #include "bytes.hpp"
 
@@ -35,7 +37,7 @@ std::string error_with(std::size_t from_end, char value) {
 TEST_CASE("an image view points into the payload") {
   auto payload = ros2::serialize(small_image());
   auto x = ros2::view_image(payload);
-  CHECK(x.header == ros2::header{{1, 2}, "cam"});
+  CHECK(x.header == ros2::std_msgs::header{{1, 2}, "cam"});
   CHECK(x.height == 2);
   CHECK(x.width == 1);
   CHECK(x.encoding == "rgb8");
@@ -77,7 +79,7 @@ TEST_CASE("sizes that overflow 32 bits are no way around the check") {
 }
 
 TEST_CASE("an image without pixels is an image") {
-  auto payload = ros2::serialize(ros2::image{});
+  auto payload = ros2::serialize(ros2::sensor_msgs::image{});
   CHECK(ros2::view_image(payload).size == 0);
 }
 

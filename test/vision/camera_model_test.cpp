@@ -8,20 +8,22 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-ros2::camera_info raw_camera() {
-  ros2::camera_info info;
+ros2::sensor_msgs::camera_info raw_camera() {
+  ros2::sensor_msgs::camera_info info;
   info.k = {500, 0, 320, 0, 510, 240, 0, 0, 1};
   info.p = {400, 0, 300, 0, 0, 410, 200, 0, 0, 0, 1, 0};
   return info;
 }
 
-std::string problem_of(const ros2::camera_info& info, bool rectified = false) {
+std::string problem_of(const ros2::sensor_msgs::camera_info& info,
+                       bool rectified = false) {
   auto result = camera_model::of(info, rectified);
   auto* problem = std::get_if<std::string>(&result);
   return problem != nullptr ? *problem : "none";
 }
 
-camera_model model_of(const ros2::camera_info& info, bool rectified = false) {
+camera_model model_of(const ros2::sensor_msgs::camera_info& info,
+                      bool rectified = false) {
   return std::get<camera_model>(camera_model::of(info, rectified));
 }
 

@@ -43,10 +43,10 @@ std::string rendered_scene::image() const {
   return ros2::serialize(vision::view(picture, {{12, 34}, "eye"}));
 }
 
-ros2::camera_info rendered_scene::info() const {
+ros2::sensor_msgs::camera_info rendered_scene::info() const {
   auto f = options.focal_px;
   auto c = scenes::camera{options}.centre();
-  ros2::camera_info result;
+  ros2::sensor_msgs::camera_info result;
   result.width = picture.width;
   result.height = picture.height;
   result.distortion_model = "plumb_bob";
@@ -89,7 +89,7 @@ const rendered_scene& four_tags() {
   return scene;
 }
 
-pose_difference difference(const ros2::transform& found,
+pose_difference difference(const ros2::geometry_msgs::transform& found,
                            const scenes::placed_tag& truth) {
   const auto& t = found.translation;
   const auto& q = found.rotation;

@@ -4,6 +4,8 @@
 #include "skills/engine/executor.hpp"
 #include "skills/engine/handlers.hpp"
 #include "skills/ros2/messages/cdr.hpp"
+#include "skills/ros2/messages/geometry_msgs.hpp"
+#include "skills/ros2/messages/sensor_msgs.hpp"
 #include "skills/vision/image_codec.hpp"
 #include "tools/render_scenes/placement.hpp"
 
@@ -81,7 +83,7 @@ struct rendered_scene {
   std::string image() const;
 
   /// The camera as sensor_msgs/msg/CameraInfo.
-  ros2::camera_info info() const;
+  ros2::sensor_msgs::camera_info info() const;
 
   const scenes::placed_tag& tag(int id) const;
 };
@@ -100,7 +102,7 @@ struct pose_difference {
   double rotation_deg;
 };
 
-pose_difference difference(const ros2::transform& found,
+pose_difference difference(const ros2::geometry_msgs::transform& found,
                            const scenes::placed_tag& truth);
 
 } // namespace roscell::test

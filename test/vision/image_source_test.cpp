@@ -29,12 +29,14 @@ struct bench {
     source.process(make_frame(port, picture_type, file, name), out);
   }
 
-  ros2::image image(std::size_t port, std::size_t n = 0) {
-    return ros2::deserialize<ros2::image>(out.of(port).at(n).payload);
+  ros2::sensor_msgs::image image(std::size_t port, std::size_t n = 0) {
+    return ros2::deserialize<ros2::sensor_msgs::image>(
+        out.of(port).at(n).payload);
   }
 
-  ros2::camera_info info(std::size_t port, std::size_t n = 0) {
-    return ros2::deserialize<ros2::camera_info>(out.of(port).at(n).payload);
+  ros2::sensor_msgs::camera_info info(std::size_t port, std::size_t n = 0) {
+    return ros2::deserialize<ros2::sensor_msgs::camera_info>(
+        out.of(port).at(n).payload);
   }
 
   said_lines said;
@@ -121,7 +123,7 @@ TEST_CASE("an image that a video gave is passed on with its stamp") {
   auto message = ros2::serialize(vision::view(picture, {{12, 34}, "eye"}));
   b.source.process(make_frame(0, image_type, message), b.out);
   CHECK(b.out.of(0)[0].payload == message);
-  CHECK(b.info(1).header.stamp == ros2::time{12, 34});
+  CHECK(b.info(1).header.stamp == ros2::builtin_interfaces::time{12, 34});
   CHECK(b.info(1).header.frame_id == "eye");
 }
 

@@ -27,12 +27,13 @@ struct bench {
     estimator.process(make_frame(port, image_type, scene.image()), out);
   }
 
-  void calibrate(std::size_t port, const ros2::camera_info& info) {
+  void calibrate(std::size_t port, const ros2::sensor_msgs::camera_info& info) {
     estimator.process(make_frame(port, info_type, ros2::serialize(info)), out);
   }
 
-  ros2::tf_message transforms(std::size_t port) {
-    return ros2::deserialize<ros2::tf_message>(out.of(port).back().payload);
+  ros2::tf2_msgs::tf_message transforms(std::size_t port) {
+    return ros2::deserialize<ros2::tf2_msgs::tf_message>(
+        out.of(port).back().payload);
   }
 
   said_lines said;
@@ -40,7 +41,8 @@ struct bench {
   pose_estimator estimator;
 };
 
-void check_poses(const ros2::tf_message& message, const rendered_scene& scene) {
+void check_poses(const ros2::tf2_msgs::tf_message& message,
+                 const rendered_scene& scene) {
   REQUIRE(message.transforms.size() == scene.tags.size());
   for (std::size_t i = 0; i < message.transforms.size(); ++i) {
     const auto& found = message.transforms[i];
@@ -78,7 +80,8 @@ TEST_CASE("poses are those that the scene was rendered from") {
   auto message = b.transforms(0);
   check_poses(message, scene);
   CHECK(message.transforms[0].header.frame_id == "eye");
-  CHECK(message.transforms[0].header.stamp == ros2::time{12, 34});
+  CHECK(message.transforms[0].header.stamp
+        == ros2::builtin_interfaces::time{12, 34});
   CHECK(b.said.lines().empty());
 }
 
@@ -87,8 +90,9 @@ TEST_CASE("the detection array is filled in as apriltag_ros does") {
   bench b{{image_type, info_type}, {detections_type}, tag_size};
   b.calibrate(1, scene.info());
   b.see(0, scene);
-  auto message = ros2::deserialize<ros2::april_tag_detection_array>(
-      b.out.of(0).back().payload);
+  auto message =
+      ros2::deserialize<ros2::apriltag_msgs::april_tag_detection_array>(
+          b.out.of(0).back().payload);
   CHECK(message.header.frame_id == "eye");
   REQUIRE(message.detections.size() == 4);
   const auto& tag = message.detections[2];
@@ -209,7 +213,7 @@ TEST_CASE("missing CameraInfo is said once, and once that it came") {
   CHECK_THAT(b.said.lines()[0], Contains("/in_0") && Contains("no CameraInfo")
                                     && Contains("'fx'"));
   CHECK(b.transforms(0).transforms.empty());
-  CHECK(ros2::deserialize<ros2::april_tag_detection_array>(
+  CHECK(ros2::deserialize<ros2::apriltag_msgs::april_tag_detection_array>(
             b.out.of(1).back().payload)
             .detections.size()
         == 4);
@@ -224,7 +228,7 @@ TEST_CASE("missing CameraInfo is said once, and once that it came") {
 TEST_CASE("bad CameraInfo is said once each time it changes") {
   const auto& scene = four_tags();
   bench b{{image_type, info_type}, {transforms_type}, tag_size};
-  auto see_with = [&](const ros2::camera_info& info) {
+  auto see_with = [&](const ros2::sensor_msgs::camera_info& info) {
     for (auto i = 0; i < 3; ++i) {
       b.calibrate(1, info);
       b.see(0, scene);

@@ -12,7 +12,7 @@ namespace {
 constexpr auto size_m = 0.16;
 
 camera_model bent_camera() {
-  ros2::camera_info info;
+  ros2::sensor_msgs::camera_info info;
   info.k = {600, 0, 320, 0, 600, 240, 0, 0, 1};
   info.distortion_model = "plumb_bob";
   info.d = {-0.25, 0.08, 0.001, -0.0005, 0};

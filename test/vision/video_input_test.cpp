@@ -103,7 +103,8 @@ TEST_CASE("each picture of a video file is an image message") {
   CHECK(sink.policies[0] == engine::when_full::wait);
   CHECK(sink.frames[2].data_type == image_type);
   CHECK(sink.frames[2].name == "2");
-  auto image = ros2::deserialize<ros2::image>(sink.frames[2].payload);
+  auto image =
+      ros2::deserialize<ros2::sensor_msgs::image>(sink.frames[2].payload);
   CHECK(image.encoding == "mono8");
   CHECK(image.width == 3);
   CHECK(image.height == 2);
@@ -114,7 +115,8 @@ TEST_CASE("each picture of a video file is an image message") {
 TEST_CASE("pictures may stay coloured") {
   limited_sink sink;
   CHECK(run(sink, "/film.avi", video_of(1), {{"encoding", "bgr8"}}) == "ended");
-  auto image = ros2::deserialize<ros2::image>(sink.frames[0].payload);
+  auto image =
+      ros2::deserialize<ros2::sensor_msgs::image>(sink.frames[0].payload);
   CHECK(image.encoding == "bgr8");
   CHECK(image.step == 9);
 }
@@ -165,7 +167,8 @@ TEST_CASE("a real film is read by OpenCV") {
   limited_sink sink;
   CHECK(run(sink, folder / "film.avi", make_capture) == "ended");
   REQUIRE(sink.frames.size() == 3);
-  auto image = ros2::deserialize<ros2::image>(sink.frames[2].payload);
+  auto image =
+      ros2::deserialize<ros2::sensor_msgs::image>(sink.frames[2].payload);
   CHECK(image.width == 64);
   CHECK(image.data[0] == Approx(100).margin(3));
 }

@@ -1,5 +1,8 @@
 #include "skills/pose_estimation/pose_estimator.hpp"
+#include "skills/ros2/messages/apriltag_msgs.hpp"
 #include "skills/ros2/messages/cdr.hpp"
+#include "skills/ros2/messages/sensor_msgs.hpp"
+#include "skills/ros2/messages/tf2_msgs.hpp"
 #include "skills/vision/calibration.hpp"
 
 #include <CLI/CLI.hpp>
@@ -92,11 +95,12 @@ std::vector<test_frame> load_frames(const std::string& folder) {
 
 engine::environment make_environment(const settings& wanted) {
   engine::environment env;
-  env.inputs = {{"ros2", "/image", ros2::image::type_name},
-                {"ros2", "/camera_info", ros2::camera_info::type_name}};
-  env.outputs = {
-      {"ros2", "/tf", ros2::tf_message::type_name},
-      {"ros2", "/detections", ros2::april_tag_detection_array::type_name}};
+  env.inputs = {
+      {"ros2", "/image", ros2::sensor_msgs::image::type_name},
+      {"ros2", "/camera_info", ros2::sensor_msgs::camera_info::type_name}};
+  env.outputs = {{"ros2", "/tf", ros2::tf2_msgs::tf_message::type_name},
+                 {"ros2", "/detections",
+                  ros2::apriltag_msgs::april_tag_detection_array::type_name}};
   env.parameters = engine::parameters{
       {{"decimation", wanted.decimation}, {"threads", wanted.threads}}};
   return env;
@@ -125,7 +129,7 @@ void run_scene(const std::string& folder, const settings& wanted) {
   discarding_emitter output;
   engine::frame info;
   info.port = 1;
-  info.data_type = ros2::camera_info::type_name;
+  info.data_type = ros2::sensor_msgs::camera_info::type_name;
   info.payload =
       ros2::serialize(vision::read_calibration(folder + "/camera.json"));
   skill.process(info, output);
@@ -136,7 +140,7 @@ void run_scene(const std::string& folder, const settings& wanted) {
   for (auto round = 0U; round < wanted.rounds; ++round)
     for (auto& frame : frames) {
       engine::frame input;
-      input.data_type = ros2::image::type_name;
+      input.data_type = ros2::sensor_msgs::image::type_name;
       input.payload = frame.message;
       measure(of_library, [&] { tags = library.detect(frame.picture); });
       measure(of_skill, [&] { skill.process(input, output); });

@@ -15,6 +15,12 @@ public:
     // nop
   }
 
+  /// The same error, seen from the field `outer` that this one is in.
+  cdr_error inside(const std::string& outer) const {
+    const auto* dot = field_.empty() || field_.front() == '[' ? "" : ".";
+    return {outer + dot + field_, problem_};
+  }
+
   const std::string& field() const noexcept {
     return field_;
   }
@@ -27,5 +33,15 @@ private:
   std::string field_;
   std::string problem_;
 };
+
+/// Calls `f`, and lets the errors it throws name the place.
+template <class F>
+void in_field(const char* name, F&& f) {
+  try {
+    f();
+  } catch (const cdr_error& e) {
+    throw e.inside(name);
+  }
+}
 
 } // namespace roscell::ros2

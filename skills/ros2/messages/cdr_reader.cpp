@@ -37,7 +37,7 @@ void cdr_reader::read(std::string& x) {
 
 std::string_view cdr_reader::read_bytes(const char* name) {
   std::string_view result;
-  read_inside(name, [&] { result = take(read_count(1)); });
+  in_field(name, [&] { result = take(read_count(1)); });
   return result;
 }
 
@@ -45,11 +45,6 @@ void cdr_reader::finish() {
   if (left() > max_padding)
     throw cdr_error("", std::to_string(left())
                             + " bytes are left behind the last field");
-}
-
-cdr_error cdr_reader::inside(const std::string& outer, const cdr_error& e) {
-  const auto* dot = e.field().empty() || e.field().front() == '[' ? "" : ".";
-  return {outer + dot + e.field(), e.problem()};
 }
 
 std::size_t cdr_reader::left() const {

@@ -1,10 +1,11 @@
 #pragma once
 
-#include "skills/ros2/messages/cdr_error.hpp"
-#include "skills/ros2/messages/fields.hpp"
+#include "skills/ros2/messages/check_bounds.hpp"
 
 #include <fastcdr/Cdr.h>
 
+#include <algorithm>
+#include <array>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,14 +28,17 @@ constexpr std::size_t least_bytes() {
   else if constexpr (extent<T> > 0)
     return extent<T> * least_bytes<typename T::value_type>();
   else if constexpr (is_message<T>::value)
-    return std::apply(
-        [](auto... f) {
-          return (least_bytes<typename decltype(f)::type>() + ... + 0);
-        },
-        T::fields());
+    return T::fields([](auto... f) {
+      return (least_bytes<typename decltype(f)::type>() + ... + 0);
+    });
   else // A length.
     return 4;
 }
+
+/// What lies in a message as it lies in memory.
+template <class T>
+inline constexpr bool is_byte = std::is_integral_v<T> && sizeof(T) == 1
+                                && !std::is_same_v<T, bool>;
 
 /// Reads one message out of bytes that may lie.
 class cdr_reader {
@@ -45,8 +49,8 @@ public:
   template <class T>
   void read(T& x) {
     if constexpr (is_message<T>::value)
-      std::apply([&](auto... f) { (read_field(f.name, x.*f.member), ...); },
-                 T::fields());
+      T::fields(
+          [&](auto... f) { (read_field(f.name, x.*f.member, f.most), ...); });
     else
       read_scalar([&] { cdr_ >> x; });
   }
@@ -56,7 +60,12 @@ public:
   template <class T>
   void read(std::vector<T>& x) {
     x.resize(read_count(least_bytes<T>()));
-    read_items(x);
+    if constexpr (is_byte<T>) {
+      auto bytes = take(x.size());
+      std::copy(bytes.begin(), bytes.end(), x.begin());
+    } else {
+      read_items(x);
+    }
   }
 
   template <class T, std::size_t N>
@@ -65,8 +74,11 @@ public:
   }
 
   template <class T>
-  void read_field(const char* name, T& x) {
-    read_inside(name, [&] { read(x); });
+  void read_field(const char* name, T& x, const bounds& most = {}) {
+    in_field(name, [&] {
+      read(x);
+      check_bounds(x, most);
+    });
   }
 
   /// A field that is a sequence of bytes, where it lies.
@@ -76,24 +88,26 @@ public:
   void finish();
 
 private:
-  template <class F>
-  void read_inside(const char* name, F&& f) {
-    try {
-      f();
-    } catch (const cdr_error& e) {
-      throw inside(name, e);
-    }
-  }
-
   template <class Items>
   void read_items(Items& items) {
     std::size_t i = 0;
     try {
       for (; i < items.size(); ++i)
-        read(items[i]);
+        read_item(items[i]);
     } catch (const cdr_error& e) {
-      throw inside('[' + std::to_string(i) + ']', e);
+      throw e.inside('[' + std::to_string(i) + ']');
     }
+  }
+
+  template <class T>
+  void read_item(T& x) {
+    read(x);
+  }
+
+  void read_item(std::vector<bool>::reference x) {
+    auto value = false;
+    read(value);
+    x = value;
   }
 
   template <class F>
@@ -107,7 +121,6 @@ private:
     }
   }
 
-  static cdr_error inside(const std::string& outer, const cdr_error& e);
   std::size_t left() const;
   std::size_t read_count(std::size_t least_bytes_of_item);
   std::string_view take(std::size_t count);

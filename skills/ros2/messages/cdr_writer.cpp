@@ -1,7 +1,5 @@
 #include "skills/ros2/messages/cdr_writer.hpp"
 
-#include "skills/ros2/messages/cdr_error.hpp"
-
 #include <limits>
 
 namespace roscell::ros2 {
@@ -22,6 +20,11 @@ void cdr_writer::write(const std::string& x) {
   // Fast CDR's own way would end the text at its first zero.
   write_count(x.size() + 1);
   cdr_.serializeArray(x.c_str(), x.size() + 1);
+}
+
+void cdr_writer::write(const std::vector<std::uint8_t>& x) {
+  write_count(x.size());
+  cdr_.serializeArray(x.data(), x.size());
 }
 
 void cdr_writer::write_count(std::size_t count) {

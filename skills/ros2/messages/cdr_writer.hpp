@@ -1,9 +1,10 @@
 #pragma once
 
-#include "skills/ros2/messages/fields.hpp"
+#include "skills/ros2/messages/check_bounds.hpp"
 
 #include <fastcdr/Cdr.h>
 
+#include <array>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,12 +20,14 @@ public:
   template <class T>
   void write(const T& x) {
     if constexpr (is_message<T>::value)
-      std::apply([&](auto... f) { (write(x.*f.member), ...); }, T::fields());
+      T::fields(
+          [&](auto... f) { (write_field(f.name, x.*f.member, f.most), ...); });
     else
       write_scalar(x);
   }
 
   void write(const std::string& x);
+  void write(const std::vector<std::uint8_t>& x);
 
   template <class T>
   void write(const std::vector<T>& x) {
@@ -46,6 +49,14 @@ public:
   std::string_view bytes();
 
 private:
+  template <class T>
+  void write_field(const char* name, const T& x, const bounds& most) {
+    in_field(name, [&] {
+      check_bounds(x, most);
+      write(x);
+    });
+  }
+
   template <class T>
   void write_scalar(T x) {
     pad(sizeof(T));

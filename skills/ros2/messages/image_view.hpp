@@ -11,7 +11,7 @@ namespace roscell::ros2 {
 
 /// A sensor_msgs/msg/Image whose pixels belong to somebody else.
 struct image_view {
-  ros2::header header;
+  std_msgs::header header;
   std::uint32_t height = 0;
   std::uint32_t width = 0;
   std::string encoding;
