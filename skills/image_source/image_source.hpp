@@ -6,6 +6,7 @@
 #include "skills/ros2/messages/sensor_msgs.hpp"
 #include "skills/ros2/messages/std_msgs.hpp"
 #include "skills/vision/broken_files.hpp"
+#include "skills/vision/compression.hpp"
 #include "skills/vision/image_codec.hpp"
 
 #include <cstddef>
@@ -19,14 +20,16 @@ namespace roscell::source {
 ///
 /// Inputs: pictures (image/png, image/jpeg by protocol `file`, or
 /// sensor_msgs/msg/Image by protocol `video`). Outputs, by data type:
-/// sensor_msgs/msg/Image and sensor_msgs/msg/CameraInfo; the k-th input feeds
-/// the k-th output of each type. Image and CameraInfo of a picture bear the
-/// same stamp: when it is sent, or when the video gave it.
+/// sensor_msgs/msg/Image, sensor_msgs/msg/CompressedImage and
+/// sensor_msgs/msg/CameraInfo; the k-th input feeds the k-th output of each
+/// type. The messages of a picture bear the same stamp: when it is sent, or
+/// when the video gave it.
 ///
 /// Intrinsics come from the parameters fx, fy, cx, cy, or from a calibration
 /// beside the pictures (see vision/calibration.hpp); without both, CameraInfo
 /// is all zero but for its size, as ROS has it for a camera that is not
-/// calibrated. Further parameters, beside `rate_hz` and `loop` of the protocol:
+/// calibrated. Further parameters, beside `rate_hz` and `loop` of the protocol
+/// and those of vision/compression.hpp:
 ///
 /// | parameter | default | meaning |
 /// |---|---|---|
@@ -51,6 +54,7 @@ private:
     std::string name;
     std::optional<ros2::sensor_msgs::camera_info> calibration;
     std::size_t images = engine::typed_outputs::none;
+    std::size_t compressed = engine::typed_outputs::none;
     std::size_t infos = engine::typed_outputs::none;
     bool size_said = false;
   };
@@ -58,13 +62,15 @@ private:
   void add_camera(const engine::environment& env, const engine::stream& input);
   void process_file(const engine::frame& input, camera& eye,
                     engine::emitter& output);
-  void emit_info(camera& eye, const ros2::std_msgs::header& header,
-                 std::uint32_t width, std::uint32_t height,
+  void emit_beside(camera& eye, const ros2::image_view& image,
+                   const engine::frame& input, engine::emitter& output);
+  void emit_info(camera& eye, const ros2::image_view& image,
                  const engine::frame& input, engine::emitter& output);
 
   const engine::say_function say_;
   const std::string frame_id_;
   const vision::pixel_format format_;
+  const vision::compression compression_;
   vision::broken_files broken_files_;
   std::vector<camera> cameras_;
 };

@@ -9,6 +9,7 @@
 #include "skills/ros2/messages/stamp.hpp"
 #include "skills/ros2/messages/tf2_msgs.hpp"
 #include "skills/vision/calibration.hpp"
+#include "skills/vision/compression.hpp"
 
 #include <algorithm>
 
@@ -18,13 +19,17 @@ namespace {
 
 using engine::start_error;
 using engine::typed_outputs;
+using ros2::sensor_msgs::camera_info;
+using ros2::sensor_msgs::compressed_image;
+using ros2::sensor_msgs::image;
 
 bool is_camera_info(const engine::stream& input) {
-  return input.data_type == ros2::sensor_msgs::camera_info::type_name;
+  return input.data_type == camera_info::type_name;
 }
 
 bool is_image_message(const std::string& data_type) {
-  return data_type == ros2::sensor_msgs::image::type_name;
+  return data_type == image::type_name
+         || data_type == compressed_image::type_name;
 }
 
 void check_types(const engine::environment& env) {
@@ -34,8 +39,8 @@ void check_types(const engine::environment& env) {
       throw start_error("input '" + in.endpoint + "' has the type '"
                         + in.data_type
                         + "'; this skill takes sensor_msgs/msg/Image, "
-                          "image/png, image/jpeg and sensor_msgs/msg/"
-                          "CameraInfo");
+                          "sensor_msgs/msg/CompressedImage, image/png, "
+                          "image/jpeg and sensor_msgs/msg/CameraInfo");
   for (const auto& out : env.outputs)
     if (out.data_type != ros2::tf2_msgs::tf_message::type_name
         && out.data_type
@@ -137,13 +142,14 @@ void pose_estimator::add_source(const engine::environment& env,
 
 void pose_estimator::process(const engine::frame& input,
                              engine::emitter& output) {
-  if (input.data_type == ros2::sensor_msgs::camera_info::type_name) {
+  if (input.data_type == camera_info::type_name) {
     if (given_)
       return;
     auto& camera = sources_.at(source_of_port_.at(input.port)).camera;
-    camera.calibrate(
-        ros2::deserialize<ros2::sensor_msgs::camera_info>(input.payload));
-  } else if (is_image_message(input.data_type)) {
+    camera.calibrate(ros2::deserialize<camera_info>(input.payload));
+  } else if (input.data_type == compressed_image::type_name) {
+    process_compressed(input, output);
+  } else if (input.data_type == image::type_name) {
     process_image(ros2::view_image(input.payload), input, output);
   } else {
     process_file(input, output);
@@ -157,18 +163,29 @@ void pose_estimator::release() {
 void pose_estimator::process_file(const engine::frame& input,
                                   engine::emitter& output) {
   const auto& source = sources_.at(source_of_port_.at(input.port));
-  auto wanted = source.pictures == typed_outputs::none
-                    ? vision::pixel_format::mono8
-                    : vision::pixel_format::bgr8;
   vision::picture picture;
   try {
-    picture = vision::decode_picture(input.payload, wanted);
+    picture = vision::decode_picture(input.payload, format_for(source));
   } catch (const vision::image_error& e) {
     broken_files_.skip(input.name, e.what());
     return;
   }
   process_image(view(picture, {ros2::to_time(input.time), frame_id_}), input,
                 output);
+}
+
+void pose_estimator::process_compressed(const engine::frame& input,
+                                        engine::emitter& output) {
+  auto message = ros2::deserialize<compressed_image>(input.payload);
+  const auto& source = sources_.at(source_of_port_.at(input.port));
+  auto picture = vision::decompress(message, format_for(source));
+  process_image(view(picture, message.header), input, output);
+}
+
+/// Colours are of use where pictures are drawn only.
+vision::pixel_format pose_estimator::format_for(const source& from) {
+  return from.pictures == typed_outputs::none ? vision::pixel_format::mono8
+                                              : vision::pixel_format::bgr8;
 }
 
 void pose_estimator::process_image(const ros2::image_view& image,

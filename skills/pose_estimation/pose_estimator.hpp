@@ -19,12 +19,12 @@ namespace roscell::pose {
 
 /// Finds AprilTags in images and tells where they are.
 ///
-/// Inputs: images (sensor_msgs/msg/Image, image/png, image/jpeg) and CameraInfo
-/// (sensor_msgs/msg/CameraInfo); the k-th CameraInfo input belongs to the k-th
-/// image input. Outputs, by data type: tf2_msgs/msg/TFMessage,
-/// apriltag_msgs/msg/AprilTagDetectionArray, application/json (see
-/// `frame_result`) and image/png (see `draw_overlay`); the k-th image input
-/// feeds the k-th output of each type, or its only one.
+/// Inputs: images (sensor_msgs/msg/Image, sensor_msgs/msg/CompressedImage,
+/// image/png, image/jpeg) and CameraInfo (sensor_msgs/msg/CameraInfo); the k-th
+/// CameraInfo input belongs to the k-th image input. Outputs, by data type:
+/// tf2_msgs/msg/TFMessage, apriltag_msgs/msg/AprilTagDetectionArray,
+/// application/json (see `frame_result`) and image/png (see `draw_overlay`);
+/// the k-th image input feeds the k-th output of each type, or its only one.
 ///
 /// Intrinsics come from the parameters fx, fy, cx, cy (see
 /// vision/calibration.hpp), else from CameraInfo, else from a calibration
@@ -68,7 +68,9 @@ private:
   void add_sources(const engine::environment& env);
   void add_source(const engine::environment& env, std::size_t port,
                   bool expects_info);
+  static vision::pixel_format format_for(const source& from);
   void process_file(const engine::frame& input, engine::emitter& output);
+  void process_compressed(const engine::frame& input, engine::emitter& output);
   void process_image(const ros2::image_view& image, const engine::frame& input,
                      engine::emitter& output);
   void emit_picture(source& from, const frame_result& result,

@@ -19,8 +19,8 @@ struct png_closer {
 };
 
 struct jpeg_closer {
-  void operator()(void* decoder) const {
-    tjDestroy(decoder);
+  void operator()(void* codec) const {
+    tjDestroy(codec);
   }
 };
 
@@ -84,6 +84,14 @@ picture decode_jpeg(std::string_view file, pixel_format wanted) {
   return result;
 }
 
+/// Throws image_error when it is neither gray nor coloured as a picture is.
+bool is_gray(const ros2::image_view& source) {
+  if (source.encoding != "mono8" && source.encoding != "bgr8")
+    throw image_error("images in encoding '" + source.encoding
+                      + "' cannot be compressed; mono8 and bgr8 can");
+  return source.encoding == "mono8";
+}
+
 } // namespace
 
 const char* encoding_name(pixel_format format) {
@@ -109,20 +117,43 @@ picture decode_picture(std::string_view file, pixel_format wanted) {
   throw image_error("it is neither PNG nor JPEG");
 }
 
-std::string encode_png(const picture& source) {
+std::string encode_png(const ros2::image_view& source) {
   png_image header{};
   header.version = PNG_IMAGE_VERSION;
   header.width = source.width;
   header.height = source.height;
-  header.format =
-      source.format == pixel_format::mono8 ? PNG_FORMAT_GRAY : PNG_FORMAT_BGR;
+  header.format = is_gray(source) ? PNG_FORMAT_GRAY : PNG_FORMAT_BGR;
   header.flags = PNG_IMAGE_FLAG_FAST;
   auto size = PNG_IMAGE_PNG_SIZE_MAX(header);
   std::string result(size, '\0');
-  if (png_image_write_to_memory(&header, result.data(), &size, 0,
-                                source.pixels.data(), 0, nullptr)
+  if (png_image_write_to_memory(&header, result.data(), &size, 0, source.data,
+                                static_cast<png_int_32>(source.step), nullptr)
       == 0)
     throw image_error(std::string{"cannot write PNG: "} + header.message);
+  result.resize(size);
+  return result;
+}
+
+std::string encode_jpeg(const ros2::image_view& source, int quality) {
+  const auto gray = is_gray(source);
+  const auto width = static_cast<int>(source.width);
+  const auto height = static_cast<int>(source.height);
+  const auto subsampling = gray ? TJSAMP_GRAY : TJSAMP_420;
+  std::unique_ptr<void, jpeg_closer> encoder{tjInitCompress()};
+  auto size = tjBufSize(width, height, subsampling);
+  if (width <= 0 || height <= 0 || size == static_cast<unsigned long>(-1))
+    throw image_error("cannot write JPEG: " + std::to_string(source.width)
+                      + " x " + std::to_string(source.height)
+                      + " pixels are no picture");
+  std::string result(size, '\0');
+  auto* target = reinterpret_cast<unsigned char*>(result.data());
+  if (tjCompress2(encoder.get(), source.data, width,
+                  static_cast<int>(source.step), height,
+                  gray ? TJPF_GRAY : TJPF_BGR, &target, &size, subsampling,
+                  quality, TJFLAG_NOREALLOC)
+      != 0)
+    throw image_error(std::string{"cannot write JPEG: "}
+                      + tjGetErrorStr2(encoder.get()));
   result.resize(size);
   return result;
 }

@@ -47,7 +47,13 @@ constexpr std::uint64_t max_picture_pixels = 64'000'000;
 /// per channel are cut. Throws image_error.
 picture decode_picture(std::string_view file, pixel_format wanted);
 
-/// Compresses fast rather than well. Throws image_error.
-std::string encode_png(const picture& source);
+/// Compress an image of mono8 or bgr8, PNG fast rather than well; `quality` is
+/// that of JPEG, 1 to 100. Both throw image_error.
+std::string encode_png(const ros2::image_view& source);
+std::string encode_jpeg(const ros2::image_view& source, int quality);
+
+inline std::string encode_png(const picture& source) {
+  return encode_png(view(source, {}));
+}
 
 } // namespace roscell::vision

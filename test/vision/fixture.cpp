@@ -74,7 +74,12 @@ scenes::scene_options small_scene(unsigned tags, std::uint64_t seed) {
 
 rendered_scene render(const scenes::scene_options& options) {
   scenes::tag_sheet sheet{options.family, options.tags};
-  auto tags = scenes::place_tags(options, sheet.margin());
+  return render(options, scenes::place_tags(options, sheet.margin()));
+}
+
+rendered_scene render(const scenes::scene_options& options,
+                      const std::vector<scenes::placed_tag>& tags) {
+  scenes::tag_sheet sheet{options.family, options.tags};
   auto pixels =
       scenes::expose(scenes::draw_scene(options, sheet, tags), options, 0);
   rendered_scene result{options, tags, {}};

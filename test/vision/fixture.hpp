@@ -20,6 +20,7 @@
 namespace roscell::test {
 
 constexpr auto image_type = "sensor_msgs/msg/Image";
+constexpr auto compressed_type = "sensor_msgs/msg/CompressedImage";
 constexpr auto info_type = "sensor_msgs/msg/CameraInfo";
 constexpr auto transforms_type = "tf2_msgs/msg/TFMessage";
 constexpr auto detections_type = "apriltag_msgs/msg/AprilTagDetectionArray";
@@ -92,6 +93,10 @@ struct rendered_scene {
 scenes::scene_options small_scene(unsigned tags, std::uint64_t seed = 1);
 
 rendered_scene render(const scenes::scene_options& options);
+
+/// The same with tags that are placed already.
+rendered_scene render(const scenes::scene_options& options,
+                      const std::vector<scenes::placed_tag>& tags);
 
 /// The same small scene again and again; rendering it takes seconds under ASan.
 const rendered_scene& four_tags();

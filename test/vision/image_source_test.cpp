@@ -39,6 +39,11 @@ struct bench {
         out.of(port).at(n).payload);
   }
 
+  ros2::sensor_msgs::compressed_image compressed(std::size_t port) {
+    return ros2::deserialize<ros2::sensor_msgs::compressed_image>(
+        out.of(port).at(0).payload);
+  }
+
   said_lines said;
   collecting_emitter out;
   image_source source;
@@ -73,6 +78,35 @@ TEST_CASE("images may be coloured") {
   CHECK(b.image(0).encoding == "bgr8");
   CHECK(b.image(0).step == 12);
   CHECK(b.image(0).data.size() == 24);
+}
+
+TEST_CASE("images may be compressed, beside others or alone") {
+  auto [options, format, first_bytes] = GENERATE(
+      std::tuple{json{{"encoding", "bgr8"}}, "bgr8; jpeg compressed bgr8",
+                 std::string{"\xff\xd8"}},
+      std::tuple{json{{"compressed_format", "png"}}, "mono8; png compressed ",
+                 std::string{"\x89PNG"}});
+  bench b{{picture_type}, {compressed_type, image_type, info_type}, options};
+  b.show(0, vision::encode_png(small_picture()));
+  auto message = b.compressed(0);
+  CHECK(message.format == format);
+  CHECK(message.header == b.image(1).header);
+  CHECK(message.header == b.info(2).header);
+  std::string file{message.data.begin(), message.data.end()};
+  CHECK(file.substr(0, first_bytes.size()) == first_bytes);
+  auto read = vision::decode_picture(file, vision::pixel_format::mono8);
+  CHECK(read.width == 4);
+  CHECK(read.height == 2);
+  if (message.format[0] == 'm')
+    CHECK(read.pixels == small_picture().pixels);
+}
+
+TEST_CASE("an image that a video gave is compressed with its stamp") {
+  bench b{{image_type}, {compressed_type}, {{"compressed_format", "png"}}};
+  auto picture = small_picture();
+  auto message = ros2::serialize(vision::view(picture, {{12, 34}, "eye"}));
+  b.source.process(make_frame(0, image_type, message), b.out);
+  CHECK(b.compressed(0).header == ros2::std_msgs::header{{12, 34}, "eye"});
 }
 
 TEST_CASE("a camera that is not calibrated has intrinsics of zero") {
@@ -138,5 +172,9 @@ TEST_CASE("an image source that makes no sense does not start") {
   };
   CHECK_THAT(error_of({"text/plain"}, json::object()), Contains("text/plain"));
   CHECK_THAT(error_of({image_type}, {{"encoding", "yuv"}}), Contains("yuv"));
+  CHECK_THAT(error_of({compressed_type}, {{"compressed_format", "gif"}}),
+             Contains("gif"));
+  CHECK_THAT(error_of({compressed_type}, {{"jpeg_quality", 0}}),
+             Contains("jpeg_quality"));
   CHECK_THAT(error_of({image_type}, {{"fx", 1}}), Contains("belong together"));
 }

@@ -1,5 +1,6 @@
 #include "skills/engine/errors.hpp"
 #include "skills/pose_estimation/pose_estimator.hpp"
+#include "skills/vision/compression.hpp"
 
 #include "test/vision/fixture.hpp"
 
@@ -83,6 +84,29 @@ TEST_CASE("poses are those that the scene was rendered from") {
   CHECK(message.transforms[0].header.stamp
         == ros2::builtin_interfaces::time{12, 34});
   CHECK(b.said.lines().empty());
+}
+
+TEST_CASE("poses of compressed images are those of the images") {
+  const auto& scene = four_tags();
+  auto format = GENERATE("jpeg", "png");
+  vision::compression how{engine::parameters{{{"compressed_format", format}}}};
+  auto message = how.compress(vision::view(scene.picture, {{12, 34}, "eye"}));
+  bench b{{compressed_type, info_type}, {transforms_type}, tag_size};
+  b.calibrate(1, scene.info());
+  b.estimator.process(make_frame(0, compressed_type, ros2::serialize(message)),
+                      b.out);
+  check_poses(b.transforms(0), scene);
+  CHECK(b.transforms(0).transforms[0].header
+        == ros2::std_msgs::header{{12, 34}, "eye"});
+}
+
+TEST_CASE("a compressed image that is broken fails, with its reason") {
+  bench b{{compressed_type}, {lines_type}, tag_size};
+  ros2::sensor_msgs::compressed_image broken{{}, "jpeg", {1, 2, 3}};
+  auto frame = make_frame(0, compressed_type, ros2::serialize(broken));
+  CHECK_THROWS_WITH(b.estimator.process(frame, b.out),
+                    Contains("neither PNG nor JPEG"));
+  CHECK(b.out.of(0).empty());
 }
 
 TEST_CASE("the detection array is filled in as apriltag_ros does") {

@@ -210,6 +210,7 @@ private:
     auto found = outputs_for(from, reader, output);
     if (found.empty())
       return refuse(at + "/from", no_output(from, reader, output));
+    add_outputs(from, found);
     for (auto& end : found) {
       end.external = wish.external;
       add_input(reader, end, at);
@@ -261,20 +262,49 @@ private:
       if (wanted)
         result.push_back(end);
     }
-    if (!result.empty())
-      return result;
+    if (result.empty())
+      result = outputs_it_could_have(from, reader, output);
+    if (output.empty())
+      drop_compressed_forms(result);
+    return result;
+  }
+
+  std::vector<io_endpoint> outputs_it_could_have(size_t from, size_t reader,
+                                                 const std::string& output) {
+    std::vector<io_endpoint> result;
     for (const auto& type : skills_[from]->output.data_types) {
       const auto end = made_up(from, type);
       const bool wanted = output.empty() || output == type_name(type);
-      if (!wanted || !takes(reader, end)
-          || !has(skills_[from]->output.protocols, end.protocol))
-        continue;
-      step(from).output.push_back(end);
-      result_.steps[from].output_at.push_back(
-          pointer_ + "/" + std::to_string(from) + "/output");
-      result.push_back(end);
+      if (wanted && takes(reader, end)
+          && has(skills_[from]->output.protocols, end.protocol))
+        result.push_back(end);
     }
     return result;
+  }
+
+  /// Who names no output gets one form of what a step gives, and not
+  /// CompressedImage beside Image.
+  static void drop_compressed_forms(std::vector<io_endpoint>& ends) {
+    const auto all = ends;
+    const auto is_second = [&](const io_endpoint& end) {
+      return std::any_of(all.begin(), all.end(), [&](const auto& plain) {
+        return type_name(end.data_type)
+               == "compressed_" + type_name(plain.data_type);
+      });
+    };
+    ends.erase(std::remove_if(ends.begin(), ends.end(), is_second), ends.end());
+  }
+
+  /// Lets a step write what it would not without a reader.
+  void add_outputs(size_t from, const std::vector<io_endpoint>& ends) {
+    for (const auto& end : ends) {
+      auto& written = step(from).output;
+      if (std::find(written.begin(), written.end(), end) != written.end())
+        continue;
+      written.push_back(end);
+      result_.steps[from].output_at.push_back(
+          pointer_ + "/" + std::to_string(from) + "/output");
+    }
   }
 
   io_endpoint made_up(size_t from, const std::string& type) {

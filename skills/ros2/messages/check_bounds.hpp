@@ -26,10 +26,9 @@ inline void check_bounds(const std::string& x, const bounds& most) {
 template <class T>
 void check_bounds(const std::vector<T>& x, const bounds& most) {
   if (x.size() > most.items)
-    throw cdr_error("", "its " + std::to_string(x.size())
-                            + " items are more than the "
-                            + std::to_string(most.items)
-                            + " of its definition");
+    throw cdr_error(
+        "", "its " + std::to_string(x.size()) + " items are more than the "
+                + std::to_string(most.items) + " of its definition");
   if constexpr (std::is_same_v<T, std::string>)
     for (const auto& text : x)
       check_bounds(text, most);

@@ -85,6 +85,33 @@ TEST_CASE("An output that is said goes before one that is made up",
   CHECK(inputs(x, 2) == topic);
 }
 
+TEST_CASE("Who names no output gets images in one form, the plain one",
+          "[short_forms]") {
+  auto skills = vision_skills();
+  const std::string compressed = "sensor_msgs/msg/CompressedImage";
+  skills.skills[0].skill.descriptor.output.data_types.push_back(compressed);
+  skills.skills[1].skill.descriptor.input.data_types.push_back(compressed);
+  const auto read = [&](const std::string& input, const std::string& output) {
+    std::string eye{camera};
+    eye.insert(eye.size() - 1, output);
+    auto pipeline =
+        steps_in("[" + eye + R"(, {"id": "poses", "operation": "poses",
+                                 "model": "m", "input": )"
+                 + input + "}]");
+    return inputs(write_out("fleet", pipeline, skills, "/pipeline"), 1);
+  };
+  const std::string image = "ros2 /fleet/camera/image sensor_msgs/msg/Image";
+  const std::string info =
+      "ros2 /fleet/camera/camera_info sensor_msgs/msg/CameraInfo";
+  CHECK(read(R"({"from": "camera"})", "") == std::vector{image, info});
+  CHECK(read(R"({"from": "camera.compressed_image"})", "")
+        == std::vector{"ros2 /fleet/camera/compressed_image " + compressed});
+  CHECK(read(R"({"from": "camera"})",
+             R"(, "output": {"endpoint": "/image/compressed", "data_type":
+                 "sensor_msgs/msg/CompressedImage"})")
+        == std::vector{"ros2 /image/compressed " + compressed});
+}
+
 TEST_CASE("The protocol of a lone endpoint follows from its form",
           "[short_forms]") {
   const auto x = written(R"([
