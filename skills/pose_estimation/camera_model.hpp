@@ -1,10 +1,10 @@
 #pragma once
 
 #include "skills/ros2/messages/sensor_msgs.hpp"
+#include "skills/vision/lens.hpp"
 
 #include <Eigen/Core>
 
-#include <array>
 #include <string>
 #include <variant>
 
@@ -29,8 +29,8 @@ public:
   /// The pixel at which a pinhole camera without distortion sees `point`.
   Eigen::Vector2d project(const Eigen::Vector3d& point) const;
 
-  /// Where the pixel would be without distortion. Inverts equations (1) of
-  /// OpenCV's calib3d by fixed-point iteration, as cv::undistortPoints does.
+  /// Where the pixel would be without distortion. Inverts what the lens does by
+  /// fixed-point iteration, as cv::undistortPoints does.
   Eigen::Vector2d undistort(const Eigen::Vector2d& pixel) const;
 
   /// Where distortion puts the pixel of a pinhole camera.
@@ -46,29 +46,13 @@ public:
   }
 
 private:
-  /// What distortion adds to and multiplies a direction with.
-  struct bend {
-    double radial;
-    Eigen::Vector2d tangential;
-  };
-
-  bend bend_at(const Eigen::Vector2d& direction) const;
-
   Eigen::Vector2d to_pixel(const Eigen::Vector2d& direction) const {
     return direction.cwiseProduct(focal_) + centre_;
   }
 
   Eigen::Vector2d focal_;
   Eigen::Vector2d centre_;
-  /// k1, k2, p1, p2, k3, k4, k5, k6, in OpenCV's order.
-  std::array<double, 8> distortion_{};
-  bool distorted_ = false;
+  vision::lens lens_;
 };
-
-/// A CameraInfo describes the camera's full resolution, and apart from that
-/// which part of it is sent and how coarsely. Returns one that describes the
-/// images as they are sent, as image_geometry::PinholeCameraModel has it.
-ros2::sensor_msgs::camera_info
-describe_sent_images(ros2::sensor_msgs::camera_info info);
 
 } // namespace roscell::pose

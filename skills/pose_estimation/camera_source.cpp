@@ -20,8 +20,18 @@ std::string size(std::uint32_t width, std::uint32_t height) {
 
 } // namespace
 
+camera_source::camera_source(const std::string& name, bool expects_info,
+                             bool rectified, engine::say_function say)
+    : expects_info_(expects_info), rectified_(rectified),
+      complaint_("'" + name + "' gives detections without poses: ",
+                 "'" + name
+                     + "': the camera's intrinsics are good now, poses follow",
+                 std::move(say)) {
+  // nop
+}
+
 void camera_source::calibrate(const ros2::sensor_msgs::camera_info& sent) {
-  auto info = describe_sent_images(sent);
+  auto info = vision::describe_sent_images(sent);
   // It comes with every image, and hardly ever changes.
   if (info_ && same_calibration(*info_, info))
     return;
@@ -40,7 +50,7 @@ std::optional<camera_model> camera_source::model_for(std::uint32_t width,
   if (!info_ && expects_info_ && ++early_images_ < patient_images)
     return std::nullopt;
   auto problem = problem_with(width, height);
-  report(problem);
+  complaint_.update(problem);
   return problem.empty() ? model_ : std::nullopt;
 }
 
@@ -62,16 +72,6 @@ std::string camera_source::problem_with(std::uint32_t width,
            + size(info_->width, info_->height) + ", but they have "
            + size(width, height) + " pixels; calibrate the camera at this size";
   return "";
-}
-
-void camera_source::report(const std::string& problem) {
-  if (problem == said_)
-    return;
-  if (problem.empty())
-    say_("'" + name_ + "': the camera's intrinsics are good now, poses follow");
-  else
-    say_("'" + name_ + "' gives detections without poses: " + problem);
-  said_ = problem;
 }
 
 } // namespace roscell::pose

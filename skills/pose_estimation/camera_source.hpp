@@ -2,6 +2,7 @@
 
 #include "skills/engine/handlers.hpp"
 #include "skills/pose_estimation/camera_model.hpp"
+#include "skills/vision/complaint.hpp"
 
 #include <optional>
 #include <string>
@@ -14,12 +15,8 @@ class camera_source {
 public:
   /// `name` is what a person calls the camera, e.g. the image's endpoint.
   /// `expects_info` is whether a CameraInfo input belongs to it.
-  camera_source(std::string name, bool expects_info, bool rectified,
-                engine::say_function say)
-      : name_(std::move(name)), expects_info_(expects_info),
-        rectified_(rectified), say_(std::move(say)) {
-    // nop
-  }
+  camera_source(const std::string& name, bool expects_info, bool rectified,
+                engine::say_function say);
 
   /// Takes the camera's calibration, the first one or a new one.
   void calibrate(const ros2::sensor_msgs::camera_info& sent);
@@ -31,18 +28,14 @@ public:
 
 private:
   std::string problem_with(std::uint32_t width, std::uint32_t height) const;
-  void report(const std::string& problem);
 
-  const std::string name_;
   const bool expects_info_;
   const bool rectified_;
-  const engine::say_function say_;
   std::optional<ros2::sensor_msgs::camera_info> info_;
   std::optional<camera_model> model_;
   /// Why the last calibration gave no model.
   std::string fault_;
-  /// What was said last; empty when all is well.
-  std::string said_;
+  vision::complaint complaint_;
   unsigned early_images_ = 0;
 };
 

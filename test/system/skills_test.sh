@@ -106,6 +106,49 @@ test_a_node_that_was_stopped_for_longer_than_the_watchdog_keeps_its_skills() {
     "$(get head /v1/instances | jq -r '.instances[0].state')" running
 }
 
+# bent_scene: pictures of four tags by a camera whose lens bends, and the
+# example that rectifies them, with this test's paths, through the jq program $1.
+bent_scene() {
+  rm -r "$skills"
+  use_skills image_source rectify pose_estimation
+  "$ROSCELL_BUILD/bin/render_scenes" --tags 4 --frames 2 --width 640 \
+    --height 480 --focal 500 --farthest 1.5 "$scratch/bent" \
+    --distortion -0.25 0.08 0.001 -0.0005 0 > "$scratch/rendered"
+  mkdir "$scratch/poses"
+  jq "$1" docs/examples/rectify.json \
+    | sed "s#/tmp/roscell-bent#$scratch/bent#; s#/tmp/roscell-poses#$scratch/poses#" \
+    > "$scratch/task.json"
+}
+
+# run_bent_scene: all of it, until every tag is where it was rendered.
+run_bent_scene() {
+  start_node head --coordinator --interface lo
+  to head check "$scratch/task.json" > "$scratch/checked" 2>&1 \
+    || fail "check refused it: $(cat "$scratch/checked")"
+  to head plan "$scratch/task.json" > "$scratch/plan" 2>&1 \
+    || fail "no plan: $(cat "$scratch/plan")"
+  to head request "$scratch/task.json" > "$scratch/reply.json" \
+    || fail "refused: $(cat "$scratch/reply.json")"
+  "$ROSCELL_BUILD/bin/compare_poses" --wait "$deadline_s" --summary \
+    "$scratch/bent/scene_1" "$scratch/poses/rectified.jsonl" \
+    > "$scratch/compared" 2>&1 || fail "$(cat "$scratch/compared")"
+}
+
+test_pictures_of_a_bent_lens_are_rectified_before_their_tags_are_found() {
+  bent_scene .
+  run_bent_scene
+}
+
+test_a_camera_may_send_its_pictures_compressed() {
+  bent_scene 'del(.pipeline[1])
+    | (.pipeline[].output[]?, .pipeline[].input[]? | objects
+       | select(.data_type == "sensor_msgs/msg/Image"))
+      |= {protocol, endpoint: "/bent/image_raw/compressed",
+          data_type: "sensor_msgs/msg/CompressedImage"}
+    | .pipeline[1].parameters.rectified = false'
+  run_bent_scene
+}
+
 test_an_installed_node_finds_its_shim() {
   cmake --install "$ROSCELL_BUILD" --prefix "$scratch/usr" > "$scratch/out" 2>&1 \
     || fail "$(cat "$scratch/out")"

@@ -96,7 +96,7 @@ TEST_CASE("binning and region of interest are part of the description") {
   auto info = raw_camera();
   info.width = 640;
   info.height = 480;
-  CHECK(describe_sent_images(info) == info);
+  CHECK(vision::describe_sent_images(info) == info);
   // The right half, of which each pixel is four of the sensor.
   info.roi.x_offset = 320;
   info.roi.y_offset = 0;
@@ -104,7 +104,7 @@ TEST_CASE("binning and region of interest are part of the description") {
   info.roi.height = 480;
   info.binning_x = 2;
   info.binning_y = 2;
-  auto sent = describe_sent_images(info);
+  auto sent = vision::describe_sent_images(info);
   CHECK(sent.width == 160);
   CHECK(sent.height == 240);
   for (auto rectified : {false, true}) {

@@ -1,0 +1,10 @@
+#include "skills/engine/run.hpp"
+#include "skills/rectify/rectifier.hpp"
+#include "skills/ros2/protocol.hpp"
+
+int main(int argc, char** argv) {
+  roscell::engine::registry parts;
+  parts.add_executor<roscell::rectify::rectifier>("linear");
+  roscell::ros2::add_ros2_protocol(parts);
+  return roscell::engine::run(parts, argc, argv);
+}

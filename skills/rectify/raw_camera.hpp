@@ -1,0 +1,47 @@
+#pragma once
+
+#include "skills/rectify/pixel_map.hpp"
+#include "skills/vision/complaint.hpp"
+
+#include <optional>
+#include <string>
+
+namespace roscell::rectify {
+
+/// What is known of the camera behind one image input. Says once, with the
+/// remedy, why its images cannot be rectified, and once when they can be again.
+class raw_camera {
+public:
+  /// `name` is what a person calls the camera, e.g. the image's endpoint.
+  raw_camera(const std::string& name, engine::say_function say);
+
+  /// Takes the camera's calibration, the first one or a new one.
+  void calibrate(const ros2::sensor_msgs::camera_info& info);
+
+  /// Whether images of this size can be rectified.
+  bool is_ready_for(std::uint32_t width, std::uint32_t height);
+
+  /// The map for images that `is_ready_for` has accepted; null when they have
+  /// no distortion and so are rectified already. Made anew only for another
+  /// calibration.
+  const pixel_map* map();
+
+  /// The calibration as it came.
+  const ros2::sensor_msgs::camera_info& info() const {
+    return info_.value();
+  }
+
+private:
+  std::string problem_with(std::uint32_t width, std::uint32_t height) const;
+
+  std::optional<ros2::sensor_msgs::camera_info> info_;
+  ros2::sensor_msgs::camera_info sent_;
+  vision::lens lens_;
+  /// Why the last calibration is of no use.
+  std::string fault_;
+  std::optional<pixel_map> map_;
+  vision::complaint complaint_;
+  unsigned early_images_ = 0;
+};
+
+} // namespace roscell::rectify

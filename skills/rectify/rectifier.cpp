@@ -1,0 +1,98 @@
+#include "skills/rectify/rectifier.hpp"
+
+#include "skills/engine/errors.hpp"
+#include "skills/engine/log_line.hpp"
+#include "skills/ros2/messages/cdr.hpp"
+#include "skills/ros2/messages/image_view.hpp"
+#include "skills/ros2/messages/sensor_msgs.hpp"
+
+namespace roscell::rectify {
+
+namespace {
+
+using engine::start_error;
+using engine::typed_outputs;
+using ros2::sensor_msgs::camera_info;
+using ros2::sensor_msgs::image;
+
+void check_types(const std::vector<engine::stream>& ends, const char* verb) {
+  for (const auto& end : ends)
+    if (end.data_type != image::type_name
+        && end.data_type != camera_info::type_name)
+      throw start_error("'" + end.endpoint + "' has the type '" + end.data_type
+                        + "'; this skill " + verb
+                        + " sensor_msgs/msg/Image and "
+                          "sensor_msgs/msg/CameraInfo");
+}
+
+/// The raw image with other pixels, whose rows have no gaps.
+std::string rectified(const ros2::image_view& raw, const pixel_map& map) {
+  auto pixels = remap(raw, map);
+  auto result = raw;
+  result.step = static_cast<std::uint32_t>(pixels.size() / raw.height);
+  result.data = pixels.data();
+  result.size = pixels.size();
+  return ros2::serialize(result);
+}
+
+} // namespace
+
+rectifier::rectifier(const engine::environment& env)
+    : rectifier(env, [](const std::string& line) {
+        engine::log_line("rectify: " + line);
+      }) {
+  // nop
+}
+
+rectifier::rectifier(const engine::environment& env,
+                     const engine::say_function& say) {
+  check_types(env.inputs, "takes");
+  check_types(env.outputs, "gives");
+  auto images = engine::ports_of_type(env.inputs, image::type_name);
+  auto infos = engine::ports_of_type(env.inputs, camera_info::type_name);
+  if (images.empty() || images.size() != infos.size())
+    throw start_error("the step has " + std::to_string(images.size())
+                      + " image and " + std::to_string(infos.size())
+                      + " CameraInfo inputs; give each image input its "
+                        "CameraInfo");
+  typed_outputs to_images{env.outputs, image::type_name, images.size()};
+  typed_outputs to_infos{env.outputs, camera_info::type_name, images.size()};
+  source_of_port_.resize(env.inputs.size());
+  for (std::size_t k = 0; k < images.size(); ++k) {
+    source_of_port_[images[k]] = k;
+    source_of_port_[infos[k]] = k;
+    sources_.push_back({raw_camera{env.inputs[images[k]].endpoint, say},
+                        to_images.of_source(k), to_infos.of_source(k)});
+  }
+}
+
+void rectifier::process(const engine::frame& input, engine::emitter& output) {
+  auto& from = sources_.at(source_of_port_.at(input.port));
+  if (input.data_type == camera_info::type_name)
+    from.camera.calibrate(ros2::deserialize<camera_info>(input.payload));
+  else
+    process_image(input, from, output);
+}
+
+void rectifier::release() {
+  // Everything is given back by destructors.
+}
+
+void rectifier::process_image(const engine::frame& input, source& from,
+                              engine::emitter& output) {
+  auto raw = ros2::view_image(input.payload);
+  if (!from.camera.is_ready_for(raw.width, raw.height))
+    return;
+  if (from.images != typed_outputs::none) {
+    const auto* map = from.camera.map();
+    output.emit(map == nullptr ? input.payload : rectified(raw, *map),
+                from.images);
+  }
+  if (from.infos != typed_outputs::none) {
+    auto info = from.camera.info();
+    info.header = raw.header;
+    output.emit(ros2::serialize(info), from.infos);
+  }
+}
+
+} // namespace roscell::rectify
