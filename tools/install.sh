@@ -35,6 +35,9 @@ if [[ "${1:-}" == --with-tests ]]; then
     iproute2 nftables curl procps
     # A DDS implementation that is not ours, and a look at the wire.
     cyclonedds-dev cyclonedds-tools tcpdump
+    # The other engine. runc, because crun refuses hosts with both versions of
+    # cgroups; catatonit holds the namespaces of a user's own Podman.
+    podman runc netavark catatonit
   )
 fi
 if [[ "${1:-}" == --with-tests || "${1:-}" == --containers ]]; then

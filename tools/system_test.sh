@@ -1,6 +1,8 @@
 #!/usr/bin/env bash
 # Runs the system tests: real processes, real DDS, namespaces where the machine
 # has them. Usage: tools/system_test.sh BUILD_DIR [PATTERN]
+# A file of tests with a line "variants=(A B)" is run once for each, which
+# $variant tells it; $ROSCELL_VARIANTS="B" leaves the others out.
 set -uo pipefail
 cd "$(dirname "$0")/.."
 export ROSCELL_BUILD
@@ -18,6 +20,16 @@ suite_hook() {
     . "$1"
     "$2"
   ) > "$suite/$2.output" 2>&1
+}
+
+# variants_of FILE: the words of its line; "-" for a file without one.
+variants_of() {
+  local all variant
+  all=$(sed -n 's/^variants=(\(.*\))$/\1/p' "$1")
+  for variant in ${all:--}; do
+    [[ $variant == - || " ${ROSCELL_VARIANTS:-$all} " == *" $variant "* ]] \
+      && echo "$variant"
+  done
 }
 
 end_suite() {
@@ -39,6 +51,7 @@ run_one() {
   local code=$?
   local name=${test#test_}
   name=${name//_/ }
+  [[ $variant == - ]] || name+=" ($variant)"
   case $code in
     0) echo "  ok       $name"; ((++passed)) ;;
     77) echo "  SKIPPED  $name: $(cat "$scratch/skipped")"; ((++skipped)) ;;
@@ -54,18 +67,26 @@ run_one() {
   rm -rf "$scratch"
 }
 
-file=
-trap '[[ -n $file ]] && end_suite' EXIT
-for file in test/system/*_test.sh; do
-  tests=$(grep -oE '^test_[a-z0-9_]+' "$file" | grep -E "$pattern")
-  [[ -n $tests ]] || continue
-  echo "$(basename "$file" _test.sh):"
+run_suite() {
+  local test
+  file=$1
   suite=$(mktemp -d /tmp/roscell-suite.XXXXXX)
   suite_hook "$file" before_all
   for test in $tests; do
     run_one "$file" "$test"
   done
   end_suite
+}
+
+file=
+trap '[[ -n $file ]] && end_suite' EXIT
+for tests_file in test/system/*_test.sh; do
+  tests=$(grep -oE '^test_[a-z0-9_]+' "$tests_file" | grep -E "$pattern")
+  [[ -n $tests ]] || continue
+  echo "$(basename "$tests_file" _test.sh):"
+  for variant in $(variants_of "$tests_file"); do
+    run_suite "$tests_file"
+  done
 done
 echo "system tests: $passed passed, $failed failed, $skipped skipped"
 [[ $failed -eq 0 ]]

@@ -36,7 +36,7 @@ caf::result<Reply> forward(node_agent_self self,
 }
 
 /// The session leader of a process instance, whose id is "<pid>:<start>".
-/// Engines have other ids; what their containers use is not subtracted.
+/// Engines have other ids.
 std::optional<int64_t> session_of(const instance_row& instance) {
   int64_t pid = 0;
   const auto* end = instance.container.data() + instance.container.size();
@@ -86,9 +86,14 @@ void measure(node_agent_self self,
   auto on_error = [done](const caf::error& why) { done(why); };
   auto on_known = [self, done, on_error](instance_description& known) {
     measure_host wish;
-    for (const auto& x : known.instances)
-      if (const auto session = session_of(x); session && is_live(x.state))
+    for (const auto& x : known.instances) {
+      if (!is_live(x.state))
+        continue;
+      if (const auto session = session_of(x))
         wish.sessions.push_back(*session);
+      else if (!x.container.empty())
+        wish.containers.push_back(x.container);
+    }
     self->request(self->state.config.probe, limits::local::part,
                   std::move(wish))
         .then(

@@ -44,9 +44,11 @@ caf::expected<chosen_runtime> choose_processes(const node_config& config,
 chosen_runtime choose_engine(const found_engine& engine) {
   return {engine.name,
           engine.socket,
+          engine.rootless,
           {},
-          engine.name + " " + engine.version + " answers on '" + engine.socket
-              + "'"};
+          engine.name + (engine.version.empty() ? "" : " ") + engine.version
+              + " answers on '" + engine.socket
+              + (engine.rootless ? "', without root" : "'")};
 }
 
 std::function<runtime_actor(container_listener_actor)>
@@ -97,7 +99,7 @@ runtime_factory(caf::actor_system& system, const house& context,
   engine_runtime_config setup;
   setup.context = context;
   setup.socket = chosen.socket;
-  setup.setting = {node_uuid, config.log_bytes};
+  setup.setting = {node_uuid, config.log_bytes, chosen.name, chosen.rootless};
   setup.data_dir = config.data_dir;
   setup.io = io.core();
   return [&system, context, setup](const container_listener_actor& listener) {

@@ -17,6 +17,7 @@ namespace roscell {
 struct chosen_runtime {
   std::string name;           ///< "process", "docker" or "podman".
   std::string socket;         ///< Of the engine; empty: there is none.
+  bool rootless = false;      ///< The engine runs without root.
   std::filesystem::path shim; ///< For processes.
   std::string reason;         ///< Why this one, a sentence for the operator.
 };

@@ -1,6 +1,5 @@
 #include "actors/node/resource_probe.hpp"
 
-#include "actors/edge/host/host_probe_processes.hpp"
 #include "actors/house/limits.hpp"
 
 #include <algorithm>
@@ -14,12 +13,10 @@ using resource_probe_self =
     resource_probe_actor::stateful_pointer<resource_probe_state>;
 using clock = host_probe::clock;
 
-/// CPU seconds of our instances; nothing is read where there are none.
+/// What our instances use; nothing is read where there are none.
 process_usage instance_usage(resource_probe_self self) {
   const auto& st = self->state;
-  if (st.sessions.empty())
-    return {};
-  return usage_of_sessions(st.sessions, st.config.host.root);
+  return usage_of(st.own, st.config.host.root);
 }
 
 void mark(resource_probe_self self, clock::time_point now) {
@@ -72,7 +69,9 @@ host_measured measure(resource_probe_self self, clock::time_point now) {
 
 host_measured answer(resource_probe_self self, const measure_host& wish) {
   const auto now = self->clock().now();
-  self->state.sessions = {wish.sessions.begin(), wish.sessions.end()};
+  auto& own = self->state.own;
+  own.sessions = {wish.sessions.begin(), wish.sessions.end()};
+  own.containers = {wish.containers.begin(), wish.containers.end()};
   auto result = measure(self, now);
   mark(self, now);
   return result;

@@ -2,16 +2,13 @@
 
 #include "actors/edge/host/host_probe.hpp"
 #include "actors/edge/host/host_probe_capacity.hpp"
+#include "actors/edge/host/host_probe_processes.hpp"
 #include "actors/house/house.hpp"
 #include "messages/messages.hpp"
 
 #include <chrono>
 #include <deque>
 #include <memory>
-#include <set>
-#include <string>
-
-#include <sys/types.h>
 
 namespace roscell {
 
@@ -33,7 +30,7 @@ struct resource_probe_state {
 
   resource_probe_config config;
   std::unique_ptr<host_probe> probe;
-  std::set<pid_t> sessions; ///< Of our instances, as last heard.
+  own_processes own; ///< Of our instances, as last heard.
   std::deque<instance_sample> samples;
   uint64_t measurements = 0;
   uint64_t estimates = 0; ///< Of these, without a CPU sample in time.

@@ -9,10 +9,12 @@ namespace roscell {
 /// Asks the probe for what the host has and what programs outside our
 /// instances use of it.
 struct measure_host {
-  std::vector<int64_t> sessions; ///< Session leaders of our instances.
+  std::vector<int64_t> sessions;       ///< Session leaders of our instances.
+  std::vector<std::string> containers; ///< An engine's ids of the others.
 
   static constexpr auto fields() {
-    return field_list{required("sessions", &measure_host::sessions)};
+    return field_list{required("sessions", &measure_host::sessions),
+                      required("containers", &measure_host::containers)};
   }
 };
 

@@ -1,8 +1,14 @@
-# The Docker engine of the tests: tools/own_engine.sh, once for a file of tests.
+# The container engine of the tests: tools/own_engine.sh, once for a file of
+# tests. $variant says which: docker, podman, or rootless.
 
+engine_kind=$variant
 engine_dir=$suite/engine
 base_tar=$ROSCELL_BUILD/../base-images/bookworm.tar
 . tools/own_engine.sh
+
+# What the node calls the engine.
+engine_name=docker
+[[ $variant == docker ]] || engine_name=podman
 
 # For a test: skips it if there is no engine, and uses it if there is one.
 use_engine() {
@@ -11,10 +17,19 @@ use_engine() {
     || fail "$(cat "$suite/before_all.output")"
   # What a failed test has left.
   engine ps -aq | xargs -r docker -H "unix://$engine_socket" rm -f > /dev/null
-  runtime=docker:$engine_socket
+  runtime=$engine_name:$engine_socket
   # The sanitizers' own memory is many times that of the skill.
   local text
   text=$(jq '.models[].deployments[].resources.memory_mib = 1024' \
     "$skills/echo/skill.json")
   echo "$text" > "$skills/echo/skill.json"
+  [[ $variant != rootless ]] || become_rootless_user
+}
+
+# The node is the unprivileged user whose engine it is.
+become_rootless_user() {
+  mkdir -p "$scratch/data"
+  chown -R "$rootless_user" "$scratch"
+  inside=(env "HOME=$scratch" "XDG_RUNTIME_DIR=$scratch"
+    "${as_rootless_user[@]}")
 }

@@ -1,36 +1,14 @@
 #include "actors/edge/engine/engine_client.hpp"
 
+#include "actors/edge/engine/engine_words.hpp"
 #include "actors/house/limits.hpp"
-#include "schemas/utf8.hpp"
 
-#include <nlohmann/json.hpp>
-
-#include <cerrno>
 #include <system_error>
 #include <utility>
 
 namespace roscell {
 
 namespace {
-
-using json = nlohmann::json;
-
-std::string text_of(const json& document, const char* name) {
-  const auto i = document.find(name);
-  return i != document.end() && i->is_string() ? i->get<std::string>()
-                                               : std::string{};
-}
-
-std::string words_of(const std::string& body) {
-  const auto document = json::parse(body, nullptr, false);
-  if (!document.is_object())
-    return body;
-  auto result = text_of(document, "message");
-  const auto cause = text_of(document, "cause");
-  if (!cause.empty() && result.find(cause) == std::string::npos)
-    result += (result.empty() ? "" : ": ") + cause;
-  return result;
-}
 
 http_call to_call(const std::string& socket, engine_request what) {
   http_call result;
@@ -63,18 +41,19 @@ edge_error engine_trouble(const std::string& socket, const http_failure& why,
     return {error_code::timeout,
             engine + " did not answer within "
                 + std::to_string(limit.count() / 1000) + " s",
-            "look into the engine's own log: journalctl -u docker"};
+            "look into the engine's own log: " + engine_log_command(socket)};
   case http_failure::kind::cut_off:
     return {error_code::unreachable,
             engine + " went away: it broke the connection",
-            "is it being restarted? journalctl -u docker tells"};
+            "is it being restarted? " + engine_log_command(socket) + " tells"};
   case http_failure::kind::too_long:
     return {error_code::unreachable, engine + " gave an answer without an end",
-            "look into the engine's own log: journalctl -u docker"};
+            "look into the engine's own log: " + engine_log_command(socket)};
   default:
     return {error_code::unreachable,
             engine + " gave no answer that can be read: " + why.reason,
-            "is it a container engine? journalctl -u docker tells"};
+            "is it a container engine? " + engine_log_command(socket)
+                + " tells"};
   }
 }
 
@@ -116,43 +95,6 @@ engine_stream engine_client::stream(engine_request what,
   return subscribe_http(
       core_, to_call(socket_, std::move(what)),
       {std::move(calls.on_open), std::move(calls.on_bytes), std::move(on_end)});
-}
-
-edge_error engine_refusal(const std::string& what, const engine_reply& reply) {
-  auto words =
-      valid_utf8(words_of(reply.body).substr(0, limits::engine::words_bytes));
-  while (!words.empty() && (words.back() == '\n' || words.back() == '.'))
-    words.pop_back();
-  if (words.empty())
-    words = "HTTP status " + std::to_string(reply.status);
-  const bool full = words.find("no space left") != std::string::npos;
-  return {error_code::engine_failed, what + ": " + words,
-          full ? "free space on the engine's disk: docker system df" : ""};
-}
-
-edge_error no_engine(const std::string& socket, int error_number) {
-  const auto where = "the container engine on '" + socket + "'";
-  switch (error_number) {
-  case ENOENT:
-    return {error_code::unreachable,
-            "no container engine: there is no socket '" + socket + "'",
-            "start the engine (systemctl start docker), or name its socket: "
-            "--runtime docker:SOCKET"};
-  case EACCES:
-  case EPERM:
-    return {error_code::unauthorized, "no permission to use " + where,
-            "add the node's user to the group docker (sudo usermod -aG docker "
-            "USER), or start the node as root"};
-  case ECONNREFUSED:
-    return {error_code::unreachable,
-            "nobody listens: " + where + " does not run",
-            "start the engine: systemctl start docker"};
-  default:
-    return {error_code::unreachable,
-            "cannot reach " + where + ": "
-                + std::generic_category().message(error_number),
-            "is the engine running? systemctl status docker"};
-  }
 }
 
 } // namespace roscell

@@ -2,6 +2,7 @@
 
 #include "actors/edge/host/host_probe_files.hpp"
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 
@@ -15,6 +16,8 @@ namespace {
 /// anything. proc(5) counts them from 3.
 constexpr std::size_t first_field = 3;
 constexpr std::size_t last_field = 24;
+constexpr std::size_t max_cgroup_bytes = 8192;
+constexpr std::size_t container_digits = 64;
 using stat_fields = std::array<long long, last_field + 1>;
 
 bool read_fields(std::string_view text, stat_fields& fields) {
@@ -41,12 +44,30 @@ void add(const stat_fields& fields, process_usage& to) {
   ++to.processes;
 }
 
+/// Whether a process is in one of these containers. Its cgroups are, for
+/// example, "/docker/ID", "/machine.slice/libpod-ID.scope" or "/../ID".
+bool is_in(const std::set<std::string>& containers, const std::string& folder) {
+  constexpr std::string_view digits = "0123456789abcdef";
+  if (containers.empty())
+    return false;
+  const auto text =
+      read_file(folder + "/cgroup", max_cgroup_bytes).value_or("");
+  std::string_view rest{text};
+  while (!rest.empty()) {
+    const auto end = std::min(rest.find_first_not_of(digits), rest.size());
+    if (end == container_digits
+        && containers.count(std::string{rest.substr(0, end)}) != 0)
+      return true;
+    rest.remove_prefix(std::min(std::max<std::size_t>(end, 1), rest.size()));
+  }
+  return false;
+}
+
 } // namespace
 
-process_usage usage_of_sessions(const std::set<pid_t>& sessions,
-                                const std::string& root) {
+process_usage usage_of(const own_processes& own, const std::string& root) {
   process_usage result;
-  if (sessions.empty())
+  if (own.empty())
     return result;
   std::error_code ec;
   for (std::filesystem::directory_iterator i{root + "/proc", ec}, end;
@@ -57,7 +78,8 @@ process_usage usage_of_sessions(const std::set<pid_t>& sessions,
     stat_fields fields{};
     auto text = read_file(i->path().native() + "/stat", 1024);
     if (text && read_fields(*text, fields)
-        && sessions.count(static_cast<pid_t>(fields[6])) != 0) {
+        && (own.sessions.count(static_cast<pid_t>(fields[6])) != 0
+            || is_in(own.containers, i->path().native()))) {
       add(fields, result);
       result.pids.insert(static_cast<pid_t>(*pid));
     }

@@ -15,10 +15,21 @@ struct process_usage {
   std::set<pid_t> pids;
 };
 
-/// The use of all processes whose session leader is in `sessions`, from one
-/// scan of /proc, below `root`. Its purpose is to take our own instances' use
-/// from the host's; `cpu_seconds` falls when a session ends.
-process_usage usage_of_sessions(const std::set<pid_t>& sessions,
-                                const std::string& root = {});
+/// By what the processes of our own instances are known.
+struct own_processes {
+  std::set<pid_t> sessions;         ///< Session leaders.
+  std::set<std::string> containers; ///< An engine's ids: 64 hex digits.
+
+  bool empty() const {
+    return sessions.empty() && containers.empty();
+  }
+};
+
+/// The use of all processes of these sessions and in these containers, from one
+/// scan of /proc, below `root`. A container's processes are those whose cgroup
+/// is named after it, as every engine does that may make cgroups. The purpose
+/// is to take our own instances' use from the host's; `cpu_seconds` falls when
+/// an instance ends.
+process_usage usage_of(const own_processes& own, const std::string& root = {});
 
 } // namespace roscell

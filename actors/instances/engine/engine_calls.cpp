@@ -1,5 +1,6 @@
 #include "actors/instances/engine/engine_calls.hpp"
 
+#include "actors/edge/engine/engine_words.hpp"
 #include "actors/edge/io/line_splitter.hpp"
 #include "actors/house/edge_failure.hpp"
 #include "actors/house/limits.hpp"
@@ -12,8 +13,6 @@
 #include <variant>
 
 namespace roscell {
-
-namespace {} // namespace
 
 uint64_t expect_answer(engine_runtime_pointer self,
                        engine_runtime_state::continuation then) {

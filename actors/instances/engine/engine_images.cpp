@@ -1,3 +1,4 @@
+#include "actors/edge/engine/engine_words.hpp"
 #include "actors/edge/http/http_target.hpp"
 #include "actors/house/limits.hpp"
 #include "actors/instances/engine/engine_parts.hpp"
@@ -51,14 +52,14 @@ std::string joined(const std::deque<std::string>& lines) {
 }
 
 /// How a failed build is told, with the end of its log.
-caf::error build_failure(const image_work& work, const std::string& why,
-                         std::string hint) {
+caf::error build_failure(const engine_runtime_state& st, const image_work& work,
+                         const std::string& why, std::string hint) {
   const auto what =
       "the image of '" + work.wish.operation + "' cannot be built: " + why;
   if (!work.has_base && hint.empty())
     hint = "the base image must be on this host or in a registry that it "
-           "reaches: docker pull "
-           + work.wish.base_image;
+           "reaches: "
+           + st.config.setting.engine + " pull " + work.wish.base_image;
   const json details{{"log_tail", joined(work.log)}};
   return to_error(
       {error_code::engine_failed,
@@ -77,12 +78,15 @@ void on_built(engine_runtime_pointer self, const std::string& key,
     return;
   work->build = {};
   if (is_lost(x))
-    return conclude(self, key, build_failure(*work, x.why.message, x.why.hint));
+    return conclude(
+        self, key,
+        build_failure(self->state, *work, x.why.message, x.why.hint));
   if (!is_good(x) || !work->error.empty()) {
     const auto why = engine_refusal(
         "the engine says", is_good(x) ? engine_reply{x.status, work->error}
                                       : engine_reply{x.status, x.body});
-    return conclude(self, key, build_failure(*work, why.message, why.hint));
+    return conclude(self, key,
+                    build_failure(self->state, *work, why.message, why.hint));
   }
   const auto spent = std::chrono::duration_cast<std::chrono::milliseconds>(
       self->clock().now() - work->began);

@@ -3,6 +3,7 @@
 #include "actors/house/limits.hpp"
 #include "actors/instances/engine/engine_containers.hpp"
 #include "actors/instances/engine/engine_parts.hpp"
+#include "actors/instances/engine/podman_document.hpp"
 #include "actors/instances/instance_id.hpp"
 #include "messages/failure.hpp"
 
@@ -14,6 +15,12 @@
 namespace roscell {
 
 namespace {
+
+constexpr const char* podman_create = "/v4.0.0/libpod/containers/create";
+
+bool is_podman(engine_runtime_pointer self) {
+  return self->state.config.setting.engine == "podman";
+}
 
 caf::error runs_already(const std::string& instance) {
   return fail(error_code::engine_failed,
@@ -41,6 +48,13 @@ void give_up(engine_runtime_pointer self, const shared_attempt& x, bool lost,
 }
 
 void create(engine_runtime_pointer self, const shared_attempt& x);
+
+/// Podman has the status of its own defects for it.
+bool is_name_taken(const engine_answered& answer) {
+  return answer.status == 409
+         || (answer.status == 500
+             && answer.body.find("already in use") != std::string::npos);
+}
 
 void on_started(engine_runtime_pointer self, const shared_attempt& x,
                 const std::string& id, const engine_answered& answer) {
@@ -74,7 +88,7 @@ void make_room(engine_runtime_pointer self, const shared_attempt& x) {
 
 void on_created(engine_runtime_pointer self, const shared_attempt& x,
                 const engine_answered& answer) {
-  if (answer.status == 409 && !std::exchange(x->name_was_taken, true))
+  if (is_name_taken(answer) && !std::exchange(x->name_was_taken, true))
     return make_room(self, x);
   const auto id = text_at(object_of(answer), "Id");
   if (!is_good(answer) || id.empty())
@@ -89,12 +103,23 @@ void on_created(engine_runtime_pointer self, const shared_attempt& x,
 void create(engine_runtime_pointer self, const shared_attempt& x) {
   engine_request request;
   request.method = "POST";
-  request.target = "/containers/create?name="
-                   + percent_encode(container_name(x->wish.instance));
+  request.target = is_podman(self)
+                       ? std::string{podman_create}
+                       : "/containers/create?name="
+                             + percent_encode(container_name(x->wish.instance));
   request.body = x->body;
   request.limit = limits::engine::create;
   ask_engine(self, std::move(request),
              [=](const engine_answered& y) { on_created(self, x, y); });
+}
+
+json body_of(engine_runtime_pointer self, const start_container& wish,
+             const container_files& files) {
+  auto document = container_document(wish, files, self->state.config.setting,
+                                     notify_dir(self, wish.instance).string());
+  return is_podman(self)
+             ? podman_document(container_name(wish.instance), document)
+             : document;
 }
 
 } // namespace
@@ -118,9 +143,7 @@ caf::result<container_started> start(engine_runtime_pointer self,
   auto attempt = std::make_shared<start_attempt>();
   attempt->wish = wish;
   attempt->promise = self->make_response_promise<container_started>();
-  attempt->body = container_document(wish, std::get<container_files>(files),
-                                     st.config.setting,
-                                     notify_dir(self, wish.instance).string())
+  attempt->body = body_of(self, wish, std::get<container_files>(files))
                       .dump(-1, ' ', false, json::error_handler_t::replace);
   create(self, attempt);
   return attempt->promise;

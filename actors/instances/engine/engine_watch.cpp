@@ -1,3 +1,4 @@
+#include "actors/edge/engine/engine_words.hpp"
 #include "actors/edge/http/http_target.hpp"
 #include "actors/instances/engine/engine_containers.hpp"
 #include "actors/instances/engine/engine_parts.hpp"

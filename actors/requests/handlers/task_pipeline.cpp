@@ -260,7 +260,8 @@ void record_result(const request_context& context, deployed_task task,
     return record_success(context, task.task, done);
   auto why = *task.problem;
   record_failure fact{task.task, why.message};
-  why.hint = "the other steps were rolled back; " + why.hint;
+  why.hint = "the other steps were rolled back"
+             + (why.hint.empty() ? "" : "; " + why.hint);
   ask<task_rolled_back>(
       context, context.services->coordinator, limits::task::rollback,
       std::move(fact), done,

@@ -14,6 +14,7 @@ struct agent_fixture {
   virtual_time time;
   std::vector<instance_row> instances;
   std::vector<int64_t> sessions;
+  std::vector<std::string> containers;
   node_resources host;
   bool probe_is_mute = false;
   std::vector<caf::response_promise> unanswered;
@@ -74,6 +75,7 @@ struct agent_fixture {
     return {
         [this, self](const measure_host& x) -> caf::result<host_measured> {
           sessions = x.sessions;
+          containers = x.containers;
           if (!probe_is_mute)
             return host_measured{host};
           unanswered.push_back(self->make_response_promise());
@@ -162,15 +164,17 @@ TEST_CASE_METHOD(agent_fixture,
 }
 
 TEST_CASE_METHOD(agent_fixture,
-                 "The probe leaves out the live processes of our instances",
+                 "The probe leaves out our live processes and containers",
                  "[node_agent]") {
   add_instance("10:5", instance_state::running);
   add_instance("11:5", instance_state::failed);
   add_instance("sha256:abc", instance_state::running);
   add_instance("77", instance_state::running);
+  add_instance("sha256:def", instance_state::failed);
   add_instance("", instance_state::pending);
   report();
   CHECK(sessions == std::vector<int64_t>{10});
+  CHECK(containers == std::vector<std::string>{"sha256:abc", "77"});
 }
 
 TEST_CASE_METHOD(agent_fixture,

@@ -24,7 +24,7 @@ struct probe_fixture {
     resource_probe_config config;
     config.host.root = root.path();
     config.host.data_dir = root.path();
-    config.host.nvml_library = "libno-such-library.so.1";
+    config.host.nvml_library = ROSCELL_FAKE_NVML;
     config.host.affinity_cores = 64;
     // Not detached here: the test's time is virtual, its files are not.
     probe = spawn(time.system, time.context, resource_probe, config);
@@ -52,6 +52,26 @@ struct probe_fixture {
     if (!*reply || !**reply)
       return std::nullopt;
     return (***reply).resources.cpu.used;
+  }
+
+  /// A process that uses GPU memory, 500 MiB by the fake NVML, and 10 s of
+  /// CPU, in a container.
+  void run_in_container(const std::string& container) {
+    root.write("/proc/4242/stat",
+               "4242 (skill) S 1 4242 4242 0 -1 0 0 0 0 0 "
+                   + std::to_string(10 * sysconf(_SC_CLK_TCK))
+                   + " 0 0 0 20 0 1 0 1 1 25600 0\n");
+    root.write("/proc/4242/cgroup", "0::/docker/" + container + '\n');
+    root.write("/proc/meminfo",
+               "MemTotal: 4194304 kB\nMemAvailable: 2097152 kB\n");
+  }
+
+  node_resources resources(const measure_host& wish) {
+    const auto reply = time.ask<host_measured>(probe, wish);
+    time.settle();
+    REQUIRE(*reply);
+    REQUIRE(**reply);
+    return (***reply).resources;
   }
 
   void beat() {
@@ -94,6 +114,23 @@ TEST_CASE_METHOD(probe_fixture, "Beats keep the CPU rate one of now",
   time.pass(2s);
   use_cpu(104);
   CHECK(cpu_at_once() == Approx(2.0));
+}
+
+TEST_CASE_METHOD(probe_fixture,
+                 "What a container of ours uses does not count as that of "
+                 "others, GPU memory least of all",
+                 "[resource_probe]") {
+  const std::string ours(64, 'c');
+  const auto page_mib = static_cast<double>(sysconf(_SC_PAGESIZE)) / 1048576;
+  run_in_container(ours);
+  const auto others = resources({});
+  CHECK(others.gpus.at(0).memory_mib.used == 1024);
+  CHECK(others.memory_mib.used == Approx(2048));
+  const auto known = resources({{}, {ours}});
+  CHECK(known.gpus.at(0).memory_mib.used == 524);
+  CHECK(known.memory_mib.used == Approx(2048 - 25600 * page_mib));
+  CHECK(resources({{}, {std::string(64, 'd')}}).gpus.at(0).memory_mib.used
+        == 1024);
 }
 
 TEST_CASE_METHOD(probe_fixture, "A resting probe sets no alarm",

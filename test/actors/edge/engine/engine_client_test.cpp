@@ -1,5 +1,6 @@
 #include "actors/edge/engine/engine_client.hpp"
 #include "actors/edge/engine/engine_search.hpp"
+#include "actors/edge/engine/engine_words.hpp"
 #include "actors/edge/http/http_target.hpp"
 #include "actors/house/limits.hpp"
 #include "test/actors/edge/io/edge_fixture.hpp"
@@ -156,6 +157,37 @@ TEST_CASE("an engine's refusal is told in its own words") {
         != "");
 }
 
+TEST_CASE("a long refusal is told by its beginning and its end") {
+  const auto why =
+      engine_refusal("x", {500, "3 errors" + std::string(10'000, '.')
+                                    + "no space left on device"});
+  CHECK(why.message.find("x: 3 errors") == 0);
+  CHECK(why.message.find("no space left on device") != std::string::npos);
+  CHECK(why.message.size() < 3000);
+  CHECK(why.hint != "");
+}
+
+TEST_CASE("an engine that cannot give a GPU is told with the remedy") {
+  CHECK(engine_refusal("x", {500, R"(could not select device driver "nvidia")"})
+            .hint.find("nvidia-ctk runtime configure")
+        != std::string::npos);
+  CHECK(engine_refusal("x", {500, "unresolvable CDI devices nvidia.com/gpu=0"})
+            .hint.find("nvidia-ctk cdi generate")
+        != std::string::npos);
+}
+
+TEST_CASE("the remedy for an engine that is away is that engine's own") {
+  const auto hint = [](const std::string& socket, int error) {
+    return no_engine(socket, error).hint;
+  };
+  CHECK(hint("/run/podman/podman.sock", ECONNREFUSED)
+        == "start the engine: systemctl start podman.socket");
+  CHECK(hint("/run/user/1000/podman/podman.sock", ECONNREFUSED)
+        == "start the engine: systemctl --user start podman.socket");
+  CHECK(hint("/run/podman/podman.sock", EACCES).find("--user enable")
+        != std::string::npos);
+}
+
 TEST_CASE("a streamed answer comes as it is sent") {
   engine_bench b{[](engine_caller& who, const engine_call_seen&) {
     who.open();
@@ -237,27 +269,6 @@ TEST_CASE("an answer without an end is given up") {
     who.end();
   }};
   CHECK(expect_error(b.ask(ask_for("/"))).code == error_code::unreachable);
-}
-
-TEST_CASE("the engine that answers first is taken, whatever its name") {
-  engine_bench b{[](engine_caller& who, const engine_call_seen& what) {
-    CHECK(what.target == "/version");
-    who.reply(200, R"({"Version":"4.3.1",)"
-                   R"("Components":[{"Name":"Podman Engine"}]})");
-  }};
-  const auto found =
-      expect(find_engine({b.folder.path("none"), b.folder.path("s")}));
-  CHECK(found.name == "podman");
-  CHECK(found.version == "4.3.1");
-  CHECK(found.socket == b.folder.path("s"));
-}
-
-TEST_CASE("what is no engine is not taken for one") {
-  engine_bench b{[](engine_caller& who, const engine_call_seen&) {
-    who.reply(200, "<html>");
-  }};
-  CHECK(expect_error(ask_for_engine(b.folder.path("s"))).code
-        == error_code::engine_failed);
 }
 
 } // namespace roscell::test::wire

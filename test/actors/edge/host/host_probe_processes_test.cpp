@@ -33,17 +33,42 @@ TEST_CASE("the use of sessions is the sum of their processes' use",
   add_process(root, 200, 200, "other session", 4, 40);
   add_process(root, 300, 300, "stranger", 8, 80);
   root.write("/proc/meminfo", "not a process");
-  auto usage = usage_of_sessions({100, 200}, root.path());
+  auto usage = usage_of({{100, 200}, {}}, root.path());
   CHECK(usage.processes == 3);
   CHECK(usage.cpu_seconds == Approx(14));
   CHECK(usage.rss_mib == Approx(70));
 }
 
+TEST_CASE("a container's processes are known by their cgroup", "[host_probe]") {
+  const std::string ours(64, 'a');
+  const std::string other = std::string(63, 'a') + 'b';
+  fixture_root root;
+  int pid = 100;
+  for (const auto& path :
+       {"/docker/" + ours, "/system.slice/docker-" + ours + ".scope",
+        "/machine.slice/libpod-" + ours + ".scope/container", "/../" + ours,
+        "/docker/" + other + "/docker/" + ours}) {
+    ++pid;
+    add_process(root, pid, pid, "skill", 1, 10);
+    root.write("/proc/" + std::to_string(pid) + "/cgroup",
+               "4:memory:/\n0::" + path + '\n');
+  }
+  add_process(root, 200, 200, "of another container", 1, 10);
+  root.write("/proc/200/cgroup", "0::/docker/" + other + '\n');
+  add_process(root, 201, 201, "of a longer name", 1, 10);
+  root.write("/proc/201/cgroup", "0::/docker/a" + ours + '\n');
+  add_process(root, 202, 202, "of none", 1, 10);
+  CHECK(usage_of({{}, {ours}}, root.path()).pids
+        == std::set<pid_t>{101, 102, 103, 104, 105});
+  CHECK(usage_of({{202}, {other}}, root.path()).pids
+        == std::set<pid_t>{105, 200, 202});
+}
+
 TEST_CASE("a process may be called anything", "[host_probe]") {
   fixture_root root;
   add_process(root, 100, 100, "a) S 1 1 999 (b", 1, 10);
-  CHECK(usage_of_sessions({100}, root.path()).processes == 1);
-  CHECK(usage_of_sessions({999}, root.path()).processes == 0);
+  CHECK(usage_of({{100}, {}}, root.path()).processes == 1);
+  CHECK(usage_of({{999}, {}}, root.path()).processes == 0);
 }
 
 TEST_CASE("a process that ends during the scan is left out", "[host_probe]") {
@@ -51,16 +76,16 @@ TEST_CASE("a process that ends during the scan is left out", "[host_probe]") {
   root.write("/proc/100/stat", "");
   root.write("/proc/101/stat", "101 (x) S 1 101");
   root.write("/proc/102/status", "no stat file");
-  CHECK(usage_of_sessions({100, 101, 102}, root.path()).processes == 0);
+  CHECK(usage_of({{100, 101, 102}, {}}, root.path()).processes == 0);
 }
 
 TEST_CASE("no sessions use nothing", "[host_probe]") {
-  CHECK(usage_of_sessions({}).processes == 0);
-  CHECK(usage_of_sessions({1}, "/no/such/root").processes == 0);
+  CHECK(usage_of({}).processes == 0);
+  CHECK(usage_of({{1}, {}}, "/no/such/root").processes == 0);
 }
 
 TEST_CASE("this test's own session uses memory", "[host_probe]") {
-  auto usage = usage_of_sessions({getsid(0)});
+  auto usage = usage_of({{getsid(0)}, {}});
   CHECK(usage.processes >= 1);
   CHECK(usage.rss_mib > 0);
 }

@@ -114,8 +114,19 @@ TEST_CASE("an instance with a GPU sees that one only, as its first") {
   CHECK(x["Env"][1] == "CUDA_VISIBLE_DEVICES=0");
   const auto request = x["HostConfig"]["DeviceRequests"];
   REQUIRE(request.size() == 1);
+  CHECK(request[0]["Driver"] == "nvidia");
   CHECK(request[0]["DeviceIDs"] == json::array({"3"}));
   CHECK(request[0]["Capabilities"] == json::array({json::array({"gpu"})}));
+}
+
+TEST_CASE("an instance without a GPU asks an engine for none") {
+  CHECK(document(echo_wish())["HostConfig"].count("DeviceRequests") == 0);
+}
+
+TEST_CASE("an engine without root has the node's user as its root") {
+  container_setting setting{"uuid", 1024 * 1024};
+  setting.rootless = true;
+  CHECK(container_document(echo_wish(), {}, setting, "/n")["User"] == "0:0");
 }
 
 TEST_CASE("a library path of the deployment does not hide the image's") {

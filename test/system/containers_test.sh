@@ -1,5 +1,7 @@
-# Skills in containers of a real Docker engine, which these tests start and stop.
+# Skills in containers of real engines, which these tests start and stop: Docker,
+# Podman, and a Podman of a user who is not root.
 
+variants=(docker podman rootless)
 . test/system/engine.sh
 
 before_all() {
@@ -53,9 +55,14 @@ inspect() {
   engine inspect "$container" --format "$1"
 }
 
+# space KIND: the container's namespace, as the kernel has it.
+space() {
+  readlink "/proc/$(inspect '{{.State.Pid}}')/ns/$1"
+}
+
 test_a_skill_runs_in_a_container_and_its_termination_removes_it() {
   start_alone
-  expect "the runtime" "$(get head /v1/node | jq -r .runtime)" docker
+  expect "the runtime" "$(get head /v1/node | jq -r .runtime)" "$engine_name"
   run_task hello
   expect "the instance" "$(get head "/v1/instances/$instance" \
     | jq -r '.instances[0].state')" running
@@ -65,9 +72,11 @@ test_a_skill_runs_in_a_container_and_its_termination_removes_it() {
   expect "its instance" \
     "$(inspect '{{index .Config.Labels "roscell.instance"}}')" "$instance"
   expect "its cell" "$(inspect '{{index .Config.Labels "roscell.cell"}}')" line
-  expect "its memory" "$(inspect '{{.HostConfig.Memory}}')" $((1024 << 20))
-  expect "its network" "$(inspect '{{.HostConfig.NetworkMode}}')" host
-  expect "its shared memory" "$(inspect '{{.HostConfig.IpcMode}}')" host
+  # Without root there are limits on few hosts only.
+  [[ $variant == rootless ]] \
+    || expect "its memory" "$(inspect '{{.HostConfig.Memory}}')" $((1024 << 20))
+  expect "its network" "$(space net)" "$(readlink /proc/self/ns/net)"
+  expect "its shared memory" "$(space ipc)" "$(readlink /proc/self/ns/ipc)"
   expect "its input" "$(inspect '{{range .Mounts}}{{.Source}} {{.RW}},{{end}}' \
     | tr , '\n' | grep hello.in)" "$scratch/data/hello.in false"
   to head logs "$instance" > "$scratch/log.txt" || fail "no log"
@@ -191,18 +200,27 @@ test_a_failed_build_is_told_with_the_end_of_its_log() {
   expect "tasks" "$(get head /v1/tasks | jq '.tasks | length')" 0
 }
 
+# An engine of this test's own, which is still to be launched.
+use_own_engine() {
+  engine_dir=$scratch/engine
+  . tools/own_engine.sh
+  mkdir -p "$engine_dir"
+  [[ $variant != rootless ]] || prepare_rootless
+  runtime=$engine_name:$engine_socket
+}
+
 test_a_full_disk_of_the_engine_is_told_with_the_remedy() {
   use_engine
-  # An engine of this test's own, with room for less than the skill.
-  engine_dir=$scratch/engine engine_socket=$scratch/engine.sock
-  mkdir "$engine_dir"
-  mount -t tmpfs -o size=64m tmpfs "$engine_dir" || skip "no tmpfs can be mounted"
+  # With room for less than the skill.
+  mkdir "$scratch/engine"
+  mount -t tmpfs -o size=64m tmpfs "$scratch/engine" \
+    || skip "no tmpfs can be mounted"
   trap 'stop_engine; umount -l "$scratch/engine"; clean_up' EXIT
-  launch_engine || skip "dockerd does not run on a tmpfs"
+  use_own_engine
+  launch_engine || skip "the engine does not run on a tmpfs"
   mkdir "$scratch/root"
   tar -C "$scratch/root" -c . | engine import - debian:bookworm-slim > /dev/null
   head -c 100M /dev/urandom > "$skills/echo/large"
-  runtime=docker:$engine_socket
   start_node head --coordinator --cell line --interface lo
   refused large
   says message "no space left on device"
@@ -215,17 +233,24 @@ test_a_base_image_that_cannot_be_had_is_told_with_the_remedy() {
   start_node head --coordinator --cell line --interface lo
   refused bad
   says message "cannot be built"
-  says message "docker pull registry.invalid/none:1"
+  says message "$engine_name pull registry.invalid/none:1"
 }
 
 test_an_engine_that_dies_in_the_middle_of_a_build_is_told() {
   use_engine
-  engine import --change 'ONBUILD RUN sleep 600' "$base_tar" slow:1 > /dev/null
-  use_base slow:1
+  # A registry that takes connections and says nothing.
+  local silent port
+  exec {silent}< <(exec python3 -c 'import signal, socket
+server = socket.create_server(("127.0.0.1", 0))
+print(server.getsockname()[1], flush=True)
+signal.pause()')
+  echo $! >> "$scratch/pids"
+  read -r port <&"$silent"
+  use_base "127.0.0.1:$port/slow:1"
   start_node head --coordinator --cell line --interface lo
   echo_task slow | to head request > "$scratch/refusal.json" &
   request=$!
-  await head '.event == "image_building" and (.data.step | test("build trigger"))' \
+  await head '.event == "image_building" and (.data.step | test("FROM|pull"))' \
     > /dev/null
   expect "the state" "$(get head /v1/instances | jq -r '.instances[0].state')" \
     building
@@ -233,7 +258,7 @@ test_an_engine_that_dies_in_the_middle_of_a_build_is_told() {
   wait "$request"
   expect "exit code" $? 1
   says message "went away"
-  launch_engine || fail "dockerd did not start again"
+  launch_engine || fail "the engine did not start again"
   await head '.event == "engine_found"' > /dev/null
   expect "tasks" "$(get head /v1/tasks | jq '.tasks | length')" 0
 }
@@ -254,7 +279,7 @@ test_an_engine_that_dies_in_the_middle_of_a_run_is_told_and_asked_again() {
   says message "$engine_socket"
   # What happens meanwhile is learnt afterwards.
   kill -KILL "$program"
-  launch_engine || fail "dockerd did not start again"
+  launch_engine || fail "the engine did not start again"
   await_failed
   get head "/v1/instances/$instance" | jq '.instances[0]' > "$scratch/row.json"
   expect "its exit code" "$(jq .exit_code "$scratch/row.json")" 137
@@ -267,14 +292,17 @@ test_an_engine_that_dies_in_the_middle_of_a_run_is_told_and_asked_again() {
 
 test_containers_that_outlive_their_engine_go_on() {
   use_engine
+  # Podman needs no option for it.
+  local option=--live-restore
+  [[ $engine_name == docker ]] || option=
   end_engine
-  launch_engine --live-restore || fail "dockerd did not start again"
+  launch_engine $option || fail "the engine did not start again"
   start_node head --coordinator --cell line --interface lo
   run_task tough
   end_engine KILL
   await head '.event == "engine_lost"' > "$scratch/lost.json"
   echoes tough "without an engine"
-  launch_engine --live-restore || fail "dockerd did not start again"
+  launch_engine $option || fail "the engine did not start again"
   await head '.event == "engine_found"' > /dev/null
   expect "the state" "$(get head "/v1/instances/$instance" \
     | jq -r '.instances[0].state')" running
@@ -287,19 +315,21 @@ test_containers_that_outlive_their_engine_go_on() {
 test_a_user_without_permission_on_the_socket_is_told_what_to_do() {
   use_engine
   mkdir "$scratch/nobody"
-  chown 65534 "$scratch" "$scratch/nobody"
-  chmod 755 "$suite"
-  setpriv --reuid 65534 --regid 65534 --clear-groups "$ROSCELL" node \
+  chown 65533 "$scratch" "$scratch/nobody"
+  chmod a+rx "$suite" "$engine_dir"
+  setpriv --reuid 65533 --regid 65533 --clear-groups "$ROSCELL" node \
     --name other --data-dir "$scratch/nobody" --interface lo --port 0 \
     --runtime "$runtime" 2> "$scratch/stderr"
   expect "exit code" $? 1
   grep -q "no permission" "$scratch/stderr" || fail "$(cat "$scratch/stderr")"
-  grep -q "group docker" "$scratch/stderr" || fail "$(cat "$scratch/stderr")"
+  local remedy="group docker"
+  [[ $engine_name == docker ]] || remedy="enable --now podman.socket"
+  grep -q "$remedy" "$scratch/stderr" || fail "$(cat "$scratch/stderr")"
 }
 
 test_an_engine_that_is_not_there_is_told_what_to_do() {
   "$ROSCELL" node --name other --data-dir "$scratch/other" --interface lo \
-    --port 0 --runtime "docker:$scratch/none.sock" 2> "$scratch/stderr"
+    --port 0 --runtime "$engine_name:$scratch/none.sock" 2> "$scratch/stderr"
   expect "exit code" $? 3
   grep -q "$scratch/none.sock" "$scratch/stderr" || fail "$(cat "$scratch/stderr")"
 }
@@ -309,7 +339,57 @@ test_auto_takes_the_engine_that_answers() {
   runtime=auto
   DOCKER_HOST=unix://$engine_socket \
     start_node head --coordinator --cell line --interface lo
-  expect "the runtime" "$(get head /v1/node | jq -r .runtime)" docker
-  grep -q "instances are run by 'docker': .*$engine_socket" \
+  expect "the runtime" "$(get head /v1/node | jq -r .runtime)" "$engine_name"
+  grep -q "instances are run by '$engine_name': .*$engine_socket" \
     "$scratch/head.log" || fail "$(cat "$scratch/head.log")"
+}
+
+# start_with_gpu: a node that believes to have a GPU, and a skill that wants it.
+start_with_gpu() {
+  local text
+  mkdir "$scratch/nvml"
+  ln -s "$(find "$ROSCELL_BUILD" -name 'libfake_nvml.so')" \
+    "$scratch/nvml/libnvidia-ml.so.1"
+  text=$(jq '.models[].deployments[].resources.gpu_memory_mib = 64' \
+    "$skills/echo/skill.json")
+  echo "$text" > "$skills/echo/skill.json"
+  inside+=(env "LD_LIBRARY_PATH=$scratch/nvml")
+  start_node head --coordinator --cell line --interface lo
+}
+
+test_a_gpu_that_the_engine_cannot_give_is_told_with_the_remedy() {
+  use_engine
+  [[ ! -e /etc/cdi && -z $(ls /run/cdi 2>/dev/null) ]] \
+    && ! command -v nvidia-container-runtime-hook > /dev/null \
+    || skip "this host may have a GPU"
+  start_with_gpu
+  refused seeing
+  says message "cannot be started\|cannot be created"
+  says message "nvidia"
+  says message "nvidia-ctk"
+  expect "containers" "$(engine ps -aq | wc -l)" 0
+}
+
+test_podman_gives_the_gpu_that_was_chosen_by_its_cdi_name() {
+  use_engine
+  [[ $engine_name == podman ]] \
+    || skip "Docker gives GPUs by NVIDIA's runtime only, which needs one"
+  # A device of no use, described as NVIDIA's tools describe theirs.
+  mkdir -p "$scratch/cdi" /run/cdi
+  jq -n '{cdiVersion: "0.4.0", kind: "nvidia.com/gpu", devices: [
+    {name: "0", containerEdits: {env: ["MADE_UP_GPU=0"]}},
+    {name: "2", containerEdits: {env: ["MADE_UP_GPU=2"]}}]}' \
+    > "$scratch/cdi/nvidia.json"
+  use_own_engine
+  engine_inside=(unshare -m bash -c 'mount --bind "$0" /run/cdi; exec "$@"'
+    "$scratch/cdi" "${engine_inside[@]}")
+  trap 'stop_engine; clean_up' EXIT
+  launch_engine || fail "$(tail "$engine_dir/log")"
+  engine import "$base_tar" debian:bookworm-slim > /dev/null
+  start_with_gpu
+  run_task seeing
+  expect "its GPU" "$(tr '\0' '\n' < "/proc/$(inspect '{{.State.Pid}}')/environ" \
+    | grep -E 'GPU|CUDA' | sort | paste -sd ' ')" \
+    "CUDA_VISIBLE_DEVICES=0 MADE_UP_GPU=0 ROSCELL_GPU=0"
+  terminate seeing
 }

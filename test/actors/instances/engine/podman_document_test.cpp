@@ -1,0 +1,75 @@
+#include "actors/instances/engine/container_document.hpp"
+#include "actors/instances/engine/podman_document.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <unistd.h>
+
+using namespace roscell;
+
+namespace {
+
+start_container podman_wish() {
+  start_container wish;
+  wish.instance = "i";
+  wish.image = "roscell/echo:1";
+  wish.environment = {{"A", "1=2"}};
+  wish.labels = {{"task", "t"}};
+  return wish;
+}
+
+json podman_form(const start_container& wish,
+                 const container_files& files = {}) {
+  return podman_document(
+      "roscell-i",
+      container_document(wish, files, {"uuid", 1024 * 1024}, "/n"));
+}
+
+} // namespace
+
+TEST_CASE("Podman is told of the same container in its own words") {
+  const auto x =
+      podman_form(podman_wish(), {{{"/in", "/in", true}, {"/out", "/o", false}},
+                                  {"/dev/video0"}});
+  CHECK(x["name"] == "roscell-i");
+  CHECK(x["image"] == "roscell/echo:1");
+  CHECK(x["user"]
+        == std::to_string(::geteuid()) + ':' + std::to_string(::getegid()));
+  CHECK(x["env"]
+        == json{{"A", "1=2"}, {"NOTIFY_SOCKET", "/run/roscell/notify"}});
+  CHECK(x["labels"] == json{{"roscell.node", "uuid"}, {"roscell.task", "t"}});
+  CHECK(x["netns"]["nsmode"] == "host");
+  CHECK(x["ipcns"]["nsmode"] == "host");
+  REQUIRE(x["mounts"].size() == 3);
+  CHECK(x["mounts"][1]
+        == json{{"type", "bind"},
+                {"source", "/in"},
+                {"destination", "/in"},
+                {"options", {"rbind", "ro"}}});
+  CHECK(x["mounts"][2]["destination"] == "/o");
+  CHECK(x["mounts"][2]["options"] == json::array({"rbind", "rw"}));
+  CHECK(x["devices"]
+        == json::array({{{"path", "/dev/video0:/dev/video0:rwm"}}}));
+  CHECK(x["r_limits"][0]["type"] == "nofile");
+  CHECK(x["r_limits"][1]["type"] == "nproc");
+  CHECK(x["log_configuration"]["size"] == 524288);
+  CHECK(x["resource_limits"] == json::object());
+}
+
+TEST_CASE("Podman counts cores in a quota and memory in bytes") {
+  auto wish = podman_wish();
+  wish.limits.cpu = 0.5;
+  wish.limits.memory_mib = 96;
+  const auto limits = podman_form(wish)["resource_limits"];
+  CHECK(limits["cpu"] == json{{"period", 100'000}, {"quota", 50'000}});
+  CHECK(limits["memory"]["limit"] == 96 * 1024 * 1024);
+  CHECK(limits["memory"]["swap"] == limits["memory"]["limit"]);
+}
+
+TEST_CASE("Podman is asked for a GPU by its CDI name") {
+  auto wish = podman_wish();
+  wish.gpu = 3;
+  const auto x = podman_form(wish);
+  CHECK(x["devices"] == json::array({{{"path", "nvidia.com/gpu=3"}}}));
+  CHECK(x["env"]["CUDA_VISIBLE_DEVICES"] == "0");
+}
