@@ -5,6 +5,9 @@
 #include "skills/ros2/participant_qos.hpp"
 #include "skills/ros2/serialized_type.hpp"
 
+#include <fastdds/rtps/participant/ParticipantDiscoveryInfo.h>
+#include <fastdds/rtps/reader/ReaderDiscoveryInfo.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -16,6 +19,13 @@ using engine::start_error;
 
 void erase(std::vector<guid>& from, const guid& x) {
   from.erase(std::remove(from.begin(), from.end(), x), from.end());
+}
+
+/// The participant that an endpoint is of.
+guid program_of(guid endpoint) {
+  constexpr std::size_t prefix_bytes = 12;
+  std::fill(endpoint.begin() + prefix_bytes, endpoint.end(), std::uint8_t{0});
+  return endpoint;
 }
 
 /// Those who come later read the last one.
@@ -46,7 +56,8 @@ participant::participant(participant_config config)
   const auto nobody = dds::StatusMask::none();
   participant_.reset(
       dds::DomainParticipantFactory::get_instance()->create_participant(
-          config_.domain_id, to_participant_qos(config_), nullptr, nobody));
+          config_.domain_id, to_participant_qos(config_, pacer_), this,
+          nobody));
   if (!participant_)
     throw start_error("Fast DDS does not create a participant in ROS domain "
                       + std::to_string(config_.domain_id)
@@ -58,6 +69,49 @@ participant::participant(participant_config config)
   node_.participant = to_guid(participant_->guid());
   node_.name = config_.node_name;
   publish_graph();
+}
+
+/// Nothing calls the listener any more once the participant is gone.
+participant::~participant() {
+  if (participant_)
+    participant_->set_listener(nullptr);
+  participant_.reset();
+}
+
+bool participant::is_frail(const guid& reader) {
+  const std::lock_guard guard{others_mutex_};
+  return best_effort_readers_.count(reader) > 0
+         && stock_programs_.count(program_of(reader)) > 0;
+}
+
+void participant::on_participant_discovery(
+    dds::DomainParticipant*,
+    eprosima::fastrtps::rtps::ParticipantDiscoveryInfo&& info) {
+  using eprosima::fastrtps::rtps::ParticipantDiscoveryInfo;
+  const auto who = program_of(to_guid(info.info.m_guid));
+  const bool is_there =
+      info.status == ParticipantDiscoveryInfo::DISCOVERED_PARTICIPANT
+      || info.status == ParticipantDiscoveryInfo::CHANGED_QOS_PARTICIPANT;
+  const std::string name = info.info.m_participantName.c_str();
+  const std::lock_guard guard{others_mutex_};
+  if (is_there && name.substr(0, 1) == "/")
+    stock_programs_.insert(who);
+  else
+    stock_programs_.erase(who);
+}
+
+void participant::on_subscriber_discovery(
+    dds::DomainParticipant*,
+    eprosima::fastrtps::rtps::ReaderDiscoveryInfo&& info) {
+  using eprosima::fastrtps::rtps::ReaderDiscoveryInfo;
+  const auto which = to_guid(info.info.guid());
+  const bool is_best_effort =
+      info.info.m_qos.m_reliability.kind == dds::BEST_EFFORT_RELIABILITY_QOS;
+  const std::lock_guard guard{others_mutex_};
+  if (is_best_effort && info.status != ReaderDiscoveryInfo::REMOVED_READER)
+    best_effort_readers_.insert(which);
+  else
+    best_effort_readers_.erase(which);
 }
 
 dds::DataReader* participant::add_reader(const std::string& topic,

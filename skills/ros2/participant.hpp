@@ -1,11 +1,13 @@
 #pragma once
 
 #include "skills/ros2/graph.hpp"
+#include "skills/ros2/pace.hpp"
 #include "skills/ros2/participant_config.hpp"
 #include "skills/ros2/topic_qos.hpp"
 
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
+#include <fastdds/dds/domain/DomainParticipantListener.hpp>
 #include <fastdds/dds/publisher/DataWriter.hpp>
 #include <fastdds/dds/publisher/DataWriterListener.hpp>
 #include <fastdds/dds/publisher/Publisher.hpp>
@@ -16,6 +18,7 @@
 
 #include <memory>
 #include <mutex>
+#include <set>
 #include <string>
 
 /// INTERNAL to this folder.
@@ -28,10 +31,12 @@ guid to_guid(const eprosima::fastrtps::rtps::GUID_t& x);
 /// A ROS 2 node without ROS 2: a DDS participant that others take for one. It
 /// speaks by UDP only, because shared memory does not reach from one container
 /// into another, and fails there without a word.
-class participant {
+class participant : private dds::DomainParticipantListener {
 public:
   /// Throws engine::start_error.
   explicit participant(participant_config config);
+
+  ~participant() override;
 
   /// The names are those of ROS 2. The listener must live until `remove`.
   /// Throws engine::start_error.
@@ -46,6 +51,14 @@ public:
   void remove(dds::DataReader* reader);
   void remove(dds::DataWriter* writer);
 
+  datagram_pacer& pacer() {
+    return *pacer_;
+  }
+
+  /// Whether a reader is best effort and of a stock program, whose enclave, its
+  /// participant's name, begins with '/': what it loses nobody sends again.
+  bool is_frail(const guid& reader);
+
 private:
   struct deleter {
     void operator()(dds::DomainParticipant* x) const;
@@ -56,7 +69,19 @@ private:
                                dds::DataWriterListener* listener);
   void publish_graph();
 
+  void on_participant_discovery(
+      dds::DomainParticipant* self,
+      eprosima::fastrtps::rtps::ParticipantDiscoveryInfo&& info) override;
+  void on_subscriber_discovery(
+      dds::DomainParticipant* self,
+      eprosima::fastrtps::rtps::ReaderDiscoveryInfo&& info) override;
+
   const participant_config config_;
+  const std::shared_ptr<datagram_pacer> pacer_ =
+      std::make_shared<datagram_pacer>();
+  std::mutex others_mutex_; // Guards what is known of others.
+  std::set<guid> stock_programs_;
+  std::set<guid> best_effort_readers_;
   std::unique_ptr<dds::DomainParticipant, deleter> participant_;
   dds::Subscriber* subscriber_ = nullptr;
   dds::Publisher* publisher_ = nullptr;

@@ -3,12 +3,14 @@
 #include "dds/host_transport.hpp"
 #include "dds/participant_ids.hpp"
 #include "dds/server_ids.hpp"
+#include "skills/ros2/paced_transport.hpp"
 
 #include <fastdds/rtps/flowcontrol/FlowControllerDescriptor.hpp>
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 
 #include <algorithm>
 #include <string_view>
+#include <utility>
 
 namespace roscell::ros2 {
 
@@ -100,7 +102,9 @@ void apply(const topic_qos& qos, Qos& to) {
 
 } // namespace
 
-dds::DomainParticipantQos to_participant_qos(const participant_config& config) {
+dds::DomainParticipantQos
+to_participant_qos(const participant_config& config,
+                   std::shared_ptr<datagram_pacer> pacer) {
   dds::DomainParticipantQos result;
   result.name(config.node_name);
   constexpr std::string_view enclave = "enclave=/;";
@@ -111,11 +115,13 @@ dds::DomainParticipantQos to_participant_qos(const participant_config& config) {
   wire.builtin.discovery_config.leaseDuration_announcementperiod = {
       announcement_period_s, 0};
   if (config.servers.empty()) {
-    result.transport().user_transports = {udp_everywhere()};
+    result.transport().user_transports = {
+        paced(udp_everywhere(), std::move(pacer))};
   } else {
     auto address = local_address_towards(config.servers.front());
-    result.transport().user_transports = {
-        host_transport({address, max_datagram_bytes, socket_buffer_bytes})};
+    result.transport().user_transports = {paced(
+        host_transport({address, max_datagram_bytes, socket_buffer_bytes}),
+        std::move(pacer))};
     use_servers(wire, config, address);
   }
   auto pace = std::make_shared<rtps::FlowControllerDescriptor>();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "skills/ros2/pace.hpp"
 #include "skills/ros2/participant_config.hpp"
 #include "skills/ros2/topic_qos.hpp"
 
@@ -7,12 +8,16 @@
 #include <fastdds/dds/publisher/qos/DataWriterQos.hpp>
 #include <fastdds/dds/subscriber/qos/DataReaderQos.hpp>
 
+#include <memory>
+
 /// INTERNAL to this folder: our settings in the words of Fast DDS.
 namespace roscell::ros2 {
 
-/// Throws engine::start_error when a discovery server cannot be reached.
-eprosima::fastdds::dds::DomainParticipantQos
-to_participant_qos(const participant_config& config);
+/// Its datagrams leave when `pacer` lets them. Throws engine::start_error when
+/// a discovery server cannot be reached.
+eprosima::fastdds::dds::DomainParticipantQos to_participant_qos(
+    const participant_config& config,
+    std::shared_ptr<datagram_pacer> pacer = std::make_shared<datagram_pacer>());
 
 eprosima::fastdds::dds::DataReaderQos to_reader_qos(const topic_qos& qos);
 

@@ -25,8 +25,10 @@ topic_output::topic_output(const engine::stream_context& output,
 }
 
 topic_output::~topic_output() {
-  if (writer_ != nullptr)
-    participant_->remove(writer_);
+  if (writer_ == nullptr)
+    return;
+  participant_->remove(writer_);
+  participant_->pacer().forget(this);
 }
 
 void topic_output::open() {
@@ -41,6 +43,11 @@ void topic_output::write(const engine::frame& result) {
     throw engine::stream_error("a '" + result.data_type
                                + "' cannot be written to the topic '" + topic
                                + "' of type '" + type + "'");
+  if (qos_.large) {
+    const std::lock_guard guard{mutex_};
+    participant_->pacer().set_gap(
+        this, pace_.next_gap(writer_pace::clock::now(), result.payload.size()));
+  }
   // Fast DDS reads the message only, but takes no constant.
   auto* data = const_cast<std::string*>(&result.payload);
   auto outcome =
@@ -63,6 +70,20 @@ void topic_output::close() {
 
 void topic_output::on_publication_matched(
     dds::DataWriter*, const dds::PublicationMatchedStatus& status) {
+  eprosima::fastrtps::rtps::GUID_t reader;
+  eprosima::fastrtps::rtps::iHandle2GUID(reader,
+                                         status.last_subscription_handle);
+  const auto which = to_guid(reader);
+  const bool is_frail =
+      status.current_count_change > 0 && participant_->is_frail(which);
+  {
+    const std::lock_guard guard{mutex_};
+    if (is_frail)
+      frail_readers_.insert(which);
+    else
+      frail_readers_.erase(which);
+    pace_.set_frail_readers(static_cast<int>(frail_readers_.size()));
+  }
   context_.say(matched_words(context_.config.endpoint, "reader",
                              status.current_count,
                              status.current_count_change));

@@ -4,6 +4,8 @@
 #include "skills/ros2/participant.hpp"
 
 #include <memory>
+#include <mutex>
+#include <set>
 
 namespace roscell::ros2 {
 
@@ -36,6 +38,9 @@ private:
   const std::shared_ptr<shared_participant> shared_;
   std::shared_ptr<participant> participant_;
   dds::DataWriter* writer_ = nullptr;
+  std::mutex mutex_; // Guards what follows.
+  std::set<guid> frail_readers_;
+  writer_pace pace_;
 };
 
 } // namespace roscell::ros2

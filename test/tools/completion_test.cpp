@@ -88,7 +88,7 @@ TEST_CASE("completion offers every command", "[tools]") {
       offered("roscell ''")
       == "node run stop restart check new request plan form transfer release "
          "status cells nodes tasks instances topics skills transfers describe "
-         "graph env hz bw events logs completion help version --version "
+         "graph env echo hz bw events logs completion help version --version "
          "--help\n");
   CHECK(offered("roscell no") == "node nodes\n");
   CHECK(offered("roscell new ''") == "task\n");

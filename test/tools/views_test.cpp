@@ -88,6 +88,28 @@ TEST_CASE("both claims of a cell's name are shown as trouble", "[tools]") {
                   "          -  -\n"));
 }
 
+TEST_CASE("a task that is named is shown with its steps, and how long data "
+          "are under way",
+          "[tools]") {
+  task_row task;
+  task.task = "fleet";
+  task.submitted_unix_ms = 1;
+  for (const double age_ms : {3.0, 41.26}) {
+    instance_row row;
+    row.spec.step = age_ms < 4 ? "camera" : "poses";
+    row.node = "arm";
+    row.state = instance_state::running;
+    row.figures.age_ms = age_ms;
+    task.instances.push_back(row);
+  }
+  const auto text = task_view({{task}}, at(0));
+  CHECK(has(text, "camera  arm   running"));
+  CHECK(has(text, "41.3 ms\n"));
+  CHECK(has(text, "from a sensor's stamp to the last output: 41.3 ms"));
+  task.instances.clear();
+  CHECK_FALSE(has(task_view({{task}}, at(0)), "DATA AGE"));
+}
+
 TEST_CASE("nodes in no cell are listed below the members", "[tools]") {
   cell_description cell;
   cell.nodes.resize(1);

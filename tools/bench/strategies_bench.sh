@@ -1,29 +1,34 @@
 #!/usr/bin/env bash
 # Measures the three deployment strategies of docs/examples on a coordinator and
-# four hosts: the time of a frame in each scene, and from a request until all of
-# it runs. The strategies take turns, so that all meet the same state of the
-# machine. One JSON line a figure.
-# Usage: tools/bench/strategies_bench.sh BUILD_DIR [SECONDS [ROUNDS [RATE_HZ]]]
+# four hosts: the time of a frame in each scene, with and without its waiting,
+# the rate that is kept up, and the time from a request until all of it runs.
+# Each host has its own, equal share of this machine's CPU, so that strategy 3
+# has four times what the others have, as it would on machines of its own. The
+# strategies take turns, so that all meet the same state of the machine. One
+# JSON line a figure; box_plots.py draws them. Needs root, for control groups.
+# Usage: tools/bench/strategies_bench.sh BUILD_DIR [SECONDS [ROUNDS [RATE_HZ [CORES]]]]
 #   SECONDS  that a turn of a strategy is measured (12)
 #   ROUNDS   how often it has its turn (5)
 #   RATE_HZ  pictures per second of a camera (as the files say)
+#   CORES    of each host; by default a sixth of this machine's
 set -uo pipefail
 cd "$(dirname "$0")/../.."
-: "${1:?usage: tools/bench/strategies_bench.sh BUILD_DIR [SECONDS [ROUNDS [RATE_HZ]]]}"
+: "${1:?usage: tools/bench/strategies_bench.sh BUILD_DIR [SECONDS [ROUNDS [RATE_HZ [CORES]]]]}"
 span_s=${2:-12}
 rounds=${3:-5}
 rate_hz=${4:-null}
+cores=${5:-$(awk -v n="$(nproc)" 'BEGIN {print n / 6}')}
 . tools/bench/on_nodes.sh
-trap 'exec 2> /dev/null; clean_up; rm -rf "$scratch"' EXIT
+. tools/bench/shares.sh
+trap 'exec 2> /dev/null; clean_up; remove_shares; rm -rf "$scratch"' EXIT
 use_skills image_source pose_estimation
 
-# As machines of their own have, each host has cores of its own, if there are
-# enough; else all share all.
-cores_each=$(($(nproc) / 4))
-# start_host NUMBER NAME: numbers count from 0.
+# start_host NAME
 start_host() {
-  local name=$2 core=$(($1 * cores_each))
-  ((cores_each == 0)) || inside=(taskset -c "$core-$((core + cores_each - 1))")
+  local name=$1 share
+  share=$(make_share "$name" "$cores") \
+    || fail "no control group for the CPU can be made here; are you root?"
+  in_share "$share"
   start_node "$name" --interface lo --join "$server" --label "host=$name"
   inside=()
   await_joined head "$name"
@@ -65,11 +70,14 @@ run_strategy() {
     first[$scene]=$(($(wc -l < "$poses/$scene.jsonl") + 1))
   done
   timeout "$span_s" tail -f /dev/null
+  get head "/v1/tasks/$strategy" | jq -c '[.tasks[0].instances[]
+      | select(.spec.step | startswith("pose")) | .figures.dropped // 0] | add' \
+    >> "$scratch/$strategy.dropped"
   echo "{\"type\":\"task_termination\",\"task\":\"$strategy\"}" \
     | to head request > /dev/null || fail "$strategy was not terminated"
   for scene in "${scenes[@]}"; do
     tail -n "+${first[$scene]}" "$poses/$scene.jsonl" \
-      | jq -c '{ms: .processing_ms, tags: (.tags | length)}' \
+      | jq -c '{ms: .age_ms, work_ms: .processing_ms, tags: (.tags | length)}' \
         >> "$scratch/$strategy.$scene"
   done
 }
@@ -81,7 +89,10 @@ tell_start() {
   jq -sc --arg strategy "$1" "$quantile"'
     {bench: "strategies", $strategy, instances: .[0].instances,
      nodes: .[0].nodes, request_to_running_ms: (map(.ms) | quantile(0.5)),
-     each_ms: map(.ms)}' "$scratch/$1.jsonl"
+     each_ms: map(.ms), cores_of_a_host: ($cores | tonumber),
+     dropped: $dropped}' \
+    --arg cores "$cores" \
+    --argjson dropped "$(jq -sc . "$scratch/$1.dropped")" "$scratch/$1.jsonl"
 }
 
 tell_frames() {
@@ -90,8 +101,10 @@ tell_frames() {
     map(.ms) as $ms
     | {bench: "strategies", $strategy, $scene, tags: (map(.tags) | max),
        frames: length, frames_per_s: (length / $seconds),
-       median_ms: ($ms | quantile(0.5)), p95_ms: ($ms | quantile(0.95)),
-       p99_ms: ($ms | quantile(0.99))}' "$scratch/$1.$2"
+       p5_ms: ($ms | quantile(0.05)), p25_ms: ($ms | quantile(0.25)),
+       median_ms: ($ms | quantile(0.5)), p75_ms: ($ms | quantile(0.75)),
+       p95_ms: ($ms | quantile(0.95)), p99_ms: ($ms | quantile(0.99)),
+       work_median_ms: (map(.work_ms) | quantile(0.5))}' "$scratch/$1.$2"
 }
 
 strategies=(strategy_{1,2,3})
@@ -100,10 +113,9 @@ scenes=(scene_{1,2,3,4})
   || fail "no scenes: build render_scenes first"
 start_node head --interface lo --coordinator --cell line
 server=$(discovery_of head)
-start_host 0 one
-start_host 1 two
-start_host 2 three
-start_host 3 four
+for name in one two three four; do
+  start_host "$name"
+done
 for ((round = 0; round < rounds; ++round)); do
   for strategy in "${strategies[@]}"; do
     run_strategy "$strategy"

@@ -2,8 +2,10 @@
 #include "actors/edge/dds/discovery_setup.hpp"
 #include "dds/server_ids.hpp"
 #include "skills/engine/life/stop_event.hpp"
+#include "skills/engine/registry.hpp"
 #include "skills/ros2/participant.hpp"
 #include "skills/ros2/participant_qos.hpp"
+#include "skills/ros2/protocol.hpp"
 #include "skills/ros2/serialized_type.hpp"
 #include "skills/ros2/topic_qos.hpp"
 
@@ -21,6 +23,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <functional>
 #include <iostream>
 #include <mutex>
 #include <vector>
@@ -49,19 +52,15 @@ struct settings {
   std::string address = "127.0.0.1";
 };
 
-/// One end of the topic in this process.
-struct endpoint {
-  dds::DataWriter* writer = nullptr;
-  std::unique_ptr<ros2::participant> skill;
-  dds::DomainParticipant* stock = nullptr;
-};
-
-ros2::participant_config config_of(const std::string& server) {
-  const auto lookup = [&](const char* name) {
+engine::variable_lookup lookup_of(const std::string& server) {
+  return [server](const char* name) {
     return name == std::string{"ROS_DISCOVERY_SERVER"} ? server.c_str()
                                                        : nullptr;
   };
-  return ros2::read_participant_config(lookup, engine::parameters{});
+}
+
+ros2::participant_config config_of(const std::string& server) {
+  return ros2::read_participant_config(lookup_of(server), engine::parameters{});
 }
 
 /// As rmw_fastrtps_cpp of Humble makes one (rmw_fastrtps_shared_cpp,
@@ -69,6 +68,7 @@ ros2::participant_config config_of(const std::string& server) {
 dds::DomainParticipant* make_stock_participant(const std::string& server) {
   ::setenv("ROS_DISCOVERY_SERVER", server.c_str(), 1);
   dds::DomainParticipantQos qos;
+  qos.name("/"); // The enclave.
   qos.transport().use_builtin_transports = false;
   qos.transport().user_transports = {
       std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>()};
@@ -110,23 +110,41 @@ public:
   engine::stop_event matched;
 };
 
-endpoint make_writer(bool as_skill, const std::string& server,
-                     const settings& s, match_listener& listener) {
-  endpoint result;
-  if (as_skill) {
-    result.skill = std::make_unique<ros2::participant>(config_of(server));
-    result.writer = result.skill->add_writer(
-        topic, type, ros2::writer_qos(topic, type, engine::parameters{}),
-        &listener);
-    return result;
-  }
-  result.stock = make_stock_participant(server);
+using send_function = std::function<void(std::string&)>;
+
+/// As a step's output is made, with everything that the engine does about it.
+send_function skill_writer(const std::string& server,
+                           match_listener& listener) {
+  auto parts = std::make_shared<engine::registry>();
+  ros2::add_ros2_protocol(*parts, lookup_of(server));
+  const auto say = [&listener](const std::string& line) {
+    if (line.find("has come") != std::string::npos)
+      listener.matched.set();
+  };
+  std::shared_ptr<engine::output_handler> output =
+      parts->make_output({{"ros2", topic, type}, engine::parameters{}, say});
+  output->open();
+  return [parts, output](std::string& payload) {
+    engine::frame image;
+    image.data_type = type;
+    image.name = "image";
+    image.payload.swap(payload);
+    output->write(image);
+    image.payload.swap(payload);
+  };
+}
+
+send_function stock_writer(const std::string& server, const settings& s,
+                           match_listener& listener) {
+  auto* participant = make_stock_participant(server);
   auto qos = stock_qos<dds::DataWriterQos>(s);
   qos.publish_mode().kind = dds::SYNCHRONOUS_PUBLISH_MODE;
-  result.writer =
-      result.stock->create_publisher(dds::PUBLISHER_QOS_DEFAULT)
-          ->create_datawriter(stock_topic(result.stock), qos, &listener);
-  return result;
+  auto* writer =
+      participant->create_publisher(dds::PUBLISHER_QOS_DEFAULT)
+          ->create_datawriter(stock_topic(participant), qos, &listener);
+  return [writer](std::string& payload) {
+    writer->write(&payload, eprosima::fastrtps::rtps::c_InstanceHandle_Unknown);
+  };
 }
 
 double cpu_seconds() {
@@ -142,7 +160,8 @@ double cpu_seconds() {
 void write_images(bool as_skill, const std::string& server, const settings& s,
                   int report) {
   match_listener listener;
-  auto end = make_writer(as_skill, server, s, listener);
+  const auto send = as_skill ? skill_writer(server, listener)
+                             : stock_writer(server, s, listener);
   listener.matched.wait_until(std::chrono::steady_clock::now()
                               + std::chrono::seconds{10});
   std::string payload(s.bytes, 'x');
@@ -155,8 +174,7 @@ void write_images(bool as_skill, const std::string& server, const settings& s,
     never.wait_until(due);
     const auto now = wall_clock::now().time_since_epoch().count();
     std::memcpy(payload.data() + stamp_at, &now, sizeof(now));
-    end.writer->write(&payload,
-                      eprosima::fastrtps::rtps::c_InstanceHandle_Unknown);
+    send(payload);
   }
   never.wait_until(std::chrono::steady_clock::now() + std::chrono::seconds{1});
   const double used = cpu_seconds();

@@ -14,6 +14,7 @@
 
 #include <memory>
 #include <string_view>
+#include <utility>
 
 namespace roscell::cli {
 
@@ -31,6 +32,8 @@ struct subject {
   const char* path;     ///< Where the answer is; the argument is appended.
   reply_parts parts;    ///< What is listed of it.
   std::string (*view)(const json& reply, const view_style& style);
+  /// The same for one thing that was named; nullptr: as for all.
+  std::string (*one)(const json& reply, const view_style& style) = nullptr;
 };
 
 template <class Message, std::string (*View)(const Message&, const view_style&)>
@@ -62,7 +65,8 @@ const subject subjects[] = {
      "TASK",
      "/v1/tasks",
      {"tasks"},
-     view_of<task_description, tasks_view>},
+     view_of<task_description, tasks_view>,
+     view_of<task_description, task_view>},
     {"instances",
      "List the skill instances of the cell, or of a lone node.",
      "Examples:\n  roscell instances\n"
@@ -143,14 +147,37 @@ int show(const show_options& options, const node_client& node,
   }
 }
 
+/// A task as it is asked for by name: with what its instances say now, which
+/// only their nodes know.
+json with_figures(const node_client& node, json reply,
+                  const std::string& name) {
+  instance_query query;
+  query.task = name;
+  const auto rows = node.ask(message_json(query), view_limit)
+                        .value("instances", json::array());
+  if (auto tasks = reply.find("tasks");
+      tasks != reply.end() && tasks->size() == 1)
+    tasks->front()["instances"] = rows;
+  return reply;
+}
+
 int show_subject(const subject& what, const show_options& options) {
   const node_client node{options.connection};
   auto path = std::string{what.path};
   if (!options.argument.empty())
     path += "/" + percent_encode(options.argument);
   return show(
-      options, node, [&] { return node.get(path); },
-      [&](const json& reply) { return what.view(reply, options.style()); },
+      options, node,
+      [&] {
+        auto reply = node.get(path);
+        return what.one != nullptr && !options.argument.empty()
+                   ? with_figures(node, std::move(reply), options.argument)
+                   : reply;
+      },
+      [&](const json& reply) {
+        const bool one = what.one != nullptr && !options.argument.empty();
+        return (one ? what.one : what.view)(reply, options.style());
+      },
       what.parts);
 }
 

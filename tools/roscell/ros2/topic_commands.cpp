@@ -6,6 +6,7 @@
 #include "tools/roscell/commands.hpp"
 #include "tools/roscell/daemon/stop_signals.hpp"
 #include "tools/roscell/exit_code.hpp"
+#include "tools/roscell/ros2/echo/message_value.hpp"
 #include "tools/roscell/ros2/traffic_meter.hpp"
 #include "tools/roscell/view/format.hpp"
 #include "tools/roscell/view/terminal.hpp"
@@ -13,6 +14,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cstdlib>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -34,6 +36,8 @@ struct listen_options {
   std::string output = "text";
   uint64_t window = 10000; ///< Messages.
   double seconds = 0;      ///< 0: until Ctrl-C.
+  uint64_t count = 0;      ///< Messages; 0: until Ctrl-C.
+  uint64_t items = 32;     ///< Of a sequence that are shown.
 };
 
 using options_ptr = std::shared_ptr<listen_options>;
@@ -146,9 +150,77 @@ int measure(const listen_options& options) {
   return exit_done;
 }
 
-int run(const options_ptr& options) {
+/// Prints messages as they come, on a thread of Fast DDS.
+class message_printer {
+public:
+  message_printer(const listen_options& options, std::string type,
+                  stop_signals& signals)
+      : options_{options}, type_{std::move(type)}, signals_{signals},
+        library_{prefixes_in(text_of_variable("AMENT_PREFIX_PATH"))} {
+    library_.find(type_);
+  }
+
+  void print_message(const ros2::heard_message& x) {
+    if (done_)
+      return;
+    try {
+      const auto value =
+          message_value(library_, type_, x.payload, options_.items);
+      print(options_.output == "json" ? compact_value(value)
+                                      : value_text(value) + "---\n");
+    } catch (const std::exception& why) {
+      trouble_ = why.what();
+    }
+    done_ = !trouble_.empty() || ++printed_ == options_.count;
+    if (done_)
+      signals_.end();
+  }
+
+  /// Why nothing more could be printed; empty: nothing was wrong. To be asked
+  /// when nobody prints any more.
+  const std::string& trouble() const {
+    return trouble_;
+  }
+
+private:
+  static std::string text_of_variable(const char* name) {
+    const auto* value = std::getenv(name);
+    return value != nullptr ? value : "";
+  }
+
+  static std::string compact_value(const message_json_value& x) {
+    using handler = message_json_value::error_handler_t;
+    return x.dump(-1, ' ', false, handler::replace) + "\n";
+  }
+
+  const listen_options& options_;
+  const std::string type_;
+  stop_signals& signals_;
+  message_library library_;
+  std::string trouble_;
+  uint64_t printed_ = 0;
+  bool done_ = false;
+};
+
+int echo(const listen_options& options) {
+  stop_signals signals;
+  const auto found = find_topic(options);
+  message_printer printer{options, found.row.data_type, signals};
+  auto listener = std::make_unique<ros2::topic_listener>(
+      found.config, found.row.topic, found.row.data_type, qos_for(found.row),
+      [&](const ros2::heard_message& x) { printer.print_message(x); });
+  signals.wait();
+  listener.reset();
+  if (!printer.trouble().empty())
+    throw command_error{exit_refused, printer.trouble()};
+  return exit_done;
+}
+
+int run(const options_ptr& options, int (*command)(const listen_options&)) {
   try {
-    return measure(*options);
+    return command(*options);
+  } catch (const definition_error& why) {
+    throw command_error{exit_refused, why.what()};
   } catch (const engine::start_error& why) {
     throw command_error{exit_refused, why.what()};
   }
@@ -186,13 +258,50 @@ void add_measure_command(CLI::App& app, action& chosen, const char* name,
       ->check(CLI::IsMember({"text", "json"}))
       ->capture_default_str()
       ->option_text("FORMAT");
-  command->callback(
-      [&chosen, options] { chosen = [options] { return run(options); }; });
+  command->callback([&chosen, options] {
+    chosen = [options] { return run(options, measure); };
+  });
+}
+
+void add_echo_command(CLI::App& app, action& chosen) {
+  auto options = std::make_shared<listen_options>();
+  auto* command = app.add_subcommand(
+      "echo", "Print the messages of a ROS 2 topic of the cell.");
+  command->footer(
+      "Types of common packages are known; others are looked up in the "
+      "workspaces of AMENT_PREFIX_PATH.\nEnds by Ctrl-C.\n\n"
+      "Examples:\n  roscell echo /tf --count 1\n"
+      "  roscell echo /fleet/camera/camera_info -o json");
+  add_connection_options(*command, options->connection);
+  command->add_option("TOPIC", options->topic, "Its name")
+      ->required()
+      ->option_text(" ");
+  command
+      ->add_option("--count", options->count,
+                   "End after so many messages; 0: only by Ctrl-C")
+      ->capture_default_str()
+      ->option_text("N");
+  command
+      ->add_option("--items", options->items,
+                   "Of each sequence show so many items")
+      ->capture_default_str()
+      ->option_text("N");
+  command
+      ->add_option(
+          "-o,--output", options->output,
+          "text: YAML, as `ros2 topic echo`; json: one document a line")
+      ->check(CLI::IsMember({"text", "json"}))
+      ->capture_default_str()
+      ->option_text("FORMAT");
+  command->callback([&chosen, options] {
+    chosen = [options] { return run(options, echo); };
+  });
 }
 
 } // namespace
 
 void add_topic_commands(CLI::App& app, action& chosen) {
+  add_echo_command(app, chosen);
   add_measure_command(app, chosen, "hz",
                       "Measure how often a ROS 2 topic of the cell comes.");
   add_measure_command(app, chosen, "bw",

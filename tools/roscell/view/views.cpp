@@ -213,6 +213,34 @@ std::string tasks_view(const task_description& tasks, const view_style& style) {
   return or_nothing(t, "tasks", style);
 }
 
+std::string task_view(const task_description& tasks, const view_style& style) {
+  table t{{{"STEP"},
+           {"NODE", align::left, 3},
+           {"STATE"},
+           {"RATE", align::right, 1},
+           {"DROPPED", align::right, 2},
+           {"LATENCY", align::right, 1},
+           {"DATA AGE", align::right}},
+          {}};
+  double oldest_ms = -1;
+  for (const auto& task : tasks.tasks)
+    for (const auto& row : task.instances) {
+      const auto& x = row.figures;
+      oldest_ms = std::max(oldest_ms, x.age_ms);
+      t.rows.push_back({row.spec.step, row.node, state_text(row),
+                        figure(x.rate_hz, 1, " Hz"), count_text(x.dropped),
+                        figure(x.latency_ms, 2, " ms"),
+                        figure(x.age_ms, 1, " ms")});
+    }
+  auto text = tasks_view(tasks, style);
+  if (!t.rows.empty())
+    text += "\n" + t.render(style.text);
+  if (oldest_ms >= 0)
+    text += "\nfrom a sensor's stamp to the last output: "
+            + format_number(oldest_ms, 1) + " ms (median)\n";
+  return text;
+}
+
 std::string instances_view(const instance_description& instances,
                            const view_style& style) {
   table t{{{"INSTANCE"},

@@ -29,6 +29,9 @@ std::string cells_view(const cell_list& cells, const view_style& style);
 /// The rows of the registry, and below them the nodes that are in no cell.
 std::string members_view(const cell_description& cell, const view_style& style);
 std::string tasks_view(const task_description& tasks, const view_style& style);
+
+/// The same, and below it the steps, with how long data are under way.
+std::string task_view(const task_description& tasks, const view_style& style);
 std::string instances_view(const instance_description& instances,
                            const view_style& style);
 std::string skills_view(const skill_list& skills, const view_style& style);

@@ -1,0 +1,58 @@
+#pragma once
+
+#include "skills/engine/life/stop_event.hpp"
+
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <map>
+#include <mutex>
+
+namespace roscell::ros2 {
+
+/// How far apart the datagrams of a writer's large messages should leave. A
+/// reliable reader asks for what it has lost; a best-effort one does not, and a
+/// stock program has only the 208 KiB of a socket that nobody tuned. So while
+/// such a reader is there, a message takes up to half the time until the next
+/// one. Pure; told the time.
+class writer_pace {
+public:
+  using clock = std::chrono::steady_clock;
+
+  /// So many best-effort readers of stock programs there are now.
+  void set_frail_readers(int count) {
+    frail_readers_ = count;
+  }
+
+  /// A message of that size is about to leave. Returns the distance of its
+  /// datagrams; 0: none but that of large messages in general.
+  clock::duration next_gap(clock::time_point now, std::size_t bytes);
+
+private:
+  int frail_readers_ = 0;
+  clock::time_point last_{};
+  clock::duration interval_{}; ///< Between messages, smoothed.
+};
+
+/// Holds datagrams back, as the writers of a participant wish; for all of them
+/// the shortest wish counts, so that none falls behind. May be used by several
+/// threads.
+class datagram_pacer {
+public:
+  void set_gap(const void* writer, writer_pace::clock::duration gap);
+  void forget(const void* writer);
+
+  /// To be called before each datagram; returns at once for small ones.
+  void wait_turn(std::size_t bytes);
+
+private:
+  void choose();
+
+  std::mutex mutex_; // Guards the wishes.
+  std::map<const void*, writer_pace::clock::duration> gaps_;
+  std::atomic<writer_pace::clock::duration> gap_{};
+  writer_pace::clock::time_point due_{}; // Of Fast DDS's sending lock.
+  const engine::stop_event never_;
+};
+
+} // namespace roscell::ros2
