@@ -92,7 +92,8 @@ private:
                       float d) {
     auto upper = a + right * (b - a);
     auto lower = c + right * (d - c);
-    return static_cast<Number>(upper + below * (lower - upper) + 0.5F);
+    constexpr auto half_a_level = 0.5F; // The cast cuts off.
+    return static_cast<Number>(upper + below * (lower - upper) + half_a_level);
   }
 
   const ros2::image_view& raw_;
