@@ -5,7 +5,7 @@
 #include "actors/edge/io/socket_address.hpp"
 #include "actors/house/edge_failure.hpp"
 #include "actors/instances/container_supervisor.hpp"
-#include "actors/instances/graph_watch.hpp"
+#include "actors/instances/ros2/graph_watch.hpp"
 #include "actors/membership/discovery.hpp"
 #include "actors/membership/join_scout.hpp"
 #include "actors/membership/membership.hpp"

@@ -3,7 +3,7 @@
 #include "dds/host_transport.hpp"
 #include "dds/participant_ids.hpp"
 #include "dds/server_ids.hpp"
-#include "skills/ros2/paced_transport.hpp"
+#include "skills/ros2/flow/paced_transport.hpp"
 
 #include <fastdds/rtps/flowcontrol/FlowControllerDescriptor.hpp>
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>

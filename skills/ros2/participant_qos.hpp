@@ -1,6 +1,6 @@
 #pragma once
 
-#include "skills/ros2/pace.hpp"
+#include "skills/ros2/flow/pace.hpp"
 #include "skills/ros2/participant_config.hpp"
 #include "skills/ros2/topic_qos.hpp"
 

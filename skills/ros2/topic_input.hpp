@@ -1,7 +1,7 @@
 #pragma once
 
 #include "skills/engine/handlers.hpp"
-#include "skills/ros2/gap_counter.hpp"
+#include "skills/ros2/flow/gap_counter.hpp"
 #include "skills/ros2/participant.hpp"
 
 #include <deque>

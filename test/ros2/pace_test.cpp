@@ -1,4 +1,4 @@
-#include "skills/ros2/pace.hpp"
+#include "skills/ros2/flow/pace.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -125,16 +125,15 @@ json container_document(const start_container& wish,
                         const container_files& files,
                         const container_setting& setting,
                         const std::string& notify_dir) {
-  json result{
-      {"Image", wish.image},
-      {"User", user_of(setting)},
-      {"Env", environment_json(wish)},
-      {"Labels", labels_json(wish, setting)},
-      // Signs of life come by the NOTIFY_SOCKET; the base image's own
-      // check would only cost.
-      {"Healthcheck", {{"Test", json::array({"NONE"})}}},
-      {"HostConfig", host_json(wish, files, setting, notify_dir)},
-      {"StopSignal", std::to_string(wish.stop_signal)}};
+  json result{{"Image", wish.image},
+              {"User", user_of(setting)},
+              {"Env", environment_json(wish)},
+              {"Labels", labels_json(wish, setting)},
+              // Signs of life come by the NOTIFY_SOCKET; the base image's own
+              // check would only cost.
+              {"Healthcheck", {{"Test", json::array({"NONE"})}}},
+              {"HostConfig", host_json(wish, files, setting, notify_dir)},
+              {"StopSignal", std::to_string(wish.stop_signal)}};
   // A program of the base image; else the image says which.
   if (!wish.command.empty() && wish.command.front().front() == '/')
     result["Entrypoint"] = wish.command;

@@ -1,5 +1,5 @@
 #include "actors/house/limits.hpp"
-#include "actors/instances/graph_watch.hpp"
+#include "actors/instances/ros2/graph_watch.hpp"
 #include "actors/instances/skill_instance.hpp"
 
 #include "messages/failure.hpp"

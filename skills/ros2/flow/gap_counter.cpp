@@ -1,4 +1,4 @@
-#include "skills/ros2/gap_counter.hpp"
+#include "skills/ros2/flow/gap_counter.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -1,4 +1,4 @@
-#include "actors/instances/graph_watch.hpp"
+#include "actors/instances/ros2/graph_watch.hpp"
 
 #include "test/actors/fakes/supervision_fakes.hpp"
 

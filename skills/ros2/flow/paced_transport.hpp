@@ -1,6 +1,6 @@
 #pragma once
 
-#include "skills/ros2/pace.hpp"
+#include "skills/ros2/flow/pace.hpp"
 
 #include <fastdds/rtps/transport/TransportDescriptorInterface.h>
 

@@ -1,4 +1,4 @@
-#include "skills/ros2/paced_transport.hpp"
+#include "skills/ros2/flow/paced_transport.hpp"
 
 #include <fastdds/rtps/transport/ChainingTransport.h>
 #include <fastdds/rtps/transport/ChainingTransportDescriptor.h>
