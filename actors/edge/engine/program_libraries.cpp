@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <map>
 #include <system_error>
 #include <utility>
@@ -134,13 +135,27 @@ bool is_c_library(std::string_view name) {
          || name.substr(0, 10) == "linux-vdso";
 }
 
+namespace {
+
+/// Where this node itself finds libraries beside the system's: in its own image
+/// they lie together.
+std::map<std::string, std::string> linker_environment() {
+  const auto* folders = std::getenv("LD_LIBRARY_PATH");
+  if (folders == nullptr)
+    return {};
+  return {{"LD_LIBRARY_PATH", folders}};
+}
+
+} // namespace
+
 edge_result<std::vector<shared_library>>
 find_libraries(const fs::path& folder, const fs::path& program) {
   std::map<std::string, shared_library> found;
   const auto linker = own_linker();
   for (const auto& path : programs_in(folder, program)) {
-    const auto words = run_program({linker, {"--list", path.string()}, {}},
-                                   limits::engine::linker, max_listing_bytes);
+    const auto words =
+        run_program({linker, {"--list", path.string()}, linker_environment()},
+                    limits::engine::linker, max_listing_bytes);
     if (const auto* error = std::get_if<edge_error>(&words)) {
       // Other files may be made for other machines.
       if (path != program)

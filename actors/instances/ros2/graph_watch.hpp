@@ -1,6 +1,7 @@
 #pragma once
 
 #include "actors/edge/dds/ros_graph.hpp"
+#include "actors/house/house.hpp"
 #include "messages/messages.hpp"
 
 #include <map>

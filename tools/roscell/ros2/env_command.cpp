@@ -38,7 +38,7 @@ fs::path write_profile(const std::string& cell, const variables& environment) {
   std::error_code error;
   fs::create_directories(folder, error);
   fs::permissions(folder, fs::perms::owner_all, error);
-  const auto file = folder / ("super_client_" + cell + ".xml");
+  auto file = folder / ("super_client_" + cell + ".xml");
   std::ofstream out{file, std::ios::trunc};
   out << text << std::flush;
   if (!out)

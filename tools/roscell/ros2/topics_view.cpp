@@ -21,6 +21,7 @@ std::string ends_text(const std::vector<topic_end>& ends) {
     ++counts[word + ")"];
   }
   std::vector<std::string> words;
+  words.reserve(counts.size());
   for (const auto& [word, count] : counts)
     words.push_back(count == 1 ? word : word + " x" + std::to_string(count));
   return joined(words, ", ");
