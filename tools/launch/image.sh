@@ -51,6 +51,7 @@ build_image() {
   engine image inspect "$image" > /dev/null 2>&1 && return
   echo "building $image, once" >&2
   engine build --network host -t "$image" "$work" >&2 \
-    || fail "the image cannot be built; the base image '$base' must be on this" \
-      "host or in a registry that it reaches (--base names another)"
+    || fail "the image cannot be built, see above; it needs the base image" \
+      "'$base', here or in a registry (--base names another), and, but for" \
+      "--binary, Debian's mirror"
 }
