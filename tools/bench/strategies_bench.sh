@@ -70,7 +70,7 @@ run_strategy() {
     first[$scene]=$(($(wc -l < "$poses/$scene.jsonl") + 1))
   done
   timeout "$span_s" tail -f /dev/null
-  get head "/v1/tasks/$strategy" | jq -c '[.tasks[0].instances[]
+  get head /v1/instances | jq -c '[.instances[]
       | select(.spec.step | startswith("pose")) | .figures.dropped // 0] | add' \
     >> "$scratch/$strategy.dropped"
   echo "{\"type\":\"task_termination\",\"task\":\"$strategy\"}" \
