@@ -27,6 +27,12 @@ for (( ; setups > 0; --setups )); do
   source "$1"
   shift
 done
+if [[ $kind == launch ]]; then
+  command -v ros2 > /dev/null || fail "there is no 'ros2' to launch '$name'"
+  [[ $name != /* || -r $name ]] || fail "there is no launch file '$name'"
+  [[ $name == /* ]] && exec ros2 launch "$name" "$@"
+  exec ros2 launch "$package" "$name" "$@"
+fi
 if [[ $name == /* ]]; then
   path=$name
 else
@@ -40,15 +46,6 @@ else
             "'${AMENT_PREFIX_PATH:-}'; correct \"package\", or name the" \
             "workspace's setup.bash in \"setup\""
   path=$found/lib/$package/$name
-  if [[ $kind == launch ]]; then
-    path=$found/share/$package/launch/$name
-    [[ -e $path ]] || path=$found/share/$package/$name
-  fi
-fi
-if [[ $kind == launch ]]; then
-  [[ -r $path ]] || fail "there is no launch file '$path'"
-  command -v ros2 > /dev/null || fail "there is no 'ros2' to launch '$path'"
-  exec ros2 launch "$path" "$@"
 fi
 [[ -x $path ]] || fail "there is no program '$path'"
 exec "$path" "$@"
