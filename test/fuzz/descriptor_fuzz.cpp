@@ -13,6 +13,12 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* bytes, size_t size) {
     return 0;
   }
   const auto skill = fuzz::check_decoding<skill_descriptor>(*document);
+  const bool is_stock = skill.engine == "ros2_standalone";
+  if (is_stock == skill.ros2.empty() || is_stock != skill.entry_point.empty())
+    fuzz::found("neither one program of the folder nor one of ROS 2",
+                *document);
+  if (is_stock)
+    return 0;
   const auto& program = skill.entry_point.front();
   if (program.front() == '/'
       || ("/" + program + "/").find("/../") != program.npos)
