@@ -15,7 +15,7 @@ namespace {
 /// to source, those files, and its own arguments.
 constexpr const char* start_script = R"(
 fail() { echo "ros2_standalone: $*" >&2; exit 127; }
-kind=$1 package=$2 name=$3 setups=$4
+kind=$1 package=$2 name=$3 setups=$4 found=
 shift 4
 if (( setups == 0 )) && [[ -z ${AMENT_PREFIX_PATH:-} ]]; then
   for file in /opt/ros/*/setup.bash; do
@@ -41,7 +41,7 @@ else
     [[ -e $prefix/share/ament_index/resource_index/packages/$package ]] \
       && { found=$prefix; break; }
   done
-  [[ -n ${found:-} ]] \
+  [[ -n $found ]] \
     || fail "there is no package '$package' in AMENT_PREFIX_PATH" \
             "'${AMENT_PREFIX_PATH:-}'; correct \"package\", or name the" \
             "workspace's setup.bash in \"setup\""

@@ -25,9 +25,14 @@ TEST_CASE("a shell gets the cell's variables, quoted, and nothing that "
   CHECK_THAT(text, Contains("FASTRTPS_DEFAULT_PROFILES_FILE"));
 }
 
-TEST_CASE("a value cannot break out of its quotes", "[tools]") {
-  CHECK_THAT(shell_lines("c", {{"X", "a'; rm -rf /; '"}}),
-             Contains("export X='a'\\''; rm -rf /; '\\'''\n"));
+TEST_CASE("what a node says cannot break out of its quotes or its comment",
+          "[tools]") {
+  const auto text =
+      shell_lines("c\nrm -rf /", {{"ROS_DOMAIN_ID", "a'; rm -rf /; '"},
+                                  {"X;rm -rf /;Y", "1"}});
+  CHECK_THAT(text, Contains("export ROS_DOMAIN_ID='a'\\''; rm -rf /; '\\'"));
+  CHECK_THAT(text, !Contains("\nrm") && !Contains("X;"));
+  CHECK_THAT(super_client_lines("c\nrm -rf /", hall, "/p"), !Contains("\nrm"));
 }
 
 TEST_CASE("who shall see all of a cell gets a profile in place of the "

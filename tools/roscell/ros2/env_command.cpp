@@ -8,6 +8,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cstdlib>
@@ -27,8 +28,9 @@ struct env_options {
   bool super_client = false;
 };
 
-/// The same for each call, so that shells share it; only this user's.
-fs::path write_profile(const std::string& cell, const variables& environment) {
+/// Of the cell that was asked for last; programs that run keep what they read.
+/// Nobody else may have put the folder there.
+fs::path write_profile(const variables& environment) {
   const auto text = super_client_profile(environment);
   const auto* runtime = std::getenv("XDG_RUNTIME_DIR");
   const auto folder = runtime != nullptr && *runtime != '\0'
@@ -38,7 +40,13 @@ fs::path write_profile(const std::string& cell, const variables& environment) {
   std::error_code error;
   fs::create_directories(folder, error);
   fs::permissions(folder, fs::perms::owner_all, error);
-  auto file = folder / ("super_client_" + cell + ".xml");
+  struct stat found {};
+  if (::lstat(folder.c_str(), &found) != 0 || !S_ISDIR(found.st_mode)
+      || found.st_uid != ::geteuid())
+    throw command_error{exit_refused,
+                        folder.string() + " is no folder of yours",
+                        "set XDG_RUNTIME_DIR to one"};
+  auto file = folder / "super_client.xml";
   std::ofstream out{file, std::ios::trunc};
   out << text << std::flush;
   if (!out)
@@ -60,7 +68,7 @@ int print_environment(const env_options& options) {
     print(pretty(json(said.environment)));
   else if (options.super_client)
     print(super_client_lines(said.cell, said.environment,
-                             write_profile(said.cell, said.environment)));
+                             write_profile(said.environment)));
   else
     print(shell_lines(said.cell, said.environment));
   return exit_done;

@@ -3,7 +3,9 @@
 #include "actors/edge/io/socket_address.hpp"
 #include "dds/server_ids.hpp"
 #include "tools/roscell/exit_code.hpp"
+#include "tools/roscell/view/format.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 
@@ -23,6 +25,16 @@ std::string in_quotes_of_shell(const std::string& text) {
   return result + "'";
 }
 
+/// What a node says becomes lines that a shell evaluates, so only what is meant
+/// is taken, and a comment stays one line.
+constexpr std::array<const char*, 2> known_names{"ROS_DISCOVERY_SERVER",
+                                                 "ROS_DOMAIN_ID"};
+
+bool is_known(const std::string& name) {
+  return std::find(known_names.begin(), known_names.end(), name)
+         != known_names.end();
+}
+
 std::string export_line(const std::string& name, const std::string& value) {
   return "export " + name + "=" + in_quotes_of_shell(value) + "\n";
 }
@@ -40,10 +52,12 @@ std::string prefix_text(const guid_prefix& prefix) {
 } // namespace
 
 std::string shell_lines(const std::string& cell, const variables& environment) {
-  auto result = "# ROS 2 programs that this shell starts are in cell '" + cell
-                + "'.\n" + misleading + " FASTRTPS_DEFAULT_PROFILES_FILE\n";
+  auto result = "# ROS 2 programs that this shell starts are in cell '"
+                + printable(cell) + "'.\n" + misleading
+                + " FASTRTPS_DEFAULT_PROFILES_FILE\n";
   for (const auto& [name, value] : environment)
-    result += export_line(name, value);
+    if (is_known(name))
+      result += export_line(name, value);
   return result + export_line("RMW_IMPLEMENTATION", "rmw_fastrtps_cpp");
 }
 
@@ -51,13 +65,14 @@ std::string super_client_lines(const std::string& cell,
                                const variables& environment,
                                const std::filesystem::path& profile) {
   auto result = "# ROS 2 programs that this shell starts see all of cell '"
-                + cell
+                + printable(cell)
                 + "'.\n# A daemon of the ros2 command that runs already "
                   "does not: `ros2 daemon stop` ends it.\n"
                 + misleading + "\n";
   for (const auto& [name, value] : environment)
-    result += name == "ROS_DISCOVERY_SERVER" ? "unset " + name + "\n"
-                                             : export_line(name, value);
+    if (is_known(name))
+      result += name == "ROS_DISCOVERY_SERVER" ? "unset " + name + "\n"
+                                               : export_line(name, value);
   return result + export_line("RMW_IMPLEMENTATION", "rmw_fastrtps_cpp")
          + export_line("FASTRTPS_DEFAULT_PROFILES_FILE", profile.string());
 }
