@@ -37,8 +37,10 @@ void add_skill_show_command(CLI::App& skills, action& chosen);
 /// env.
 void add_env_command(CLI::App& app, action& chosen);
 
-/// echo, hz, bw.
-void add_topic_commands(CLI::App& app, action& chosen);
+void add_echo_command(CLI::App& app, action& chosen);
+
+/// hz, bw.
+void add_traffic_commands(CLI::App& app, action& chosen);
 
 void add_graph_command(CLI::App& app, action& chosen);
 void add_describe_command(CLI::App& app, action& chosen);

@@ -47,7 +47,8 @@ void set_up(CLI::App& app, action& chosen) {
   add_describe_command(app, chosen);
   add_graph_command(app, chosen);
   add_env_command(app, chosen);
-  add_topic_commands(app, chosen);
+  add_echo_command(app, chosen);
+  add_traffic_commands(app, chosen);
   add_events_command(app, chosen);
   add_logs_command(app, chosen);
   add_completion_command(app, chosen);
