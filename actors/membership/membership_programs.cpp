@@ -78,6 +78,11 @@ void resume_programs(self_pointer self) {
   ask_to_serve(self, st.stored->discovery_port, false);
 }
 
+void let_remote_rest(self_pointer self) {
+  if (self->state.programs)
+    ask_to_serve(self, program_port(self->state), false);
+}
+
 void stop_programs(self_pointer self) {
   auto& st = self->state;
   if (!std::exchange(st.programs, std::nullopt))

@@ -154,6 +154,7 @@ void on_session_lost(self_pointer self, const std::string& reason) {
   }
   st.standing = node_state::orphaned;
   tell(self, "coordinator_lost", {{"cell", st.cell}, {"reason", reason}});
+  let_remote_rest(self);
   // One that lasted ends the series of attempts before it.
   if (self->clock().now() - st.joined_at >= limits::lease::span) {
     st.pause.reset();

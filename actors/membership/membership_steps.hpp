@@ -110,6 +110,8 @@ void notify(self_pointer self, const instance_changed& fact);
 void serve_programs_of(self_pointer self, const node_registered& reply);
 /// Takes up the one that an earlier run of the node had.
 void resume_programs(self_pointer self);
+/// Nothing is sent to the coordinator's server until it has registered again.
+void let_remote_rest(self_pointer self);
 /// The node is in no cell any more.
 void stop_programs(self_pointer self);
 /// UDP port of the one that runs; 0: none does.

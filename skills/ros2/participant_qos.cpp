@@ -43,7 +43,7 @@ constexpr std::int32_t announcement_period_s = 10;
 
 /// How often a client repeats itself until the server has answered. The time
 /// to find another end is about three times this.
-constexpr std::int32_t repeat_period_ns = 100'000'000;
+constexpr std::int32_t repeat_period_ns = 50'000'000;
 
 /// Where we start to look for a free port, counted as ROS 2 counts them on one
 /// host (RTPS 2.3, 9.6.1.1). The first places are left to ROS 2 nodes that find

@@ -18,12 +18,16 @@ use_engine() {
   # What a failed test has left.
   engine ps -aq | xargs -r docker -H "unix://$engine_socket" rm -f > /dev/null
   runtime=$engine_name:$engine_socket
-  # The sanitizers' own memory is many times that of the skill.
+  allow_much_memory "$skills/echo"
+  [[ $variant != rootless ]] || become_rootless_user
+}
+
+# The sanitizers' own memory is many times that of a skill.
+allow_much_memory() {
   local text
   text=$(jq '.models[].deployments[].resources.memory_mib = 1024' \
-    "$skills/echo/skill.json")
-  echo "$text" > "$skills/echo/skill.json"
-  [[ $variant != rootless ]] || become_rootless_user
+    "$1/skill.json")
+  echo "$text" > "$1/skill.json"
 }
 
 # The node is the unprivileged user whose engine it is.

@@ -22,7 +22,7 @@ constexpr std::chrono::milliseconds greeting_delay{2};
 
 /// How often the server repeats what a client has not acknowledged. Shorter
 /// than Fast DDS's 450 ms because a ROS 2 node's start waits for it.
-constexpr std::int32_t serve_repeat_period_ns = 100'000'000;
+constexpr std::int32_t serve_repeat_period_ns = 20'000'000;
 
 /// A ROS 2 node may put all its endpoints into one datagram of full size.
 constexpr std::uint32_t max_server_message_bytes = 65500;

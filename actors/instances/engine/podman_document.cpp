@@ -74,21 +74,26 @@ json resources_of(const json& host) {
 json podman_document(const std::string& name, const json& docker) {
   const auto& host = docker.at("HostConfig");
   const auto& log = host.at("LogConfig").at("Config");
-  return {{"name", name},
-          {"image", docker.at("Image")},
-          {"user", docker.at("User")},
-          {"env", environment_of(docker)},
-          {"labels", docker.at("Labels")},
-          {"healthconfig", docker.at("Healthcheck")},
-          {"netns", {{"nsmode", host.at("NetworkMode")}}},
-          {"ipcns", {{"nsmode", host.at("IpcMode")}}},
-          {"mounts", mounts_of(host)},
-          {"devices", devices_of(host)},
-          {"r_limits", limits_of(host)},
-          {"resource_limits", resources_of(host)},
-          {"log_configuration",
-           {{"driver", "k8s-file"},
-            {"size", std::stoll(log.at("max-size").get<std::string>())}}}};
+  json result{
+      {"name", name},
+      {"image", docker.at("Image")},
+      {"user", docker.at("User")},
+      {"env", environment_of(docker)},
+      {"labels", docker.at("Labels")},
+      {"healthconfig", docker.at("Healthcheck")},
+      {"netns", {{"nsmode", host.at("NetworkMode")}}},
+      {"ipcns", {{"nsmode", host.at("IpcMode")}}},
+      {"mounts", mounts_of(host)},
+      {"devices", devices_of(host)},
+      {"r_limits", limits_of(host)},
+      {"resource_limits", resources_of(host)},
+      {"log_configuration",
+       {{"driver", "k8s-file"},
+        {"size", std::stoll(log.at("max-size").get<std::string>())}}},
+      {"stop_signal", std::stoi(docker.at("StopSignal").get<std::string>())}};
+  if (docker.count("Entrypoint") != 0)
+    result["entrypoint"] = docker.at("Entrypoint");
+  return result;
 }
 
 } // namespace roscell

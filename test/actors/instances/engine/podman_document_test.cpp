@@ -3,6 +3,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <csignal>
+
 #include <unistd.h>
 
 using namespace roscell;
@@ -64,6 +66,17 @@ TEST_CASE("Podman counts cores in a quota and memory in bytes") {
   CHECK(limits["cpu"] == json{{"period", 100'000}, {"quota", 50'000}});
   CHECK(limits["memory"]["limit"] == 96 * 1024 * 1024);
   CHECK(limits["memory"]["swap"] == limits["memory"]["limit"]);
+}
+
+TEST_CASE("Podman is told of a program of the base image and how it ends") {
+  auto wish = podman_wish();
+  wish.command = {"/bin/bash", "-c", "true"};
+  wish.stop_signal = SIGINT;
+  const auto x = podman_form(wish);
+  CHECK(x["entrypoint"] == json{"/bin/bash", "-c", "true"});
+  CHECK(x["stop_signal"] == SIGINT);
+  wish.command = {"bin/echo"};
+  CHECK(podman_form(wish).count("entrypoint") == 0);
 }
 
 TEST_CASE("Podman is asked for a GPU by its CDI name") {
