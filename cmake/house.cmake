@@ -2,7 +2,7 @@
 
 add_library(roscell_internal INTERFACE)
 target_include_directories(roscell_internal INTERFACE
-  $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
+  ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/include)
 target_compile_options(roscell_internal INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow=local
   $<$<COMPILE_LANGUAGE:CXX>:-Wnon-virtual-dtor>
@@ -16,24 +16,25 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   add_compile_options(--param=ggc-min-expand=300 --param=ggc-min-heapsize=1000000)
 endif()
 
+set(ROSCELL_SANITIZER_FLAGS)
 if(ROSCELL_SANITIZE STREQUAL "address+undefined")
   # CAF 0.17 binds a null reference when a function is spawned without
   # arguments, hence no check for null (docs/decisions.md).
-  set(flags -fsanitize=address,undefined -fno-sanitize=null
+  set(ROSCELL_SANITIZER_FLAGS -fsanitize=address,undefined -fno-sanitize=null
       -fno-sanitize-recover=all -fno-omit-frame-pointer)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     # GCC's checks of bounds see the sanitizers' own branches and warn of code
     # that cannot run; the release build warns of the real ones.
-    list(APPEND flags -Wno-array-bounds -Wno-stringop-overflow
+    list(APPEND ROSCELL_SANITIZER_FLAGS -Wno-array-bounds -Wno-stringop-overflow
          -Wno-maybe-uninitialized)
   endif()
 elseif(ROSCELL_SANITIZE STREQUAL "thread")
-  set(flags -fsanitize=thread -fno-omit-frame-pointer)
+  set(ROSCELL_SANITIZER_FLAGS -fsanitize=thread -fno-omit-frame-pointer)
 elseif(NOT ROSCELL_SANITIZE STREQUAL "")
   message(FATAL_ERROR "ROSCELL_SANITIZE is empty, address+undefined or thread")
 endif()
-add_compile_options(${flags})
-add_link_options(${flags})
+add_compile_options(${ROSCELL_SANITIZER_FLAGS})
+add_link_options(${ROSCELL_SANITIZER_FLAGS})
 
 if(ROSCELL_TIDY)
   find_program(CLANG_TIDY clang-tidy REQUIRED)
@@ -77,10 +78,12 @@ endfunction()
 
 # roscell_library(name FOLDER...): a static library of the .cpp files that lie
 # directly in the calling folder or in the folders named after it; `FOLDER/**`
-# takes the folders inside that folder too.
+# takes the folders inside that folder too. With PUBLIC_AS NAME in front it is
+# for other projects, as roscell::NAME.
 function(roscell_library name)
+  cmake_parse_arguments(library "" "PUBLIC_AS" "" ${ARGN})
   set(sources)
-  foreach(folder . ${ARGN})
+  foreach(folder . ${library_UNPARSED_ARGUMENTS})
     if(folder MATCHES "^(.*)/[*][*]$")
       file(GLOB_RECURSE found CONFIGURE_DEPENDS ${CMAKE_MATCH_1}/*.cpp)
     else()
@@ -89,6 +92,10 @@ function(roscell_library name)
     list(APPEND sources ${found})
   endforeach()
   add_library(${name} STATIC ${sources})
-  target_link_libraries(${name} PUBLIC roscell_internal)
+  if(library_PUBLIC_AS)
+    roscell_public(${name} ${library_PUBLIC_AS})
+  else()
+    target_link_libraries(${name} PUBLIC roscell_internal)
+  endif()
   roscell_unity(${name})
 endfunction()

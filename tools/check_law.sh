@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # The dependency law: messages <- actors <- tools; dds is shared by actors and
-# skills, which depend on nothing else of ours; inside actors edge <- house <- session, instances, placement <-
+# skills, which depend on nothing else of ours but the public headers in
+# include, which depend on nothing of ours; inside actors edge <- house <- session, instances, placement <-
 # cell, membership <- requests <- node. Checked in the sources and in what the
 # programs load; and that no folder is crowded.
 # Usage: tools/check_law.sh [BUILD_DIR]
@@ -17,10 +18,15 @@ refuse() {
   fi
 }
 
+# Who embeds us sees these headers and no other of ours, and of other libraries
+# only what they cannot do without: a skill's author no actor system.
+refuse include 'actors/|dds/|messages/|schemas/|skills/|tools/|test/|nlohmann/|valijson/|boost/|fastdds/|fastrtps/|spdlog/|CLI/'
+refuse include/roscell/skill 'roscell/([^s]|skill\.hpp)|caf/|fastcdr/'
+refuse include/roscell/ros2 'roscell/(ros2\.hpp|[^rs])|caf/'
 refuse dds 'messages/|actors/|schemas/|skills/|tools/|test/|caf/'
 refuse messages 'dds/|actors/|schemas/|skills/|tools/|test/'
 refuse schemas 'actors/|skills/|tools/|test/'
-refuse actors 'skills/|tools/|test/'
+refuse actors 'skills/|roscell/(skill|ros2)|tools/|test/'
 # The edge knows no actor. It reads the one table of limits, which includes
 # nothing of ours.
 rooms='session|instances|placement|cell|membership|requests|node'
@@ -60,7 +66,7 @@ if [[ $# -gt 0 ]]; then
 fi
 
 # A newcomer reads a folder's names at one glance.
-crowded=$(git ls-files actors dds messages schemas skills tools test \
+crowded=$(git ls-files actors dds include messages schemas skills tools test \
   | grep -E '\.(hpp|cpp|sh)$' | xargs -n1 dirname | sort | uniq -c \
   | awk '$1 > 25 {print "law: " $2 " holds " $1 " files, more than 25"}')
 if [[ -n $crowded ]]; then
@@ -70,7 +76,7 @@ fi
 
 # Waiting is for events; a loop that sleeps wakes an idle robot.
 if grep -rnE 'sleep_for|sleep_until|usleep\(' --include='*.?pp' \
-     dds messages schemas actors skills tools; then
+     dds include messages schemas actors skills tools; then
   echo "law: nothing sleeps"
   broken=1
 fi

@@ -32,7 +32,8 @@ def closure(source):
             continue
         seen.add(path)
         text = path.read_text(encoding="utf-8")
-        open_files += [ROOT / name for name in INCLUDE.findall(text)]
+        open_files += [root / name for name in INCLUDE.findall(text)
+                       for root in (ROOT, ROOT / "include")]
     return sorted(seen)
 
 

@@ -1,4 +1,4 @@
-#include "skills/engine/run.hpp"
+#include "roscell/skill.hpp"
 
 /// The smallest skill: repeats each frame with a prefix.
 class echo : public roscell::engine::executor {

@@ -1,6 +1,8 @@
-#include "skills/engine/environment.hpp"
+#include "roscell/skill/environment.hpp"
 
-#include "skills/engine/errors.hpp"
+#include "roscell/skill/errors.hpp"
+
+#include <nlohmann/json.hpp>
 
 #include <charconv>
 #include <cstdint>
@@ -84,6 +86,14 @@ std::optional<std::uint64_t> read_number(const variable_lookup& lookup,
   return value;
 }
 
+parameters read_parameters(const std::string& text) {
+  try {
+    return parameters::parse(text);
+  } catch (const start_error& e) {
+    throw start_error(e.what() + std::string{remedy});
+  }
+}
+
 } // namespace
 
 environment read_environment(const variable_lookup& lookup) {
@@ -97,7 +107,7 @@ environment read_environment(const variable_lookup& lookup) {
   result.inputs = read_streams(lookup, "ROSCELL_INPUTS", 1);
   result.outputs = read_streams(lookup, "ROSCELL_OUTPUTS", 0);
   if (auto text = optional_text(lookup, "ROSCELL_PARAMETERS"); !text.empty())
-    result.parameters = parameters{parse_json("ROSCELL_PARAMETERS", text)};
+    result.parameters = read_parameters(text);
   if (auto gpu = read_number(lookup, "ROSCELL_GPU", 0, 1023))
     result.gpu = static_cast<unsigned>(*gpu);
   result.notify_socket = optional_text(lookup, "NOTIFY_SOCKET");

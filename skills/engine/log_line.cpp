@@ -1,4 +1,4 @@
-#include "skills/engine/log_line.hpp"
+#include "roscell/skill/log_line.hpp"
 
 #include <unistd.h>
 

@@ -1,6 +1,6 @@
 #include "skills/engine/output_ports.hpp"
 
-#include "skills/engine/errors.hpp"
+#include "roscell/skill/errors.hpp"
 
 #include <stdexcept>
 

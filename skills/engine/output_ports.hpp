@@ -1,7 +1,7 @@
 #pragma once
 
-#include "skills/engine/executor.hpp"
-#include "skills/engine/handlers.hpp"
+#include "roscell/skill/executor.hpp"
+#include "roscell/skill/handlers.hpp"
 #include "skills/engine/life/processing_times.hpp"
 
 #include <chrono>

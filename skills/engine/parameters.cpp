@@ -1,12 +1,29 @@
-#include "skills/engine/parameters.hpp"
+#include "roscell/skill/parameters.hpp"
 
-#include "skills/engine/errors.hpp"
+#include "roscell/skill/errors.hpp"
 
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
 #include <sstream>
 
 namespace roscell::engine {
 
+struct parameters::content {
+  nlohmann::json values = nlohmann::json::object();
+
+  /// The parameter, or nullptr.
+  const nlohmann::json* find(const std::string& name) const {
+    auto i = values.find(name);
+    return i != values.end() ? &*i : nullptr;
+  }
+};
+
 namespace {
+
+std::string shown(const nlohmann::json& value) {
+  return value.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+}
 
 template <class... Ts>
 [[noreturn]] void reject(const std::string& name, const nlohmann::json& value,
@@ -14,66 +31,113 @@ template <class... Ts>
   std::ostringstream text;
   text << "parameter '" << name << "' must be ";
   (text << ... << expected);
-  auto shown =
-      value.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
-  text << ", but is " << shown.substr(0, 100)
+  text << ", but is " << shown(value).substr(0, 100)
        << "; correct it in the step's parameters or in skill.json";
   throw start_error(text.str());
 }
 
+bool is_list(const nlohmann::json& value, std::size_t most_items,
+             bool (nlohmann::json::*is_item)() const noexcept) {
+  return value.is_array() && value.size() <= most_items
+         && std::all_of(value.begin(), value.end(),
+                        [&](const auto& item) { return (item.*is_item)(); });
+}
+
 } // namespace
 
-parameters::parameters() : values_(nlohmann::json::object()) {
+parameters::parameters() : content_(std::make_shared<content>()) {
   // nop
 }
 
-parameters::parameters(nlohmann::json values) : values_(std::move(values)) {
-  if (!values_.is_object())
+parameters::parameters(std::shared_ptr<const content> values)
+    : content_(std::move(values)) {
+  // nop
+}
+
+parameters parameters::parse(std::string_view text) {
+  auto result = std::make_shared<content>();
+  try {
+    result->values = nlohmann::json::parse(text);
+  } catch (const nlohmann::json::parse_error& e) {
+    throw start_error("ROSCELL_PARAMETERS is not JSON, see its byte "
+                      + std::to_string(e.byte));
+  }
+  if (!result->values.is_object())
     throw start_error("ROSCELL_PARAMETERS must be a JSON object");
+  return parameters{std::move(result)};
+}
+
+bool parameters::has(const std::string& name) const {
+  return content_->find(name) != nullptr;
 }
 
 bool parameters::flag(const std::string& name, bool fallback) const {
-  auto i = values_.find(name);
-  if (i == values_.end())
+  const auto* value = content_->find(name);
+  if (value == nullptr)
     return fallback;
-  if (!i->is_boolean())
-    reject(name, *i, "true or false");
-  return i->get<bool>();
+  if (!value->is_boolean())
+    reject(name, *value, "true or false");
+  return value->get<bool>();
 }
 
 std::uint64_t parameters::count(const std::string& name, std::uint64_t fallback,
                                 std::uint64_t least, std::uint64_t most) const {
-  auto i = values_.find(name);
-  if (i == values_.end())
+  const auto* value = content_->find(name);
+  if (value == nullptr)
     return fallback;
-  // A number that was not parsed but made in code may be a signed one.
-  auto whole = i->is_number_unsigned()
-               || (i->is_number_integer() && i->get<std::int64_t>() >= 0);
-  if (!whole || i->get<std::uint64_t>() < least
-      || i->get<std::uint64_t>() > most)
-    reject(name, *i, "a whole number from ", least, " to ", most);
-  return i->get<std::uint64_t>();
+  if (!value->is_number_unsigned() || value->get<std::uint64_t>() < least
+      || value->get<std::uint64_t>() > most)
+    reject(name, *value, "a whole number from ", least, " to ", most);
+  return value->get<std::uint64_t>();
 }
 
 double parameters::number(const std::string& name, double fallback,
                           double least, double most) const {
-  auto i = values_.find(name);
-  if (i == values_.end())
+  const auto* value = content_->find(name);
+  if (value == nullptr)
     return fallback;
-  if (!i->is_number() || !(i->get<double>() >= least)
-      || !(i->get<double>() <= most))
-    reject(name, *i, "a number from ", least, " to ", most);
-  return i->get<double>();
+  if (!value->is_number() || !(value->get<double>() >= least)
+      || !(value->get<double>() <= most))
+    reject(name, *value, "a number from ", least, " to ", most);
+  return value->get<double>();
 }
 
 std::string parameters::text(const std::string& name,
                              const std::string& fallback) const {
-  auto i = values_.find(name);
-  if (i == values_.end())
+  const auto* value = content_->find(name);
+  if (value == nullptr)
     return fallback;
-  if (!i->is_string())
-    reject(name, *i, "a text");
-  return i->get<std::string>();
+  if (!value->is_string())
+    reject(name, *value, "a text");
+  return value->get<std::string>();
+}
+
+std::vector<double> parameters::numbers(const std::string& name,
+                                        const std::vector<double>& fallback,
+                                        std::size_t most_items) const {
+  const auto* value = content_->find(name);
+  if (value == nullptr)
+    return fallback;
+  if (!is_list(*value, most_items, &nlohmann::json::is_number))
+    reject(name, *value, "a list of at most ", most_items, " numbers");
+  return value->get<std::vector<double>>();
+}
+
+std::vector<std::string>
+parameters::texts(const std::string& name,
+                  const std::vector<std::string>& fallback,
+                  std::size_t most_items) const {
+  const auto* value = content_->find(name);
+  if (value == nullptr)
+    return fallback;
+  if (!is_list(*value, most_items, &nlohmann::json::is_string))
+    reject(name, *value, "a list of at most ", most_items, " texts");
+  return value->get<std::vector<std::string>>();
+}
+
+std::string parameters::json(const std::string& name) const {
+  const auto* value = content_->find(name);
+  return value != nullptr ? shown(*value) : "";
 }
 
 } // namespace roscell::engine

@@ -1,13 +1,13 @@
 #pragma once
 
-#include "skills/engine/errors.hpp"
+#include "roscell/skill/errors.hpp"
+#include "roscell/skill/registry.hpp"
 #include "skills/engine/frame_queue.hpp"
 #include "skills/engine/life/heartbeat.hpp"
 #include "skills/engine/life/liveness.hpp"
 #include "skills/engine/life/notify_socket.hpp"
 #include "skills/engine/life/processing_times.hpp"
 #include "skills/engine/output_ports.hpp"
-#include "skills/engine/registry.hpp"
 
 #include <atomic>
 #include <cstdint>

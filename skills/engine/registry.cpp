@@ -1,6 +1,6 @@
-#include "skills/engine/registry.hpp"
+#include "roscell/skill/registry.hpp"
 
-#include "skills/engine/errors.hpp"
+#include "roscell/skill/errors.hpp"
 #include "skills/engine/file/file_protocol.hpp"
 
 namespace roscell::engine {

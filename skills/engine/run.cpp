@@ -1,7 +1,7 @@
-#include "skills/engine/run.hpp"
+#include "roscell/skill/run.hpp"
 
+#include "roscell/skill/log_line.hpp"
 #include "skills/engine/life/signal_watch.hpp"
-#include "skills/engine/log_line.hpp"
 #include "skills/engine/primitive_base_engine.hpp"
 
 #include <iostream>

@@ -1,6 +1,6 @@
-#include "skills/engine/typed_ports.hpp"
+#include "roscell/skill/typed_ports.hpp"
 
-#include "skills/engine/errors.hpp"
+#include "roscell/skill/errors.hpp"
 
 namespace roscell::engine {
 

@@ -1,12 +1,12 @@
 #include "skills/image_source/image_source.hpp"
 
-#include "skills/engine/errors.hpp"
-#include "skills/engine/log_line.hpp"
-#include "skills/ros2/messages/cdr.hpp"
-#include "skills/ros2/messages/image_view.hpp"
-#include "skills/ros2/messages/sensor_msgs.hpp"
-#include "skills/ros2/messages/stamp.hpp"
-#include "skills/ros2/messages/std_msgs.hpp"
+#include "roscell/ros2/cdr.hpp"
+#include "roscell/ros2/image_view.hpp"
+#include "roscell/ros2/sensor_msgs.hpp"
+#include "roscell/ros2/stamp.hpp"
+#include "roscell/ros2/std_msgs.hpp"
+#include "roscell/skill/errors.hpp"
+#include "roscell/skill/log_line.hpp"
 #include "skills/vision/calibration.hpp"
 
 #include <chrono>

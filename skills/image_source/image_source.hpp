@@ -1,10 +1,10 @@
 #pragma once
 
-#include "skills/engine/executor.hpp"
-#include "skills/engine/handlers.hpp"
-#include "skills/engine/typed_ports.hpp"
-#include "skills/ros2/messages/sensor_msgs.hpp"
-#include "skills/ros2/messages/std_msgs.hpp"
+#include "roscell/ros2/sensor_msgs.hpp"
+#include "roscell/ros2/std_msgs.hpp"
+#include "roscell/skill/executor.hpp"
+#include "roscell/skill/handlers.hpp"
+#include "roscell/skill/typed_ports.hpp"
 #include "skills/vision/broken_files.hpp"
 #include "skills/vision/compression.hpp"
 #include "skills/vision/image_codec.hpp"

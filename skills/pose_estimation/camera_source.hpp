@@ -1,6 +1,6 @@
 #pragma once
 
-#include "skills/engine/handlers.hpp"
+#include "roscell/skill/handlers.hpp"
 #include "skills/pose_estimation/camera_model.hpp"
 #include "skills/vision/complaint.hpp"
 

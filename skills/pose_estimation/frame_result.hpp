@@ -1,9 +1,9 @@
 #pragma once
 
+#include "roscell/ros2/apriltag_msgs.hpp"
+#include "roscell/ros2/std_msgs.hpp"
+#include "roscell/ros2/tf2_msgs.hpp"
 #include "skills/pose_estimation/tag_detector.hpp"
-#include "skills/ros2/messages/apriltag_msgs.hpp"
-#include "skills/ros2/messages/std_msgs.hpp"
-#include "skills/ros2/messages/tf2_msgs.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "skills/ros2/messages/image_view.hpp"
+#include "roscell/ros2/image_view.hpp"
 
 #include <cstddef>
 #include <cstdint>

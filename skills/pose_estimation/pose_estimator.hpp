@@ -1,10 +1,10 @@
 #pragma once
 
-#include "skills/engine/executor.hpp"
-#include "skills/engine/handlers.hpp"
-#include "skills/engine/log_line.hpp"
-#include "skills/engine/pacer.hpp"
-#include "skills/engine/typed_ports.hpp"
+#include "roscell/skill/executor.hpp"
+#include "roscell/skill/handlers.hpp"
+#include "roscell/skill/log_line.hpp"
+#include "roscell/skill/pacer.hpp"
+#include "roscell/skill/typed_ports.hpp"
 #include "skills/pose_estimation/camera_source.hpp"
 #include "skills/pose_estimation/frame_result.hpp"
 #include "skills/vision/broken_files.hpp"

@@ -1,6 +1,6 @@
 #include "skills/pose_estimation/tag_detector.hpp"
 
-#include "skills/engine/errors.hpp"
+#include "roscell/skill/errors.hpp"
 #include "skills/pose_estimation/tag_family.hpp"
 
 #include <algorithm>

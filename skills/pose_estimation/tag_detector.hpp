@@ -1,6 +1,6 @@
 #pragma once
 
-#include "skills/engine/parameters.hpp"
+#include "roscell/skill/parameters.hpp"
 #include "skills/pose_estimation/gray_image.hpp"
 #include "skills/pose_estimation/tag_pose.hpp"
 

@@ -1,6 +1,6 @@
 #include "skills/pose_estimation/tag_family.hpp"
 
-#include "skills/engine/errors.hpp"
+#include "roscell/skill/errors.hpp"
 
 #include <apriltag/tag16h5.h>
 #include <apriltag/tag25h9.h>

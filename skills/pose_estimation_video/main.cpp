@@ -1,6 +1,6 @@
-#include "skills/engine/run.hpp"
+#include "roscell/ros2.hpp"
+#include "roscell/skill.hpp"
 #include "skills/pose_estimation/pose_estimator.hpp"
-#include "skills/ros2/protocol.hpp"
 #include "skills/video/video_protocol.hpp"
 
 int main(int argc, char** argv) {

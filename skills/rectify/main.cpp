@@ -1,6 +1,6 @@
-#include "skills/engine/run.hpp"
+#include "roscell/ros2.hpp"
+#include "roscell/skill.hpp"
 #include "skills/rectify/rectifier.hpp"
-#include "skills/ros2/protocol.hpp"
 
 int main(int argc, char** argv) {
   roscell::engine::registry parts;

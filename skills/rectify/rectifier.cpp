@@ -1,10 +1,10 @@
 #include "skills/rectify/rectifier.hpp"
 
-#include "skills/engine/errors.hpp"
-#include "skills/engine/log_line.hpp"
-#include "skills/ros2/messages/cdr.hpp"
-#include "skills/ros2/messages/image_view.hpp"
-#include "skills/ros2/messages/sensor_msgs.hpp"
+#include "roscell/ros2/cdr.hpp"
+#include "roscell/ros2/image_view.hpp"
+#include "roscell/ros2/sensor_msgs.hpp"
+#include "roscell/skill/errors.hpp"
+#include "roscell/skill/log_line.hpp"
 
 namespace roscell::rectify {
 

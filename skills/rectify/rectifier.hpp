@@ -1,7 +1,7 @@
 #pragma once
 
-#include "skills/engine/executor.hpp"
-#include "skills/engine/typed_ports.hpp"
+#include "roscell/skill/executor.hpp"
+#include "roscell/skill/typed_ports.hpp"
 #include "skills/rectify/raw_camera.hpp"
 
 #include <cstddef>

@@ -1,8 +1,8 @@
 #include "skills/ros2/graph.hpp"
 
-#include "skills/ros2/messages/cdr.hpp"
-#include "skills/ros2/messages/rmw_dds_common.hpp"
-#include "skills/ros2/messages/rmw_dds_common_iron.hpp"
+#include "roscell/ros2/cdr.hpp"
+#include "roscell/ros2/rmw_dds_common.hpp"
+#include "roscell/ros2/rmw_dds_common_iron.hpp"
 
 #include <algorithm>
 

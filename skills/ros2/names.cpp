@@ -1,6 +1,6 @@
 #include "skills/ros2/names.hpp"
 
-#include "skills/engine/errors.hpp"
+#include "roscell/skill/errors.hpp"
 
 #include <algorithm>
 #include <array>

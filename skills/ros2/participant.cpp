@@ -1,6 +1,6 @@
 #include "skills/ros2/participant.hpp"
 
-#include "skills/engine/errors.hpp"
+#include "roscell/skill/errors.hpp"
 #include "skills/ros2/names.hpp"
 #include "skills/ros2/participant_qos.hpp"
 #include "skills/ros2/serialized_type.hpp"

@@ -1,6 +1,6 @@
 #include "skills/ros2/participant_config.hpp"
 
-#include "skills/engine/errors.hpp"
+#include "roscell/skill/errors.hpp"
 #include "skills/engine/life/unique_fd.hpp"
 #include "skills/ros2/names.hpp"
 

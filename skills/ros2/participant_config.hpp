@@ -1,7 +1,7 @@
 #pragma once
 
-#include "skills/engine/environment.hpp"
-#include "skills/engine/parameters.hpp"
+#include "roscell/skill/environment.hpp"
+#include "roscell/skill/parameters.hpp"
 
 #include <cstdint>
 #include <string>

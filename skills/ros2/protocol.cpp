@@ -1,4 +1,4 @@
-#include "skills/ros2/protocol.hpp"
+#include "roscell/ros2.hpp"
 
 #include "skills/ros2/topic_input.hpp"
 #include "skills/ros2/topic_output.hpp"

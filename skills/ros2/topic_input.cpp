@@ -1,6 +1,6 @@
 #include "skills/ros2/topic_input.hpp"
 
-#include "skills/ros2/messages/stamp.hpp"
+#include "roscell/ros2/stamp.hpp"
 #include "skills/ros2/names.hpp"
 #include "skills/ros2/status_words.hpp"
 

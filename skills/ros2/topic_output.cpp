@@ -1,6 +1,6 @@
 #include "skills/ros2/topic_output.hpp"
 
-#include "skills/engine/errors.hpp"
+#include "roscell/skill/errors.hpp"
 #include "skills/ros2/status_words.hpp"
 
 #include <utility>

@@ -1,6 +1,6 @@
 #include "skills/ros2/topic_qos.hpp"
 
-#include "skills/engine/errors.hpp"
+#include "roscell/skill/errors.hpp"
 
 namespace roscell::ros2 {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "skills/engine/parameters.hpp"
+#include "roscell/skill/parameters.hpp"
 
 #include <cstdint>
 #include <string>

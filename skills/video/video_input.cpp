@@ -1,11 +1,11 @@
 #include "skills/video/video_input.hpp"
 
-#include "skills/engine/errors.hpp"
-#include "skills/engine/pacer.hpp"
-#include "skills/ros2/messages/cdr.hpp"
-#include "skills/ros2/messages/image_view.hpp"
-#include "skills/ros2/messages/sensor_msgs.hpp"
-#include "skills/ros2/messages/stamp.hpp"
+#include "roscell/ros2/cdr.hpp"
+#include "roscell/ros2/image_view.hpp"
+#include "roscell/ros2/sensor_msgs.hpp"
+#include "roscell/ros2/stamp.hpp"
+#include "roscell/skill/errors.hpp"
+#include "roscell/skill/pacer.hpp"
 
 #include <opencv2/imgproc.hpp>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "skills/engine/handlers.hpp"
+#include "roscell/skill/handlers.hpp"
 #include "skills/video/picture_reader.hpp"
 
 #include <cstdint>

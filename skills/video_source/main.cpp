@@ -1,6 +1,6 @@
-#include "skills/engine/run.hpp"
+#include "roscell/ros2.hpp"
+#include "roscell/skill.hpp"
 #include "skills/image_source/image_source.hpp"
-#include "skills/ros2/protocol.hpp"
 #include "skills/video/video_protocol.hpp"
 
 int main(int argc, char** argv) {

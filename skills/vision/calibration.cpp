@@ -1,6 +1,6 @@
 #include "skills/vision/calibration.hpp"
 
-#include "skills/engine/errors.hpp"
+#include "roscell/skill/errors.hpp"
 
 #include <yaml-cpp/yaml.h>
 
@@ -29,18 +29,6 @@ void set_intrinsics(ros2::sensor_msgs::camera_info& info, double fx, double fy,
   info.k = {fx, 0, cx, 0, fy, cy, 0, 0, 1};
   info.r = {1, 0, 0, 0, 1, 0, 0, 0, 1};
   info.p = {fx, 0, cx, 0, 0, fy, cy, 0, 0, 0, 1, 0};
-}
-
-std::vector<double> distortion_of(const nlohmann::json& values) {
-  auto found = values.find("distortion");
-  if (found == values.end())
-    return {};
-  auto is_number = [](const nlohmann::json& x) { return x.is_number(); };
-  if (!found->is_array() || found->size() > 8
-      || !std::all_of(found->begin(), found->end(), is_number))
-    throw start_error("parameter 'distortion' must be a list of at most 8 "
-                      "numbers");
-  return found->get<std::vector<double>>();
 }
 
 /// The numbers of `node`, which must be exactly `count` finite ones.
@@ -87,10 +75,9 @@ std::optional<std::string> find_file(const engine::stream& input,
 
 std::optional<ros2::sensor_msgs::camera_info>
 calibration_of(const engine::parameters& options) {
-  const auto& values = options.values();
   auto given = 0;
   for (const auto* name : {"fx", "fy", "cx", "cy"})
-    given += values.contains(name) ? 1 : 0;
+    given += options.has(name) ? 1 : 0;
   if (given == 0)
     return std::nullopt;
   if (given != 4)
@@ -102,7 +89,7 @@ calibration_of(const engine::parameters& options) {
                  options.number("fy", 0, 1e-3, far),
                  options.number("cx", 0, -far, far),
                  options.number("cy", 0, -far, far));
-  result.d = distortion_of(values);
+  result.d = options.numbers("distortion", {}, 8);
   result.distortion_model =
       options.text("distortion_model", model_of(result.d.size()));
   return result;

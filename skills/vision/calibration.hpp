@@ -1,7 +1,7 @@
 #pragma once
 
-#include "skills/engine/environment.hpp"
-#include "skills/ros2/messages/sensor_msgs.hpp"
+#include "roscell/ros2/sensor_msgs.hpp"
+#include "roscell/skill/environment.hpp"
 
 #include <optional>
 #include <string>

@@ -1,6 +1,6 @@
 #include "skills/vision/compression.hpp"
 
-#include "skills/engine/errors.hpp"
+#include "roscell/skill/errors.hpp"
 
 namespace roscell::vision {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "skills/engine/parameters.hpp"
-#include "skills/ros2/messages/sensor_msgs.hpp"
+#include "roscell/ros2/sensor_msgs.hpp"
+#include "roscell/skill/parameters.hpp"
 #include "skills/vision/image_codec.hpp"
 
 #include <string>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "skills/ros2/messages/image_view.hpp"
-#include "skills/ros2/messages/std_msgs.hpp"
+#include "roscell/ros2/image_view.hpp"
+#include "roscell/ros2/std_msgs.hpp"
 
 #include <cstddef>
 #include <cstdint>

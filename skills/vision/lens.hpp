@@ -1,6 +1,6 @@
 #pragma once
 
-#include "skills/ros2/messages/sensor_msgs.hpp"
+#include "roscell/ros2/sensor_msgs.hpp"
 
 #include <array>
 #include <string>

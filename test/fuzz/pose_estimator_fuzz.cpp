@@ -1,7 +1,7 @@
+#include "roscell/ros2/cdr.hpp"
+#include "roscell/ros2/sensor_msgs.hpp"
+#include "roscell/ros2/tf2_msgs.hpp"
 #include "skills/pose_estimation/pose_estimator.hpp"
-#include "skills/ros2/messages/cdr.hpp"
-#include "skills/ros2/messages/sensor_msgs.hpp"
-#include "skills/ros2/messages/tf2_msgs.hpp"
 
 #include <algorithm>
 #include <cstdint>

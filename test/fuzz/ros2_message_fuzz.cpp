@@ -1,10 +1,10 @@
-#include "skills/ros2/messages/apriltag_msgs.hpp"
-#include "skills/ros2/messages/cdr.hpp"
-#include "skills/ros2/messages/geometry_msgs.hpp"
-#include "skills/ros2/messages/rmw_dds_common.hpp"
-#include "skills/ros2/messages/sensor_msgs.hpp"
-#include "skills/ros2/messages/std_msgs.hpp"
-#include "skills/ros2/messages/tf2_msgs.hpp"
+#include "roscell/ros2/apriltag_msgs.hpp"
+#include "roscell/ros2/cdr.hpp"
+#include "roscell/ros2/geometry_msgs.hpp"
+#include "roscell/ros2/rmw_dds_common.hpp"
+#include "roscell/ros2/sensor_msgs.hpp"
+#include "roscell/ros2/std_msgs.hpp"
+#include "roscell/ros2/tf2_msgs.hpp"
 
 #include <cstdint>
 #include <cstdlib>

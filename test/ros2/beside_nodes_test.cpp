@@ -2,8 +2,8 @@
 
 #include "actors/edge/dds/discovery_client.hpp"
 
-#include "skills/ros2/messages/cdr.hpp"
-#include "skills/ros2/messages/std_msgs.hpp"
+#include "roscell/ros2/cdr.hpp"
+#include "roscell/ros2/std_msgs.hpp"
 
 #include <catch2/catch.hpp>
 

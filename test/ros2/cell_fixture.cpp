@@ -1,6 +1,6 @@
 #include "cell_fixture.hpp"
 
-#include "skills/ros2/protocol.hpp"
+#include "roscell/ros2.hpp"
 
 #include <fastrtps/xmlparser/XMLProfileManager.h>
 
@@ -97,7 +97,7 @@ std::unique_ptr<engine::output_handler> skill::output(const std::string& topic,
 
 engine::stream_context skill::context(const std::string& topic,
                                       const std::string& type) {
-  return {{"ros2", topic, type}, engine::parameters{parameters}, log.say()};
+  return {{"ros2", topic, type}, parameters_of(parameters), log.say()};
 }
 
 engine::frame frame_of(const std::string& type, std::string payload) {

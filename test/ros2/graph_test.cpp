@@ -2,9 +2,9 @@
 
 #include "cell_fixture.hpp"
 
-#include "skills/ros2/messages/cdr.hpp"
-#include "skills/ros2/messages/rmw_dds_common.hpp"
-#include "skills/ros2/messages/std_msgs.hpp"
+#include "roscell/ros2/cdr.hpp"
+#include "roscell/ros2/rmw_dds_common.hpp"
+#include "roscell/ros2/std_msgs.hpp"
 #include "skills/ros2/participant.hpp"
 #include "skills/ros2/participant_qos.hpp"
 #include "skills/ros2/serialized_type.hpp"

@@ -1,8 +1,8 @@
 #include "cell_fixture.hpp"
 #include "this_program.hpp"
 
-#include "skills/ros2/messages/cdr.hpp"
-#include "skills/ros2/messages/std_msgs.hpp"
+#include "roscell/ros2/cdr.hpp"
+#include "roscell/ros2/std_msgs.hpp"
 
 #include <catch2/catch.hpp>
 

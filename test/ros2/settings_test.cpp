@@ -1,6 +1,6 @@
 #include "cell_fixture.hpp"
 
-#include "skills/engine/errors.hpp"
+#include "roscell/skill/errors.hpp"
 #include "skills/ros2/participant_config.hpp"
 #include "skills/ros2/topic_qos.hpp"
 
@@ -14,9 +14,9 @@ namespace {
 
 ros2::participant_config
 config_of(const variables& values,
-          nlohmann::json parameters = nlohmann::json::object()) {
-  return ros2::read_participant_config(
-      lookup_in(values), engine::parameters{std::move(parameters)});
+          const nlohmann::json& parameters = nlohmann::json::object()) {
+  return ros2::read_participant_config(lookup_in(values),
+                                       parameters_of(parameters));
 }
 
 std::string servers_of(const std::string& list) {
@@ -104,18 +104,17 @@ TEST_CASE("each type has the QoS of ROS 2") {
 }
 
 TEST_CASE("parameters replace the QoS of every port") {
-  engine::parameters all{{{"ros2_reliability", "best_effort"},
-                          {"ros2_durability", "transient_local"},
-                          {"ros2_depth", 3}}};
+  const auto all = parameters_of({{"ros2_reliability", "best_effort"},
+                                  {"ros2_durability", "transient_local"},
+                                  {"ros2_depth", 3}});
   const auto* text = "std_msgs/msg/String";
   CHECK(words(ros2::reader_qos("/c", text, all))
         == "best_effort transient_local 3");
   CHECK(words(ros2::writer_qos("/c", text, all))
         == "best_effort transient_local 3");
-  for (nlohmann::json wrong :
-       {nlohmann::json{{"ros2_reliability", "sometimes"}},
-        nlohmann::json{{"ros2_durability", 1}},
-        nlohmann::json{{"ros2_depth", 0}}})
-    CHECK_THROWS_AS(ros2::reader_qos("/c", text, engine::parameters{wrong}),
+  for (const auto& wrong : {nlohmann::json{{"ros2_reliability", "sometimes"}},
+                            nlohmann::json{{"ros2_durability", 1}},
+                            nlohmann::json{{"ros2_depth", 0}}})
+    CHECK_THROWS_AS(ros2::reader_qos("/c", text, parameters_of(wrong)),
                     start_error);
 }

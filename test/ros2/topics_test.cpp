@@ -1,12 +1,12 @@
 #include "cell_fixture.hpp"
 
-#include "skills/engine/errors.hpp"
-#include "skills/ros2/messages/cdr.hpp"
-#include "skills/ros2/messages/image_view.hpp"
-#include "skills/ros2/messages/sensor_msgs.hpp"
-#include "skills/ros2/messages/stamp.hpp"
-#include "skills/ros2/messages/std_msgs.hpp"
-#include "skills/ros2/messages/tf2_msgs.hpp"
+#include "roscell/ros2/cdr.hpp"
+#include "roscell/ros2/image_view.hpp"
+#include "roscell/ros2/sensor_msgs.hpp"
+#include "roscell/ros2/stamp.hpp"
+#include "roscell/ros2/std_msgs.hpp"
+#include "roscell/ros2/tf2_msgs.hpp"
+#include "roscell/skill/errors.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,8 +1,8 @@
-#include "skills/ros2/messages/cdr.hpp"
-#include "skills/ros2/messages/diagnostic_msgs.hpp"
-#include "skills/ros2/messages/nav_msgs.hpp"
-#include "skills/ros2/messages/sensor_msgs.hpp"
-#include "skills/ros2/messages/vision_msgs.hpp"
+#include "roscell/ros2/cdr.hpp"
+#include "roscell/ros2/diagnostic_msgs.hpp"
+#include "roscell/ros2/nav_msgs.hpp"
+#include "roscell/ros2/sensor_msgs.hpp"
+#include "roscell/ros2/vision_msgs.hpp"
 
 #include "bytes.hpp"
 

@@ -1,8 +1,8 @@
-#include "skills/ros2/messages/image_view.hpp"
+#include "roscell/ros2/image_view.hpp"
 
-#include "skills/ros2/messages/cdr.hpp"
-#include "skills/ros2/messages/sensor_msgs.hpp"
-#include "skills/ros2/messages/std_msgs.hpp"
+#include "roscell/ros2/cdr.hpp"
+#include "roscell/ros2/sensor_msgs.hpp"
+#include "roscell/ros2/std_msgs.hpp"
 
 #include "bytes.hpp"
 

@@ -1,6 +1,6 @@
-#include "skills/ros2/messages/cdr.hpp"
-#include "skills/ros2/messages/odd_msgs.hpp"
-#include "skills/ros2/messages/sensor_msgs.hpp"
+#include "roscell/ros2/cdr.hpp"
+#include "roscell/ros2/odd_msgs.hpp"
+#include "roscell/ros2/sensor_msgs.hpp"
 
 #include "bytes.hpp"
 

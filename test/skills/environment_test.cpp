@@ -1,6 +1,6 @@
-#include "skills/engine/environment.hpp"
+#include "roscell/skill/environment.hpp"
 
-#include "skills/engine/errors.hpp"
+#include "roscell/skill/errors.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -51,7 +51,7 @@ TEST_CASE("the environment of a skill has sensible defaults") {
   CHECK(env.inputs[0].endpoint == "/in");
   CHECK(env.inputs[0].data_type == "text/plain");
   CHECK(env.outputs.empty());
-  CHECK(env.parameters.values().empty());
+  CHECK(env.parameters.text("prefix", "none") == "none");
   CHECK_FALSE(env.gpu);
   CHECK_FALSE(env.watchdog);
   CHECK(env.notify_socket.empty());
@@ -112,8 +112,8 @@ TEST_CASE("a step may have many streams, but not any number") {
 }
 
 TEST_CASE("a parameter of the wrong type or range is named") {
-  parameters p{nlohmann::json::parse(
-      R"({"flag":true,"count":3,"rate":0.5,"text":"x","list":[1],"minus":-1})")};
+  const auto p = parameters::parse(
+      R"({"flag":true,"count":3,"rate":0.5,"text":"x","list":[1],"minus":-1})");
   CHECK(p.flag("flag", false));
   CHECK(p.flag("absent", true));
   CHECK(p.count("count", 0, 1, 3) == 3);
@@ -128,4 +128,25 @@ TEST_CASE("a parameter of the wrong type or range is named") {
   CHECK_THROWS_WITH(p.count("rate", 0, 0, 2), Contains("whole number"));
   CHECK_THROWS_WITH(p.number("text", 0, 0, 1), Contains("'text'"));
   CHECK_THROWS_WITH(p.text("list", ""), Contains("must be a text"));
+}
+
+TEST_CASE("a parameter may be a list, or anything that JSON can say") {
+  const auto p = parameters::parse(
+      R"({"lens":[0.5,-1],"families":["a","b"],"deep":{"x":[1]}})");
+  CHECK(p.numbers("lens", {}, 2) == std::vector<double>{0.5, -1});
+  CHECK(p.numbers("absent", {7}, 2) == std::vector<double>{7});
+  CHECK(p.texts("families", {}, 2) == std::vector<std::string>{"a", "b"});
+  CHECK(p.texts("absent", {"c"}, 2) == std::vector<std::string>{"c"});
+  CHECK(p.has("deep"));
+  CHECK_FALSE(p.has("absent"));
+  CHECK(p.json("deep") == R"({"x":[1]})");
+  CHECK(p.json("absent").empty());
+  CHECK_THROWS_WITH(p.numbers("lens", {}, 1), Contains("at most 1 numbers"));
+  CHECK_THROWS_WITH(p.numbers("families", {}, 2), Contains("'families'"));
+  CHECK_THROWS_WITH(p.texts("deep", {}, 2), Contains("but is {"));
+}
+
+TEST_CASE("parameters are a JSON object") {
+  for (const auto* wrong : {"", "[1]", "7", "{\"a\": "})
+    CHECK_THROWS_AS(parameters::parse(wrong), start_error);
 }

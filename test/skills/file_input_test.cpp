@@ -1,4 +1,4 @@
-#include "skills/engine/errors.hpp"
+#include "roscell/skill/errors.hpp"
 #include "skills/engine/file/file_protocol.hpp"
 
 #include "test/skills/support.hpp"
@@ -21,7 +21,7 @@ std::unique_ptr<input_handler> make(const std::string& path,
                                     const std::string& options = "{}",
                                     const std::string& type = "text/plain") {
   return make_file_input({{"file", path, type},
-                          parameters{nlohmann::json::parse(options)},
+                          parameters::parse(options),
                           [](const std::string&) {}});
 }
 
@@ -169,7 +169,7 @@ TEST_CASE("a frame that is too large is skipped and said") {
   std::string said;
   running_input input{
       make_file_input({{"file", folder / "", "image/png"},
-                       parameters{{{"follow", false}, {"max_frame_mib", 1}}},
+                       parameters_of({{"follow", false}, {"max_frame_mib", 1}}),
                        [&](const std::string& line) { said += line; }})};
   CHECK(input.wait() == "ended");
   CHECK(name(input, 0) == "b");

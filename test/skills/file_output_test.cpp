@@ -1,4 +1,4 @@
-#include "skills/engine/errors.hpp"
+#include "roscell/skill/errors.hpp"
 #include "skills/engine/file/file_protocol.hpp"
 #include "skills/engine/file/folder_output.hpp"
 

@@ -1,6 +1,6 @@
 #include "skills/engine/life/heartbeat.hpp"
 
-#include "skills/engine/errors.hpp"
+#include "roscell/skill/errors.hpp"
 
 #include "test/skills/support.hpp"
 

@@ -1,4 +1,4 @@
-#include "skills/engine/pacer.hpp"
+#include "roscell/skill/pacer.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -118,8 +118,8 @@ struct fixture {
     env.outputs = {{"journal", "j", "digits"}};
   }
 
-  exit_code run(nlohmann::json options = nlohmann::json::object()) {
-    env.parameters = parameters{std::move(options)};
+  exit_code run(const nlohmann::json& options = nlohmann::json::object()) {
+    env.parameters = parameters_of(options);
     primitive_base_engine engine{parts, env, [this](const std::string& line) {
                                    log.said += line + "\n";
                                  }};

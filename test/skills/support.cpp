@@ -1,6 +1,6 @@
 #include "test/skills/support.hpp"
 
-#include "skills/engine/errors.hpp"
+#include "roscell/skill/errors.hpp"
 
 #include <sys/socket.h>
 #include <sys/un.h>

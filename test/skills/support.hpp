@@ -1,9 +1,10 @@
 #pragma once
 
-#include "skills/engine/handlers.hpp"
-#include "skills/engine/life/stop_event.hpp"
+#include "roscell/skill/handlers.hpp"
+#include "roscell/skill/stop_event.hpp"
 #include "skills/engine/life/unique_fd.hpp"
 
+#include "test/parameters_of.hpp"
 #include "test/skills/temp_folder.hpp"
 
 #include <condition_variable>

@@ -1,5 +1,5 @@
-#include "skills/engine/errors.hpp"
-#include "skills/engine/typed_ports.hpp"
+#include "roscell/skill/errors.hpp"
+#include "roscell/skill/typed_ports.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,4 +1,4 @@
-#include "skills/engine/errors.hpp"
+#include "roscell/skill/errors.hpp"
 #include "skills/vision/calibration.hpp"
 
 #include "test/vision/fixture.hpp"
@@ -8,7 +8,6 @@
 using namespace roscell;
 using namespace roscell::vision;
 using Catch::Matchers::Contains;
-using engine::parameters;
 using nlohmann::json;
 using test::temp_folder;
 
@@ -50,7 +49,7 @@ std::string error_in(const std::string& content) {
 
 std::string error_of(const json& options) {
   try {
-    calibration_of(parameters{options});
+    calibration_of(test::parameters_of(options));
   } catch (const engine::start_error& e) {
     return e.what();
   }
@@ -92,12 +91,13 @@ TEST_CASE("a broken calibration is an error that names file and field") {
 }
 
 TEST_CASE("intrinsics may be parameters, all four or none") {
-  CHECK_FALSE(calibration_of(parameters{}));
-  auto info = calibration_of(parameters{{{"fx", 500},
-                                         {"fy", 501},
-                                         {"cx", 320},
-                                         {"cy", 240},
-                                         {"distortion", {-0.1, 0.02}}}});
+  CHECK_FALSE(calibration_of(engine::parameters{}));
+  auto info =
+      calibration_of(test::parameters_of({{"fx", 500},
+                                          {"fy", 501},
+                                          {"cx", 320},
+                                          {"cy", 240},
+                                          {"distortion", {-0.1, 0.02}}}));
   REQUIRE(info);
   CHECK(info->k == std::array<double, 9>{500, 0, 320, 0, 501, 240, 0, 0, 1});
   CHECK(info->d == std::vector<double>{-0.1, 0.02});
@@ -115,21 +115,23 @@ TEST_CASE("intrinsics may be parameters, all four or none") {
 TEST_CASE("a calibration beside the images is found") {
   temp_folder folder;
   engine::stream images{"file", folder / "", "image/png"};
-  CHECK_FALSE(calibration_beside(images, parameters{}));
+  CHECK_FALSE(calibration_beside(images, engine::parameters{}));
   folder.write("left.yaml", ros_yaml);
-  CHECK_FALSE(calibration_beside(images, parameters{}));
-  CHECK(calibration_beside(images, parameters{{{"camera_file", "left.yaml"}}}));
+  CHECK_FALSE(calibration_beside(images, engine::parameters{}));
+  CHECK(calibration_beside(
+      images, test::parameters_of({{"camera_file", "left.yaml"}})));
   folder.write("camera.json", R"({"image_width": 8, "image_height": 6,
     "camera_matrix": {"data": [5, 0, 4, 0, 5, 3, 0, 0, 1]}})");
-  auto info = calibration_beside(images, parameters{});
+  auto info = calibration_beside(images, engine::parameters{});
   REQUIRE(info);
   CHECK(info->width == 8);
   CHECK(info->p[0] == 5);
   engine::stream topic{"ros2", "/image", "sensor_msgs/msg/Image"};
-  CHECK_FALSE(calibration_beside(topic, parameters{}));
+  CHECK_FALSE(calibration_beside(topic, engine::parameters{}));
   CHECK(calibration_beside(
-      topic, parameters{{{"camera_file", folder / "left.yaml"}}}));
+      topic, test::parameters_of({{"camera_file", folder / "left.yaml"}})));
   CHECK_THROWS_AS(
-      calibration_beside(images, parameters{{{"camera_file", "right.yaml"}}}),
+      calibration_beside(images,
+                         test::parameters_of({{"camera_file", "right.yaml"}})),
       engine::start_error);
 }

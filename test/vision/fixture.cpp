@@ -24,7 +24,7 @@ engine::environment make_environment(const std::vector<std::string>& inputs,
   engine::environment result;
   result.inputs = streams(inputs, "/in_");
   result.outputs = streams(outputs, "/out_");
-  result.parameters = engine::parameters{options};
+  result.parameters = parameters_of(options);
   return result;
 }
 

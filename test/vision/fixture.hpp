@@ -1,14 +1,15 @@
 #pragma once
 
-#include "skills/engine/environment.hpp"
-#include "skills/engine/executor.hpp"
-#include "skills/engine/handlers.hpp"
-#include "skills/ros2/messages/cdr.hpp"
-#include "skills/ros2/messages/geometry_msgs.hpp"
-#include "skills/ros2/messages/sensor_msgs.hpp"
+#include "roscell/ros2/cdr.hpp"
+#include "roscell/ros2/geometry_msgs.hpp"
+#include "roscell/ros2/sensor_msgs.hpp"
+#include "roscell/skill/environment.hpp"
+#include "roscell/skill/executor.hpp"
+#include "roscell/skill/handlers.hpp"
 #include "skills/vision/image_codec.hpp"
 #include "tools/render_scenes/placement.hpp"
 
+#include "test/parameters_of.hpp"
 #include "test/skills/temp_folder.hpp"
 
 #include <map>

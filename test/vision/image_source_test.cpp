@@ -1,4 +1,4 @@
-#include "skills/engine/errors.hpp"
+#include "roscell/skill/errors.hpp"
 #include "skills/image_source/image_source.hpp"
 
 #include "test/vision/fixture.hpp"

@@ -1,4 +1,4 @@
-#include "skills/engine/errors.hpp"
+#include "roscell/skill/errors.hpp"
 #include "skills/pose_estimation/pose_estimator.hpp"
 #include "skills/vision/compression.hpp"
 
@@ -89,7 +89,7 @@ TEST_CASE("poses are those that the scene was rendered from") {
 TEST_CASE("poses of compressed images are those of the images") {
   const auto& scene = four_tags();
   auto format = GENERATE("jpeg", "png");
-  vision::compression how{engine::parameters{{{"compressed_format", format}}}};
+  vision::compression how{parameters_of({{"compressed_format", format}})};
   auto message = how.compress(vision::view(scene.picture, {{12, 34}, "eye"}));
   bench b{{compressed_type, info_type}, {transforms_type}, tag_size};
   b.calibrate(1, scene.info());

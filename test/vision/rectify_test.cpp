@@ -1,4 +1,4 @@
-#include "skills/engine/errors.hpp"
+#include "roscell/skill/errors.hpp"
 #include "skills/pose_estimation/pose_estimator.hpp"
 #include "skills/rectify/rectifier.hpp"
 

@@ -1,4 +1,4 @@
-#include "skills/engine/errors.hpp"
+#include "roscell/skill/errors.hpp"
 #include "skills/pose_estimation/tag_detector.hpp"
 
 #include "test/vision/fixture.hpp"
@@ -34,7 +34,7 @@ std::vector<int> count_to(int n) {
 
 std::string error_of(const nlohmann::json& options) {
   try {
-    tag_detector{detector_options::of(engine::parameters{options})};
+    tag_detector{detector_options::of(test::parameters_of(options))};
   } catch (const engine::start_error& e) {
     return e.what();
   }

@@ -1,4 +1,4 @@
-#include "skills/engine/errors.hpp"
+#include "roscell/skill/errors.hpp"
 #include "skills/video/capture.hpp"
 #include "skills/video/video_input.hpp"
 
@@ -66,7 +66,7 @@ private:
 engine::stream_context context(const std::string& endpoint,
                                const json& options) {
   return {{"video", endpoint, image_type},
-          engine::parameters{options},
+          parameters_of(options),
           [](const std::string&) {}};
 }
 

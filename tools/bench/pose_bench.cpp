@@ -1,8 +1,8 @@
+#include "roscell/ros2/apriltag_msgs.hpp"
+#include "roscell/ros2/cdr.hpp"
+#include "roscell/ros2/sensor_msgs.hpp"
+#include "roscell/ros2/tf2_msgs.hpp"
 #include "skills/pose_estimation/pose_estimator.hpp"
-#include "skills/ros2/messages/apriltag_msgs.hpp"
-#include "skills/ros2/messages/cdr.hpp"
-#include "skills/ros2/messages/sensor_msgs.hpp"
-#include "skills/ros2/messages/tf2_msgs.hpp"
 #include "skills/vision/calibration.hpp"
 
 #include <CLI/CLI.hpp>
@@ -101,8 +101,9 @@ engine::environment make_environment(const settings& wanted) {
   env.outputs = {{"ros2", "/tf", ros2::tf2_msgs::tf_message::type_name},
                  {"ros2", "/detections",
                   ros2::apriltag_msgs::april_tag_detection_array::type_name}};
-  env.parameters = engine::parameters{
-      {{"decimation", wanted.decimation}, {"threads", wanted.threads}}};
+  env.parameters = engine::parameters::parse(nlohmann::json{
+      {"decimation", wanted.decimation},
+      {"threads", wanted.threads}}.dump());
   return env;
 }
 

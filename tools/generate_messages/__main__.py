@@ -1,6 +1,6 @@
 """Makes C++ structs of the messages of one ROS 2 package.
 
-Writes FOLDER/skills/ros2/messages/PACKAGE.hpp and FOLDER/PACKAGE.cpp from files
+Writes FOLDER/roscell/ros2/PACKAGE.hpp and FOLDER/PACKAGE.cpp from files
 PACKAGE/msg/TYPE.msg. ROOT is a folder of packages whose messages may be fields of
 these. What is wrong is said as FILE:LINE: PROBLEM, and then nothing is written.
 Usage: generate_messages --to FOLDER [--known ROOT]... FILE...

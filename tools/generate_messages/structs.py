@@ -1,9 +1,9 @@
-"""Writes messages as C++ structs for skills/ros2/messages/fields.hpp."""
+"""Writes messages as C++ structs for include/roscell/ros2/fields.hpp."""
 
 import json
 import re
 
-FOLDER = "skills/ros2/messages"
+FOLDER = "roscell/ros2"
 NUMBERS = {"float32": "float", "float64": "double", "bool": "bool",
            "byte": "std::uint8_t", "char": "std::uint8_t"}
 
@@ -121,7 +121,7 @@ def source(package, messages):
     names = [f"{package}::{struct_name(x.name)}" for x in messages]
     return (f"// Made from the definitions of {package}.\n"
             f'#include "{FOLDER}/{package}.hpp"\n\n'
-            f'#include "{FOLDER}/codec.hpp"\n\nnamespace roscell::ros2 {{\n\n'
+            f'#include "{FOLDER}/detail/codec.hpp"\n\nnamespace roscell::ros2 {{\n\n'
             + "".join(f"template std::string serialize(const {name}&);\n"
                       f"template {name} deserialize(std::string_view);\n"
                       for name in names)

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "skills/engine/handlers.hpp"
-#include "skills/engine/registry.hpp"
+#include "roscell/skill/handlers.hpp"
+#include "roscell/skill/registry.hpp"
 
 #include <memory>
 #include <string>

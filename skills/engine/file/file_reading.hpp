@@ -1,7 +1,7 @@
 #pragma once
 
-#include "skills/engine/frame.hpp"
-#include "skills/engine/handlers.hpp"
+#include "roscell/skill/frame.hpp"
+#include "roscell/skill/handlers.hpp"
 
 #include <sys/stat.h>
 

@@ -1,6 +1,6 @@
 #include "skills/engine/file/folder_input.hpp"
 
-#include "skills/engine/errors.hpp"
+#include "roscell/skill/errors.hpp"
 
 #include <dirent.h>
 #include <sys/inotify.h>

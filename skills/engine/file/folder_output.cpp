@@ -1,6 +1,6 @@
 #include "skills/engine/file/folder_output.hpp"
 
-#include "skills/engine/errors.hpp"
+#include "roscell/skill/errors.hpp"
 #include "skills/engine/file/line_output.hpp"
 #include "skills/engine/life/unique_fd.hpp"
 

@@ -1,6 +1,6 @@
 #include "skills/engine/file/inotify_watch.hpp"
 
-#include "skills/engine/errors.hpp"
+#include "roscell/skill/errors.hpp"
 
 #include <sys/inotify.h>
 

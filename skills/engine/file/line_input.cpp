@@ -1,6 +1,6 @@
 #include "skills/engine/file/line_input.hpp"
 
-#include "skills/engine/errors.hpp"
+#include "roscell/skill/errors.hpp"
 
 #include <fcntl.h>
 #include <sys/inotify.h>

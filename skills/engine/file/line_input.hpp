@@ -1,11 +1,11 @@
 #pragma once
 
+#include "roscell/skill/handlers.hpp"
+#include "roscell/skill/pacer.hpp"
 #include "skills/engine/file/file_reading.hpp"
 #include "skills/engine/file/inotify_watch.hpp"
 #include "skills/engine/file/line_splitter.hpp"
-#include "skills/engine/handlers.hpp"
 #include "skills/engine/life/unique_fd.hpp"
-#include "skills/engine/pacer.hpp"
 
 #include <optional>
 #include <string>

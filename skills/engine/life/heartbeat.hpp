@@ -1,8 +1,8 @@
 #pragma once
 
+#include "roscell/skill/stop_event.hpp"
 #include "skills/engine/life/liveness.hpp"
 #include "skills/engine/life/notify_socket.hpp"
-#include "skills/engine/life/stop_event.hpp"
 #include "skills/engine/life/unique_fd.hpp"
 
 #include <functional>

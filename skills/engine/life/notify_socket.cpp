@@ -1,6 +1,6 @@
 #include "skills/engine/life/notify_socket.hpp"
 
-#include "skills/engine/errors.hpp"
+#include "roscell/skill/errors.hpp"
 
 #include <sys/socket.h>
 #include <sys/time.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "skills/engine/life/stop_event.hpp"
+#include "roscell/skill/stop_event.hpp"
 
 #include <atomic>
 #include <chrono>

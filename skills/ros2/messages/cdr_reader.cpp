@@ -1,4 +1,4 @@
-#include "skills/ros2/messages/cdr_reader.hpp"
+#include "roscell/ros2/detail/cdr_reader.hpp"
 
 namespace roscell::ros2 {
 

@@ -1,4 +1,4 @@
-#include "skills/ros2/messages/cdr_writer.hpp"
+#include "roscell/ros2/detail/cdr_writer.hpp"
 
 #include <limits>
 

@@ -1,7 +1,7 @@
-#include "skills/ros2/messages/image_view.hpp"
+#include "roscell/ros2/image_view.hpp"
 
-#include "skills/ros2/messages/cdr_reader.hpp"
-#include "skills/ros2/messages/cdr_writer.hpp"
+#include "roscell/ros2/detail/cdr_reader.hpp"
+#include "roscell/ros2/detail/cdr_writer.hpp"
 
 #include <algorithm>
 #include <array>

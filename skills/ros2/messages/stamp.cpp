@@ -1,6 +1,6 @@
-#include "skills/ros2/messages/stamp.hpp"
+#include "roscell/ros2/stamp.hpp"
 
-#include "skills/ros2/messages/cdr_reader.hpp"
+#include "roscell/ros2/detail/cdr_reader.hpp"
 
 namespace roscell::ros2 {
 

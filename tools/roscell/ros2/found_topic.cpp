@@ -1,7 +1,7 @@
 #include "tools/roscell/ros2/found_topic.hpp"
 
 #include "messages/node.hpp"
-#include "skills/engine/errors.hpp"
+#include "roscell/skill/errors.hpp"
 #include "tools/roscell/exit_code.hpp"
 
 #include <CLI/CLI.hpp>

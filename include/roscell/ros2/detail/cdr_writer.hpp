@@ -1,6 +1,6 @@
 #pragma once
 
-#include "skills/ros2/messages/check_bounds.hpp"
+#include "roscell/ros2/detail/check_bounds.hpp"
 
 #include <fastcdr/Cdr.h>
 
@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-/// INTERNAL to this folder.
+/// INTERNAL: for what is made from definitions of messages.
 namespace roscell::ros2 {
 
 /// Writes one message, little endian, behind its encapsulation.

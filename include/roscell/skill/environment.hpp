@@ -1,6 +1,6 @@
 #pragma once
 
-#include "skills/engine/parameters.hpp"
+#include "roscell/skill/parameters.hpp"
 
 #include <chrono>
 #include <functional>
@@ -17,8 +17,9 @@ struct stream {
   std::string data_type; ///< media type or ROS type name
 };
 
-/// All that a node tells an instance. These environment variables are the
-/// contract between the two, for containers and processes alike:
+/// All that a node tells an instance, as plain values that never change once
+/// the skill runs: any thread may read them. These environment variables are
+/// the contract between the two, for containers and processes alike:
 ///
 /// | variable | value | if absent |
 /// |---|---|---|

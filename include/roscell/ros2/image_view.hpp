@@ -1,6 +1,6 @@
 #pragma once
 
-#include "skills/ros2/messages/std_msgs.hpp"
+#include "roscell/ros2/std_msgs.hpp"
 
 #include <cstddef>
 #include <optional>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "skills/ros2/messages/cdr_error.hpp"
+#include "roscell/ros2/cdr_error.hpp"
 
 #include <string>
 #include <string_view>
@@ -8,7 +8,7 @@
 /// ROS 2 messages as bytes: the payload of a frame of the `ros2` protocol.
 /// That is plain CDR (XCDR1), behind the 4 bytes that say so and in which byte
 /// order. There are these two functions for every struct that is made from a
-/// definition.
+/// definition, and all threads may call them.
 namespace roscell::ros2 {
 
 /// Little endian. Throws cdr_error when the message cannot be written: more

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "skills/engine/environment.hpp"
-#include "skills/engine/frame.hpp"
-#include "skills/engine/life/stop_event.hpp"
+#include "roscell/skill/environment.hpp"
+#include "roscell/skill/frame.hpp"
+#include "roscell/skill/stop_event.hpp"
 
 #include <functional>
 #include <string>
@@ -29,7 +29,8 @@ public:
   virtual bool push(frame input, when_full policy) = 0;
 };
 
-/// Writes one line for people, who find it in the instance's log.
+/// Writes one line for people, who find it in the instance's log. May be called
+/// from any thread.
 using say_function = std::function<void(const std::string& line)>;
 
 /// What a handler knows when it is made.

@@ -1,7 +1,5 @@
 #pragma once
 
-#include "skills/engine/life/unique_fd.hpp"
-
 #include <chrono>
 
 namespace roscell::engine {
@@ -15,6 +13,11 @@ public:
   /// Throws std::system_error when the process has no file descriptor left.
   stop_event();
 
+  ~stop_event();
+
+  stop_event(const stop_event&) = delete;
+  stop_event& operator=(const stop_event&) = delete;
+
   void set() noexcept;
 
   bool is_set() const noexcept;
@@ -22,7 +25,7 @@ public:
   /// Becomes readable when the event is set, and stays so; for use in poll().
   /// Nobody may read from it.
   int fd() const noexcept {
-    return fd_.get();
+    return fd_;
   }
 
   /// Waits for the event.
@@ -36,7 +39,7 @@ public:
   bool wait_readable(int other) const;
 
 private:
-  unique_fd fd_;
+  const int fd_;
 };
 
 } // namespace roscell::engine

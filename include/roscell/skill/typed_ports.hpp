@@ -1,6 +1,6 @@
 #pragma once
 
-#include "skills/engine/environment.hpp"
+#include "roscell/skill/environment.hpp"
 
 #include <cstddef>
 #include <string>

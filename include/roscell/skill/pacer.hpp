@@ -1,11 +1,11 @@
 #pragma once
 
-#include "skills/engine/life/stop_event.hpp"
+#include "roscell/skill/stop_event.hpp"
 
 namespace roscell::engine {
 
 /// Spreads frames in time. Does not catch up after a pause: the distance
-/// between two frames is never shorter than the period.
+/// between two frames is never shorter than the period. For one thread.
 class pacer {
 public:
   /// `rate_hz` is the most frames per second; 0 is no limit.

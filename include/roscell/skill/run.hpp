@@ -1,6 +1,6 @@
 #pragma once
 
-#include "skills/engine/registry.hpp"
+#include "roscell/skill/registry.hpp"
 
 #include <string>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "skills/ros2/messages/check_bounds.hpp"
+#include "roscell/ros2/detail/check_bounds.hpp"
 
 #include <fastcdr/Cdr.h>
 
@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-/// INTERNAL to this folder.
+/// INTERNAL: for what is made from definitions of messages.
 namespace roscell::ros2 {
 
 template <class T>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "skills/engine/executor.hpp"
-#include "skills/engine/handlers.hpp"
+#include "roscell/skill/executor.hpp"
+#include "roscell/skill/handlers.hpp"
 
 #include <functional>
 #include <map>
@@ -20,7 +20,8 @@ using output_factory =
 
 /// What a skill's binary is able to run: executors by implementation model,
 /// input and output handlers by protocol. Starts with the `file` protocol; a
-/// library with another protocol offers a function that adds it here.
+/// library with another protocol offers a function that adds it here. It is
+/// filled before `run` and not changed after.
 class registry {
 public:
   registry();

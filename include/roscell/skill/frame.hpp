@@ -17,7 +17,8 @@ struct frame {
   /// What a person would call this frame, e.g. the file's name. In an emitted
   /// frame it may be left empty: then it is derived from the input's name.
   std::string name;
-  /// When the data came to be, as far as the protocol knows it. In an emitted
+  /// When the data came to be, by the clock of its source, as far as the
+  /// protocol knows it. In an emitted
   /// frame it may be left alone: then it is the input's time.
   std::chrono::system_clock::time_point time{};
   /// Counts the frames of a port from 0. Set by the engine.

@@ -1,11 +1,11 @@
 #pragma once
 
-#include "skills/ros2/messages/cdr.hpp"
-#include "skills/ros2/messages/cdr_reader.hpp"
-#include "skills/ros2/messages/cdr_writer.hpp"
+#include "roscell/ros2/cdr.hpp"
+#include "roscell/ros2/detail/cdr_reader.hpp"
+#include "roscell/ros2/detail/cdr_writer.hpp"
 
-/// INTERNAL to what is made from definitions, which compiles these once for
-/// each message.
+/// INTERNAL: for what is made from definitions of messages, which compiles
+/// these once for each.
 namespace roscell::ros2 {
 
 template <class T>

@@ -1,13 +1,13 @@
 #pragma once
 
-#include "skills/ros2/messages/cdr_error.hpp"
-#include "skills/ros2/messages/fields.hpp"
+#include "roscell/ros2/cdr_error.hpp"
+#include "roscell/ros2/fields.hpp"
 
 #include <array>
 #include <string>
 #include <vector>
 
-/// INTERNAL to this folder.
+/// INTERNAL: for what is made from definitions of messages.
 namespace roscell::ros2 {
 
 /// Throws cdr_error when a value is longer than its definition allows.

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "skills/ros2/messages/builtin_interfaces.hpp"
+#include "roscell/ros2/builtin_interfaces.hpp"
 
 #include <chrono>
 #include <optional>

@@ -1,13 +1,15 @@
 #pragma once
 
-#include "skills/engine/frame.hpp"
+#include "roscell/skill/frame.hpp"
 
 #include <cstddef>
 #include <string>
+#include <utility>
 
 namespace roscell::engine {
 
-/// Takes the results of one `process` call to the outputs.
+/// Takes the results of one `process` call to the outputs. To be called during
+/// that call only, by its thread.
 class emitter {
 public:
   virtual ~emitter() = default;

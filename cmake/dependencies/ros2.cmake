@@ -1,0 +1,3 @@
+roscell_needs(Threads)
+roscell_needs(fastcdr)
+roscell_needs(fastrtps)

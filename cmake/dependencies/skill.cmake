@@ -1,0 +1,1 @@
+roscell_needs(Threads)

@@ -1,0 +1,41 @@
+# The libraries for other projects: what is installed of them, and how. A target
+# has the same name there, roscell::NAME, as in a project that takes our sources
+# by add_subdirectory or FetchContent.
+
+include(GNUInstallDirs)
+
+# roscell_public(TARGET NAME): makes a library one of those for other projects,
+# as roscell::NAME. Symbols of theirs stay their own, and nothing of ours but
+# the public headers is seen by who links it.
+function(roscell_public target name)
+  set_target_properties(${target} PROPERTIES
+    EXPORT_NAME ${name} OUTPUT_NAME roscell_${name}
+    CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+  target_compile_features(${target} PUBLIC cxx_std_17)
+  target_include_directories(${target} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:roscell_internal>)
+  # Who links what a sanitizer has seen needs its runtime.
+  target_link_options(${target} INTERFACE ${ROSCELL_SANITIZER_FLAGS})
+  add_library(roscell::${name} ALIAS ${target})
+  set_property(GLOBAL APPEND PROPERTY ROSCELL_PUBLIC_LIBRARIES roscell::${name})
+  install(TARGETS ${target} EXPORT roscell COMPONENT development
+    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+endfunction()
+
+# roscell_public_headers(FOLDER_OR_FILE...): headers below include/roscell that
+# are installed.
+function(roscell_public_headers)
+  foreach(name IN LISTS ARGN)
+    set(path ${PROJECT_SOURCE_DIR}/include/roscell/${name})
+    if(IS_DIRECTORY ${path})
+      install(DIRECTORY ${path} COMPONENT development
+        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/roscell
+        FILES_MATCHING PATTERN *.hpp)
+    else()
+      install(FILES ${path} COMPONENT development
+        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/roscell)
+    endif()
+  endforeach()
+endfunction()
