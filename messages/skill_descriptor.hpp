@@ -23,7 +23,7 @@ struct port_description {
 /// One way to run a model.
 struct deployment_option {
   std::string name;
-  std::string base_image;
+  std::string base_image; ///< Empty with the engine "actor" only.
   std::vector<std::string> architectures; ///< Never empty.
   resource_request resources;
   std::vector<std::string> devices; ///< Device nodes the host must have.
@@ -34,7 +34,7 @@ struct deployment_option {
   static constexpr auto fields() {
     return field_list{
         required("name", &deployment_option::name),
-        required("base_image", &deployment_option::base_image),
+        optional("base_image", &deployment_option::base_image),
         required("architectures", &deployment_option::architectures),
         required("resources", &deployment_option::resources),
         optional("devices", &deployment_option::devices),
@@ -86,7 +86,7 @@ struct ros2_program {
 struct skill_descriptor {
   std::string operation;
   std::string version; ///< Raised by the author; empty: see installed_skill.
-  std::string engine;  ///< "primitive" or "ros2_standalone".
+  std::string engine;  ///< "primitive", "ros2_standalone" or "actor".
   std::vector<std::string>
       entry_point; ///< Program below the folder, arguments.
   port_description input;

@@ -166,17 +166,42 @@ void check_topics(error_list& errors, const place& topics) {
              "an end of the step: input, output, or with its place, input:1");
 }
 
+/// An actor is part of a program that runs already.
+void check_actor_skill(error_list& errors, const place& skill) {
+  if (!(skill / "entry_point").value.is_null())
+    refuse(errors, skill / "entry_point",
+           "no program: the one that embeds the node has the actor");
+}
+
+void check_folder_skill(error_list& errors, const place& skill) {
+  if ((skill / "entry_point").value.is_null())
+    refuse(errors, skill / "entry_point",
+           "the program below the folder, and its arguments");
+}
+
+void check_base_images(error_list& errors, const place& skill) {
+  for (const auto& model : (skill / "models").items())
+    for (const auto& deployment : (model / "deployments").items())
+      if (deployment.value.is_object()
+          && (deployment / "base_image").value.is_null())
+        refuse(errors, deployment / "base_image",
+               "the image that a container of it is made from");
+}
+
 /// Who runs a ROS 2 program says which; anybody else brings a program along.
 void check_program(error_list& errors, const place& skill) {
   if (!skill.value.is_object())
     return;
-  const bool is_ros2 = (skill / "engine").text() == "ros2_standalone";
+  const auto engine = (skill / "engine").text();
   const auto program = skill / "ros2";
   check_topics(errors, program / "topics");
-  if (!is_ros2) {
-    if ((skill / "entry_point").value.is_null())
-      refuse(errors, skill / "entry_point",
-             "the program below the folder, and its arguments");
+  if (engine != "actor")
+    check_base_images(errors, skill);
+  if (engine != "ros2_standalone") {
+    if (engine == "actor")
+      check_actor_skill(errors, skill);
+    else
+      check_folder_skill(errors, skill);
     if (!program.value.is_null())
       refuse(errors, program,
              "no ROS 2 program without \"engine\": "

@@ -2,12 +2,14 @@
 
 #include "actors/edge/disk/folder_hash.hpp"
 #include "actors/edge/disk/small_file.hpp"
+#include "actors/edge/io/crypto.hpp"
 #include "actors/house/limits.hpp"
 #include "actors/instances/skill_descriptor_file.hpp"
 #include "schemas/utf8.hpp"
 
 #include <algorithm>
 #include <set>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <variant>
@@ -20,6 +22,11 @@ namespace {
 
 /// Where a build leaves the version of its sources.
 constexpr const char* version_name = "skill.version";
+
+constexpr const char* actor_engine = "actor";
+
+/// Marks the hash as that of an actor's descriptor.
+constexpr std::string_view actor_key = "roscell actor skill";
 
 std::string problem_words(const edge_error& why) {
   return why.hint.empty() ? why.message : why.message + " (" + why.hint + ")";
@@ -105,8 +112,31 @@ void skill_catalogue::add_folder(const fs::path& folder) {
   add_build(path, std::get<skill_descriptor>(std::move(descriptor)));
 }
 
+std::vector<schema_error>
+skill_catalogue::add_actor_skill(const std::string& text) {
+  auto parsed = parse_descriptor(text, format_of("", text));
+  if (auto* errors = std::get_if<std::vector<schema_error>>(&parsed))
+    return std::move(*errors);
+  auto& descriptor = std::get<skill_descriptor>(parsed);
+  if (descriptor.engine != actor_engine)
+    return {{"/engine", "expected \"actor\": it is registered with a factory "
+                        "for actors"}};
+  installed_skill skill{to_hex(hmac_sha256(actor_key, text)),
+                        std::move(descriptor)};
+  if (skill.version.empty())
+    skill.version = skill.hash;
+  skill.architectures = {host_};
+  skills_.emplace(skill.hash, skill_folder{{}, {}, skill, true});
+  return {};
+}
+
 void skill_catalogue::add_build(const fs::path& path,
                                 skill_descriptor descriptor) {
+  if (descriptor.engine == actor_engine)
+    return blame(descriptor_of(path),
+                 "a skill of the engine \"actor\" is no folder: the program "
+                 "that embeds a node registers it",
+                 "/engine");
   std::string made_for;
   // A ROS 2 program is in the base image, or on the host.
   if (descriptor.ros2.empty()) {

@@ -3,6 +3,7 @@
 #include "actors/house/house.hpp"
 #include "actors/instances/skill_program.hpp"
 #include "messages/skill.hpp"
+#include "schemas/schema_error.hpp"
 
 #include <filesystem>
 #include <map>
@@ -17,6 +18,8 @@ struct skill_folder {
   std::filesystem::path path; ///< Absolute, without links.
   std::string look;           ///< When it was hashed: see folder_look.
   installed_skill skill;
+  /// Its instances are actors of this process; there is no folder.
+  bool in_process = false;
 };
 
 /// The skills of a node, by content hash. Filled once and then only read, so
@@ -28,6 +31,10 @@ public:
   /// machine than `host`, too. Blocks on the disk: not for a scheduled actor.
   static skill_catalogue scan(const std::vector<std::filesystem::path>& dirs,
                               const std::string& host = own_architecture());
+
+  /// Adds a skill whose instances are actors of this process, by the text of
+  /// its descriptor. What is wrong with it, or nothing.
+  std::vector<schema_error> add_actor_skill(const std::string& descriptor);
 
   /// Null if there is none with that hash.
   const skill_folder* find(const std::string& hash) const;

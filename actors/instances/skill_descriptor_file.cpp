@@ -51,15 +51,19 @@ std::variant<skill_descriptor, errors> read_descriptor(const fs::path& file) {
   const auto text = read_small_file(file, limits::skill::descriptor_bytes);
   if (!text)
     return errors{{"", "cannot be read, or is longer than 1 MiB"}};
-  const auto format = format_of(file.native(), *text);
-  auto document = parse_document(*text, format);
+  return parse_descriptor(*text, format_of(file.native(), *text));
+}
+
+std::variant<skill_descriptor, errors>
+parse_descriptor(const std::string& text, document_format format) {
+  auto document = parse_document(text, format);
   if (const auto* why = std::get_if<failure>(&document))
     return errors{{why->where, why->message}};
   const auto& content = std::get<json>(document);
   auto wrong =
       document_errors("skill_descriptor", content, unknown_members::refused);
   if (!wrong.empty())
-    return located(std::move(wrong), *text, format);
+    return located(std::move(wrong), text, format);
   try {
     return content.get<skill_descriptor>();
   } catch (const std::exception& error) {

@@ -1,9 +1,11 @@
 #pragma once
 
 #include "messages/skill_descriptor.hpp"
+#include "schemas/document.hpp"
 #include "schemas/schema_error.hpp"
 
 #include <filesystem>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -22,5 +24,9 @@ std::filesystem::path descriptor_of(const std::filesystem::path& folder);
 /// in words.
 std::variant<skill_descriptor, std::vector<schema_error>>
 read_descriptor(const std::filesystem::path& file);
+
+/// The same in a text.
+std::variant<skill_descriptor, std::vector<schema_error>>
+parse_descriptor(const std::string& text, document_format format);
 
 } // namespace roscell

@@ -1,4 +1,5 @@
 #include "actors/house/limits.hpp"
+#include "actors/instances/actor_skills/runtime_switch.hpp"
 #include "actors/instances/instance_environment.hpp"
 #include "actors/instances/instance_words.hpp"
 #include "actors/instances/ros2/ros2_program_start.hpp"
@@ -19,6 +20,15 @@ const deployment_option* find_deployment(const skill_folder& folder,
         if (option.name == spec.deployment)
           return &option;
   return nullptr;
+}
+
+const skill_folder* folder_of(const skill_instance_state& st) {
+  return st.config.skills->find(st.row.spec.skill);
+}
+
+bool runs_in_process(const skill_instance_state& st) {
+  const auto* folder = folder_of(st);
+  return folder != nullptr && folder->in_process;
 }
 
 /// What is run, and how.
@@ -77,13 +87,15 @@ std::optional<program_plan> program_of(skill_instance_pointer self,
 
 void build(skill_instance_pointer self) {
   auto& st = self->state;
-  const auto* folder = st.config.skills->find(st.row.spec.skill);
+  const auto* folder = folder_of(st);
   const auto* option =
       folder != nullptr ? find_deployment(*folder, st.row.spec) : nullptr;
   if (option == nullptr)
     return conclude(self, instance_state::failed,
                     "this node does not have its skill any more");
   const auto& descriptor = folder->skill.descriptor;
+  if (folder->in_process)
+    return on_built(self, actor_image(descriptor.operation), {}, *option);
   const auto program = program_of(self, descriptor);
   if (!program)
     return;
@@ -107,12 +119,15 @@ void build(skill_instance_pointer self) {
 } // namespace
 
 /// The intent is on disk before anything is started: a node that is restarted
-/// must know what to look for.
+/// must know what to look for. An actor ends with the node, so that its intent
+/// may be written later.
 void begin_anew(skill_instance_pointer self) {
   enter(self, instance_state::pending);
+  auto record = record_of(self->state.row);
+  record.may_wait = runs_in_process(self->state);
   ask<record_stored>(
-      self, self->state.config.store, limits::instance::disk,
-      record_of(self->state.row), [=](const record_stored&) { build(self); },
+      self, self->state.config.store, limits::instance::disk, record,
+      [=](const record_stored&) { build(self); },
       [=](const caf::error& error) {
         conclude(self, instance_state::failed,
                  "it cannot be recorded: " + sentence(error));
@@ -124,7 +139,7 @@ namespace {
 /// A node that has started again looks for the same endpoints as before.
 void recall_endpoints(skill_instance_pointer self) {
   auto& st = self->state;
-  const auto* folder = st.config.skills->find(st.row.spec.skill);
+  const auto* folder = folder_of(st);
   if (folder == nullptr || folder->skill.descriptor.ros2.empty())
     return;
   auto start =

@@ -4,6 +4,7 @@
 #include "actors/edge/host/interfaces.hpp"
 #include "actors/edge/io/socket_address.hpp"
 #include "actors/house/edge_failure.hpp"
+#include "actors/instances/actor_skills/runtime_switch.hpp"
 #include "actors/instances/container_supervisor.hpp"
 #include "actors/instances/ros2/graph_watch.hpp"
 #include "actors/membership/discovery.hpp"
@@ -22,6 +23,7 @@
 #include "actors/requests/rest.hpp"
 #include "actors/session/registration_client.hpp"
 #include "actors/session/session_connector.hpp"
+#include "messages/failure.hpp"
 #include "schemas/message_catalogue.hpp"
 
 #include <caf/actor_cast.hpp>
@@ -101,9 +103,11 @@ class node_builder {
 public:
   node_builder(caf::actor_system& system, node_config config, node_data data,
                house context, std::shared_ptr<node_edges> edges,
-               capacity_bound bound, chosen_runtime runtime)
+               capacity_bound bound, chosen_runtime runtime,
+               shared_skill_catalogue catalogue, node_additions additions)
       : system_(system), data_(std::move(data)), bound_(std::move(bound)),
-        runtime_(std::move(runtime)) {
+        runtime_(std::move(runtime)), catalogue_(std::move(catalogue)),
+        additions_(std::move(additions)) {
     parts_.config = std::move(config);
     parts_.context = std::move(context);
     parts_.edges = std::move(edges);
@@ -116,7 +120,7 @@ public:
     parts_.identity.address = parts_.edges->http_address;
   }
 
-  node_actor build() {
+  void build(running_node& result) {
     add(parts_.context.events);
     read_skills();
     start_supervision();
@@ -125,7 +129,8 @@ public:
     else
       start_membership();
     start_requests();
-    return parts_.services->node;
+    result.actor = parts_.services->node;
+    result.router = parts_.router;
   }
 
 private:
@@ -143,17 +148,23 @@ private:
   }
 
   void read_skills() {
-    auto dirs = parts_.config.skill_dirs;
-    // The default place need not be there; one that was named must be.
-    const auto own = parts_.config.data_dir / "skills";
-    if (std::filesystem::is_directory(own))
-      dirs.push_back(own);
-    auto catalogue =
-        std::make_shared<skill_catalogue>(skill_catalogue::scan(dirs));
-    catalogue->tell_problems(parts_.context);
-    parts_.skills = catalogue->skills();
-    parts_.refused_skills = catalogue->told_problems();
-    catalogue_ = std::move(catalogue);
+    catalogue_->tell_problems(parts_.context);
+    parts_.skills = catalogue_->skills();
+    parts_.refused_skills = catalogue_->told_problems();
+  }
+
+  std::function<runtime_actor(container_listener_actor)> make_runtime() {
+    auto programs =
+        runtime_factory(system_, parts_.context, parts_.config, runtime_,
+                        data_.identity.uuid, *parts_.edges->io);
+    if (additions_.actor_skills.empty())
+      return programs;
+    return [&system = system_, context = parts_.context, programs,
+            actors = additions_.make_actor_runtime](
+               const container_listener_actor& listener) {
+      return spawn(system, context, runtime_switch, programs(listener),
+                   actors(context, listener), listener);
+    };
   }
 
   void start_supervision() {
@@ -163,9 +174,7 @@ private:
     supervision.context = parts_.context;
     supervision.node = config.name;
     supervision.skills = catalogue_;
-    supervision.make_runtime =
-        runtime_factory(system_, parts_.context, config, runtime_,
-                        data_.identity.uuid, *parts_.edges->io);
+    supervision.make_runtime = make_runtime();
     supervision.builds_images = !runtime_.socket.empty();
     supervision.store = store_;
     supervision.graph = start(graph_watch, parts_.edges->graph);
@@ -302,8 +311,33 @@ private:
   chosen_runtime runtime_;
   node_parts parts_;
   shared_skill_catalogue catalogue_;
+  node_additions additions_;
   state_store_actor store_;
 };
+
+/// The skills in folders, and those that the embedding program brings along.
+caf::expected<shared_skill_catalogue>
+collect_skills(const node_config& config, const node_additions& additions) {
+  auto dirs = config.skill_dirs;
+  // The default place need not be there; one that was named must be.
+  const auto own = config.data_dir / "skills";
+  if (std::filesystem::is_directory(own))
+    dirs.push_back(own);
+  auto result = std::make_shared<skill_catalogue>(skill_catalogue::scan(dirs));
+  for (const auto& text : additions.actor_skills)
+    if (const auto errors = result->add_actor_skill(text); !errors.empty())
+      return fail(error_code::schema_violation,
+                  "the descriptor of an actor skill: " + errors[0].expected,
+                  errors[0].pointer);
+  return shared_skill_catalogue{std::move(result)};
+}
+
+/// Without its type a message would be dropped in silence.
+bool knows_our_types(const caf::actor_system& system) {
+  return !system.types()
+              .portable_name(caf::type_nr<stop_node>::value, &typeid(stop_node))
+              .empty();
+}
 
 /// What an operator should know of the data directory.
 void tell_of_data(const house& context, const node_data& data) {
@@ -318,7 +352,13 @@ void tell_of_data(const house& context, const node_data& data) {
 } // namespace
 
 caf::expected<running_node> spawn_node(caf::actor_system& system,
-                                       const node_config& wanted) {
+                                       const node_config& wanted,
+                                       const node_additions& additions) {
+  if (!knows_our_types(system))
+    return fail(error_code::internal,
+                "this actor system does not know the messages of a node", "",
+                "call roscell::add_message_types(config) before the "
+                "caf::actor_system is made");
   auto config = wanted;
   if (auto why = complete(config))
     return why;
@@ -329,6 +369,9 @@ caf::expected<running_node> spawn_node(caf::actor_system& system,
   if (!runtime)
     return runtime.error();
   config.runtime = runtime->name;
+  auto skills = collect_skills(config, additions);
+  if (!skills)
+    return skills.error();
   auto data = open_node_data(config);
   if (!data)
     return data.error();
@@ -353,8 +396,9 @@ caf::expected<running_node> spawn_node(caf::actor_system& system,
   node_builder builder{system,           std::move(config),
                        std::move(*data), context,
                        *edges,           std::get<capacity_bound>(bound),
-                       *runtime};
-  result.actor = builder.build();
+                       *runtime,         std::move(*skills),
+                       additions};
+  builder.build(result);
   return result;
 }
 

@@ -4,9 +4,9 @@
 #include "actors/cell/books/task_book.hpp"
 #include "actors/edge/disk/directory_lock.hpp"
 #include "actors/edge/disk/sqlite_store.hpp"
-#include "actors/node/node_config.hpp"
 #include "messages/inside/membership.hpp"
 #include "messages/node.hpp"
+#include "roscell/node_config.hpp"
 
 #include <caf/expected.hpp>
 

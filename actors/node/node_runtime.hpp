@@ -2,8 +2,8 @@
 
 #include "actors/edge/io/io_thread.hpp"
 #include "actors/house/house.hpp"
-#include "actors/node/node_config.hpp"
 #include "messages/messages.hpp"
+#include "roscell/node_config.hpp"
 
 #include <caf/expected.hpp>
 

@@ -9,7 +9,7 @@ namespace roscell {
 
 namespace {
 
-/// What the primitive engine (skills/engine) understands whatever the model,
+/// What the engines for executors and actors (skills/engine) understand whatever the model,
 /// under "", and what its protocols do, under their names. In the form of a
 /// descriptor.
 constexpr const char* primitive_engine = R"({
@@ -108,7 +108,7 @@ std::string unknown_parameter_words(const declared_parameters& known,
 declared_parameters parameters_of(const skill_descriptor& skill,
                                   const implementation_model& model) {
   declared_parameters result;
-  if (skill.engine == "primitive") {
+  if (skill.engine == "primitive" || skill.engine == "actor") {
     static const auto engine = json::parse(primitive_engine);
     add_parameters(engine, "", result);
     for (const auto* port : {&skill.input, &skill.output})

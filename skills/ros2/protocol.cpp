@@ -9,6 +9,7 @@
 namespace roscell::ros2 {
 
 void add_ros2_protocol(engine::registry& target) {
+  ::setenv("SKIP_DEFAULT_XML", "1", 1);
   add_ros2_protocol(target, [](const char* name) -> const char* {
     return std::getenv(name);
   });
@@ -16,7 +17,6 @@ void add_ros2_protocol(engine::registry& target) {
 
 void add_ros2_protocol(engine::registry& target,
                        const engine::variable_lookup& lookup) {
-  ::setenv("SKIP_DEFAULT_XML", "1", 1);
   auto shared = std::make_shared<shared_participant>(lookup);
   target.add_input("ros2", [shared](const engine::stream_context& input) {
     return std::make_unique<topic_input>(input, shared);

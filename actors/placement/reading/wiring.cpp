@@ -29,6 +29,11 @@ bool is_file_end(const io_endpoint& x) {
   return x.protocol == "file";
 }
 
+/// Frames that steps pass on within one process.
+bool is_actor_end(const io_endpoint& x) {
+  return x.protocol == "actor";
+}
+
 /// Many nodes publish transforms under one name.
 bool is_shared(const io_endpoint& x) {
   return x.data_type == "tf2_msgs/msg/TFMessage";
@@ -105,6 +110,8 @@ private:
       check_topic(end, at, end.external || steps_[i].step.external);
     else if (is_file_end(end))
       join_by_file(i, end, at);
+    else if (is_actor_end(end))
+      join_by_actor(i, end, at);
   }
 
   void check_topic(const io_endpoint& end, const std::string& at,
@@ -168,15 +175,34 @@ private:
       if (x.elsewhere || x.step == i || !is_file_end(x.end)
           || !overlap(x.end.endpoint, end.endpoint))
         continue;
-      const auto apart = contradiction(steps_[i].step, steps_[x.step].step);
-      if (apart.empty())
-        unite(i, x.step);
-      else
-        refuse(at, "the file " + in_quotes(end.endpoint, 80) + " is written by "
-                       + x.words
-                       + ", and both must run on one node, but they want "
-                       + apart + "; join them by a topic");
+      join(i, x, "the file " + in_quotes(end.endpoint, 80), at);
     }
+  }
+
+  void join_by_actor(size_t i, const io_endpoint& end, const std::string& at) {
+    const auto stream = "the stream " + in_quotes(end.endpoint, 80);
+    bool written = false;
+    for (const auto& x : written_) {
+      if (x.elsewhere || !is_actor_end(x.end) || x.end.endpoint != end.endpoint)
+        continue;
+      written = true;
+      join(i, x, stream, at);
+    }
+    if (!written)
+      refuse(at, "no step of this task writes " + stream
+                     + "; one of another task or process is reached by a "
+                       "topic");
+  }
+
+  void join(size_t i, const written_end& x, const std::string& by,
+            const std::string& at) {
+    const auto apart = contradiction(steps_[i].step, steps_[x.step].step);
+    if (apart.empty())
+      unite(i, x.step);
+    else
+      refuse(at, by + " is written by " + x.words
+                     + ", and both must run on one node, but they want " + apart
+                     + "; join them by a topic");
   }
 
   // -- what is written ------------------------------------------------------

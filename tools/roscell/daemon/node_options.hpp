@@ -1,6 +1,6 @@
 #pragma once
 
-#include "actors/node/node_config.hpp"
+#include "roscell/node_config.hpp"
 
 #include <filesystem>
 #include <string>

@@ -1,0 +1,205 @@
+#include "roscell/node.hpp"
+
+#include "actors/instances/skill_descriptor_file.hpp"
+#include "actors/node/node_builder.hpp"
+#include "embedding/node_door.hpp"
+#include "embedding/skills/actor_runtime.hpp"
+#include "embedding/surroundings.hpp"
+#include "embedding/thread_setting.hpp"
+#include "messages/type_ids.hpp"
+
+#include <caf/actor_system.hpp>
+#include <caf/actor_system_config.hpp>
+#include <caf/send.hpp>
+
+#include <algorithm>
+#include <condition_variable>
+#include <map>
+#include <mutex>
+#include <utility>
+
+namespace roscell {
+
+namespace {
+
+/// Its threads wait for work; CAF's default would look for it again and again.
+class quiet_system_config : public caf::actor_system_config {
+public:
+  explicit quiet_system_config(std::size_t workers) {
+    roscell::add_message_types(*this);
+    set("scheduler.policy", caf::atom("sharing"));
+    set("scheduler.max-threads", std::max<std::size_t>(workers, 1));
+    set("logger.verbosity", caf::atom("quiet"));
+  }
+};
+
+/// An actor system and what it was made from, which it needs to the end.
+struct owned_system {
+  explicit owned_system(std::size_t workers)
+      : config(workers), system(config) {}
+
+  quiet_system_config config;
+  caf::actor_system system;
+};
+
+/// Known once the node has ended, to any thread.
+class end_mark {
+public:
+  void set() {
+    {
+      std::lock_guard<std::mutex> lock{mutex_};
+      ended_ = true;
+    }
+    changed_.notify_all();
+  }
+
+  bool is_set() const {
+    std::lock_guard<std::mutex> lock{mutex_};
+    return ended_;
+  }
+
+  bool wait_for(std::chrono::milliseconds limit) {
+    std::unique_lock<std::mutex> lock{mutex_};
+    return changed_.wait_for(lock, limit, [this] { return ended_; });
+  }
+
+private:
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  bool ended_ = false;
+};
+
+node_error to_node_error(const caf::error& error) {
+  const auto why = to_failure(error);
+  return {std::string{to_string(why.code)},
+          why.where.empty() ? why.message : why.where + ": " + why.message,
+          why.hint};
+}
+
+/// The word after "operation" of each descriptor stands for its factory. The
+/// node has read the descriptors by then, so that they are sound.
+std::map<std::string, actor_skill_factory>
+factories_of(const std::vector<actor_skill>& skills) {
+  std::map<std::string, actor_skill_factory> result;
+  for (const auto& x : skills) {
+    const auto parsed =
+        parse_descriptor(x.descriptor, format_of("", x.descriptor));
+    if (const auto* known = std::get_if<skill_descriptor>(&parsed))
+      result[known->operation] = x.make;
+  }
+  return result;
+}
+
+} // namespace
+
+node_error::node_error(std::string code, const std::string& message,
+                       std::string hint)
+    : std::runtime_error{message}, code_(std::move(code)),
+      hint_(std::move(hint)) {}
+
+class embedded_node::impl {
+public:
+  impl(caf::actor_system* system, const node_setup& setup) {
+    embedding::check_surroundings();
+    embedding::run_on_own_thread(setup.threads, [&] { start(system, setup); });
+  }
+
+  ~impl() {
+    if (!ended_->is_set())
+      caf::anon_send(node_.actor, stop_node{});
+  }
+
+  bool stop(std::chrono::milliseconds limit) {
+    if (!ended_->is_set())
+      caf::anon_send(node_.actor, stop_node{});
+    return ended_->wait_for(limit);
+  }
+
+  bool has_ended() const {
+    return ended_->is_set();
+  }
+
+  const node_facts& facts() const {
+    return facts_;
+  }
+
+  const node_door_actor& door() const {
+    return door_;
+  }
+
+private:
+  void start(caf::actor_system* system, const node_setup& setup) {
+    if (!setup.skills.empty())
+      skills_ = std::make_unique<owned_system>(setup.threads.skill_workers);
+    if (system == nullptr) {
+      own_ = std::make_unique<owned_system>(setup.threads.workers);
+      system = &own_->system;
+    }
+    auto node = spawn_node(*system, setup.node, additions(*system, setup));
+    if (!node)
+      throw to_node_error(node.error());
+    node_ = std::move(*node);
+    facts_ = {node_.name,       node_.http_address,
+              node_.socket,     node_.discovery_server,
+              node_.token_file, node_.runtime};
+    door_ = spawn<caf::detached>(
+        *system, house{node_.actors, node_.events}, embedding::node_door,
+        embedding::node_door_config{node_.actor, node_.router, node_.events});
+    node_.actor->attach_functor([ended = ended_] { ended->set(); });
+  }
+
+  node_additions additions(caf::actor_system& system, const node_setup& setup) {
+    node_additions result;
+    for (const auto& x : setup.skills)
+      result.actor_skills.push_back(x.descriptor);
+    if (skills_ == nullptr)
+      return result;
+    embedding::actor_runtime_config config;
+    config.workers = &skills_->system;
+    config.factories = factories_of(setup.skills);
+    config.log_bytes = setup.node.log_bytes;
+    result.make_actor_runtime =
+        [&system, config](const house& context,
+                          const container_listener_actor& listener) {
+          auto with = config;
+          with.context = context;
+          return runtime_actor{spawn<caf::detached>(
+              system, context, embedding::actor_runtime, with, listener)};
+        };
+    return result;
+  }
+
+  // The node's actors end before the workers of its skills do.
+  std::unique_ptr<owned_system> skills_;
+  std::unique_ptr<owned_system> own_;
+  running_node node_;
+  node_facts facts_;
+  node_door_actor door_;
+  const std::shared_ptr<end_mark> ended_ = std::make_shared<end_mark>();
+};
+
+embedded_node::embedded_node(const node_setup& setup)
+    : impl_(std::make_unique<impl>(nullptr, setup)) {}
+
+embedded_node::embedded_node(caf::actor_system& system, const node_setup& setup)
+    : impl_(std::make_unique<impl>(&system, setup)) {}
+
+embedded_node::~embedded_node() = default;
+
+const node_facts& embedded_node::facts() const noexcept {
+  return impl_->facts();
+}
+
+node_door_actor embedded_node::door() const {
+  return impl_->door();
+}
+
+bool embedded_node::stop(std::chrono::milliseconds limit) {
+  return impl_->stop(limit);
+}
+
+bool embedded_node::has_ended() const {
+  return impl_->has_ended();
+}
+
+} // namespace roscell

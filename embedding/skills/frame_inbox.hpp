@@ -1,0 +1,58 @@
+#pragma once
+
+#include "roscell/actor_skill.hpp"
+#include "roscell/skill/handlers.hpp"
+
+#include <condition_variable>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+namespace roscell::embedding {
+
+using shared_frame = std::shared_ptr<const engine::frame>;
+
+/// What waits for one instance: a bounded lane for each input, which take
+/// turns. Frames come from any thread; the instance's keeper takes them out.
+class frame_inbox {
+public:
+  /// `wake` is called, from the thread of a push, when a frame has come after
+  /// `pop` had found nothing.
+  frame_inbox(std::size_t ports, std::size_t most_frames,
+              std::function<void()> wake);
+
+  /// Where there is no room the oldest frame of the port is dropped, or the
+  /// caller waits. False once the inbox is closed.
+  bool push(std::size_t port, shared_frame x, engine::when_full policy);
+
+  /// The next frame, or nothing; then the next push wakes.
+  std::optional<skill_frame> pop();
+
+  /// Lets nothing in or out any more.
+  void close();
+
+  std::uint64_t dropped() const;
+
+private:
+  struct lane {
+    std::deque<skill_frame> frames;
+    std::uint64_t next_sequence = 0;
+  };
+
+  const std::size_t most_frames_;
+  const std::function<void()> wake_;
+  mutable std::mutex mutex_; // Guards what follows.
+  std::condition_variable room_;
+  std::vector<lane> lanes_;
+  std::size_t turn_ = 0;
+  std::uint64_t dropped_ = 0;
+  bool idle_ = true;
+  bool closed_ = false;
+};
+
+} // namespace roscell::embedding

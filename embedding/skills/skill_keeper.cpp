@@ -1,0 +1,190 @@
+#include "embedding/skills/skill_keeper.hpp"
+
+#include "actors/house/limits.hpp"
+#include "roscell/skill/errors.hpp"
+
+#include <caf/exit_reason.hpp>
+#include <caf/sec.hpp>
+#include <caf/send.hpp>
+
+#include <exception>
+#include <utility>
+
+namespace roscell::embedding {
+
+namespace {
+
+using self_pointer = skill_keeper_actor::stateful_pointer<skill_keeper_state>;
+
+/// As the shim's of a program that an exception has ended.
+constexpr int failed_code = 134;
+constexpr int cannot_start_code = 2;
+
+void end_keeper(self_pointer self, int exit_code) {
+  auto& st = self->state;
+  st.config.side->close();
+  st.config.reports.ended(exit_code);
+  self->quit();
+}
+
+/// Makes the instance's actor; what it throws, now or later, ends that actor
+/// alone.
+void make_skill(self_pointer self) {
+  auto& st = self->state;
+  auto init = [make = st.config.make,
+               side = st.config.side](actor_skill_instance::pointer skill) {
+    skill->set_exception_handler([side](std::exception_ptr& why) -> caf::error {
+      try {
+        std::rethrow_exception(why);
+      } catch (...) {
+        side->log("it has thrown: " + engine::current_error());
+      }
+      return caf::sec::runtime_error;
+    });
+    return make(skill, actor_skill_context{side});
+  };
+  st.skill = self->spawn(std::move(init));
+  self->monitor(st.skill);
+}
+
+void begin(self_pointer self) {
+  auto& st = self->state;
+  try {
+    st.config.side->open();
+  } catch (...) {
+    st.config.side->log("cannot start: " + engine::current_error());
+    return end_keeper(self, cannot_start_code);
+  }
+  make_skill(self);
+}
+
+std::string status_of(const skill_keeper_state& st) {
+  const auto us = [&](double q) {
+    using namespace std::chrono;
+    return std::to_string(
+        duration_cast<microseconds>(st.times->quantile(q)).count());
+  };
+  return "frames=" + std::to_string(st.times->count())
+         + " dropped=" + std::to_string(st.config.side->inbox().dropped())
+         + " failed=" + std::to_string(st.failed) + " median_us=" + us(0.5)
+         + " p99_us=" + us(0.99);
+}
+
+void expect_life(self_pointer self) {
+  self->state.timer.set(self, self->clock().now()
+                                  + limits::instance::told_watchdog / 2);
+}
+
+void ask_life(self_pointer self) {
+  auto& st = self->state;
+  if (!st.skill || st.ending)
+    return;
+  self->request(st.skill, limits::instance::watchdog, check_life{})
+      .then(
+          [self] {
+            instance_notified fact;
+            fact.instance = self->state.config.instance;
+            fact.alive = true;
+            fact.status = status_of(self->state);
+            self->state.config.reports.notified(fact);
+            expect_life(self);
+          },
+          // The node hears nothing, and judges.
+          [self](const caf::error&) { expect_life(self); });
+}
+
+void pass_on(self_pointer self);
+
+void on_handled(self_pointer self) {
+  auto& st = self->state;
+  st.times->add(std::chrono::steady_clock::now() - st.frame_begun);
+  st.busy = false;
+  pass_on(self);
+}
+
+/// One frame at a time, so that what waits is dropped where it is bounded.
+void pass_on(self_pointer self) {
+  auto& st = self->state;
+  if (st.busy || st.ending || !st.skill)
+    return;
+  auto next = st.config.side->inbox().pop();
+  if (!next)
+    return;
+  st.busy = true;
+  st.frame_begun = std::chrono::steady_clock::now();
+  self->request(st.skill, limits::instance::watchdog, std::move(*next))
+      .then([self] { on_handled(self); },
+            [self](const caf::error&) {
+              ++self->state.failed;
+              on_handled(self);
+            });
+}
+
+void on_ready(self_pointer self) {
+  auto& st = self->state;
+  if (!st.skill || st.ending)
+    return;
+  instance_notified fact;
+  fact.instance = st.config.instance;
+  fact.ready = true;
+  st.config.reports.notified(fact);
+  st.config.side->start_inputs();
+  expect_life(self);
+  pass_on(self);
+}
+
+void end(self_pointer self, std::chrono::milliseconds grace) {
+  auto& st = self->state;
+  if (!st.skill)
+    return end_keeper(self, 0);
+  if (std::exchange(st.ending, true))
+    return;
+  const auto force = [self](const caf::error&) {
+    self->send_exit(self->state.skill, caf::exit_reason::kill);
+  };
+  if (grace.count() == 0)
+    return force({});
+  self->request(st.skill, grace, stop_skill{})
+      .then(
+          [self] {
+            self->send_exit(self->state.skill, caf::exit_reason::user_shutdown);
+          },
+          force);
+}
+
+void on_down(self_pointer self, const caf::down_msg& down) {
+  auto& st = self->state;
+  st.skill = nullptr;
+  const bool in_order = st.ending || !down.reason
+                        || down.reason == caf::exit_reason::user_shutdown;
+  end_keeper(self, in_order ? 0 : failed_code);
+}
+
+} // namespace
+
+skill_keeper_actor::behavior_type
+skill_keeper(self_pointer self, const skill_keeper_config& config) {
+  self->state.config = config;
+  self->state.times = std::make_unique<engine::processing_times>();
+  self->set_down_handler(
+      [self](const caf::down_msg& down) { on_down(self, down); });
+  return {
+      [self](const state_query&) {
+        return state_of({{"instance", self->state.config.instance},
+                         {"busy", self->state.busy},
+                         {"ending", self->state.ending}});
+      },
+      [self](const begin_skill&) { begin(self); },
+      [self](const skill_ready&) { on_ready(self); },
+      [self](const frames_waiting&) { pass_on(self); },
+      [self](const end_skill& x) {
+        end(self, std::chrono::milliseconds{x.grace_ms});
+      },
+      [self](caf::tick_atom, uint64_t number) {
+        if (self->state.timer.rings(number))
+          ask_life(self);
+      },
+  };
+}
+
+} // namespace roscell::embedding

@@ -1,0 +1,52 @@
+#pragma once
+
+#include "actors/house/alarm.hpp"
+#include "actors/house/house.hpp"
+#include "embedding/skills/messages.hpp"
+#include "embedding/skills/skill_side.hpp"
+#include "skills/engine/life/processing_times.hpp"
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+
+namespace roscell::embedding {
+
+/// What the keeper tells the runtime of its instance; each may be called from
+/// any thread.
+struct keeper_reports {
+  std::function<void(const instance_notified&)> notified;
+  std::function<void(int exit_code)> ended;
+};
+
+struct skill_keeper_config {
+  std::string instance;
+  std::shared_ptr<actor_skill_context::impl> side;
+  actor_skill_factory make;
+  keeper_reports reports;
+};
+
+/// Owns one instance: its actor and its streams. Lives on the workers of actor
+/// skills.
+struct skill_keeper_state {
+  static constexpr const char* name = "skill-keeper";
+
+  skill_keeper_config config;
+  actor_skill_instance skill; ///< Null before it is made and when it has ended.
+  bool busy = false;          ///< A frame is being handled.
+  bool ending = false;
+  uint64_t failed = 0;
+  std::unique_ptr<engine::processing_times> times;
+  std::chrono::steady_clock::time_point frame_begun;
+  alarm timer;
+};
+
+/// The KEEPER. Gives the instance one frame at a time, asks it for signs of
+/// life, and ends it. Ends with it.
+skill_keeper_actor::behavior_type
+skill_keeper(skill_keeper_actor::stateful_pointer<skill_keeper_state> self,
+             const skill_keeper_config& config);
+
+} // namespace roscell::embedding

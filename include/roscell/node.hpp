@@ -1,0 +1,126 @@
+#pragma once
+
+#include "roscell/actor_skill.hpp"
+#include "roscell/node_actors.hpp"
+#include "roscell/node_config.hpp"
+
+#include <chrono>
+#include <cstddef>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace caf {
+class actor_system;
+class actor_system_config;
+} // namespace caf
+
+namespace roscell {
+
+/// The threads of an embedded node, and where they may run. All of them, those
+/// of DDS and the disk too, get `cpus` and `nice`, the ordinary scheduling
+/// policy whatever the calling thread has, and take no signals.
+struct node_threads {
+  /// Of the node's actors. Some of its actors have a thread of their own, which
+  /// waits; docs/embedding.md counts them.
+  std::size_t workers = 1;
+  std::size_t skill_workers = 1; ///< Of actor skills; unused without any.
+  /// Cores, counted from 0; empty: those of the calling thread.
+  std::vector<unsigned> cpus;
+  int nice = 0; ///< 0 to 19; what the calling thread has, if that is more.
+};
+
+/// What an embedded node is made of.
+struct node_setup {
+  node_config node;
+  node_threads threads;
+  std::vector<actor_skill> skills;
+};
+
+/// A node cannot start. `code` is a word of docs/protocols.md: "conflict" (a
+/// port or the data directory is in use), "unreachable", "unauthorized",
+/// "schema_violation" (a bad option or descriptor, named), "engine_failed" (no
+/// program can be run), "internal" (the actor system does not know our
+/// messages).
+class node_error : public std::runtime_error {
+public:
+  node_error(std::string code, const std::string& message, std::string hint);
+
+  const std::string& code() const noexcept {
+    return code_;
+  }
+
+  /// What to do about it, or empty.
+  const std::string& hint() const noexcept {
+    return hint_;
+  }
+
+private:
+  std::string code_;
+  std::string hint_;
+};
+
+/// What is known of a node that has started; never changes.
+struct node_facts {
+  std::string name;
+  std::string http_address;     ///< "ip:port" that was really bound.
+  std::string socket;           ///< Path of the Unix socket.
+  std::string discovery_server; ///< "ip:port"; coordinators only.
+  std::string token_file;       ///< Bearer token for HTTP over TCP.
+  std::string runtime;          ///< "process", "docker" or "podman".
+};
+
+/// Makes the messages of a node known to an actor system; to be called before
+/// the system is made. Only for a system that a node is to live in.
+void add_message_types(caf::actor_system_config& config);
+
+/// A node inside this program, like the one that `roscell node` runs. Any
+/// number of them may live in one program, each with a data directory of its
+/// own. It changes nothing of the process: no signal handler, environment,
+/// locale, limit or setting of a library; it throws from its constructor only
+/// and never ends the process.
+///
+/// Where the process's environment would mislead DDS the node refuses to start:
+/// ROS_DISCOVERY_SERVER, FASTDDS_ENVIRONMENT_FILE or
+/// FASTRTPS_DEFAULT_PROFILES_FILE is set, or DEFAULT_FASTRTPS_PROFILES.xml lies
+/// in the working directory and SKIP_DEFAULT_XML is not 1.
+///
+/// The functions may be called from any thread but those of its own actors.
+class embedded_node {
+public:
+  /// Starts it in an actor system of its own. Blocks until its ports are open:
+  /// some 0.1 s. Throws node_error.
+  explicit embedded_node(const node_setup& setup);
+
+  /// The same in `system`, which outlives it and knows our messages (see
+  /// `add_message_types`); `workers` is then the system's affair. Actor skills
+  /// have workers of their own here, too.
+  embedded_node(caf::actor_system& system, const node_setup& setup);
+
+  /// Stops it. Waits for what still runs as long as it takes.
+  ~embedded_node();
+
+  embedded_node(const embedded_node&) = delete;
+  embedded_node& operator=(const embedded_node&) = delete;
+
+  const node_facts& facts() const noexcept;
+
+  /// For actors that ask the node by messages, of any actor system.
+  node_door_actor door() const;
+
+  /// Stops it in order: actor skills get into their safe state and end;
+  /// instances that are programs go on, and the next node on the same data
+  /// directory finds them. Waits at most `limit` for the end. Returns whether
+  /// it has ended. May be called again.
+  bool stop(std::chrono::milliseconds limit = std::chrono::seconds{10});
+
+  /// Whether the node has ended, by `stop` or because a part of it has failed.
+  bool has_ended() const;
+
+private:
+  class impl;
+  std::unique_ptr<impl> impl_;
+};
+
+} // namespace roscell
