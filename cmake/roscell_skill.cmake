@@ -49,7 +49,7 @@ function(roscell_skill name)
   roscell_install_skill(${name} ${descriptor} "${skill_COMPONENT}")
 endfunction()
 
-# INTERNAL to this file.
+# INTERNAL to this file. What was not built is left out.
 function(roscell_install_skill name descriptor component)
   if(component STREQUAL "")
     set(component skills)
@@ -57,9 +57,9 @@ function(roscell_install_skill name descriptor component)
   set(folder ${CMAKE_BINARY_DIR}/skills/${name})
   set(place lib/roscell/skills/${name})
   install(TARGETS ${name}_skill
-    RUNTIME DESTINATION ${place}/bin COMPONENT ${component})
+    RUNTIME DESTINATION ${place}/bin COMPONENT ${component} OPTIONAL)
   install(FILES ${folder}/${descriptor} ${folder}/skill.version
-    DESTINATION ${place} COMPONENT ${component})
+    DESTINATION ${place} COMPONENT ${component} OPTIONAL)
 endfunction()
 
 # Structs of ROS 2 messages, made from their definitions, in a target that is
