@@ -41,6 +41,10 @@ if(ROSCELL_TIDY)
   set(CMAKE_CXX_CLANG_TIDY ${CLANG_TIDY} --quiet)
 endif()
 
+# Where programs are installed that nobody types, and skills. The node looks there
+# from its own place (actors/edge/host/installed_files.hpp).
+set(ROSCELL_PRIVATE_FOLDER lib/roscell)
+
 # roscell_unity(target): compiles the sources of each folder together, a few at
 # a time, so that a template over messages is instantiated once for all of them.
 # A small batch keeps the wait after a change of one file short.

@@ -19,7 +19,7 @@
 #   --help             this text
 #
 # Every other option is one of `roscell node`; --runtime is not, since skills of
-# such a node always run in containers beside it.
+# such a node always run in containers beside it, nor is --config.
 set -euo pipefail
 tree=$(realpath "$(dirname "${BASH_SOURCE[0]}")/..")
 ready_s=${ROSCELL_DEADLINE_S:-60}
@@ -53,6 +53,8 @@ take_node_option() {
     --runtime) usage "no --runtime: a node in a container runs skills in" \
       "containers beside it; --engine chooses where. For processes install" \
       "the node on the host: docs/service.md" ;;
+    --config) usage "no --config: the node's container would not see what the" \
+      "file names; give its lines as options" ;;
     --data-dir) data_dir=$(absolute "$value"); return ;;
     --interface) interface=$value ;;
     --skills | --site-token) value=$(absolute "$value") mounts+=("$value:ro") ;;
@@ -69,7 +71,7 @@ while [[ $# -gt 0 ]]; do
   option=$1
   case $option in
     --runtime | --data-dir | --interface | --skills | --site-token | --socket | \
-      --engine | --container | --share | --base | --binary)
+      --config | --engine | --container | --share | --base | --binary)
       [[ $# -gt 1 ]] || usage "$option wants a value" ;;
   esac
   case $option in
@@ -83,7 +85,8 @@ while [[ $# -gt 0 ]]; do
     --share) shares+=("$(absolute "$2")"); shift ;;
     --base) base=$2; shift ;;
     --binary) binary=$2; shift ;;
-    --runtime | --data-dir | --interface | --skills | --site-token | --socket)
+    --runtime | --data-dir | --interface | --skills | --site-token | --socket | \
+      --config)
       take_node_option "$option" "$2"; shift ;;
     *) node_options+=("$option") ;;
   esac
@@ -208,7 +211,7 @@ run_options=(--name "$container" --network host --ipc host --pid host
   --volume /dev:/dev --volume "$socket:$socket" "${volumes[@]}"
   --env "ROSCELL_TO=$data_dir/node.sock")
 node_command=(node --data-dir "$data_dir" --runtime "$program:$socket"
-  --skills /usr/local/lib/roscell/skills "${node_options[@]}")
+  "${node_options[@]}")
 
 end_node
 if ! $detach; then

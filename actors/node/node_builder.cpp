@@ -1,6 +1,7 @@
 #include "actors/node/node_builder.hpp"
 
 #include "actors/cell/cell_coordinator.hpp"
+#include "actors/edge/host/installed_files.hpp"
 #include "actors/edge/host/interfaces.hpp"
 #include "actors/edge/io/socket_address.hpp"
 #include "actors/house/edge_failure.hpp"
@@ -319,10 +320,11 @@ private:
 caf::expected<shared_skill_catalogue>
 collect_skills(const node_config& config, const node_additions& additions) {
   auto dirs = config.skill_dirs;
-  // The default place need not be there; one that was named must be.
-  const auto own = config.data_dir / "skills";
-  if (std::filesystem::is_directory(own))
-    dirs.push_back(own);
+  // The usual places need not be there; those that were named must be.
+  for (auto& usual :
+       {installed_skills(program_folder()), config.data_dir / "skills"})
+    if (is_directory(usual) && !names_folder(dirs, usual))
+      dirs.push_back(usual);
   auto result = std::make_shared<skill_catalogue>(skill_catalogue::scan(dirs));
   for (const auto& text : additions.actor_skills)
     if (const auto errors = result->add_actor_skill(text); !errors.empty())

@@ -1,6 +1,7 @@
 #include "actors/node/node_runtime.hpp"
 
 #include "actors/edge/engine/engine_search.hpp"
+#include "actors/edge/host/installed_files.hpp"
 #include "actors/house/edge_failure.hpp"
 #include "actors/instances/engine/engine_runtime.hpp"
 #include "actors/instances/process/process_runtime.hpp"
@@ -19,25 +20,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* shim_name = "roscell-instance-shim";
-
-/// The shim beside this program, as it is built and as it is installed.
-fs::path find_shim() {
-  std::error_code problem;
-  const auto program = fs::read_symlink("/proc/self/exe", problem);
-  return program.parent_path() / shim_name;
-}
-
 caf::expected<chosen_runtime> choose_processes(const node_config& config,
                                                std::string why) {
   chosen_runtime result;
   result.name = "process";
   result.reason = std::move(why);
-  result.shim = config.shim.empty() ? find_shim() : config.shim;
+  result.shim = config.shim.empty() ? find_shim(program_folder()) : config.shim;
   if (::access(result.shim.c_str(), X_OK) != 0)
-    return fail(error_code::engine_failed,
-                "cannot run the instance shim '" + result.shim.string() + "'",
-                "", "install roscell-instance-shim beside roscell");
+    return fail(
+        error_code::engine_failed,
+        "cannot run the instance shim '" + result.shim.string() + "'", "",
+        "install roscell-instance-shim beside roscell, or in ../lib/roscell");
   return result;
 }
 

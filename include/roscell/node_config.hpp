@@ -33,9 +33,9 @@ struct node_config {
   /// Begin anew where a node has been before: what it knew is put aside.
   bool new_identity = false;
   std::filesystem::path socket; ///< Unix socket; empty: data_dir/node.sock.
-  std::vector<std::filesystem::path> skill_dirs;
+  std::vector<std::filesystem::path> skill_dirs; ///< Besides the usual ones.
   std::filesystem::path site_token_file; ///< Empty: loopback sessions only.
-  std::filesystem::path shim; ///< roscell-instance-shim; empty: beside us.
+  std::filesystem::path shim; ///< roscell-instance-shim; empty: as installed.
   std::string capacity;       ///< "cpu=2,memory_mib=2048"; empty: all.
   /// Part of its cores on which the node counts however busy other programs
   /// keep them; 0: none.
