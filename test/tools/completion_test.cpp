@@ -91,13 +91,14 @@ TEST_CASE("completion offers every command", "[tools]") {
          "graph env echo hz bw events logs completion help version --version "
          "--help\n");
   CHECK(offered("roscell no") == "node nodes\n");
-  CHECK(offered("roscell new ''") == "task\n");
+  CHECK(offered("roscell new ''") == "task config\n");
   CHECK(offered("roscell skills s") == "show\n");
 }
 
 TEST_CASE("completion offers a command's options", "[tools]") {
   CHECK(offered("roscell status --a") == "--actors\n");
   CHECK(offered("roscell node --da") == "--data-dir\n");
+  CHECK(offered("roscell node --conf") == "--config\n");
 }
 
 TEST_CASE("completion offers the values of an option", "[tools]") {
@@ -107,6 +108,7 @@ TEST_CASE("completion offers the values of an option", "[tools]") {
   CHECK(offered("roscell node --interface l") == "lo\n");
   CHECK(offered("roscell completion ''") == "bash zsh fish\n");
   CHECK(offered("roscell help rel") == "release\n");
+  CHECK(offered("roscell help --man-pages /us") == "/usr\n");
   CHECK(offered("roscell form --instances t") == "terminate\n");
 }
 

@@ -28,8 +28,11 @@ void add_task_commands(CLI::App& app, action& chosen);
 
 void add_check_command(CLI::App& app, action& chosen);
 
-/// new task.
+/// new task, new config.
 void add_new_command(CLI::App& app, action& chosen);
+
+/// `config`, below `new`.
+void add_new_config_command(CLI::App& app, CLI::App& parent, action& chosen);
 
 /// `show`, below `skills`.
 void add_skill_show_command(CLI::App& skills, action& chosen);

@@ -1,6 +1,7 @@
 #include "tools/roscell/client/read_file.hpp"
 
 #include "tools/roscell/exit_code.hpp"
+#include "tools/roscell/view/format.hpp"
 #include "tools/roscell/view/terminal.hpp"
 
 #include <fcntl.h>
@@ -14,10 +15,7 @@ namespace roscell::cli {
 
 namespace {
 
-/// A node takes far less; larger ones are refused there with a better error.
-constexpr size_t max_bytes = 256UL * 1024 * 1024;
-
-std::string read_all(int fd, const std::string& name) {
+std::string read_all(int fd, const std::string& name, size_t max_bytes) {
   std::string text;
   std::array<char, 65536> buffer{};
   while (true) {
@@ -31,7 +29,8 @@ std::string read_all(int fd, const std::string& name) {
                           "cannot read " + name + ": " + std::strerror(errno)};
     text.append(buffer.data(), static_cast<size_t>(n));
     if (text.size() > max_bytes)
-      throw command_error{exit_usage, name + " is larger than 256 MiB"};
+      throw command_error{exit_usage, name + " is larger than "
+                                          + format_bytes(double(max_bytes))};
   }
 }
 
@@ -50,17 +49,17 @@ struct open_file {
 
 } // namespace
 
-std::string read_file(const std::string& name) {
+std::string read_file(const std::string& name, size_t max_bytes) {
   if (name == "-") {
     if (isatty(STDIN_FILENO) == 1)
       print_note("reading the request from the terminal; Ctrl-D ends it");
-    return read_all(STDIN_FILENO, "standard input");
+    return read_all(STDIN_FILENO, "standard input", max_bytes);
   }
   const open_file file{name};
   if (file.fd < 0)
     throw command_error{exit_usage,
                         "cannot read " + name + ": " + std::strerror(errno)};
-  return read_all(file.fd, name);
+  return read_all(file.fd, name, max_bytes);
 }
 
 } // namespace roscell::cli

@@ -1,8 +1,10 @@
 #include "tools/roscell/commands.hpp"
+#include "tools/roscell/daemon/config_file.hpp"
 #include "tools/roscell/daemon/node_options.hpp"
 
 #include <CLI/CLI.hpp>
 
+#include <filesystem>
 #include <memory>
 
 namespace roscell::cli {
@@ -17,7 +19,8 @@ Examples:
   roscell node --coordinator --interface eth0 --site-token /etc/roscell/site.token
   roscell node --interface eth0 --join 192.168.1.10 \
       --site-token /etc/roscell/site.token --label room=lab
-  roscell node --coordinator --interface lo --data-dir /tmp/n1 --runtime process)";
+  roscell node --coordinator --interface lo --data-dir /tmp/n1 --runtime process
+  roscell node --config /etc/roscell/node.conf)";
 
 void add_identity(CLI::App& command, node_options& options) {
   auto& config = options.config;
@@ -110,9 +113,10 @@ void add_resources(CLI::App& command, node_options& options) {
       ->check(names_a_runtime)
       ->option_text("auto|process|docker[:SOCKET]|podman[:SOCKET] [auto]");
   command
-      .add_option("--skills", options.skill_dirs,
-                  "Directory of skill folders, besides DATA_DIR/skills; can be "
-                  "repeated")
+      .add_option(
+          "--skills", options.skill_dirs,
+          "Directory of skill folders, besides those that are installed "
+          "and DATA_DIR/skills; can be repeated")
       ->option_text("DIR")
       ->allow_extra_args(false);
   command
@@ -167,6 +171,7 @@ void add_files(CLI::App& command, node_options& options) {
 
 void add_node_command(CLI::App& app, action& chosen) {
   auto options = std::make_shared<node_options>();
+  auto file = std::make_shared<std::filesystem::path>();
   auto* command = app.add_subcommand(
       "node", "Run a node on this machine, until Ctrl-C or SIGTERM.");
   command->footer(footer);
@@ -174,8 +179,17 @@ void add_node_command(CLI::App& app, action& chosen) {
   add_network(*command, *options);
   add_resources(*command, *options);
   add_files(*command, *options);
-  command->callback([&chosen, options] {
-    chosen = [options] { return run_node(*options); };
+  command
+      ->add_option("--config", *file,
+                   "File of lines `OPTION = VALUE`; what the command line says "
+                   "comes first. `roscell new config` prints one to begin with")
+      ->option_text("FILE");
+  command->callback([&chosen, command, options, file] {
+    chosen = [command, options, file] {
+      if (!file->empty())
+        take_config(*command, *file);
+      return run_node(*options);
+    };
   });
 }
 

@@ -88,6 +88,7 @@ void add_new_command(CLI::App& app, action& chosen) {
   command->callback([&chosen, options] {
     chosen = [options] { return print_skeleton(*options); };
   });
+  add_new_config_command(app, *what, chosen);
 }
 
 } // namespace roscell::cli
