@@ -1,10 +1,13 @@
 #include "tools/roscell/commands.hpp"
+#include "tools/roscell/commands/manual.hpp"
 #include "tools/roscell/exit_code.hpp"
 #include "tools/roscell/usage_error.hpp"
 #include "tools/roscell/view/terminal.hpp"
 
 #include <CLI/CLI.hpp>
 
+#include <filesystem>
+#include <fstream>
 #include <memory>
 #include <string>
 
@@ -31,16 +34,38 @@ int show_help(const CLI::App& app, const std::string& name) {
   return exit_done;
 }
 
+void write_page(const std::filesystem::path& file, const std::string& page) {
+  std::ofstream out{file};
+  out << page;
+  if (!out.flush())
+    throw command_error{exit_usage, "cannot write " + file.string()};
+}
+
+int write_manual(const CLI::App& app, const std::filesystem::path& folder) {
+  write_page(folder / "roscell.1", program_page(app));
+  for (const auto* command : app.get_subcommands({}))
+    write_page(folder / ("roscell-" + command->get_name() + ".1"),
+               command_page(app, *command));
+  return exit_done;
+}
+
 } // namespace
 
 void add_help_commands(CLI::App& app, action& chosen) {
   auto name = std::make_shared<std::string>();
+  auto folder = std::make_shared<std::filesystem::path>();
   auto* help = app.add_subcommand("help", "Explain a command.");
   help->footer("Examples:\n  roscell help\n  roscell help node");
   help->add_option("COMMAND", *name, "The command; none: all of them")
       ->option_text(" ");
-  help->callback([&app, &chosen, name] {
-    chosen = [&app, name] { return show_help(app, *name); };
+  help->add_option("--man-pages", *folder,
+                   "Write the manual pages of all commands to this folder")
+      ->option_text("DIR");
+  help->callback([&app, &chosen, name, folder] {
+    chosen = [&app, name, folder] {
+      return folder->empty() ? show_help(app, *name)
+                             : write_manual(app, *folder);
+    };
   });
   auto* version = app.add_subcommand("version", "Print the version.");
   version->callback([&app, &chosen] {
