@@ -69,6 +69,14 @@ skill_catalogue skill_catalogue::scan(const std::vector<fs::path>& dirs,
   return result;
 }
 
+skill_catalogue skill_catalogue::of_folder(const fs::path& folder,
+                                           const std::string& host) {
+  skill_catalogue result;
+  result.host_ = host;
+  result.add_folder(folder);
+  return result;
+}
+
 void skill_catalogue::scan_directory(const fs::path& directory) {
   std::error_code error;
   std::vector<fs::path> folders;
@@ -101,12 +109,16 @@ void skill_catalogue::add_folder(const fs::path& folder) {
   const auto files = descriptor_files(path);
   if (files.size() > 1)
     return blame(path, several_words(files));
-  const auto file = descriptor_of(path);
+  if (files.empty())
+    return blame(path, "holds no skill.json, skill.yaml or skill.yml");
+  const auto& file = files.front();
   auto descriptor = read_descriptor(file);
   if (const auto* errors =
           std::get_if<std::vector<schema_error>>(&descriptor)) {
     for (const auto& x : *errors)
       blame(file, x.expected, x.pointer);
+    if (const auto program = entry_point_in(file); !program.empty())
+      blame_program(path, check_program(path, program, {}, host_));
     return;
   }
   add_build(path, std::get<skill_descriptor>(std::move(descriptor)));
@@ -130,6 +142,13 @@ skill_catalogue::add_actor_skill(const std::string& text) {
   return {};
 }
 
+bool skill_catalogue::blame_program(const fs::path& path,
+                                    const checked_program& program) {
+  for (const auto& why : program.problems)
+    blame(descriptor_of(path), problem_words(why), "/entry_point/0");
+  return !program.problems.empty();
+}
+
 void skill_catalogue::add_build(const fs::path& path,
                                 skill_descriptor descriptor) {
   if (descriptor.engine == actor_engine)
@@ -137,17 +156,21 @@ void skill_catalogue::add_build(const fs::path& path,
                  "a skill of the engine \"actor\" is no folder: the program "
                  "that embeds a node registers it",
                  "/engine");
-  std::string made_for;
+  installed_skill skill;
   // A ROS 2 program is in the base image, or on the host.
   if (descriptor.ros2.empty()) {
-    const auto program = find_program(path, descriptor.entry_point);
-    if (const auto* why = std::get_if<edge_error>(&program))
-      return blame(descriptor_of(path), problem_words(*why), "/entry_point/0");
-    made_for = architecture_of_program(std::get<fs::path>(program));
+    const auto program =
+        check_program(path, descriptor.entry_point, descriptor.models, host_);
+    if (blame_program(path, program))
+      return;
+    if (!program.made_for.empty())
+      skill.architectures = {program.made_for};
   }
-  if (!runs_on(made_for, host_))
-    return blame(path,
-                 "is built for " + made_for + ", and this node is " + host_);
+  skill.descriptor = std::move(descriptor);
+  add_content(path, std::move(skill));
+}
+
+void skill_catalogue::add_content(const fs::path& path, installed_skill skill) {
   // Looked at first: what is edited while it is hashed looks otherwise later.
   const auto look = look_at_folder(path);
   const auto hash = hash_folder(path);
@@ -155,10 +178,8 @@ void skill_catalogue::add_build(const fs::path& path,
        {std::get_if<edge_error>(&look), std::get_if<edge_error>(&hash)})
     if (why != nullptr)
       return blame(path, why->message);
-  installed_skill skill{std::get<std::string>(hash), std::move(descriptor)};
+  skill.hash = std::get<std::string>(hash);
   skill.version = version_of(path, skill);
-  if (!made_for.empty())
-    skill.architectures = {made_for};
   skill.added_unix_ms = std::get<folder_look>(look).changed_unix_ms;
   // Of two equal folders the first is as good as the other.
   skills_.emplace(skill.hash,

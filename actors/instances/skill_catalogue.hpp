@@ -27,14 +27,20 @@ struct skill_folder {
 class skill_catalogue {
 public:
   /// Reads every sub-folder with a descriptor. A bad one is left out, and the
-  /// others stay: one without its program, or with a program for another
-  /// machine than `host`, too. Blocks on the disk: not for a scheduled actor.
+  /// others stay: one whose program is missing, is for another machine than
+  /// `host`, or lacks a library, too. Blocks on the disk: not for a scheduled
+  /// actor.
   static skill_catalogue scan(const std::vector<std::filesystem::path>& dirs,
                               const std::string& host = own_architecture());
 
   /// Adds a skill whose instances are actors of this process, by the text of
   /// its descriptor. What is wrong with it, or nothing.
   std::vector<schema_error> add_actor_skill(const std::string& descriptor);
+
+  /// The same for one folder, which is said to be no skill if it has no
+  /// descriptor.
+  static skill_catalogue of_folder(const std::filesystem::path& folder,
+                                   const std::string& host);
 
   /// Null if there is none with that hash.
   const skill_folder* find(const std::string& hash) const;
@@ -55,8 +61,11 @@ public:
 private:
   void scan_directory(const std::filesystem::path& directory);
   void add_folder(const std::filesystem::path& folder);
+  bool blame_program(const std::filesystem::path& path,
+                     const checked_program& program);
   void add_build(const std::filesystem::path& path,
                  skill_descriptor descriptor);
+  void add_content(const std::filesystem::path& path, installed_skill skill);
   void blame(const std::filesystem::path& path, const std::string& message,
              std::string where = {});
 

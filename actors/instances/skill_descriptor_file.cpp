@@ -47,6 +47,23 @@ fs::path descriptor_of(const fs::path& folder) {
   return files.empty() ? folder / "skill.json" : files.front();
 }
 
+std::vector<std::string> entry_point_in(const fs::path& file) {
+  const auto text = read_small_file(file, limits::skill::descriptor_bytes);
+  if (!text)
+    return {};
+  const auto parsed = parse_document(*text, format_of(file.native(), *text));
+  const auto* document = std::get_if<json>(&parsed);
+  if (document == nullptr || !document->is_object()
+      || document->contains("ros2") || !document->contains("entry_point"))
+    return {};
+  const json content{{"entry_point", document->at("entry_point")}};
+  for (const auto& x :
+       document_errors("skill_descriptor", content, unknown_members::refused))
+    if (x.pointer.rfind("/entry_point", 0) == 0)
+      return {};
+  return content.at("entry_point").get<std::vector<std::string>>();
+}
+
 std::variant<skill_descriptor, errors> read_descriptor(const fs::path& file) {
   const auto text = read_small_file(file, limits::skill::descriptor_bytes);
   if (!text)

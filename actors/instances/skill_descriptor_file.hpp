@@ -20,6 +20,10 @@ descriptor_files(const std::filesystem::path& folder);
 /// The one that errors name: the first, or `skill.json` if there is none yet.
 std::filesystem::path descriptor_of(const std::filesystem::path& folder);
 
+/// What a descriptor says its program is, whatever else is wrong with it; empty
+/// if it says none, or none that can be looked at.
+std::vector<std::string> entry_point_in(const std::filesystem::path& file);
+
 /// The descriptor in a file, or all that is wrong with it, with line and column
 /// in words.
 std::variant<skill_descriptor, std::vector<schema_error>>

@@ -1,17 +1,20 @@
 #include "actors/instances/skill_program.hpp"
 
+#include "actors/edge/engine/program_libraries.hpp"
 #include "actors/edge/host/host_probe.hpp"
-#include "actors/edge/io/unique_fd.hpp"
+#include "actors/edge/program/elf_facts.hpp"
 #include "actors/instances/skill_descriptor_file.hpp"
 
-#include <elf.h>
-#include <fcntl.h>
 #include <sys/utsname.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <optional>
+#include <set>
 #include <system_error>
+#include <utility>
 
 namespace roscell {
 
@@ -47,27 +50,86 @@ find_program(const fs::path& skill_dir,
   return path;
 }
 
-std::string architecture_of_program(const fs::path& program) {
-  const unique_fd file{
-      ::open(program.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)};
-  // The first fields are the same for 32 and 64 bits.
-  Elf32_Ehdr header{};
-  constexpr ssize_t needed = offsetof(Elf32_Ehdr, e_version);
-  if (!file || ::read(file.get(), &header, needed) != needed
-      || std::memcmp(header.e_ident, ELFMAG, SELFMAG) != 0)
-    return {};
-  switch (header.e_machine) {
-  case EM_X86_64:
-    return "amd64";
-  case EM_AARCH64:
-    return "arm64";
-  case EM_ARM:
-    return "arm";
-  case EM_386:
-    return "386";
-  default:
-    return {};
+namespace {
+
+/// Whether a deployment brings folders of libraries of its own.
+bool has_own_libraries(const std::vector<implementation_model>& models) {
+  for (const auto& model : models)
+    for (const auto& x : model.deployments)
+      if (x.environment.count("LD_LIBRARY_PATH") > 0)
+        return true;
+  return false;
+}
+
+/// The architectures of all deployments; sorted.
+std::set<std::string>
+deployed_on(const std::vector<implementation_model>& models) {
+  std::set<std::string> result;
+  for (const auto& model : models)
+    for (const auto& x : model.deployments)
+      result.insert(x.architectures.begin(), x.architectures.end());
+  return result;
+}
+
+template <class Words>
+std::string in_words(const Words& words) {
+  std::string result;
+  for (const auto& x : words)
+    result += (result.empty() ? "" : ", ") + x;
+  return result;
+}
+
+/// Why the libraries of a program keep it from running, if they do.
+std::optional<edge_error> library_problem(const fs::path& program) {
+  const auto missing = missing_libraries(program);
+  if (const auto* why = std::get_if<edge_error>(&missing)) {
+    // A host that is too busy to say so says nothing about the program.
+    if (why->code == error_code::timeout)
+      return std::nullopt;
+    return failed("the skill's program cannot be loaded:", program,
+                  why->message, "build the skill on this host");
   }
+  const auto& names = std::get<std::vector<std::string>>(missing);
+  if (names.empty())
+    return std::nullopt;
+  return failed("the skill's program lacks shared libraries:", program,
+                "this node does not have " + in_words(names),
+                "install the packages that have them: apt-file search "
+                    + names.front());
+}
+
+} // namespace
+
+checked_program check_program(const fs::path& skill_dir,
+                              const std::vector<std::string>& entry_point,
+                              const std::vector<implementation_model>& models,
+                              const std::string& host) {
+  checked_program result;
+  auto program = find_program(skill_dir, entry_point);
+  if (auto* why = std::get_if<edge_error>(&program)) {
+    result.problems.push_back(std::move(*why));
+    return result;
+  }
+  const auto& path = std::get<fs::path>(program);
+  result.made_for = read_elf(path).value_or(elf_facts{}).architecture;
+  const auto deployed = deployed_on(models);
+  if (!runs_on(result.made_for, host))
+    result.problems.push_back(
+        {error_code::engine_failed,
+         "is built for " + result.made_for + ", and this node is " + host, ""});
+  if (!deployed.empty()
+      && std::none_of(deployed.begin(), deployed.end(), [&](const auto& x) {
+           return runs_on(result.made_for, x);
+         }))
+    result.problems.push_back({error_code::engine_failed,
+                               "is built for " + result.made_for
+                                   + ", and its deployments are for "
+                                   + in_words(deployed),
+                               ""});
+  if (result.problems.empty() && !has_own_libraries(models))
+    if (auto why = library_problem(path))
+      result.problems.push_back(std::move(*why));
+  return result;
 }
 
 bool runs_on(const std::string& architecture, const std::string& host) {

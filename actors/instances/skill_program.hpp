@@ -1,6 +1,7 @@
 #pragma once
 
 #include "actors/edge/io/edge_error.hpp"
+#include "messages/skill_descriptor.hpp"
 
 #include <filesystem>
 #include <string>
@@ -14,9 +15,22 @@ edge_result<std::filesystem::path>
 find_program(const std::filesystem::path& skill_dir,
              const std::vector<std::string>& entry_point);
 
-/// What a compiled program is for, as container images name it; empty for a
-/// script, which runs where its interpreter does, and for unknown machines.
-std::string architecture_of_program(const std::filesystem::path& program);
+/// What is known of a skill's program before it ever runs.
+struct checked_program {
+  /// What it is compiled for, as container images name it; empty for a script,
+  /// which runs where its interpreter does, and for unknown machines.
+  std::string made_for;
+  /// All that keeps it from running on a host.
+  std::vector<edge_error> problems;
+};
+
+/// Looks at the program: whether it can be run, is for `host`, and finds its
+/// libraries; those not if a deployment of `models` says where else they are.
+/// Blocks on the disk, and on the dynamic linker for some milliseconds.
+checked_program check_program(const std::filesystem::path& skill_dir,
+                              const std::vector<std::string>& entry_point,
+                              const std::vector<implementation_model>& models,
+                              const std::string& host);
 
 /// Whether a program for `architecture` runs on a host of another one.
 bool runs_on(const std::string& architecture, const std::string& host);

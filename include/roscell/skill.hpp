@@ -19,4 +19,5 @@
 #include "roscell/skill/registry.hpp"
 #include "roscell/skill/run.hpp"
 #include "roscell/skill/stop_event.hpp"
+#include "roscell/skill/try_out.hpp"
 #include "roscell/skill/typed_ports.hpp"

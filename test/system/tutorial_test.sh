@@ -28,7 +28,7 @@ play() {
     unshare --fork --pid --mount-proc --kill-child \
     bash -c '"$@"; exit $?' reaper \
     "$root/test/system/play_document.py" "$page" \
-    --replace "/tmp/=$scratch/" --replace "/home/you/roscell=$tree" "$@") 2> "$scratch/played" &
+    --replace "/tmp/=$scratch/" --replace "/home/you/roscell=${tree:-}" "$@") 2> "$scratch/played" &
   played=$!
   echo "$played" >> "$scratch/pids"
   wait "$played" || fail "$(cat "$scratch/played")"
@@ -51,4 +51,14 @@ test_a_cell_in_five_lines_runs_a_task() {
   ln -s "$skills" "$tree/build/release/skills"
   sed -i "s|/tmp/|$scratch/|g" "$tree/docs/examples/hello.json"
   play README.md --section "A cell in five lines"
+}
+
+test_a_skill_of_your_own_takes_five_commands() {
+  own_network
+  cmake --install "$ROSCELL_BUILD" --component development \
+    --prefix "$scratch/prefix" > /dev/null
+  export CMAKE_PREFIX_PATH=$scratch/prefix PATH=$ROSCELL_BUILD/bin:$PATH
+  play docs/skills.md --section "Five commands" --alike head \
+    --instead "roscell run --to \$PWD/build/cell/node.sock task.yaml=roscell run --to \$PWD/build/cell/node.sock task.yaml 2> $scratch/busy" \
+    --replace "/home/you=$scratch"
 }

@@ -92,7 +92,8 @@ TEST_CASE("completion offers every command", "[tools]") {
          "--help\n");
   CHECK(offered("roscell no") == "node nodes\n");
   CHECK(offered("roscell new ''") == "task config\n");
-  CHECK(offered("roscell skills s") == "show\n");
+  CHECK(offered("roscell skills ''") == "show new check\n");
+  CHECK(offered("roscell skill n") == "new\n");
 }
 
 TEST_CASE("completion offers a command's options", "[tools]") {

@@ -34,8 +34,10 @@ void add_new_command(CLI::App& app, action& chosen);
 /// `config`, below `new`.
 void add_new_config_command(CLI::App& app, CLI::App& parent, action& chosen);
 
-/// `show`, below `skills`.
+/// `show`, `new` and `check`, below `skills`.
 void add_skill_show_command(CLI::App& skills, action& chosen);
+void add_skill_new_command(CLI::App& skills, action& chosen);
+void add_skill_check_command(CLI::App& skills, action& chosen);
 
 /// env.
 void add_env_command(CLI::App& app, action& chosen);

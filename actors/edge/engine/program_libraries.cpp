@@ -1,15 +1,13 @@
 #include "actors/edge/engine/program_libraries.hpp"
 
-#include "actors/edge/io/unique_fd.hpp"
 #include "actors/edge/process/process_spawner.hpp"
+#include "actors/edge/program/elf_facts.hpp"
 #include "actors/house/limits.hpp"
 
-#include <fcntl.h>
 #include <link.h>
 #include <sys/stat.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdlib>
 #include <map>
 #include <system_error>
@@ -42,18 +40,17 @@ fs::path own_linker() {
   return result;
 }
 
-bool is_elf(const fs::path& path) {
-  const unique_fd file{::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)};
-  std::array<char, 4> magic{};
-  return file && ::read(file.get(), magic.data(), magic.size()) == 4
-         && std::string_view{magic.data(), magic.size()} == "\177ELF";
+/// Whether the dynamic linker can be asked what a file loads.
+bool may_load(const fs::path& path) {
+  const auto facts = read_elf(path);
+  return facts && !facts->is_static;
 }
 
 /// Everything in the folder that may load libraries, `program` first.
 std::vector<fs::path> programs_in(const fs::path& folder,
                                   const fs::path& program) {
   std::vector<fs::path> result;
-  if (is_elf(program))
+  if (may_load(program))
     result.push_back(program);
   size_t entries = 0;
   std::error_code error;
@@ -61,7 +58,8 @@ std::vector<fs::path> programs_in(const fs::path& folder,
        !error && i != end && ++entries < max_entries
        && result.size() < max_programs;
        i.increment(error))
-    if (i->is_regular_file(error) && i->path() != program && is_elf(i->path()))
+    if (i->is_regular_file(error) && i->path() != program
+        && may_load(i->path()))
       result.push_back(i->path());
   return result;
 }
@@ -137,32 +135,59 @@ bool is_c_library(std::string_view name) {
 
 namespace {
 
-/// Where this node itself finds libraries beside the system's: in its own image
-/// they lie together.
+/// Makes the dynamic linker list what it would load instead of starting it, and
+/// go on where it finds a library missing, which its option `--list` does not.
+/// It looks where this node itself finds libraries beside the system's: in its
+/// own image they lie together.
 std::map<std::string, std::string> linker_environment() {
-  const auto* folders = std::getenv("LD_LIBRARY_PATH");
-  if (folders == nullptr)
-    return {};
-  return {{"LD_LIBRARY_PATH", folders}};
+  std::map<std::string, std::string> result{{"LD_TRACE_LOADED_OBJECTS", "1"}};
+  if (const auto* folders = std::getenv("LD_LIBRARY_PATH"))
+    result.emplace("LD_LIBRARY_PATH", folders);
+  return result;
+}
+
+/// What the dynamic linker says of a program or library.
+edge_result<std::vector<needed_library>> list_libraries(const fs::path& path) {
+  auto words =
+      run_program({own_linker(), {path.string()}, linker_environment()},
+                  limits::engine::linker, max_listing_bytes);
+  if (auto* error = std::get_if<edge_error>(&words))
+    return std::move(*error);
+  return parse_library_list(std::get<std::string>(words));
 }
 
 } // namespace
 
+edge_result<std::vector<std::string>>
+missing_libraries(const fs::path& program) {
+  const auto own = read_elf(own_linker());
+  const auto facts = read_elf(program);
+  std::vector<std::string> result;
+  // One for another machine that this host emulates has a linker of its own.
+  if (!facts || facts->is_static || !own
+      || facts->architecture != own->architecture)
+    return result;
+  auto list = list_libraries(program);
+  if (auto* error = std::get_if<edge_error>(&list))
+    return std::move(*error);
+  for (auto& x : std::get<std::vector<needed_library>>(list))
+    if (x.path.empty() && !is_c_library(x.name))
+      result.push_back(std::move(x.name));
+  return result;
+}
+
 edge_result<std::vector<shared_library>>
 find_libraries(const fs::path& folder, const fs::path& program) {
   std::map<std::string, shared_library> found;
-  const auto linker = own_linker();
   for (const auto& path : programs_in(folder, program)) {
-    const auto words =
-        run_program({linker, {"--list", path.string()}, linker_environment()},
-                    limits::engine::linker, max_listing_bytes);
-    if (const auto* error = std::get_if<edge_error>(&words)) {
+    const auto list = list_libraries(path);
+    if (const auto* error = std::get_if<edge_error>(&list)) {
       // Other files may be made for other machines.
       if (path != program)
         continue;
       return *error;
     }
-    for (const auto& x : parse_library_list(std::get<std::string>(words))) {
+    for (const auto& x : std::get<std::vector<needed_library>>(list)) {
       if (is_c_library(x.name) || found.count(x.name) > 0)
         continue;
       if (x.path.empty() && path == program)

@@ -18,7 +18,7 @@ struct shared_library {
   int64_t modified_unix_s = 0;
 };
 
-/// One line of what the dynamic linker says with `--list`.
+/// One line of what the dynamic linker says that it would load.
 struct needed_library {
   std::string name;
   std::string path; ///< Empty: it is not found.
@@ -31,6 +31,16 @@ std::vector<needed_library> parse_library_list(std::string_view words);
 /// Whether a library belongs to the C library, which every image must bring
 /// itself: it fits to the image's own dynamic linker only.
 bool is_c_library(std::string_view name);
+
+/// The libraries that a program needs, by itself or for others, and that this
+/// host has not; the C library's are left out, which an image brings. Empty for
+/// a script, and for what another dynamic linker starts. Blocks on the dynamic
+/// linker, some milliseconds.
+///
+/// Errors: engine_failed (it cannot be loaded at all, or nothing could be
+/// started), timeout.
+edge_result<std::vector<std::string>>
+missing_libraries(const std::filesystem::path& program);
 
 /// What the programs and libraries in a skill folder need of this host, in the
 /// order of names: the closure that the dynamic linker finds, without what is

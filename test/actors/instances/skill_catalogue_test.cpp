@@ -105,6 +105,7 @@ TEST_CASE("an error in a descriptor is told with line and column") {
   scratch_folder folder;
   folder.write("bad/skill.yaml",
                "# Its name is missing.\n" + with("\"plain\"", "7"));
+  folder.write("bad/bin/echo", "#!/bin/sh\n", true);
   const auto skills = scan(folder);
   REQUIRE(skills.problems().size() == 1);
   const auto& problem = skills.problems()[0];
@@ -197,6 +198,49 @@ TEST_CASE("a program for another machine is refused, an own one tells for what "
   REQUIRE(there.problems().size() == 1);
   CHECK(there.problems()[0].message
         == "is built for arm64, and this node is amd64");
+}
+
+TEST_CASE("a program that no deployment is for is refused") {
+  scratch_folder folder;
+  folder.write("see/skill.json", with("[\"amd64\", \"arm64\"]", "[\"arm64\"]"));
+  std::string header("\177ELF\2\1\1\0\0\0\0\0\0\0\0\0\2\0", 18);
+  header += std::string("\x3E\0\1\0\0\0", 6);
+  folder.write("see/bin/echo", header, true);
+  const auto skills = skill_catalogue::scan({folder.path()}, "amd64");
+  REQUIRE(skills.problems().size() == 1);
+  CHECK(skills.problems()[0].message
+        == "is built for amd64, and its deployments are for arm64");
+}
+
+TEST_CASE("a program that lacks a library is refused, with its name") {
+  scratch_folder folder;
+  write_echo(folder, "see");
+  fs::copy_file(ROSCELL_LACKING_PROGRAM, folder.path() / "see/bin/echo",
+                fs::copy_options::overwrite_existing);
+  const auto refused = scan(folder);
+  CHECK(refused.skills().empty());
+  REQUIRE(refused.problems().size() == 1);
+  CHECK(refused.problems()[0].where == "/entry_point/0");
+  CHECK(refused.problems()[0].message.find("libgone.so") != std::string::npos);
+  // A deployment may know where it is.
+  folder.write("see/skill.json", with("OF_DEPLOYMENT", "LD_LIBRARY_PATH"));
+  CHECK(scan(folder).skills().size() == 1);
+}
+
+TEST_CASE("of one folder everything that is wrong is told at once") {
+  scratch_folder folder;
+  folder.write("bad/skill.json", with("\"cpu\": 0.1", "\"cpu\": \"much\""));
+  const auto bad =
+      skill_catalogue::of_folder(folder.path() / "bad", own_architecture());
+  REQUIRE(bad.problems().size() == 2);
+  CHECK(bad.problems()[0].where == "/models/0/deployments/0/resources/cpu");
+  CHECK(bad.problems()[1].where == "/entry_point/0");
+  CHECK(bad.problems()[1].message.find("is missing") != std::string::npos);
+  const auto none =
+      skill_catalogue::of_folder(folder.path(), own_architecture());
+  REQUIRE(none.problems().size() == 1);
+  CHECK(none.problems()[0].message
+        == "holds no skill.json, skill.yaml or skill.yml");
 }
 
 TEST_CASE("a version is the author's, else the sources', else the build's") {

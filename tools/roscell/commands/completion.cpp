@@ -74,7 +74,7 @@ std::string command_case(const CLI::App& command) {
     below.push_back(x->get_name());
   if (!below.empty())
     arguments = " 'words " + joined(below, " ") + "'";
-  auto text = "    " + command.get_name() + ")\n";
+  auto text = "    " + joined(names_of(command), "|") + ")\n";
   if (!values.empty())
     text += "      case $prev in\n" + values + "      esac\n";
   if (arguments.empty())
@@ -208,6 +208,13 @@ std::vector<std::string> names_of(const CLI::Option& option) {
     names.push_back("-" + name);
   for (const auto& name : option.get_lnames())
     names.push_back("--" + name);
+  return names;
+}
+
+std::vector<std::string> names_of(const CLI::App& command) {
+  std::vector<std::string> names{command.get_name()};
+  const auto& others = command.get_aliases();
+  names.insert(names.end(), others.begin(), others.end());
   return names;
 }
 

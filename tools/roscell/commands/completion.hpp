@@ -29,4 +29,7 @@ std::string action_of(const CLI::Option& option);
 /// All names of an option, with their dashes; the long one last.
 std::vector<std::string> names_of(const CLI::Option& option);
 
+/// All names of a command, the one that help shows first.
+std::vector<std::string> names_of(const CLI::App& command);
+
 } // namespace roscell::cli

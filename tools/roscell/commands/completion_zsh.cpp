@@ -46,8 +46,8 @@ std::string zsh_case(const CLI::App& command) {
       arguments.push_back(zsh_action(*option));
     else
       options += zsh_options(*option);
-  auto text =
-      "    " + command.get_name() + ")\n      _arguments \\\n" + options;
+  auto text = "    " + joined(names_of(command), "|")
+              + ")\n      _arguments \\\n" + options;
   for (size_t i = 0; i < arguments.size(); ++i)
     text += "        '"
             + (i + 1 < arguments.size() ? std::to_string(i + 1) : "*")

@@ -263,7 +263,10 @@ void add_show_commands(CLI::App& app, action& chosen) {
         chosen = [&what, options] { return show_subject(what, *options); };
     });
   }
-  add_skill_show_command(*app.get_subcommand("skills"), chosen);
+  auto& skills = *app.get_subcommand("skills")->alias("skill");
+  add_skill_show_command(skills, chosen);
+  add_skill_new_command(skills, chosen);
+  add_skill_check_command(skills, chosen);
   add_transfers_command(app, chosen);
 }
 

@@ -94,4 +94,10 @@ std::string marked_errors(const std::string& file, std::string_view text,
   return result;
 }
 
+std::string marked_place(const std::string& file, std::string_view text,
+                         const std::string& pointer) {
+  const auto at = find_place(text, format_of(file, text), pointer);
+  return at ? marked_line(*at) : std::string{};
+}
+
 } // namespace roscell::cli

@@ -19,4 +19,9 @@ namespace roscell::cli {
 std::string marked_errors(const std::string& file, std::string_view text,
                           const json& reply);
 
+/// The line of a document that a JSON pointer leads to, with a mark under the
+/// place. Empty if the text cannot be read.
+std::string marked_place(const std::string& file, std::string_view text,
+                         const std::string& pointer);
+
 } // namespace roscell::cli

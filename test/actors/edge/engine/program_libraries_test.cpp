@@ -79,3 +79,23 @@ TEST_CASE("a damaged program is a clear error, a damaged file beside it none") {
   const auto found = find_libraries(folder.path(), folder.path() / "bin/run");
   CHECK(std::get<std::vector<shared_library>>(found).empty());
 }
+
+TEST_CASE("a program that lacks a library is known without starting it") {
+  const auto missing = missing_libraries(ROSCELL_LACKING_PROGRAM);
+  CHECK(std::get<std::vector<std::string>>(missing)
+        == std::vector<std::string>{"libgone.so"});
+  const auto none = missing_libraries("/proc/self/exe");
+  CHECK(std::get<std::vector<std::string>>(none).empty());
+}
+
+TEST_CASE("a script lacks no library, nor does a program for another machine") {
+  own_folder folder;
+  const auto script = folder.write("run", "#!/bin/sh\n");
+  // The header of a program, up to what says that it is for System/390.
+  const auto foreign =
+      folder.write("foreign", std::string("\177ELF\2\1\1\0\0\0\0\0\0\0\0\0"
+                                          "\2\0\x16\0\1\0\0\0",
+                                          24));
+  for (const auto& path : {script, foreign})
+    CHECK(std::get<std::vector<std::string>>(missing_libraries(path)).empty());
+}

@@ -1,0 +1,4 @@
+// A shared library that no host has.
+int gone() {
+  return 0;
+}

@@ -1,0 +1,6 @@
+// A program that lacks a library.
+int gone();
+
+int main() {
+  return gone();
+}

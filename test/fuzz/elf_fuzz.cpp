@@ -1,0 +1,15 @@
+// Arbitrary bytes as the beginning of a program.
+#include "actors/edge/program/elf_facts.hpp"
+
+#include <cstdint>
+#include <cstdlib>
+
+using namespace roscell;
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* bytes, size_t size) {
+  const std::string_view text{reinterpret_cast<const char*>(bytes), size};
+  const auto facts = parse_elf(text);
+  if (facts && text.substr(0, 4) != "\177ELF")
+    std::abort();
+  return 0;
+}
