@@ -9,8 +9,7 @@ include(GNUInstallDirs)
 # the public headers is seen by who links it.
 function(roscell_public target name)
   set_target_properties(${target} PROPERTIES
-    EXPORT_NAME ${name} OUTPUT_NAME roscell_${name}
-    CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+    EXPORT_NAME ${name} OUTPUT_NAME roscell_${name})
   target_compile_features(${target} PUBLIC cxx_std_17)
   target_include_directories(${target} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>

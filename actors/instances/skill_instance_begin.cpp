@@ -26,11 +26,6 @@ const skill_folder* folder_of(const skill_instance_state& st) {
   return st.config.skills->find(st.row.spec.skill);
 }
 
-bool runs_in_process(const skill_instance_state& st) {
-  const auto* folder = folder_of(st);
-  return folder != nullptr && folder->in_process;
-}
-
 /// What is run, and how.
 struct program_plan {
   std::vector<std::string> command;
@@ -119,15 +114,12 @@ void build(skill_instance_pointer self) {
 } // namespace
 
 /// The intent is on disk before anything is started: a node that is restarted
-/// must know what to look for. An actor ends with the node, so that its intent
-/// may be written later.
+/// must know what to look for.
 void begin_anew(skill_instance_pointer self) {
   enter(self, instance_state::pending);
-  auto record = record_of(self->state.row);
-  record.may_wait = runs_in_process(self->state);
   ask<record_stored>(
-      self, self->state.config.store, limits::instance::disk, record,
-      [=](const record_stored&) { build(self); },
+      self, self->state.config.store, limits::instance::disk,
+      record_of(self->state.row), [=](const record_stored&) { build(self); },
       [=](const caf::error& error) {
         conclude(self, instance_state::failed,
                  "it cannot be recorded: " + sentence(error));

@@ -336,9 +336,7 @@ collect_skills(const node_config& config, const node_additions& additions) {
 
 /// Without its type a message would be dropped in silence.
 bool knows_our_types(const caf::actor_system& system) {
-  return !system.types()
-              .portable_name(caf::type_nr<stop_node>::value, &typeid(stop_node))
-              .empty();
+  return system.config().type_names_by_rtti.count(typeid(stop_node)) != 0;
 }
 
 /// What an operator should know of the data directory.

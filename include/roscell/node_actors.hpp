@@ -1,5 +1,7 @@
 #pragma once
 
+#include "roscell/node_event.hpp"
+
 #include <caf/replies_to.hpp>
 #include <caf/type_id.hpp>
 #include <caf/typed_actor.hpp>
@@ -21,15 +23,6 @@ struct node_request {
 /// The reply document; that of a refusal has the type "error".
 struct node_reply {
   std::string json;
-};
-
-/// A fact of the node, as `roscell events` shows it.
-struct node_event {
-  std::uint64_t sequence = 0; ///< Counts from 1 at every start of the node.
-  std::int64_t time_unix_ms = 0;
-  std::string what;    ///< A past participle, such as "node_joined".
-  std::string subject; ///< A node, task or instance.
-  std::string data;    ///< A JSON object with the particulars, or empty.
 };
 
 using node_event_listener = caf::typed_actor<caf::reacts_to<node_event>>;

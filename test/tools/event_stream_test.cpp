@@ -1,4 +1,4 @@
-#include "tools/roscell/client/event_stream.hpp"
+#include "tools/roscell/client/event_words.hpp"
 
 #include <catch2/catch.hpp>
 

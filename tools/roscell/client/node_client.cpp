@@ -1,6 +1,6 @@
 #include "tools/roscell/client/node_client.hpp"
 
-#include "tools/roscell/client/event_stream.hpp"
+#include "tools/roscell/client/event_words.hpp"
 #include "tools/roscell/exit_code.hpp"
 
 #include <CLI/CLI.hpp>

@@ -1,5 +1,5 @@
 #include "schemas/document.hpp"
-#include "tools/roscell/client/event_stream.hpp"
+#include "tools/roscell/client/event_words.hpp"
 #include "tools/roscell/client/node_client.hpp"
 #include "tools/roscell/client/read_file.hpp"
 #include "tools/roscell/commands.hpp"

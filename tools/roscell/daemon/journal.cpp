@@ -1,7 +1,7 @@
 #include "tools/roscell/daemon/journal.hpp"
 
 #include "messages/messages.hpp"
-#include "tools/roscell/client/event_stream.hpp"
+#include "tools/roscell/client/event_words.hpp"
 #include "tools/roscell/view/format.hpp"
 
 #include <caf/send.hpp>

@@ -1,6 +1,6 @@
 #include "tools/roscell/view/describe/describe_view.hpp"
 
-#include "tools/roscell/client/event_stream.hpp"
+#include "tools/roscell/client/event_words.hpp"
 #include "tools/roscell/view/describe/parts.hpp"
 #include "tools/roscell/view/describe/things.hpp"
 #include "tools/roscell/view/format.hpp"

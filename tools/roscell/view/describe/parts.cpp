@@ -1,7 +1,7 @@
 #include "tools/roscell/view/describe/parts.hpp"
 
 #include "actors/edge/io/time_text.hpp"
-#include "tools/roscell/client/event_stream.hpp"
+#include "tools/roscell/client/event_words.hpp"
 #include "tools/roscell/view/format.hpp"
 #include "tools/roscell/view/graph/task_graph.hpp"
 

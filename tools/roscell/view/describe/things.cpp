@@ -1,6 +1,6 @@
 #include "tools/roscell/view/describe/things.hpp"
 
-#include "tools/roscell/client/event_stream.hpp"
+#include "tools/roscell/client/event_words.hpp"
 #include "tools/roscell/view/describe/parts.hpp"
 #include "tools/roscell/view/format.hpp"
 #include "tools/roscell/view/graph/task_graph.hpp"

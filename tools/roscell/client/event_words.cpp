@@ -1,4 +1,4 @@
-#include "tools/roscell/client/event_stream.hpp"
+#include "tools/roscell/client/event_words.hpp"
 
 #include "actors/edge/io/time_text.hpp"
 #include "tools/roscell/view/format.hpp"
@@ -10,21 +10,7 @@ namespace roscell::cli {
 
 namespace {
 
-/// An event is far smaller; more than this is a peer gone wrong.
-constexpr size_t max_data_bytes = 4UL * 1024 * 1024;
-
 constexpr size_t max_value_width = 60;
-
-std::optional<event> decode(const std::string& text) {
-  const auto document = json::parse(text, nullptr, false);
-  if (!document.is_object())
-    return std::nullopt;
-  try {
-    return document.get<event>();
-  } catch (const json::exception&) {
-    return std::nullopt;
-  }
-}
 
 /// The particulars of an event; an empty object if there are none.
 json particulars(const event& e) {
@@ -117,25 +103,6 @@ std::string particular(const std::string& key, const json& value) {
 }
 
 } // namespace
-
-std::optional<event> event_stream::add_line(std::string_view line) {
-  if (!line.empty() && line.back() == '\r')
-    line.remove_suffix(1);
-  if (line.empty()) {
-    auto complete = decode(data_);
-    data_.clear();
-    return complete;
-  }
-  constexpr std::string_view field = "data:";
-  if (line.substr(0, field.size()) != field)
-    return std::nullopt;
-  line.remove_prefix(field.size());
-  if (!line.empty() && line.front() == ' ')
-    line.remove_prefix(1);
-  if (data_.size() + line.size() < max_data_bytes)
-    data_.append(line).append("\n");
-  return std::nullopt;
-}
 
 namespace {
 

@@ -1,25 +1,11 @@
 #pragma once
 
-#include "messages/event.hpp"
+#include "client/event_stream.hpp"
 
-#include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace roscell::cli {
-
-/// Puts the lines of a text/event-stream together to events. Unknown fields,
-/// comments, and data that is no event are skipped, so that a newer node can
-/// say more than this program knows.
-class event_stream {
-public:
-  /// Takes one line without its end. Returns the event that it completes.
-  std::optional<event> add_line(std::string_view line);
-
-private:
-  std::string data_;
-};
 
 /// One line for people: time, number, fact, subject and the particulars. Of an
 /// instance the subject is its task. No line end.
