@@ -13,8 +13,9 @@ function(roscell_skill name)
   cmake_parse_arguments(skill "" "COMPONENT" "SOURCES;LIBRARIES" ${ARGN})
   set(folder ${CMAKE_BINARY_DIR}/skills/${name})
   add_executable(${name}_skill ${skill_SOURCES})
+  # An expression, so that no generator adds a folder for the configuration.
   set_target_properties(${name}_skill PROPERTIES
-    OUTPUT_NAME ${name} RUNTIME_OUTPUT_DIRECTORY ${folder}/bin)
+    OUTPUT_NAME ${name} RUNTIME_OUTPUT_DIRECTORY ${folder}/bin$<0:>)
   target_link_libraries(${name}_skill PRIVATE roscell::skill ${skill_LIBRARIES})
   file(GLOB descriptor CONFIGURE_DEPENDS
        RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} skill.json skill.yaml skill.yml)

@@ -61,7 +61,7 @@ std::string version_of(const fs::path& folder, const installed_skill& skill) {
 } // namespace
 
 skill_catalogue skill_catalogue::scan(const std::vector<fs::path>& dirs,
-                                      const std::string& host) {
+                                      const skill_host& host) {
   skill_catalogue result;
   result.host_ = host;
   for (const auto& x : dirs)
@@ -70,7 +70,7 @@ skill_catalogue skill_catalogue::scan(const std::vector<fs::path>& dirs,
 }
 
 skill_catalogue skill_catalogue::of_folder(const fs::path& folder,
-                                           const std::string& host) {
+                                           const skill_host& host) {
   skill_catalogue result;
   result.host_ = host;
   result.add_folder(folder);
@@ -137,7 +137,7 @@ skill_catalogue::add_actor_skill(const std::string& text) {
                         std::move(descriptor)};
   if (skill.version.empty())
     skill.version = skill.hash;
-  skill.architectures = {host_};
+  skill.architectures = {host_.architecture};
   skills_.emplace(skill.hash, skill_folder{{}, {}, skill, true});
   return {};
 }

@@ -27,11 +27,10 @@ struct skill_folder {
 class skill_catalogue {
 public:
   /// Reads every sub-folder with a descriptor. A bad one is left out, and the
-  /// others stay: one whose program is missing, is for another machine than
-  /// `host`, or lacks a library, too. Blocks on the disk: not for a scheduled
-  /// actor.
+  /// others stay: one whose program cannot run on `host`, too. Blocks on the
+  /// disk: not for a scheduled actor.
   static skill_catalogue scan(const std::vector<std::filesystem::path>& dirs,
-                              const std::string& host = own_architecture());
+                              const skill_host& host = {own_architecture()});
 
   /// Adds a skill whose instances are actors of this process, by the text of
   /// its descriptor. What is wrong with it, or nothing.
@@ -40,7 +39,7 @@ public:
   /// The same for one folder, which is said to be no skill if it has no
   /// descriptor.
   static skill_catalogue of_folder(const std::filesystem::path& folder,
-                                   const std::string& host);
+                                   const skill_host& host);
 
   /// Null if there is none with that hash.
   const skill_folder* find(const std::string& hash) const;
@@ -69,7 +68,7 @@ private:
   void blame(const std::filesystem::path& path, const std::string& message,
              std::string where = {});
 
-  std::string host_;
+  skill_host host_;
   std::map<std::string, skill_folder> skills_;
   std::vector<skill_problem> problems_;
 };

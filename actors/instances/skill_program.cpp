@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <fstream>
 #include <optional>
 #include <set>
 #include <system_error>
@@ -79,9 +80,38 @@ std::string in_words(const Words& words) {
   return result;
 }
 
+/// The program that the system starts for a script; empty for anything else.
+std::string interpreter_of_script(const fs::path& program) {
+  constexpr size_t max_line_bytes = 256; // The kernel reads no more either.
+  std::ifstream file{program, std::ios::binary};
+  std::string line(max_line_bytes, '\0');
+  file.read(line.data(), static_cast<std::streamsize>(line.size()));
+  line.resize(static_cast<size_t>(file.gcount()));
+  if (line.rfind("#!", 0) != 0)
+    return {};
+  const auto first = line.find_first_not_of(" \t", 2);
+  const auto end = line.find_first_of(" \t\n", first);
+  return first == std::string::npos ? "" : line.substr(first, end - first);
+}
+
+/// Why what starts a program keeps it from running, if it does.
+std::optional<edge_error> interpreter_problem(const fs::path& program,
+                                              const elf_facts& facts) {
+  auto interpreter = facts.interpreter;
+  if (interpreter.empty())
+    interpreter = interpreter_of_script(program);
+  if (interpreter.empty() || ::access(interpreter.c_str(), X_OK) == 0)
+    return std::nullopt;
+  return failed("the skill's program cannot be run:", program,
+                "this node does not have '" + interpreter
+                    + "', which starts it",
+                "install what it belongs to");
+}
+
 /// Why the libraries of a program keep it from running, if they do.
-std::optional<edge_error> library_problem(const fs::path& program) {
-  const auto missing = missing_libraries(program);
+std::optional<edge_error> library_problem(const fs::path& program,
+                                          bool needs_c_library) {
+  auto missing = missing_libraries(program);
   if (const auto* why = std::get_if<edge_error>(&missing)) {
     // A host that is too busy to say so says nothing about the program.
     if (why->code == error_code::timeout)
@@ -89,13 +119,17 @@ std::optional<edge_error> library_problem(const fs::path& program) {
     return failed("the skill's program cannot be loaded:", program,
                   why->message, "build the skill on this host");
   }
-  const auto& names = std::get<std::vector<std::string>>(missing);
+  auto& names = std::get<std::vector<std::string>>(missing);
+  if (!needs_c_library)
+    names.erase(std::remove_if(names.begin(), names.end(), is_c_library),
+                names.end());
   if (names.empty())
     return std::nullopt;
   return failed("the skill's program lacks shared libraries:", program,
                 "this node does not have " + in_words(names),
-                "install the packages that have them: apt-file search "
-                    + names.front());
+                "install the packages that have them, or build the skill on "
+                "this host: apt-file search "
+                    + names.front().substr(0, names.front().find(' ')));
 }
 
 } // namespace
@@ -103,7 +137,7 @@ std::optional<edge_error> library_problem(const fs::path& program) {
 checked_program check_program(const fs::path& skill_dir,
                               const std::vector<std::string>& entry_point,
                               const std::vector<implementation_model>& models,
-                              const std::string& host) {
+                              const skill_host& host) {
   checked_program result;
   auto program = find_program(skill_dir, entry_point);
   if (auto* why = std::get_if<edge_error>(&program)) {
@@ -111,12 +145,14 @@ checked_program check_program(const fs::path& skill_dir,
     return result;
   }
   const auto& path = std::get<fs::path>(program);
-  result.made_for = read_elf(path).value_or(elf_facts{}).architecture;
+  const auto facts = read_elf(path).value_or(elf_facts{});
+  result.made_for = facts.architecture;
   const auto deployed = deployed_on(models);
-  if (!runs_on(result.made_for, host))
-    result.problems.push_back(
-        {error_code::engine_failed,
-         "is built for " + result.made_for + ", and this node is " + host, ""});
+  if (!runs_on(result.made_for, host.architecture))
+    result.problems.push_back({error_code::engine_failed,
+                               "is built for " + result.made_for
+                                   + ", and this node is " + host.architecture,
+                               ""});
   if (!deployed.empty()
       && std::none_of(deployed.begin(), deployed.end(), [&](const auto& x) {
            return runs_on(result.made_for, x);
@@ -126,8 +162,14 @@ checked_program check_program(const fs::path& skill_dir,
                                    + ", and its deployments are for "
                                    + in_words(deployed),
                                ""});
-  if (result.problems.empty() && !has_own_libraries(models))
-    if (auto why = library_problem(path))
+  // Of another host nobody here knows what it has.
+  if (!result.problems.empty() || host.architecture != own_architecture())
+    return result;
+  if (host.runs_processes)
+    if (auto why = interpreter_problem(path, facts))
+      result.problems.push_back(std::move(*why));
+  if (!has_own_libraries(models))
+    if (auto why = library_problem(path, host.runs_processes))
       result.problems.push_back(std::move(*why));
   return result;
 }

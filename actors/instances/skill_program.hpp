@@ -15,6 +15,15 @@ edge_result<std::filesystem::path>
 find_program(const std::filesystem::path& skill_dir,
              const std::vector<std::string>& entry_point);
 
+/// What shall run skills.
+struct skill_host {
+  /// As container images name it.
+  std::string architecture;
+  /// Skills are processes of this host, with its C library and interpreters;
+  /// in a container they have those of their image.
+  bool runs_processes = false;
+};
+
 /// What is known of a skill's program before it ever runs.
 struct checked_program {
   /// What it is compiled for, as container images name it; empty for a script,
@@ -24,13 +33,15 @@ struct checked_program {
   std::vector<edge_error> problems;
 };
 
-/// Looks at the program: whether it can be run, is for `host`, and finds its
-/// libraries; those not if a deployment of `models` says where else they are.
+/// Looks at the program: whether it can be run, is for `host` and for what a
+/// deployment of `models` is for, and, unless that is another machine than this
+/// one, finds its interpreter and libraries; those not if a deployment says
+/// where else they are.
 /// Blocks on the disk, and on the dynamic linker for some milliseconds.
 checked_program check_program(const std::filesystem::path& skill_dir,
                               const std::vector<std::string>& entry_point,
                               const std::vector<implementation_model>& models,
-                              const std::string& host);
+                              const skill_host& host);
 
 /// Whether a program for `architecture` runs on a host of another one.
 bool runs_on(const std::string& architecture, const std::string& host);

@@ -318,14 +318,17 @@ private:
 
 /// The skills in folders, and those that the embedding program brings along.
 caf::expected<shared_skill_catalogue>
-collect_skills(const node_config& config, const node_additions& additions) {
+collect_skills(const node_config& config, const chosen_runtime& runtime,
+               const node_additions& additions) {
   auto dirs = config.skill_dirs;
   // The usual places need not be there; those that were named must be.
   for (auto& usual :
        {installed_skills(program_folder()), config.data_dir / "skills"})
     if (is_directory(usual) && !names_folder(dirs, usual))
       dirs.push_back(usual);
-  auto result = std::make_shared<skill_catalogue>(skill_catalogue::scan(dirs));
+  const skill_host host{own_architecture(), runtime.socket.empty()};
+  auto result =
+      std::make_shared<skill_catalogue>(skill_catalogue::scan(dirs, host));
   for (const auto& text : additions.actor_skills)
     if (const auto errors = result->add_actor_skill(text); !errors.empty())
       return fail(error_code::schema_violation,
@@ -369,7 +372,7 @@ caf::expected<running_node> spawn_node(caf::actor_system& system,
   if (!runtime)
     return runtime.error();
   config.runtime = runtime->name;
-  auto skills = collect_skills(config, additions);
+  auto skills = collect_skills(config, *runtime, additions);
   if (!skills)
     return skills.error();
   auto data = open_node_data(config);

@@ -57,7 +57,9 @@ a_project() {
 test_the_sources_give_the_same_targets_and_make_no_more_than_is_asked_for() {
   outside
   a_project "set(ROSCELL_COMPONENTS skill)
-add_subdirectory($PWD roscell)
+include(FetchContent)
+FetchContent_Declare(roscell SOURCE_DIR $PWD)
+FetchContent_MakeAvailable(roscell)
 add_executable(outside main.cpp)
 target_link_libraries(outside PRIVATE roscell::skill)
 if(CMAKE_RUNTIME_OUTPUT_DIRECTORY OR CMAKE_CXX_STANDARD)
@@ -95,6 +97,14 @@ test_no_symbol_of_the_libraries_can_collide_with_anothers() {
   symbols=$(find "$suite/prefix" -name '*.a' -exec nm -C -g --defined-only {} + \
     2> /dev/null | awk '$2 ~ /^[TDBRC]$/' | grep -vE 'roscell::|__odr_asan') || true
   [[ -z $symbols ]] || fail "outside of the namespace: ${symbols:0:500}"
+}
+
+test_symbols_of_the_libraries_are_not_shown_by_a_plug_in_that_links_them() {
+  local shown
+  shown=$(find "$suite/prefix" -name '*.a' -exec readelf -sW {} + 2> /dev/null \
+    | awk '$5 == "GLOBAL" && $6 == "DEFAULT" && $7 != "UND" && $8 ~ /roscell/') \
+    || true
+  [[ -z $shown ]] || fail "not hidden: ${shown:0:500}"
 }
 
 test_no_header_but_the_public_ones_is_installed_and_none_needs_more() {

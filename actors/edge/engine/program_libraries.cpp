@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <map>
+#include <optional>
 #include <system_error>
 #include <utility>
 #include <variant>
@@ -92,21 +93,50 @@ edge_result<shared_library> look_at(const needed_library& needed) {
 
 } // namespace
 
-std::vector<needed_library> parse_library_list(std::string_view words) {
+namespace {
+
+/// "\tNAME => PATH (0xADDRESS)", or "not found" for the path.
+std::optional<needed_library> parse_library(std::string_view line) {
   constexpr std::string_view arrow = " => ";
+  const auto at = line.find(arrow);
+  if (at == std::string_view::npos || line.front() != '\t')
+    return std::nullopt;
+  auto path = line.substr(at + arrow.size());
+  path = path.substr(0, path.rfind(" (0x"));
+  if (path.empty() || path.front() != '/')
+    path = {};
+  return needed_library{std::string{line.substr(1, at - 1)}, std::string{path}};
+}
+
+/// "PROGRAM: PATH: version `VERSION' not found (required by FILE)".
+std::optional<needed_library> parse_lacking_version(std::string_view line) {
+  constexpr std::string_view begin = ": version `";
+  const auto at = line.find(begin);
+  const auto end = line.find("' not found", at);
+  if (at == std::string_view::npos || end == std::string_view::npos)
+    return std::nullopt;
+  const auto path = line.substr(0, at);
+  const auto name = path.substr(path.rfind('/') + 1);
+  const auto first = at + begin.size();
+  return needed_library{std::string{name} + " ("
+                            + std::string{line.substr(first, end - first)}
+                            + ")",
+                        ""};
+}
+
+} // namespace
+
+std::vector<needed_library> parse_library_list(std::string_view words) {
   std::vector<needed_library> result;
   while (!words.empty()) {
     const auto end = words.find('\n');
-    auto line = words.substr(0, end);
+    const auto line = words.substr(0, end);
     words.remove_prefix(end == std::string_view::npos ? words.size() : end + 1);
-    const auto at = line.find(arrow);
-    if (at == std::string_view::npos || line.front() != '\t')
-      continue;
-    auto path = line.substr(at + arrow.size());
-    path = path.substr(0, path.rfind(" (0x"));
-    if (path.empty() || path.front() != '/')
-      path = {};
-    result.push_back({std::string{line.substr(1, at - 1)}, std::string{path}});
+    auto found = parse_library(line);
+    if (!found)
+      found = parse_lacking_version(line);
+    if (found)
+      result.push_back(std::move(*found));
   }
   return result;
 }
@@ -171,7 +201,7 @@ missing_libraries(const fs::path& program) {
   if (auto* error = std::get_if<edge_error>(&list))
     return std::move(*error);
   for (auto& x : std::get<std::vector<needed_library>>(list))
-    if (x.path.empty() && !is_c_library(x.name))
+    if (x.path.empty())
       result.push_back(std::move(x.name));
   return result;
 }

@@ -20,11 +20,12 @@ struct shared_library {
 
 /// One line of what the dynamic linker says that it would load.
 struct needed_library {
-  std::string name;
+  std::string name; ///< With the version, if that is all that is not found.
   std::string path; ///< Empty: it is not found.
 };
 
-/// Reads the dynamic linker's words: "\tlibz.so.1 => /lib/libz.so.1 (0x7f...)".
+/// Reads the dynamic linker's words: "\tlibz.so.1 => /lib/libz.so.1 (0x7f...)",
+/// "PROGRAM: /lib/libz.so.1: version `ZLIB_1.3' not found (required by ...)".
 /// Lines of another form are left out.
 std::vector<needed_library> parse_library_list(std::string_view words);
 
@@ -33,8 +34,8 @@ std::vector<needed_library> parse_library_list(std::string_view words);
 bool is_c_library(std::string_view name);
 
 /// The libraries that a program needs, by itself or for others, and that this
-/// host has not; the C library's are left out, which an image brings. Empty for
-/// a script, and for what another dynamic linker starts. Blocks on the dynamic
+/// host has not, or not in that version. Empty for a script, and for what
+/// another dynamic linker starts. Blocks on the dynamic
 /// linker, some milliseconds.
 ///
 /// Errors: engine_failed (it cannot be loaded at all, or nothing could be

@@ -43,18 +43,30 @@ std::string architecture_for(uint16_t machine) {
   }
 }
 
+/// The text at a place in the file, up to its zero byte.
+std::string text_at(std::string_view bytes, uint64_t offset, uint64_t size) {
+  if (offset > bytes.size())
+    return {};
+  const auto text = bytes.substr(offset, size);
+  return std::string{text.substr(0, text.find('\0'))};
+}
+
 template <class Header, class ProgramHeader>
-bool is_static(std::string_view bytes) {
+void read_parts(std::string_view bytes, elf_facts& result) {
   const auto header = read_at<Header>(bytes, 0);
   if (!header || header->e_phnum == 0)
-    return false;
+    return;
+  bool is_static = true;
   for (uint64_t i = 0; i < header->e_phnum; ++i) {
     const auto part = read_at<ProgramHeader>(
         bytes, header->e_phoff + i * sizeof(ProgramHeader));
-    if (!part || part->p_type == PT_DYNAMIC)
-      return false;
+    if (!part)
+      return;
+    is_static = is_static && part->p_type != PT_DYNAMIC;
+    if (part->p_type == PT_INTERP)
+      result.interpreter = text_at(bytes, part->p_offset, part->p_filesz);
   }
-  return true;
+  result.is_static = is_static;
 }
 
 } // namespace
@@ -71,9 +83,10 @@ std::optional<elf_facts> parse_elf(std::string_view bytes) {
   const auto machine =
       read_at<uint16_t>(bytes, offsetof(Elf32_Ehdr, e_machine));
   result.architecture = machine ? architecture_for(*machine) : std::string{};
-  result.is_static = bytes[EI_CLASS] == ELFCLASS64
-                         ? is_static<Elf64_Ehdr, Elf64_Phdr>(bytes)
-                         : is_static<Elf32_Ehdr, Elf32_Phdr>(bytes);
+  if (bytes[EI_CLASS] == ELFCLASS64)
+    read_parts<Elf64_Ehdr, Elf64_Phdr>(bytes, result);
+  else
+    read_parts<Elf32_Ehdr, Elf32_Phdr>(bytes, result);
   return result;
 }
 

@@ -14,6 +14,9 @@ struct elf_facts {
   /// It certainly loads no library. The dynamic linker crashes when it is asked
   /// what such a program loads.
   bool is_static = false;
+  /// The program that the system starts for it, its dynamic linker; empty if it
+  /// has none, or says so behind the first bytes.
+  std::string interpreter;
 };
 
 /// Reads the first bytes of a file, which may be anything. None unless they

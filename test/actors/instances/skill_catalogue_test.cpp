@@ -190,10 +190,10 @@ TEST_CASE("a program for another machine is refused, an own one tells for what "
   std::string header("\177ELF\2\1\1\0\0\0\0\0\0\0\0\0\2\0", 18);
   header += std::string("\xB7\0\1\0\0\0", 6);
   folder.write("see/bin/echo", header, true);
-  const auto here = skill_catalogue::scan({folder.path()}, "arm64");
+  const auto here = skill_catalogue::scan({folder.path()}, {"arm64"});
   REQUIRE(here.skills().size() == 1);
   CHECK(here.skills()[0].architectures == std::vector<std::string>{"arm64"});
-  const auto there = skill_catalogue::scan({folder.path()}, "amd64");
+  const auto there = skill_catalogue::scan({folder.path()}, {"amd64"});
   CHECK(there.skills().empty());
   REQUIRE(there.problems().size() == 1);
   CHECK(there.problems()[0].message
@@ -206,7 +206,7 @@ TEST_CASE("a program that no deployment is for is refused") {
   std::string header("\177ELF\2\1\1\0\0\0\0\0\0\0\0\0\2\0", 18);
   header += std::string("\x3E\0\1\0\0\0", 6);
   folder.write("see/bin/echo", header, true);
-  const auto skills = skill_catalogue::scan({folder.path()}, "amd64");
+  const auto skills = skill_catalogue::scan({folder.path()}, {"amd64"});
   REQUIRE(skills.problems().size() == 1);
   CHECK(skills.problems()[0].message
         == "is built for amd64, and its deployments are for arm64");
@@ -227,17 +227,29 @@ TEST_CASE("a program that lacks a library is refused, with its name") {
   CHECK(scan(folder).skills().size() == 1);
 }
 
+TEST_CASE("what starts a program must be there where it runs as a process") {
+  scratch_folder folder;
+  folder.write("see/skill.json", echo_descriptor());
+  folder.write("see/bin/echo", "#! /no/such/python -u\n", true);
+  CHECK(scan(folder).skills().size() == 1);
+  const auto refused =
+      skill_catalogue::scan({folder.path()}, {own_architecture(), true});
+  REQUIRE(refused.problems().size() == 1);
+  CHECK(refused.problems()[0].message.find("/no/such/python'")
+        != std::string::npos);
+}
+
 TEST_CASE("of one folder everything that is wrong is told at once") {
   scratch_folder folder;
   folder.write("bad/skill.json", with("\"cpu\": 0.1", "\"cpu\": \"much\""));
   const auto bad =
-      skill_catalogue::of_folder(folder.path() / "bad", own_architecture());
+      skill_catalogue::of_folder(folder.path() / "bad", {own_architecture()});
   REQUIRE(bad.problems().size() == 2);
   CHECK(bad.problems()[0].where == "/models/0/deployments/0/resources/cpu");
   CHECK(bad.problems()[1].where == "/entry_point/0");
   CHECK(bad.problems()[1].message.find("is missing") != std::string::npos);
   const auto none =
-      skill_catalogue::of_folder(folder.path(), own_architecture());
+      skill_catalogue::of_folder(folder.path(), {own_architecture()});
   REQUIRE(none.problems().size() == 1);
   CHECK(none.problems()[0].message
         == "holds no skill.json, skill.yaml or skill.yml");

@@ -20,6 +20,7 @@ namespace {
 struct check_options {
   std::string folder;
   std::string architecture = own_architecture();
+  bool for_containers = false;
 };
 
 /// The problem, and where it is in the descriptor.
@@ -37,8 +38,8 @@ int check_skill(const check_options& options) {
     throw command_error{exit_usage,
                         "'" + printable(options.folder) + "' is no folder",
                         "name the folder that holds skill.json"};
-  const auto found =
-      skill_catalogue::of_folder(options.folder, options.architecture);
+  const auto found = skill_catalogue::of_folder(
+      options.folder, {options.architecture, !options.for_containers});
   for (const auto& x : found.problems())
     print_text(problem_view(x));
   if (!found.problems().empty())
@@ -74,6 +75,8 @@ void add_skill_check_command(CLI::App& skills, action& chosen) {
                    "What the node is that shall run it; libraries are looked "
                    "for only if it is this host's")
       ->option_text("ARCH [" + options->architecture + "]");
+  command->add_flag("--for-containers", options->for_containers,
+                    "The C library and interpreters are the image's");
   command->callback([&chosen, options] {
     chosen = [options] { return check_skill(*options); };
   });

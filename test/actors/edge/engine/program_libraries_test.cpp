@@ -32,6 +32,17 @@ TEST_CASE("the dynamic linker's words are read line by line") {
   CHECK(list[2].path.empty());
 }
 
+TEST_CASE("a library that is too old is not found, with the version") {
+  const auto list = parse_library_list(
+      "/x/prog: /lib/x86_64-linux-gnu/libc.so.6: version `GLIBC_2.99' not "
+      "found (required by /x/prog)\n"
+      "/x/prog: : version `' not found\nversion `1' not found\n");
+  REQUIRE(list.size() == 2);
+  CHECK(list[0].name == "libc.so.6 (GLIBC_2.99)");
+  CHECK(list[0].path.empty());
+  CHECK(is_c_library(list[0].name));
+}
+
 TEST_CASE("the C library is the image's own") {
   for (const auto* name :
        {"libc.so.6", "libm.so.6", "libpthread.so.0", "ld-linux-x86-64.so.2",

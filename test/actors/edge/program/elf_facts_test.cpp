@@ -67,5 +67,7 @@ TEST_CASE("what is no program at all has no facts") {
   for (const auto* text : {"", "#!/bin/sh\n", "\177EL"})
     CHECK_FALSE(parse_elf(text));
   CHECK_FALSE(read_elf("/no/such/program"));
-  CHECK_FALSE(read_elf("/proc/self/exe")->is_static);
+  const auto own = read_elf("/proc/self/exe");
+  CHECK_FALSE(own->is_static);
+  CHECK(own->interpreter.find("/ld-linux") != std::string::npos);
 }
