@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Installs what building ROSCell needs, on Debian 12; with --containers a
-# container engine too, with --with-tests also what its tests need. Quiet and
-# quick when everything is there already; if it cannot install, one line says
-# what to do.
+# container engine too, with --to-package what makes Debian packages, with
+# --with-tests also what its tests need. Quiet and quick when everything is there
+# already; if it cannot install, one line says what to do.
 set -euo pipefail
 
 fail() {
@@ -11,8 +11,8 @@ fail() {
 }
 
 case "${1:-}" in
-  '' | --containers | --with-tests) ;;
-  -h | --help) sed -n '2,5s/^# \{0,1\}//p' "$0"; exit ;;
+  '' | --containers | --to-package | --with-tests) ;;
+  -h | --help) sed -n '2,6s/^# \{0,1\}//p' "$0"; exit ;;
   *) echo "install.sh: unknown option $1 (--help tells more)" >&2; exit 2 ;;
 esac
 
@@ -43,6 +43,13 @@ fi
 if [[ "${1:-}" == --with-tests || "${1:-}" == --containers ]]; then
   # An engine, and what makes a base image for it.
   packages+=(docker.io mmdebstrap)
+fi
+if [[ "${1:-}" == --with-tests || "${1:-}" == --to-package ]]; then
+  packages+=(debhelper help2man groff-base)
+fi
+if [[ "${1:-}" == --to-package ]]; then
+  # To look at them, and to weigh them.
+  packages+=(lintian mmdebstrap)
 fi
 
 command -v apt-get > /dev/null \

@@ -1,0 +1,62 @@
+#!/usr/bin/env bash
+# Makes Debian packages of these sources: builds what is missing in
+# build/release, packs it, and lets lintian look at it.
+#
+#   --output DIR    where they go                       [build/packages]
+#   --build FOLDER  take what is built there, neither compressed nor looked at by
+#                   lintian: quick, for tests
+#   --sizes         instead, a table of what weighs what that the package roscell
+#                   installs on a minimal Debian without Recommends
+#   --help          this text
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+fail() {
+  echo "package.sh: $*" >&2
+  exit 1
+}
+
+output=$PWD/build/packages build= sizes=false
+while [[ $# -gt 0 ]]; do
+  case $1 in
+    --output | --build)
+      [[ $# -gt 1 ]] || { echo "package.sh: $1 wants a value" >&2; exit 2; }
+      printf -v "${1#--}" %s "$(realpath -m "$2")"; shift ;;
+    --sizes) sizes=true ;;
+    -h | --help) sed -n '2,/^set /{/^set /!s/^# \{0,1\}//p}' "$0"; exit ;;
+    *) echo "package.sh: unknown option $1 (--help tells more)" >&2; exit 2 ;;
+  esac
+  shift
+done
+
+. tools/building.sh
+may_build || exit 1
+mkdir -p "$output"
+work=$(mktemp -d /tmp/roscell-package.XXXXXX)
+trap 'rm -rf "$work"' EXIT
+$sizes && . tools/packaging/sizes.sh && exit
+
+# In a copy, so that what debhelper leaves is not in the tree.
+pack() {
+  mkdir "$work/tree" "$work/packages"
+  cp -r --parents -t "$work/tree" debian docs/examples
+  (cd "$work/tree" \
+    && BUILD=$build PACKAGES=$work/packages debian/rules binary) > "$output/packing.log" 2>&1 \
+    || fail "it cannot be packed: $(tail -n 1 "$output/packing.log"), see" \
+      "$output/packing.log"
+  rm -f "$output"/*.deb
+  mv -t "$output" "$work"/packages/*.deb
+}
+
+if [[ -n $build ]]; then
+  export DPKG_DEB_COMPRESSOR_TYPE=none
+  pack
+  exit
+fi
+tools/install.sh --to-package || exit 1
+build roscell roscell_texts instance_shim skills/all render_scenes \
+  compare_poses || exit 1
+build=$PWD/build/release
+pack
+lintian --allow-root --fail-on error,warning "$output"/*.deb || fail "lintian is not content"
+ls -sh "$output"/*.deb

@@ -1,0 +1,29 @@
+# A minimal Debian 12 in which packages of ours can be installed without a
+# network. To be sourced in the root of the tree.
+
+# clean_root NAME INCLUDE FILE.deb...: prints the tar file of a minimal Debian
+# with the packages INCLUDE (separated by commas, may be empty), and with what
+# these files need beyond that in apt's cache. It is kept under that name, and
+# made from Debian's mirror when there is none, or when they need others.
+clean_root() {
+  local folder=$PWD/build/base-images name=$1 include=$2 needs root
+  shift 2
+  needs=$(for package in "$@"; do dpkg-deb -f "$package" Depends; done)
+  root=$folder/$name-$(sha256sum <<< "$include $needs" | cut -c 1-16).tar
+  [[ -s $root ]] && echo "$root" && return
+  mkdir -p "$folder"
+  rm -f "$folder/$name"-*.tar
+  mmdebstrap --quiet --variant=minbase ${include:+--include="$include"} \
+    --format=tar --skip=cleanup/apt \
+    --dpkgopt='path-exclude=/usr/share/locale/*' \
+    --customize-hook='mkdir "$1/packages"' \
+    --customize-hook="cp $(printf '%q ' "$@") \"\$1/packages\"" \
+    --customize-hook='chroot "$1" sh -c "apt-get -q install -y \
+      --no-install-recommends --download-only /packages/*.deb"' \
+    --customize-hook='rm -r "$1/packages"' \
+    bookworm "$root.part" > "$root.log" 2>&1 \
+    || { grep -E '^[EW]: ' "$root.log" | tail -n 1 >&2; return 1; }
+  mv "$root.part" "$root"
+  rm "$root.log"
+  echo "$root"
+}
