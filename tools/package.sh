@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Makes Debian packages of these sources: builds what is missing in
-# build/release, packs it, and lets lintian look at it.
+# package.sh [OPTION...] [PACKAGE...]: makes Debian packages of these sources, all
+# of them if none is named: builds what is missing in build/release, packs it,
+# and lets lintian look at it.
 #
 #   --output DIR    where they go                       [build/packages]
 #   --build FOLDER  take what is built there, neither compressed nor looked at by
@@ -17,6 +18,7 @@ fail() {
 }
 
 output=$PWD/build/packages build= sizes=false
+export DH_OPTIONS=
 while [[ $# -gt 0 ]]; do
   case $1 in
     --output | --build)
@@ -24,7 +26,8 @@ while [[ $# -gt 0 ]]; do
       printf -v "${1#--}" %s "$(realpath -m "$2")"; shift ;;
     --sizes) sizes=true ;;
     -h | --help) sed -n '2,/^set /{/^set /!s/^# \{0,1\}//p}' "$0"; exit ;;
-    *) echo "package.sh: unknown option $1 (--help tells more)" >&2; exit 2 ;;
+    -*) echo "package.sh: unknown option $1 (--help tells more)" >&2; exit 2 ;;
+    *) DH_OPTIONS+=" -p$1" ;;
   esac
   shift
 done

@@ -8,7 +8,8 @@ packages=$suite/packages
 # The packages, and the same once more as a newer version.
 before_all() {
   command -v dh > /dev/null || return
-  tools/package.sh --build "$ROSCELL_BUILD" --output "$packages" || return
+  tools/package.sh --build "$ROSCELL_BUILD" --output "$packages" \
+    roscell roscell-skills || return
   mkdir "$packages/newer"
   local package
   for package in "$packages"/roscell_*.deb "$packages"/roscell-skills_*.deb; do
