@@ -41,6 +41,8 @@ refuse actors/requests 'actors/(session|instances|cell|membership|node)/'
 refuse actors/cell/books 'actors/(session|placement|edge)/|caf/(all|.*actor_system)'
 refuse actors/placement/search 'messages/|schemas/|caf/|nlohmann/|actors/(house|edge|session|instances|cell|membership|requests|node)/|actors/placement/[a-z_]+\.hpp'
 refuse skills 'messages/|schemas/|actors/|tools/|test/|caf/'
+refuse embedding 'client/|tools/|test/'
+refuse client 'embedding/|skills/|tools/|test/|actors/[a-df-z]'
 refuse tools/render_scenes 'skills/|actors/'
 refuse tools/compare_poses 'skills/|actors/'
 refuse tools/instance_shim 'actors/|messages/|schemas/|skills/|caf/'
@@ -66,7 +68,7 @@ if [[ $# -gt 0 ]]; then
 fi
 
 # A newcomer reads a folder's names at one glance.
-crowded=$(git ls-files actors dds include messages schemas skills tools test \
+crowded=$(git ls-files actors client dds embedding include messages schemas skills tools test \
   | grep -E '\.(hpp|cpp|sh)$' | xargs -n1 dirname | sort | uniq -c \
   | awk '$1 > 25 {print "law: " $2 " holds " $1 " files, more than 25"}')
 if [[ -n $crowded ]]; then
@@ -76,7 +78,7 @@ fi
 
 # Waiting is for events; a loop that sleeps wakes an idle robot.
 if grep -rnE 'sleep_for|sleep_until|usleep\(' --include='*.?pp' \
-     dds include messages schemas actors skills tools; then
+     client dds embedding include messages schemas actors skills tools; then
   echo "law: nothing sleeps"
   broken=1
 fi

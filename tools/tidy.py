@@ -18,7 +18,8 @@ import tempfile
 from concurrent.futures import ThreadPoolExecutor
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-FOLDERS = ("dds", "messages", "schemas", "actors", "skills", "tools")
+FOLDERS = ("dds", "messages", "schemas", "actors", "skills", "client",
+           "embedding", "tools")
 PRECOMPILED = re.compile(r"-Winvalid-pch|-include \S+/cmake_pch\.hxx")
 INCLUDE = re.compile(r'^#include "([^"]+)"', re.MULTILINE)
 

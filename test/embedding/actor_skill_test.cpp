@@ -155,6 +155,29 @@ TEST_CASE("a factory that throws fails the task with what it has thrown") {
   CHECK_FALSE(site.node->has_ended());
 }
 
+// By hand, for it takes 40 s: test_embedding "[blocks]".
+TEST_CASE("a factory that blocks holds up neither node nor program, and is "
+          "told of",
+          "[.][blocks]") {
+  std::promise<void> never;
+  auto blocked = never.get_future().share();
+  skill_site site{[blocked](pointer, const context_type&) -> behavior {
+    blocked.wait();
+    return {
+        [](const skill_frame&) {},
+        [](check_life) {},
+        [](stop_skill) {},
+    };
+  }};
+  const auto reply = site.deploy();
+  WARN(reply.dump(2));
+  CHECK(reply.at("type") == "error");
+  CHECK(reply.dump().find("it stays in its program until it does")
+        != std::string::npos);
+  CHECK(site.program->ask({{"type", "node_query"}}).contains("identity"));
+  never.set_value();
+}
+
 TEST_CASE("a folder cannot offer the engine for actors") {
   scratch_folder folder;
   auto setup = setup_in(folder.path);

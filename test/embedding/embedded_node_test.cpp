@@ -137,20 +137,45 @@ TEST_CASE("a core that is not there is refused") {
   CHECK(code_of([&] { embedded_node{setup}; }) == "schema_violation");
 }
 
+namespace {
+
+void start_and_stop() {
+  scratch_folder folder;
+  embedded_node node{setup_in(folder.path)};
+  REQUIRE(node.stop());
+}
+
+/// Resident memory of this process, in pages.
+long resident_pages() {
+  long size = 0;
+  long resident = 0;
+  std::ifstream{"/proc/self/statm"} >> size >> resident;
+  return resident;
+}
+
+} // namespace
+
 TEST_CASE("starting and stopping again and again leaves nothing behind") {
-  const auto turn = [] {
-    scratch_folder folder;
-    embedded_node node{setup_in(folder.path)};
-    REQUIRE(node.stop());
-  };
   // What libraries make once is made.
-  turn();
+  start_and_stop();
   const auto files = entries_of("/proc/self/fd");
-  const auto threads = entries_of("/proc/self/task");
-  for (int i = 0; i < 5; ++i)
-    turn();
+  const auto tasks = entries_of("/proc/self/task");
+  for (int i = 0; i < 10; ++i)
+    start_and_stop();
   CHECK(entries_of("/proc/self/fd") == files);
-  CHECK(entries_of("/proc/self/task") == threads);
+  CHECK(entries_of("/proc/self/task") == tasks);
+}
+
+// By hand, without sanitizers: test_embedding "[hundred]".
+TEST_CASE("a hundred starts and stops take no memory", "[.][hundred]") {
+  for (int i = 0; i < 20; ++i)
+    start_and_stop();
+  const auto before = resident_pages();
+  for (int i = 0; i < 100; ++i)
+    start_and_stop();
+  const auto grown_kib = (resident_pages() - before) * 4;
+  WARN("grown by " << grown_kib << " KiB");
+  CHECK(grown_kib < 1024);
 }
 
 TEST_CASE("a client asks a node, and is told when it goes away") {

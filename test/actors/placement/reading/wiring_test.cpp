@@ -168,4 +168,21 @@ TEST_CASE("Steps that are joined by a file and kept apart are refused",
   CHECK(says(x.errors[0].expected, "host=y and host=x"));
 }
 
+TEST_CASE("Steps that pass frames on as actors must share a node", "[wiring]") {
+  const io_endpoint poses{"actor", "/poses", image, "", false};
+  const auto x = wired({step("a", {}, {poses}), step("b", {topic("/x")}, {}),
+                        step("c", {poses}, {topic("/x")})});
+  CHECK(x.errors.empty());
+  CHECK(x.together == std::vector<uint64_t>{1, 0, 1});
+}
+
+TEST_CASE("A stream between actors that no step of the task writes is refused",
+          "[wiring]") {
+  const io_endpoint poses{"actor", "/poses", image, "", false};
+  const auto x = wired({step("r", {poses}, {})}, {{"other", "w", "n", poses}});
+  REQUIRE(x.errors.size() == 1);
+  CHECK(x.errors[0].pointer == "/r/input/0");
+  CHECK(says(x.errors[0].expected, "no step of this task writes the stream"));
+}
+
 } // namespace roscell::test
