@@ -11,7 +11,7 @@ foreach(part IN LISTS ROSCELL_COMPONENTS)
   include(cmake/dependencies/${part}.cmake)
 endforeach()
 find_path(NLOHMANN_INCLUDE nlohmann/json.hpp REQUIRED)
-if("node" IN_LIST ROSCELL_COMPONENTS)
+if("client" IN_LIST ROSCELL_COMPONENTS OR "node" IN_LIST ROSCELL_COMPONENTS)
   find_path(VALIJSON_INCLUDE valijson/validator.hpp REQUIRED)
   find_path(BOOST_BEAST_INCLUDE boost/beast.hpp REQUIRED)
 

@@ -1,5 +1,6 @@
 #include "roscell/node.hpp"
 
+#include "actors/house/limits.hpp"
 #include "actors/instances/skill_descriptor_file.hpp"
 #include "actors/node/node_builder.hpp"
 #include "embedding/node_door.hpp"
@@ -104,9 +105,9 @@ public:
     embedding::run_on_own_thread(setup.threads, [&] { start(system, setup); });
   }
 
+  /// Its actors use the workers of its skills, which end here.
   ~impl() {
-    if (!ended_->is_set())
-      caf::anon_send(node_.actor, stop_node{});
+    stop(limits::membership::stopping);
   }
 
   bool stop(std::chrono::milliseconds limit) {

@@ -1,4 +1,5 @@
 roscell_needs(Threads)
+roscell_needs(fastcdr)
 roscell_needs(fastrtps)
 roscell_needs(OpenSSL)
 roscell_needs(SQLite3)
