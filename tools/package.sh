@@ -6,18 +6,17 @@
 #   --output DIR    where they go                       [build/packages]
 #   --build FOLDER  take what is built there, neither compressed nor looked at by
 #                   lintian: quick, for tests
-#   --sizes         instead, a table of what weighs what that the package roscell
-#                   installs on a minimal Debian without Recommends
+#   --sizes         instead, a table of what weighs what of all that they install on
+#                   a minimal Debian without recommended packages
 #   --help          this text
 set -euo pipefail
-cd "$(dirname "$0")/.."
 
 fail() {
   echo "package.sh: $*" >&2
   exit 1
 }
 
-output=$PWD/build/packages build= sizes=false
+output= build= sizes=false
 export DH_OPTIONS=
 while [[ $# -gt 0 ]]; do
   case $1 in
@@ -32,19 +31,25 @@ while [[ $# -gt 0 ]]; do
   shift
 done
 
+cd "$(dirname "$0")/.."
 . tools/building.sh
 may_build || exit 1
+: "${output:=$PWD/build/packages}"
 mkdir -p "$output"
 work=$(mktemp -d /tmp/roscell-package.XXXXXX)
 trap 'rm -rf "$work"' EXIT
-$sizes && . tools/packaging/sizes.sh && exit
+if $sizes; then
+  . tools/packaging/sizes.sh
+  exit
+fi
 
 # In a copy, so that what debhelper leaves is not in the tree.
 pack() {
   mkdir "$work/tree" "$work/packages"
   cp -r --parents -t "$work/tree" debian docs/examples
   (cd "$work/tree" \
-    && BUILD=$build PACKAGES=$work/packages debian/rules binary) > "$output/packing.log" 2>&1 \
+    && BUILD=$build PACKAGES=$work/packages debian/rules binary) \
+    > "$output/packing.log" 2>&1 \
     || fail "it cannot be packed: $(tail -n 1 "$output/packing.log"), see" \
       "$output/packing.log"
   rm -f "$output"/*.deb
