@@ -88,7 +88,7 @@ void add_skill_new_command(CLI::App& skills, action& chosen) {
       "  cmake --workflow --preset default\n"
       "  roscell skill check build/skills/shout");
   command
-      ->add_option("SKILL", *name,
+      ->add_option("NAME", *name,
                    "What it does, in one word: it names the operation")
       ->required()
       ->option_text(" ");

@@ -1,7 +1,10 @@
 #include "actors/edge/engine/program_libraries.hpp"
 #include "test/actors/edge/process/supervision_fixture.hpp"
 
+#include <elf.h>
+
 #include <algorithm>
+#include <fstream>
 
 using namespace roscell;
 using namespace roscell::test;
@@ -97,6 +100,24 @@ TEST_CASE("a program that lacks a library is known without starting it") {
         == std::vector<std::string>{"libgone.so"});
   const auto none = missing_libraries("/proc/self/exe");
   CHECK(std::get<std::vector<std::string>>(none).empty());
+}
+
+TEST_CASE("a static program needs no library, and no linker is asked") {
+  Elf64_Ehdr header{};
+  std::ifstream{"/proc/self/exe", std::ios::binary}.read(
+      reinterpret_cast<char*>(&header), sizeof(header));
+  header.e_phoff = sizeof(header);
+  header.e_phnum = 1;
+  Elf64_Phdr part{};
+  part.p_type = PT_LOAD;
+  std::string bytes(reinterpret_cast<const char*>(&header), sizeof(header));
+  bytes.append(reinterpret_cast<const char*>(&part), sizeof(part));
+  own_folder folder;
+  const auto program = folder.write("bin/run", bytes);
+  const auto found = find_libraries(folder.path(), program);
+  CHECK(std::get<std::vector<shared_library>>(found).empty());
+  const auto missing = missing_libraries(program);
+  CHECK(std::get<std::vector<std::string>>(missing).empty());
 }
 
 TEST_CASE("a script lacks no library, nor does a program for another machine") {
