@@ -15,7 +15,8 @@ DOCKERFILE
   else
     # What changes nothing in the image stays out of its hash.
     tar -C "$tree" --exclude='*.md' --exclude='*.sh' -c CMakeLists.txt \
-      CMakePresets.json cmake include dds messages schemas actors skills tools \
+      CMakePresets.json cmake include dds messages schemas actors skills client \
+      embedding tools \
       | tar -C "$work" -x
     (cd "$tree" && cp --parents -t "$work" tools/install.sh tools/building.sh \
       tools/launch/pack.sh)
