@@ -9,9 +9,9 @@ namespace roscell {
 
 namespace {
 
-/// What the engines for executors and actors (skills/engine) understand whatever the model,
-/// under "", and what its protocols do, under their names. In the form of a
-/// descriptor.
+/// What the engines for executors and actors (skills/engine) understand
+/// whatever the model, under "", and what its protocols do, under their names.
+/// In the form of a descriptor.
 constexpr const char* primitive_engine = R"({
   "": {
     "queue_length": {
