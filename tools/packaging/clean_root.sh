@@ -12,7 +12,9 @@ clean_root() {
   root=$folder/$name-$(sha256sum <<< "$include $needs" | cut -c 1-16).tar
   [[ -s $root ]] && echo "$root" && return
   mkdir -p "$folder"
-  rm -f "$folder/$name"-*.tar
+  # Two builds of one tree may take turns.
+  find "$folder" -name "$name-*.tar" -printf '%T@ %p\n' | sort -rn \
+    | tail -n +2 | cut -d ' ' -f 2- | xargs -r rm
   mmdebstrap --quiet --variant=minbase ${include:+--include="$include"} \
     --format=tar --skip=cleanup/apt \
     --dpkgopt='path-exclude=/usr/share/locale/*' \
