@@ -13,15 +13,20 @@ using behavior = actor_skill_instance::behavior_type;
 using pointer = actor_skill_instance::pointer;
 using context_type = actor_skill_context;
 
-/// Gives the frame "go" once it is ready.
-behavior source(pointer, const context_type& context) {
-  context.ready();
+void give_go(const context_type& context) {
   engine::frame out;
   out.payload = "go";
   context.emit(std::move(out));
+}
+
+/// Gives the frame "go" once it is ready, and again with every sign of life:
+/// who reads it may have come later.
+behavior source(pointer, const context_type& context) {
+  context.ready();
+  give_go(context);
   return {
       [](const skill_frame&) {},
-      [](check_life) {},
+      [context](check_life) { give_go(context); },
       [](stop_skill) {},
   };
 }
@@ -54,12 +59,6 @@ struct skill_site {
          step("source", "source", actor_end("/done"), actor_end("/go"))}));
   }
 
-  json deploy_alone() {
-    return program->ask(task_of(
-        {step("work", "work", actor_end("/own"), actor_end("/own2")),
-         step("source", "source", actor_end("/own2"), actor_end("/own"))}));
-  }
-
   json row_of(const std::string& id) {
     const auto all = program->ask({{"type", "instance_query"}});
     for (const auto& x : all.at("instances"))
@@ -78,13 +77,17 @@ struct skill_site {
 
 TEST_CASE("an operation that is registered is placed, run and ended like any "
           "other") {
-  std::promise<const engine::frame*> seen;
+  std::promise<std::string> seen;
+  std::atomic<bool> told{false};
   std::promise<void> held;
   skill_site site{[&](pointer, const context_type& context) -> behavior {
     context.log("begins");
     context.ready();
     return {
-        [&](const skill_frame& x) { seen.set_value(x.data.get()); },
+        [&](const skill_frame& x) {
+          if (!told.exchange(true))
+            seen.set_value(x.data->payload);
+        },
         [](check_life) {},
         [&, context](stop_skill) {
           context.log("holds");
@@ -98,7 +101,7 @@ TEST_CASE("an operation that is registered is placed, run and ended like any "
   auto frame = seen.get_future();
   REQUIRE(frame.wait_for(std::chrono::seconds{30})
           == std::future_status::ready);
-  CHECK(frame.get()->payload == "go");
+  CHECK(frame.get() == "go");
   const auto row = site.row_of("work");
   CHECK(row.at("state") == "running");
   const auto log = site.program->ask(
