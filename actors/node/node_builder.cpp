@@ -28,6 +28,7 @@
 #include "schemas/message_catalogue.hpp"
 
 #include <caf/actor_cast.hpp>
+#include <caf/actor_system_config.hpp>
 
 #include <filesystem>
 #include <utility>

@@ -8,16 +8,27 @@ using namespace roscell::test;
 
 struct switch_test {
   switch_test() {
-    runtime = spawn(time.system, time.context, runtime_switch,
-                    fake_runtime(time.system, programs),
-                    fake_runtime(time.system, actors), ears);
+    runtime = spawn(time.system, time.context, runtime_switch, below[0],
+                    below[1], ears);
+  }
+
+  ~switch_test() {
+    time.kill(runtime);
+    for (const auto& x : below)
+      time.kill(x);
+  }
+
+  template <class Reply, class Request>
+  void ask(const Request& what) {
+    time.ask<Reply>(runtime, what);
+    time.settle();
   }
 
   void start(const std::string& instance, const std::string& image) {
     start_container wish;
     wish.instance = instance;
     wish.image = image;
-    time.ask<container_started>(runtime, wish);
+    ask<container_started>(wish);
   }
 
   virtual_time time;
@@ -27,6 +38,8 @@ struct switch_test {
   container_supervisor_actor supervisor = fake_supervisor(time.system, told);
   container_listener_actor ears =
       caf::actor_cast<container_listener_actor>(supervisor);
+  std::vector<runtime_actor> below{fake_runtime(time.system, programs),
+                                   fake_runtime(time.system, actors)};
   runtime_actor runtime;
 };
 
@@ -40,13 +53,13 @@ TEST_CASE_METHOD(switch_test, "what is asked of an instance goes to the "
   REQUIRE(actors->started.size() == 1);
   CHECK(actors->started[0].instance == "actor");
   for (const auto* instance : {"program", "actor"}) {
-    time.ask<container_stopped>(runtime, stop_container{instance, {}, 0});
+    ask<container_stopped>(stop_container{instance, {}, 0});
     log_query query;
     query.instance = instance;
-    time.ask<log_excerpt>(runtime, query);
+    ask<log_excerpt>(query);
     caf::anon_send(runtime, hear_container{instance});
     time.settle();
-    time.ask<container_removed>(runtime, remove_container{instance, {}});
+    ask<container_removed>(remove_container{instance, {}});
   }
   for (const auto& script : {programs, actors}) {
     CHECK(script->stopped.size() == 1);
@@ -58,8 +71,8 @@ TEST_CASE_METHOD(switch_test, "what is asked of an instance goes to the "
 
 TEST_CASE_METHOD(switch_test, "an actor of an earlier run is looked for among "
                               "actors, where it is not") {
-  time.ask<container_adopted>(runtime, adopt_container{"old", "actor:7"});
-  time.ask<container_adopted>(runtime, adopt_container{"old", "pid 7"});
+  ask<container_adopted>(adopt_container{"old", "actor:7"});
+  ask<container_adopted>(adopt_container{"old", "pid 7"});
   CHECK(actors->adopted.size() == 1);
   CHECK(programs->adopted.size() == 1);
 }
@@ -68,7 +81,7 @@ TEST_CASE_METHOD(switch_test, "an instance that was an actor may be a program "
                               "the next time") {
   start("x", actor_image("move_to"));
   start("x", "roscell/echo:1");
-  time.ask<container_stopped>(runtime, stop_container{"x", {}, 0});
+  ask<container_stopped>(stop_container{"x", {}, 0});
   CHECK(programs->stopped.size() == 1);
   CHECK(actors->stopped.empty());
 }
