@@ -152,6 +152,7 @@ test_a_camera_may_send_its_pictures_compressed() {
 test_an_installed_node_finds_its_shim() {
   cmake --install "$ROSCELL_BUILD" --prefix "$scratch/usr" > "$scratch/out" 2>&1 \
     || fail "$(cat "$scratch/out")"
+  ask_no_cpu "$scratch/usr/lib/roscell/skills/echo"
   ROSCELL=$scratch/usr/bin/roscell
   start_node head --coordinator --interface lo
   echo_task hello > "$scratch/task.json"
