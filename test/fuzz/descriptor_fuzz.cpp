@@ -13,6 +13,11 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* bytes, size_t size) {
     return 0;
   }
   const auto skill = fuzz::check_decoding<skill_descriptor>(*document);
+  if (skill.engine == "actor") {
+    if (!skill.ros2.empty() || !skill.entry_point.empty())
+      fuzz::found("a program for an actor", *document);
+    return 0;
+  }
   const bool is_stock = skill.engine == "ros2_standalone";
   if (is_stock == skill.ros2.empty() || is_stock != skill.entry_point.empty())
     fuzz::found("neither one program of the folder nor one of ROS 2",
