@@ -53,11 +53,6 @@ const http_reply& checked(const edge_result<http_reply>& result) {
 
 } // namespace
 
-client_error::client_error(std::string code, const std::string& message,
-                           std::string hint)
-    : std::runtime_error{message}, code_(std::move(code)),
-      hint_(std::move(hint)) {}
-
 class client_cancel::impl {
 public:
   http_cancel cancel;

@@ -93,11 +93,6 @@ factories_of(const std::vector<actor_skill>& skills) {
 
 } // namespace
 
-node_error::node_error(std::string code, const std::string& message,
-                       std::string hint)
-    : std::runtime_error{message}, code_(std::move(code)),
-      hint_(std::move(hint)) {}
-
 class embedded_node::impl {
 public:
   impl(caf::actor_system* system, const node_setup& setup) {
@@ -121,7 +116,7 @@ public:
   }
 
   const node_facts& facts() const {
-    return facts_;
+    return node_;
   }
 
   const node_door_actor& door() const {
@@ -140,9 +135,6 @@ private:
     if (!node)
       throw to_node_error(node.error());
     node_ = std::move(*node);
-    facts_ = {node_.name,       node_.http_address,
-              node_.socket,     node_.discovery_server,
-              node_.token_file, node_.runtime};
     door_ = spawn<caf::detached>(
         *system, house{node_.actors, node_.events}, embedding::node_door,
         embedding::node_door_config{node_.actor, node_.router, node_.events});
@@ -174,7 +166,6 @@ private:
   std::unique_ptr<owned_system> skills_;
   std::unique_ptr<owned_system> own_;
   running_node node_;
-  node_facts facts_;
   node_door_actor door_;
   const std::shared_ptr<end_mark> ended_ = std::make_shared<end_mark>();
 };

@@ -45,7 +45,8 @@ using runtime_actor = introspected_actor::extend<
     caf::replies_to<stop_container>::with<container_stopped>,
     caf::replies_to<remove_container>::with<container_removed>,
     caf::replies_to<adopt_container>::with<container_adopted>,
-    caf::reacts_to<hear_container>,
+    caf::reacts_to<hear_container>, caf::reacts_to<fence_container>,
+    caf::reacts_to<ask_for_safety>,
     // Errors: unknown_task (no log of that instance), conflict (too many
     // wait for more).
     caf::replies_to<log_query>::with<log_excerpt>>;
@@ -89,7 +90,8 @@ using graph_watch_actor = introspected_actor::extend<
 using skill_instance_actor = introspected_actor::extend<
     caf::reacts_to<start_instance>, caf::reacts_to<stop_instance>,
     caf::reacts_to<container_exited>, caf::reacts_to<instance_notified>,
-    caf::reacts_to<endpoints_missing>,
+    caf::reacts_to<endpoints_missing>, caf::reacts_to<contact_proven>,
+    caf::reacts_to<contact_lost>,
     // INTERNAL: a deadline of phase number N has passed.
     caf::reacts_to<caf::tick_atom, uint64_t>>;
 
@@ -106,14 +108,16 @@ using container_supervisor_actor = introspected_actor::extend<
     // node is full, the instance is being removed), schema_violation (the id
     // cannot be a file name).
     caf::replies_to<instance_deployment>::with<instance_deployed>,
-    // Replies once they are gone; none is no error.
+    // Replies once they are gone, but for those that are not safe yet; none is
+    // no error.
     // Errors: engine_failed (one cannot be removed).
     caf::replies_to<instance_removal>::with<instances_removed>,
     // Errors: unknown_task (no such instance).
     caf::replies_to<instance_query>::with<instance_description>,
     caf::replies_to<log_query>::with<log_excerpt>,
     caf::reacts_to<listen_to_instances>, caf::reacts_to<ends_acknowledged>,
-    caf::reacts_to<use_environment>, caf::reacts_to<container_exited>,
+    caf::reacts_to<use_environment>, caf::reacts_to<contact_proven>,
+    caf::reacts_to<contact_lost>, caf::reacts_to<container_exited>,
     caf::reacts_to<instance_notified>, caf::reacts_to<runtime_troubled>,
     // INTERNAL: from a skill instance.
     caf::reacts_to<instance_changed>>;
@@ -137,7 +141,8 @@ using node_agent_actor = introspected_actor::extend<
     caf::replies_to<instance_reservation>::with<instances_reserved>,
     // Replies once the instance runs. Errors: as the CONTAINER SUPERVISOR's.
     caf::replies_to<instance_deployment>::with<instance_deployed>,
-    // Replies once the named instances are gone from the node.
+    // Replies once the named instances are gone from the node, but for those
+    // that are not safe yet.
     caf::replies_to<instance_removal>::with<instances_removed>,
     // Errors: timeout, unreachable.
     caf::replies_to<figures_query>::with<figures_report>,
@@ -281,6 +286,7 @@ using cell_coordinator_actor = introspected_actor::extend<
     caf::replies_to<cell_list_query>::with<cell_list>,
     caf::replies_to<topic_query>::with<topic_list>,
     // Errors of the queries: unknown_task.
+    caf::replies_to<task_history_query>::with<task_history>,
     caf::replies_to<task_query>::with<task_description>,
     caf::replies_to<instance_query>::with<instance_description>,
     caf::replies_to<log_query>::with<log_excerpt>,
@@ -318,6 +324,9 @@ using cell_coordinator_actor = introspected_actor::extend<
     // no_feasible_allocation.
     caf::replies_to<node_transfer>::with<node_transferred>,
     caf::replies_to<node_release>::with<node_released>,
+    // Errors: unknown_node, internal (the store cannot keep it).
+    caf::replies_to<node_drain>::with<node_drained>,
+    caf::replies_to<node_undrain>::with<node_undrained>,
     // Errors: unknown_task.
     caf::replies_to<transfer_query>::with<transfer_description>,
     // From a member, whose user has asked it.

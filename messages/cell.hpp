@@ -27,6 +27,8 @@ struct registry_row {
   std::string reason;        ///< Why the row is not active.
   node_resources resources;  ///< As last reported.
   std::vector<instance_row> instances;
+  /// Since when it is to be empty and takes nothing new; 0: it is not.
+  int64_t draining_since_unix_ms = 0;
 
   static constexpr auto fields() {
     return field_list{required("identity", &registry_row::identity),
@@ -35,7 +37,9 @@ struct registry_row {
                       required("since_unix_ms", &registry_row::since_unix_ms),
                       optional("reason", &registry_row::reason),
                       required("resources", &registry_row::resources),
-                      required("instances", &registry_row::instances)};
+                      required("instances", &registry_row::instances),
+                      optional("draining_since_unix_ms",
+                               &registry_row::draining_since_unix_ms)};
   }
 };
 

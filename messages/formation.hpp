@@ -194,4 +194,50 @@ struct transfer_description {
   }
 };
 
+/// Moves every instance away from a node, which takes no new one from now on.
+/// Answered at once; what still leaves is told by facts.
+struct node_drain {
+  static constexpr const char* type = "node_drain";
+  std::string node;
+  bool force = false; ///< Nothing is waited for to be safe.
+
+  static constexpr auto fields() {
+    return field_list{required("node", &node_drain::node),
+                      optional("force", &node_drain::force)};
+  }
+};
+
+/// Reply to `node_drain`: how far it is.
+struct node_drained {
+  static constexpr const char* type = "node_drained";
+  std::string node;
+  std::vector<std::string> left; ///< Instances that are still there.
+  std::string trouble; ///< Why they cannot go; empty: they are on their way.
+
+  static constexpr auto fields() {
+    return field_list{required("node", &node_drained::node),
+                      required("left", &node_drained::left),
+                      optional("trouble", &node_drained::trouble)};
+  }
+};
+
+/// Lets a node take instances again.
+struct node_undrain {
+  static constexpr const char* type = "node_undrain";
+  std::string node;
+
+  static constexpr auto fields() {
+    return field_list{required("node", &node_undrain::node)};
+  }
+};
+
+struct node_undrained {
+  static constexpr const char* type = "node_undrained";
+  std::string node;
+
+  static constexpr auto fields() {
+    return field_list{required("node", &node_undrained::node)};
+  }
+};
+
 } // namespace roscell

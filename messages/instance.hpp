@@ -1,6 +1,7 @@
 #pragma once
 
 #include "messages/codec/enum_words.hpp"
+#include "messages/life.hpp"
 #include "messages/resources.hpp"
 
 #include <array>
@@ -52,6 +53,7 @@ struct instance_spec {
       parameters; ///< JSON object: the model's, overridden by the step's.
   std::map<std::string, std::string> environment;
   resource_request resources;
+  life_policy life;
 
   static constexpr auto fields() {
     return field_list{required("instance", &instance_spec::instance),
@@ -67,7 +69,8 @@ struct instance_spec {
                       one_or_many("output", &instance_spec::output),
                       raw_json("parameters", &instance_spec::parameters),
                       optional("environment", &instance_spec::environment),
-                      required("resources", &instance_spec::resources)};
+                      required("resources", &instance_spec::resources),
+                      optional("life", &instance_spec::life)};
   }
 };
 
@@ -77,15 +80,16 @@ enum class instance_state {
   building,
   starting,
   running,
+  backing_off, ///< It has ended and is to be started again.
   stopping,
   stopped,
   failed,
 };
 
 constexpr auto enum_words(instance_state) {
-  return std::array<std::string_view, 7>{"pending", "building", "starting",
-                                         "running", "stopping", "stopped",
-                                         "failed"};
+  return std::array<std::string_view, 8>{"pending", "building",    "starting",
+                                         "running", "backing_off", "stopping",
+                                         "stopped", "failed"};
 }
 
 /// True until the instance has ended: it holds its resources.
@@ -133,6 +137,19 @@ struct instance_row {
   /// away; 0: it is known.
   int64_t unknown_since_unix_ms = 0;
   instance_figures figures; ///< As of when its node was asked last.
+  int64_t restarts = 0;     ///< How often its node has started it again,
+  int64_t attempts = 0;     ///< and that without running for long.
+  /// When it is started again while it is `backing_off`; 0: once its node is
+  /// back in its cell.
+  int64_t next_start_unix_ms = 0;
+  std::vector<ended_run> ends; ///< The last ones, the newest first.
+  instance_health health = instance_health::good;
+  std::string health_reason; ///< The figure and what should feed it.
+  safe_word safe = safe_word::untold;
+  /// Since when it is to end and is waited for to be safe; 0: it is not.
+  int64_t unsafe_since_unix_ms = 0;
+  int64_t unsafe_until_unix_ms = 0; ///< It is ended then; 0: never.
+  std::string waits; ///< For what it waits, one sentence; empty: for nothing.
 
   static constexpr auto fields() {
     return field_list{
@@ -148,7 +165,17 @@ struct instance_row {
         optional("reason", &instance_row::reason),
         optional("log_tail", &instance_row::log_tail),
         optional("unknown_since_unix_ms", &instance_row::unknown_since_unix_ms),
-        optional("figures", &instance_row::figures)};
+        optional("figures", &instance_row::figures),
+        optional("restarts", &instance_row::restarts),
+        optional("attempts", &instance_row::attempts),
+        optional("next_start_unix_ms", &instance_row::next_start_unix_ms),
+        optional("ends", &instance_row::ends),
+        optional("health", &instance_row::health),
+        optional("health_reason", &instance_row::health_reason),
+        optional("safe", &instance_row::safe),
+        optional("unsafe_since_unix_ms", &instance_row::unsafe_since_unix_ms),
+        optional("unsafe_until_unix_ms", &instance_row::unsafe_until_unix_ms),
+        optional("waits", &instance_row::waits)};
   }
 };
 

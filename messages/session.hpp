@@ -215,20 +215,25 @@ struct instance_removal {
   static constexpr const char* type = "instance_removal";
   std::string task;
   std::string instance; ///< Empty: all of the task.
+  bool force = false;   ///< Nothing is waited for to be safe.
 
   static constexpr auto fields() {
     return field_list{required("task", &instance_removal::task),
-                      optional("instance", &instance_removal::instance)};
+                      optional("instance", &instance_removal::instance),
+                      optional("force", &instance_removal::force)};
   }
 };
 
-/// Reply to `instance_removal`: they are gone.
+/// Reply to `instance_removal`: they are gone, but for those that are not safe
+/// yet. These end by themselves, and asking again tells when they are gone.
 struct instances_removed {
   static constexpr const char* type = "instances_removed";
   std::vector<std::string> instances;
+  std::vector<safety_wait> waiting;
 
   static constexpr auto fields() {
-    return field_list{required("instances", &instances_removed::instances)};
+    return field_list{required("instances", &instances_removed::instances),
+                      optional("waiting", &instances_removed::waiting)};
   }
 };
 

@@ -30,6 +30,11 @@ struct deployment_option {
   std::map<std::string, std::string> labels; ///< Labels the node must have.
   std::map<std::string, std::string> environment;
   std::vector<std::string> volumes; ///< "/host/path:/container/path[:ro]".
+  /// JSON objects: what a step of it does unless the request says otherwise.
+  std::string restart;
+  std::string on_node_loss;
+  std::string health;
+  double safe_timeout_s = 0;
 
   static constexpr auto fields() {
     return field_list{
@@ -40,7 +45,11 @@ struct deployment_option {
         optional("devices", &deployment_option::devices),
         optional("labels", &deployment_option::labels),
         optional("environment", &deployment_option::environment),
-        optional("volumes", &deployment_option::volumes)};
+        optional("volumes", &deployment_option::volumes),
+        raw_json("restart", &deployment_option::restart),
+        raw_json("on_node_loss", &deployment_option::on_node_loss),
+        raw_json("health", &deployment_option::health),
+        optional("safe_timeout_s", &deployment_option::safe_timeout_s)};
   }
 };
 
@@ -93,6 +102,7 @@ struct skill_descriptor {
   port_description output;
   std::vector<implementation_model> models;
   std::vector<ros2_program> ros2; ///< One for "ros2_standalone", else none.
+  bool safe_state = false;        ///< It says when it may be ended.
 
   static constexpr auto fields() {
     return field_list{required("operation", &skill_descriptor::operation),
@@ -102,7 +112,8 @@ struct skill_descriptor {
                       required("input", &skill_descriptor::input),
                       required("output", &skill_descriptor::output),
                       required("models", &skill_descriptor::models),
-                      one_or_many("ros2", &skill_descriptor::ros2)};
+                      one_or_many("ros2", &skill_descriptor::ros2),
+                      optional("safe_state", &skill_descriptor::safe_state)};
   }
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "messages/event.hpp"
 #include "messages/instance.hpp"
 
 #include <map>
@@ -22,6 +23,13 @@ struct task_step {
   std::string parameters; ///< JSON object that overrides the model's.
   std::map<std::string, std::string> labels; ///< Labels the node must have.
   bool external = false; ///< Each topic that it reads is `external`.
+  /// JSON objects with some of the members of `restart_policy`,
+  /// `node_loss_policy` and `health_policy`: the rest is as its skill says.
+  std::string restart;
+  std::string on_node_loss;
+  std::string health;
+  double safe_timeout_s = 0; ///< 0: as its skill says.
+  int64_t priority = 5;      ///< 0 to 9.
 
   static constexpr auto fields() {
     return field_list{required("id", &task_step::id),
@@ -33,7 +41,12 @@ struct task_step {
                       one_or_many("output", &task_step::output),
                       raw_json("parameters", &task_step::parameters),
                       optional("labels", &task_step::labels),
-                      optional("external", &task_step::external)};
+                      optional("external", &task_step::external),
+                      raw_json("restart", &task_step::restart),
+                      raw_json("on_node_loss", &task_step::on_node_loss),
+                      raw_json("health", &task_step::health),
+                      optional("safe_timeout_s", &task_step::safe_timeout_s),
+                      optional("priority", &task_step::priority)};
   }
 };
 
@@ -86,24 +99,30 @@ struct placed_instance {
 struct task_termination {
   static constexpr const char* type = "task_termination";
   std::string task;
+  bool force = false; ///< Nothing is waited for to be safe.
 
   static constexpr auto fields() {
-    return field_list{required("task", &task_termination::task)};
+    return field_list{required("task", &task_termination::task),
+                      optional("force", &task_termination::force)};
   }
 };
 
+/// Reply to `task_termination`. It does not wait for what is not safe yet: that
+/// is named, ends by itself, and the fact `task_terminated` follows.
 struct task_terminated {
   static constexpr const char* type = "task_terminated";
   std::string task;
   std::vector<std::string> instances; ///< Those that were removed.
   /// Nodes that are away: they remove theirs when they come back.
   std::vector<std::string> pending_nodes;
+  std::vector<safety_wait> waiting; ///< These are not gone yet.
 
   static constexpr auto fields() {
     return field_list{
         required("task", &task_terminated::task),
         required("instances", &task_terminated::instances),
-        optional("pending_nodes", &task_terminated::pending_nodes)};
+        optional("pending_nodes", &task_terminated::pending_nodes),
+        optional("waiting", &task_terminated::waiting)};
   }
 };
 
@@ -113,10 +132,12 @@ struct task_restart {
   static constexpr const char* type = "task_restart";
   std::string task;
   std::string instance; ///< Empty: all of the task.
+  bool force = false;   ///< Nothing is waited for to be safe.
 
   static constexpr auto fields() {
     return field_list{required("task", &task_restart::task),
-                      optional("instance", &task_restart::instance)};
+                      optional("instance", &task_restart::instance),
+                      optional("force", &task_restart::force)};
   }
 };
 
@@ -150,13 +171,40 @@ struct task_row {
   std::string task;
   task_state state = task_state::deploying;
   int64_t submitted_unix_ms = 0;
+  int64_t ended_unix_ms = 0; ///< Of a finished or failed one; 0: it goes on.
   std::vector<instance_row> instances;
 
   static constexpr auto fields() {
     return field_list{
         required("task", &task_row::task), required("state", &task_row::state),
         required("submitted_unix_ms", &task_row::submitted_unix_ms),
+        optional("ended_unix_ms", &task_row::ended_unix_ms),
         required("instances", &task_row::instances)};
+  }
+};
+
+/// Asks what has happened to a task, also to one that is gone.
+struct task_history_query {
+  static constexpr const char* type = "task_history_query";
+  std::string task;
+
+  static constexpr auto fields() {
+    return field_list{required("task", &task_history_query::task)};
+  }
+};
+
+/// What has happened to a task, in order: the first and the newest facts, of
+/// all nodes, across restarts of the coordinator.
+struct task_history {
+  static constexpr const char* type = "task_history";
+  std::string task;
+  std::vector<event> events;
+  int64_t dropped = 0; ///< Facts between the first and the newest ones.
+
+  static constexpr auto fields() {
+    return field_list{required("task", &task_history::task),
+                      required("events", &task_history::events),
+                      optional("dropped", &task_history::dropped)};
   }
 };
 

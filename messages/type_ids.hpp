@@ -21,6 +21,8 @@
   X(task_terminated)                                                           \
   X(task_restart)                                                              \
   X(task_restarted)                                                            \
+  X(task_history_query)                                                        \
+  X(task_history)                                                              \
   X(task_query)                                                                \
   X(task_description)                                                          \
   X(task_accepted)                                                             \
@@ -35,6 +37,10 @@
   X(cell_formed)                                                               \
   X(node_release)                                                              \
   X(node_released)                                                             \
+  X(node_drain)                                                                \
+  X(node_drained)                                                              \
+  X(node_undrain)                                                              \
+  X(node_undrained)                                                            \
   X(node_transfer)                                                             \
   X(node_transferred)                                                          \
   X(transfer_query)                                                            \
@@ -86,6 +92,10 @@
   X(adopt_container)                                                           \
   X(container_adopted)                                                         \
   X(container_exited)                                                          \
+  X(fence_container)                                                           \
+  X(ask_for_safety)                                                            \
+  X(contact_proven)                                                            \
+  X(contact_lost)                                                              \
   X(hear_container)                                                            \
   X(ends_acknowledged)                                                         \
   X(instance_notified)                                                         \

@@ -34,7 +34,18 @@ struct virtual_time {
   caf::actor_system system{config};
   caf::scheduler::test_coordinator& scheduler =
       dynamic_cast<caf::scheduler::test_coordinator&>(system.scheduler());
-  house context{std::make_shared<actor_directory>(), {}};
+  house context{std::make_shared<actor_directory>(), {}, boot_now_ms};
+
+  /// This host was booted a million seconds before the test began.
+  static constexpr int64_t boot_ms_at_start = 1'000'000'000;
+
+  static int64_t boot_now_ms(caf::actor_system& system) {
+    using namespace std::chrono;
+    return boot_ms_at_start
+           + duration_cast<milliseconds>(
+                 system.clock().now().time_since_epoch())
+                 .count();
+  }
 
   /// Handles every message that is there or arises from these.
   void settle() {

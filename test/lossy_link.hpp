@@ -82,8 +82,10 @@ struct wire_end_state {
   wire_ptr link;
   size_t index = 0;
   session_owner_actor owner;
-  std::vector<std::string> kept; ///< Frames from before there was an owner.
-  std::string end_reason;        ///< Set when it ended before it had one.
+  std::vector<std::string> kept;    ///< Frames from before there was an owner.
+  std::string end_reason;           ///< Set when it ended before it had one.
+  uint32_t number = 0;              ///< Of the last beat.
+  std::map<uint32_t, int64_t> sent; ///< When beats were sent.
 };
 
 namespace wire_steps {
@@ -154,8 +156,12 @@ inline void send_out(self_pointer self, const std::string& text) {
     pass(self, text);
 }
 
-inline void send_out(self_pointer self, beat_kind kind) {
+inline void send_out(self_pointer self, const send_beat& beat) {
   auto& link = *self->state.link;
+  auto& sent = self->state.sent;
+  const auto number = beat.answers != 0 ? beat.answers : ++self->state.number;
+  if (beat.kind == beat_kind::beat)
+    sent[number] = virtual_time::boot_now_ms(self->system());
   ++link.beats;
   if (!link.open || link.holds(self->state.index)
       || link.happens(link.faults.lose_beat))
@@ -163,7 +169,7 @@ inline void send_out(self_pointer self, beat_kind kind) {
   const auto times = link.happens(link.faults.repeat_beat) ? 2 : 1;
   for (auto i = 0; i < times; ++i)
     self->delayed_send(link.ends[1 - self->state.index], link.delay(),
-                       beat_received{kind});
+                       beat_received{beat.kind, number, 0});
 }
 
 inline void take_owner(self_pointer self, const session_owner_actor& owner) {
@@ -203,13 +209,17 @@ inline session_actor::behavior_type wire_end(wire_steps::self_pointer self,
       },
       [self](const own_session& x) { take_owner(self, x.owner); },
       [self](const send_frame& x) { send_out(self, x.text); },
-      [self](const send_beat& x) { send_out(self, x.kind); },
+      [self](const send_beat& x) { send_out(self, x); },
       [self](const close_session& x) {
         end_other(self, x.reason);
         self->quit();
       },
       [self](const frame_received& x) { come_in(self, x); },
-      [self](const beat_received& x) {
+      [self](beat_received x) {
+        const auto& sent = self->state.sent;
+        const auto i = sent.find(x.sequence);
+        if (x.kind == beat_kind::ack && i != sent.end())
+          x.sent_boot_ms = i->second;
         if (self->state.owner)
           self->send(self->state.owner, x);
       },

@@ -1,6 +1,7 @@
 #include "actors/cell/cell_coordinator.hpp"
 
 #include "actors/cell/cell_balance.hpp"
+#include "actors/cell/cell_drains.hpp"
 #include "actors/cell/cell_figures.hpp"
 #include "actors/cell/cell_formation.hpp"
 #include "actors/cell/cell_members.hpp"
@@ -9,8 +10,10 @@
 #include "actors/cell/cell_presences.hpp"
 #include "actors/cell/cell_topics.hpp"
 #include "actors/cell/cell_transfers.hpp"
+#include "actors/cell/moves/lost_steps.hpp"
 #include "actors/cell/state/arrivals.hpp"
 #include "actors/cell/state/coordinator_timer.hpp"
+#include "actors/cell/state/task_story.hpp"
 #include "actors/cell/tasks/cell_instances.hpp"
 #include "actors/cell/tasks/cell_resources.hpp"
 #include "actors/cell/tasks/cell_tasks.hpp"
@@ -105,6 +108,8 @@ void on_tick(coordinator_pointer self, uint64_t number) {
   ask_due_proofs(self);
   retry_due_changes(self);
   ask_overdue_removals(self);
+  move_lost_steps(self);
+  go_on_draining(self);
   balance_if_due(self);
   set_timer(self);
 }
@@ -115,6 +120,9 @@ void begin(coordinator_pointer self) {
   restore_members(self);
   restore_transfers(self);
   restore_tasks(self);
+  self->state.history.restore(self->state.setup.history);
+  restore_drains(self);
+  lose_steps_of_all(self);
   reconcile_own_node(self);
   measure_own_node(self);
   appear(self);
@@ -146,6 +154,9 @@ cell_coordinator(coordinator_pointer self, const house& context,
         return cell_list{list_cells(self->state)};
       },
       [self](const topic_query& x) { return list_topics(self, x); },
+      [self](const task_history_query& x) {
+        return tell_history(self->state, x);
+      },
       [self](const task_query& x) { return describe_tasks(self->state, x); },
       [self](const instance_query& x) {
         return describe_instances_now(self, x);
@@ -178,6 +189,8 @@ cell_coordinator(coordinator_pointer self, const house& context,
       [self](const cell_formation& x) { return form_cell(self, x); },
       [self](const node_transfer& x) { return transfer_node(self, x); },
       [self](const node_release& x) { return release_node(self, x); },
+      [self](const node_drain& x) { return drain_node(self, x); },
+      [self](const node_undrain& x) { return undrain_node(self, x); },
       [self](const transfer_query& x) { return describe_transfers(self, x); },
       [self](const route_request& x) { return answer_member(self, x); },
       [self](const serve_members& x) { self->state.router = x.router; },

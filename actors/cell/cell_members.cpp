@@ -1,11 +1,14 @@
 #include "actors/cell/cell_members.hpp"
 
+#include "actors/cell/moves/lost_steps.hpp"
 #include "actors/cell/state/arrivals.hpp"
 #include "actors/cell/state/coordinator_publish.hpp"
 #include "actors/cell/state/coordinator_store.hpp"
 #include "actors/cell/state/coordinator_timer.hpp"
 #include "actors/cell/state/node_whereabouts.hpp"
+#include "actors/cell/state/task_story.hpp"
 #include "actors/cell/tasks/cell_instances.hpp"
+#include "actors/cell/tasks/task_removals.hpp"
 #include "actors/house/limits.hpp"
 #include "actors/session/member.hpp"
 #include "messages/failure.hpp"
@@ -86,6 +89,21 @@ void on_registration_kept(
       take_up_instances(self, node), st.setup.cell_uuid, place_of(st, *entry)});
   settle_arrivals(self, who.uuid, nullptr);
   on_node_returned(self, who.uuid);
+}
+
+/// Nothing is heard of a node any more, and was not for some time.
+void lose_node(coordinator_pointer self, const registry_entry& entry,
+               std::chrono::milliseconds silence) {
+  const auto who = entry.row.identity;
+  give_up_waits_on(self, who.name);
+  lose_steps_of(self, who.name, who.uuid, self->clock().now() - silence);
+  for (const auto& spec : self->state.deployments.bound_to(who.name))
+    tell_of_task(self, "instance_out_of_reach", spec.task, spec.instance,
+                 {{"task", spec.task},
+                  {"step", spec.step},
+                  {"node", who.name},
+                  {"reason", entry.row.reason},
+                  {"on_node_loss", spec.life.on_node_loss}});
 }
 
 } // namespace
@@ -190,6 +208,7 @@ caf::result<node_departed> depart_member(coordinator_pointer self,
   } else {
     st.registry.deactivate(*entry, row_state::expected, request.reason,
                            now_of(self));
+    lose_node(self, *entry, std::chrono::milliseconds{0});
     publish(self, {request.uuid});
   }
   stop_searches_on(st, name);
@@ -207,9 +226,12 @@ void on_member_lost(coordinator_pointer self, const member_lost& fact) {
   const auto name = entry->row.identity.name;
   if (entry->row.state == row_state::departing) {
     on_departing_node_lost(self, *entry, fact.reason);
+    give_up_waits_on(self, name);
+    lose_steps_of(self, name, fact.uuid, self->clock().now());
     return set_timer(self);
   }
   st.registry.deactivate(*entry, row_state::lost, fact.reason, now_of(self));
+  lose_node(self, *entry, std::chrono::milliseconds{fact.silent_ms});
   publish(self, {fact.uuid});
   stop_searches_on(st, name);
   st.context.tell(

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "actors/house/actor_directory.hpp"
+#include "actors/house/boot_clock.hpp"
 #include "messages/inside/introspection.hpp"
 
 #include <caf/actor_system.hpp>
@@ -22,6 +23,8 @@ namespace roscell {
 struct house {
   std::shared_ptr<actor_directory> directory;
   event_log_actor events; ///< Invalid in tests that do not care for facts.
+  /// Milliseconds since this host was booted; a test has its own.
+  int64_t (*boot_now_ms)(caf::actor_system&) = roscell::boot_now_ms;
 
   /// Records a fact; `data` is an object or null.
   void tell(std::string what, std::string subject,

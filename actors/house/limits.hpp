@@ -161,6 +161,16 @@ constexpr seconds hearing{10};
 
 /// Most of the log's end that goes along with a failure.
 constexpr size_t log_tail_bytes = 8 * kib;
+/// Earlier ends that are kept of an instance, and of each of their logs so many
+/// lines and bytes: they travel with every change of it.
+constexpr size_t kept_ends = 5;
+constexpr size_t end_lines = 5;
+constexpr size_t end_log_bytes = kib;
+/// Between two new starts in a row, whatever the policy says: each costs a
+/// process and a write.
+constexpr milliseconds least_pause{100};
+/// Of them in a registration, which is one frame.
+constexpr size_t registered_ends = 2;
 /// Most of what is said of why it ended.
 constexpr size_t reason_bytes = 2 * kib;
 /// A program that talks to its NOTIFY_SOCKET without end causes 50 messages a
@@ -242,6 +252,8 @@ constexpr seconds open{10};
 constexpr size_t pending_calls = 256;
 /// Ids of requests that are known, so that one delivered twice is done once.
 constexpr size_t known_calls = 256;
+/// Beats whose times are known until they are answered: more than a lease has.
+constexpr size_t remembered_beats = 64;
 /// Larger answers are not kept: who asks again is told to ask anew.
 constexpr size_t kept_answer_bytes = 16 * kib;
 /// Of the specs that an answer to a registration carries; half a frame, since
@@ -427,6 +439,14 @@ constexpr milliseconds removal{52'000};
 constexpr milliseconds removal_answer{55'000};
 /// To end instances of a task and to start them again.
 constexpr seconds restart{870};
+
+/// Facts that are kept of a task: its first ones and the newest; and for how
+/// many tasks, those that are gone too.
+constexpr size_t first_facts = 50;
+constexpr size_t newest_facts = 150;
+constexpr size_t histories = 128;
+/// Most of each text in such a fact.
+constexpr size_t fact_text_bytes = 512;
 
 /// A termination whose record cannot be removed for so long is answered with
 /// the trouble; the removal goes on.

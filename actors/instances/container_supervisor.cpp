@@ -1,11 +1,10 @@
 #include "actors/instances/container_supervisor.hpp"
 
 #include "actors/house/limits.hpp"
-#include "actors/house/wall_clock.hpp"
 #include "actors/instances/instance_id.hpp"
 #include "actors/instances/instance_removal.hpp"
-#include "actors/instances/instance_words.hpp"
-#include "actors/instances/skill_instance.hpp"
+#include "actors/instances/instance_upkeep.hpp"
+#include "actors/instances/logs/log_following.hpp"
 #include "messages/failure.hpp"
 
 #include <caf/result.hpp>
@@ -20,39 +19,6 @@ namespace {
 
 using container_supervisor_self =
     container_supervisor_actor::stateful_pointer<container_supervisor_state>;
-
-void on_ended(container_supervisor_self self, const std::string& instance,
-              supervised_instance& x) {
-  x.actor = nullptr;
-  const auto error = to_error(deployment_failure(x.row));
-  for (auto& promise : std::exchange(x.deployers, {}))
-    promise.deliver(error);
-  if (x.removing)
-    clean_instance(self, instance);
-  else
-    trim_ended(self);
-}
-
-void spawn_actor(container_supervisor_self self, supervised_instance& x,
-                 bool adopt) {
-  auto& st = self->state;
-  skill_instance_config config{
-      st.config.context,
-      caf::actor_cast<container_supervisor_actor>(self),
-      st.runtime,
-      st.config.store,
-      st.config.skills,
-      x.row,
-      adopt,
-      st.config.builds_images,
-      st.config.graph,
-      st.environment};
-  x.actor = spawn(self->system(), st.config.context, skill_instance, config);
-  self->monitor(x.actor);
-  caf::anon_send(x.actor, start_instance{});
-  if (x.removing)
-    caf::anon_send(x.actor, stop_instance{"removed"});
-}
 
 /// Empty if the node can run such an instance.
 caf::error check(container_supervisor_self self, const instance_spec& spec) {
@@ -102,6 +68,7 @@ caf::result<instance_deployed> begin(container_supervisor_self self,
   x.row.spec = spec;
   x.row.node = self->state.config.node;
   x.row.trouble = self->state.trouble;
+  x.confirmed = true;
   spawn_actor(self, x, false);
   auto promise = self->make_response_promise<instance_deployed>();
   x.deployers.push_back(promise);
@@ -154,10 +121,9 @@ caf::result<log_excerpt> read_log(container_supervisor_self self,
     return fail(error_code::unknown_task,
                 "there is no instance '" + query.instance + "'", "/instance",
                 "`roscell instances` lists them");
-  const std::chrono::milliseconds wait{
-      std::clamp<int64_t>(query.wait_ms, 0, limits::log::wait.count())};
   auto promise = self->make_response_promise<log_excerpt>();
-  self->request(self->state.runtime, wait + limits::log::runtime, query)
+  self->request(self->state.runtime, wait_of(query) + limits::log::runtime,
+                query)
       .then([promise](const log_excerpt& x) mutable { promise.deliver(x); },
             [promise](const caf::error& x) mutable { promise.deliver(x); });
   return promise;
@@ -191,8 +157,13 @@ void on_changed(container_supervisor_self self, const instance_row& row) {
   if (before.state != instance_state::building
       || row.state == instance_state::building)
     x->row.status = before.status;
-  if (news && self->state.listener)
+  const bool waits = row.unsafe_since_unix_ms != before.unsafe_since_unix_ms;
+  const bool health =
+      row.health != before.health || row.health_reason != before.health_reason;
+  if ((news || waits || health) && self->state.listener)
     self->send(self->state.listener, instance_changed{x->row});
+  if (x->removing && row.unsafe_since_unix_ms > 0)
+    on_removal_waits(self, x->row);
   if (row.state == instance_state::running) {
     x->deaths = 0;
     for (auto& promise : std::exchange(x->deployers, {}))
@@ -212,6 +183,8 @@ void on_notified(container_supervisor_self self,
     x->figures.hear(fact.status, self->clock().now());
     x->row.figures = x->figures.known();
   }
+  if (fact.safe != safe_word::untold)
+    x->row.safe = fact.safe;
   self->send(x->actor, fact);
 }
 
@@ -231,95 +204,6 @@ void on_troubled(container_supervisor_self self, const std::string& trouble) {
     x.row.trouble = is_live(x.row.state) ? trouble : std::string{};
     if (st.listener)
       self->send(st.listener, instance_changed{x.row});
-  }
-}
-
-void on_instance_died(container_supervisor_self self,
-                      const std::string& instance, supervised_instance& x) {
-  auto& st = self->state;
-  st.config.context.tell("skill_instance_died", instance,
-                         {{"deaths", x.deaths + 1}});
-  if (++x.deaths <= limits::instance::most_deaths)
-    return spawn_actor(self, x, true);
-  x.row.state = instance_state::failed;
-  x.row.since_unix_ms = unix_now_ms();
-  x.row.reason = "its supervision has failed";
-  if (st.listener)
-    self->send(st.listener, instance_changed{x.row});
-  // Nobody watches the program any more, so it must not go on.
-  caf::anon_send(st.runtime, stop_container{instance, x.row.container, 0});
-  on_ended(self, instance, x);
-}
-
-void start_runtime(container_supervisor_self self) {
-  auto& st = self->state;
-  st.runtime =
-      st.config.make_runtime(caf::actor_cast<container_listener_actor>(self));
-  self->monitor(st.runtime);
-}
-
-void on_runtime_died(container_supervisor_self self, const caf::error& reason) {
-  auto& st = self->state;
-  if (++st.runtime_deaths > limits::instance::most_deaths)
-    return self->quit(reason);
-  st.config.context.tell("runtime_died", st.config.node,
-                         {{"deaths", st.runtime_deaths}});
-  start_runtime(self);
-  for (auto& [instance, x] : st.instances) {
-    if (!x.actor)
-      continue;
-    self->demonitor(x.actor.address());
-    caf::anon_send_exit(x.actor, caf::exit_reason::kill);
-    spawn_actor(self, x, true);
-  }
-}
-
-void on_down(container_supervisor_self self, const caf::down_msg& down) {
-  auto& st = self->state;
-  if (down.source == st.runtime.address())
-    return on_runtime_died(self, down.reason);
-  // An instance's actor that ends in order has said why before.
-  if (!down.reason)
-    return;
-  for (auto& [instance, x] : st.instances)
-    if (x.actor && x.actor.address() == down.source)
-      return on_instance_died(self, instance, x);
-}
-
-void restore(container_supervisor_self self) {
-  auto& st = self->state;
-  for (auto& row : std::exchange(st.config.restored, {})) {
-    if (!is_instance_id(row.spec.instance))
-      continue;
-    auto& x = st.instances[row.spec.instance];
-    x.row = std::move(row);
-    x.row.node = st.config.node;
-    // Nobody knows what it has done meanwhile.
-    if (is_live(x.row.state))
-      x.row.figures = {};
-    if (is_live(x.row.state))
-      spawn_actor(self, x, true);
-  }
-  trim_ended(self);
-}
-
-/// Nobody could ever end them otherwise.
-void end_strays(container_supervisor_self self) {
-  auto& st = self->state;
-  for (const auto& instance : std::exchange(st.config.strays, {})) {
-    if (!is_instance_id(instance))
-      continue;
-    const auto context = st.config.context;
-    self->request(st.runtime, limits::instance::cleaning,
-                  remove_container{instance, {}})
-        .then(
-            [=](const container_removed&) {
-              context.tell("stray_ended", instance);
-            },
-            [=](const caf::error& why) {
-              context.tell("stray_removal_failed", instance,
-                           {{"reason", to_failure(why).message}});
-            });
   }
 }
 
@@ -346,6 +230,8 @@ container_supervisor(container_supervisor_self self,
       [self](const use_environment& x) {
         self->state.environment = x.environment;
       },
+      [self](const contact_proven& x) { on_contact(self, x); },
+      [self](const contact_lost&) { on_contact_lost(self); },
       [self](const ends_acknowledged& x) {
         acknowledge_ends(self, x.instances);
       },

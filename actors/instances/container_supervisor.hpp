@@ -30,6 +30,7 @@ struct container_supervisor_config {
   std::vector<instance_row> restored;
   /// What an earlier run may have left and no record knows: it is ended.
   std::vector<std::string> strays;
+  bool may_be_lost = false; ///< By a cell: it is no coordination node.
 };
 
 /// An instance as the supervisor sees it.
@@ -39,15 +40,18 @@ struct supervised_instance {
   skill_instance_actor actor; ///< Null once the instance has ended.
   std::vector<caf::typed_response_promise<instance_deployed>> deployers;
   bool removing = false;
+  bool confirmed = false;    ///< The coordinator in contact wants it.
+  bool forced = false;       ///< Without waiting until it is safe.
   bool cleaning = false;     ///< What it left is being removed.
   bool acknowledged = false; ///< The coordinator keeps that it has ended.
   bool log_dropped = false;  ///< What it left is gone, or is going.
   int deaths = 0;            ///< Of its actor, since it ran last.
 };
 
-/// A removal that waits for its instances to be gone.
+/// A removal that waits for its instances to be gone, or to wait themselves.
 struct pending_removal {
   std::set<std::string> left;
+  std::vector<safety_wait> waiting;
   std::vector<std::string> gone;
   caf::error error; ///< Of the first that could not be removed.
   caf::typed_response_promise<instances_removed> promise;
@@ -62,6 +66,8 @@ struct container_supervisor_state {
   int runtime_deaths = 0;
   std::string trouble; ///< Of the engine under the runtime; empty: none.
   instance_listener_actor listener;
+  bool out_of_contact = true;  ///< And the next word tells what is wanted.
+  int64_t contact_boot_ms = 0; ///< Of the last word that reached the cell.
   /// What this node says of the cell to instances that it starts.
   std::map<std::string, std::string> environment;
   std::map<std::string, supervised_instance> instances;

@@ -1,6 +1,7 @@
 #include "actors/instances/instance_environment.hpp"
 
 #include "actors/house/limits.hpp"
+#include "actors/instances/life/health_book.hpp"
 #include "messages/codec/json_codec.hpp"
 
 namespace roscell {
@@ -38,6 +39,9 @@ instance_environment(const instance_spec& spec,
   };
   for (const auto& [name, value] : contract)
     result[name] = value;
+  // To measure costs a skill some wake-ups.
+  if (has_bounds(spec.life.health))
+    result["ROSCELL_HEALTH"] = "1";
   if (spec.gpu >= 0) {
     // Inside the instance CUDA counts from 0, so both are needed.
     result["ROSCELL_GPU"] = std::to_string(spec.gpu);

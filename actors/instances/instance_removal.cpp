@@ -23,7 +23,7 @@ void settle_removals(container_supervisor_pointer self) {
     if (i->error)
       i->promise.deliver(i->error);
     else
-      i->promise.deliver(instances_removed{i->gone});
+      i->promise.deliver(instances_removed{i->gone, i->waiting});
     i = xs.erase(i);
   }
 }
@@ -46,7 +46,24 @@ void on_removal_failed(container_supervisor_pointer self,
   settle_removals(self);
 }
 
+safety_wait wait_of(const instance_row& row) {
+  return {row.spec.instance,
+          row.spec.task,
+          row.spec.step,
+          row.node,
+          row.unsafe_since_unix_ms,
+          row.unsafe_until_unix_ms};
+}
+
 } // namespace
+
+void on_removal_waits(container_supervisor_pointer self,
+                      const instance_row& row) {
+  for (auto& x : self->state.removals)
+    if (x.left.erase(row.spec.instance) > 0)
+      x.waiting.push_back(wait_of(row));
+  settle_removals(self);
+}
 
 supervised_instance* find_instance(container_supervisor_pointer self,
                                    const std::string& instance) {
@@ -163,10 +180,14 @@ remove_instances(container_supervisor_pointer self,
   for (const auto& instance : wanted) {
     auto& x = st.instances.at(instance);
     x.removing = true;
+    x.forced = x.forced || wish.force;
     if (x.actor)
-      caf::anon_send(x.actor, stop_instance{"removed"});
+      caf::anon_send(x.actor, stop_instance{"removed", x.forced});
     else
       clean_instance(self, instance);
+    // It was asked before. One that is gone by now is no loss.
+    if (!wish.force && x.row.unsafe_since_unix_ms > 0)
+      on_removal_waits(self, instance_row{x.row});
   }
   return promise;
 }

@@ -133,6 +133,11 @@ skill_catalogue::add_actor_skill(const std::string& text) {
   if (descriptor.engine != actor_engine)
     return {{"/engine", "expected \"actor\": it is registered with a factory "
                         "for actors"}};
+  for (const auto& [hash, x] : skills_)
+    if (x.in_process && x.skill.descriptor.operation == descriptor.operation)
+      return {{"/operation",
+               "expected an operation that no other actor skill of "
+               "this program has; one may have several models"}};
   installed_skill skill{to_hex(hmac_sha256(actor_key, text)),
                         std::move(descriptor)};
   if (skill.version.empty())

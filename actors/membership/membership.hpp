@@ -116,6 +116,8 @@ struct membership_status {
   std::string coordinator; ///< Its name.
   std::string address;     ///< Of its HTTP port.
   int64_t incarnation = 0;
+  /// When the present registration was sent, by the clock of the boot.
+  int64_t registered_boot_ms = 0;
   time_point joined_at;
   std::optional<program_service> programs; ///< None: the cell gave no place.
 

@@ -41,6 +41,16 @@ void acknowledge_ends(self_pointer self) {
     self->send(st.parts.supervisor, std::move(fact));
 }
 
+/// What the coordinator wants to go on may do so for as long as it would be
+/// missed from here.
+void prove_contact(self_pointer self, const node_registered& reply) {
+  contact_proven fact{self->state.registered_boot_ms, {}};
+  for (const auto& x : reply.verdicts)
+    if (x.what != verdict::stop)
+      fact.kept.push_back(x.instance);
+  self->send(self->state.parts.supervisor, std::move(fact));
+}
+
 void on_registered(self_pointer self, const node_registered& reply) {
   auto& st = self->state;
   if (reply.incarnation != st.opened->incarnation)
@@ -65,6 +75,7 @@ void on_registered(self_pointer self, const node_registered& reply) {
         {"epoch", st.config.identity.epoch}});
   acknowledge_ends(self);
   serve_programs_of(self, reply);
+  prove_contact(self, reply);
   apply(self, reply.verdicts);
   for (const auto& [instance, fact] : std::exchange(st.unsent, {}))
     notify(self, fact);
@@ -74,6 +85,10 @@ void on_registered(self_pointer self, const node_registered& reply) {
 /// rest; hundreds of whole rows would not fit into one frame.
 void shorten(instance_row& row) {
   row.log_tail.clear();
+  if (row.ends.size() > limits::instance::registered_ends)
+    row.ends.resize(limits::instance::registered_ends);
+  for (auto& end : row.ends)
+    end.log.clear();
   row.spec.input.clear();
   row.spec.output.clear();
   row.spec.parameters.clear();
@@ -121,6 +136,7 @@ void maybe_register(self_pointer self) {
     else
       on_error(self, reply.error());
   };
+  st.registered_boot_ms = st.context.boot_now_ms(self->system());
   st.frames.call(message_json(registration_of(st)),
                  self->clock().now() + limits::membership::registration,
                  on_result);

@@ -106,6 +106,7 @@ void drop_session(self_pointer self, const std::string& reason) {
   auto& st = self->state;
   if (!st.session)
     return;
+  self->send(st.parts.supervisor, contact_lost{});
   auto session = std::exchange(st.session, nullptr);
   self->demonitor(session.address());
   self->send(session, close_session{reason});
@@ -133,8 +134,11 @@ void on_frame(self_pointer self, const frame_received& frame) {
 }
 
 void on_beat(self_pointer self, const beat_received& beat) {
-  if (auto answer = self->state.life.heard_beat(beat.kind, self->clock().now()))
-    self->send(self->state.session, send_beat{*answer});
+  auto& st = self->state;
+  if (auto answer = st.life.heard_beat(beat.kind, self->clock().now()))
+    self->send(st.session, send_beat{*answer, beat.sequence});
+  if (beat.sent_boot_ms > 0 && st.phase == phase::joined)
+    self->send(st.parts.supervisor, contact_proven{beat.sent_boot_ms, {}});
 }
 
 void on_session_lost(self_pointer self, const std::string& reason) {
@@ -172,7 +176,7 @@ void keep_lease(self_pointer self) {
   if (next.over)
     on_session_lost(self, silence_of_a_lease());
   else if (next.send)
-    self->send(self->state.session, send_beat{*next.send});
+    self->send(self->state.session, send_beat{*next.send, 0});
 }
 
 void notify(self_pointer self, const instance_changed& fact) {

@@ -1,9 +1,6 @@
 #include "actors/node/node_builder.hpp"
 
 #include "actors/cell/cell_coordinator.hpp"
-#include "actors/edge/host/installed_files.hpp"
-#include "actors/edge/host/interfaces.hpp"
-#include "actors/edge/io/socket_address.hpp"
 #include "actors/house/edge_failure.hpp"
 #include "actors/instances/actor_skills/runtime_switch.hpp"
 #include "actors/instances/container_supervisor.hpp"
@@ -16,6 +13,8 @@
 #include "actors/node/node_agent.hpp"
 #include "actors/node/node_runtime.hpp"
 #include "actors/node/resource_probe.hpp"
+#include "actors/node/start/config_checks.hpp"
+#include "actors/node/start/offered_skills.hpp"
 #include "actors/node/state_store.hpp"
 #include "actors/placement/scheduler.hpp"
 #include "actors/placement/searcher.hpp"
@@ -25,7 +24,6 @@
 #include "actors/session/registration_client.hpp"
 #include "actors/session/session_connector.hpp"
 #include "messages/failure.hpp"
-#include "schemas/message_catalogue.hpp"
 
 #include <caf/actor_cast.hpp>
 #include <caf/actor_system_config.hpp>
@@ -36,69 +34,6 @@
 namespace roscell {
 
 namespace {
-
-constexpr uint16_t default_discovery_port = 11811;
-
-/// Refuses words that would make every message of this node invalid.
-caf::error check_words(const std::string& option,
-                       const node_resources& resources) {
-  const auto errors = document_errors("resource_report",
-                                      message_json(resource_report{resources}),
-                                      unknown_members::taken);
-  if (errors.empty())
-    return caf::none;
-  return fail(error_code::schema_violation, option + ": " + errors[0].expected);
-}
-
-caf::error check_words(const node_config& config) {
-  node_resources plain;
-  plain.architecture = "amd64";
-  plain.name = config.name;
-  if (auto why = check_words("--name", plain))
-    return why;
-  plain.name = config.cell;
-  if (auto why = check_words("--cell", plain))
-    return why;
-  plain.labels = config.labels;
-  if (auto why = check_words("--label", plain))
-    return why;
-  plain.devices = config.devices;
-  return check_words("--device", plain);
-}
-
-/// Checks the options and fills in what was left out.
-caf::error complete(node_config& config) {
-  auto chosen = resolve_interface(config.address);
-  if (auto* why = std::get_if<edge_error>(&chosen))
-    return to_caf(*why);
-  config.address = std::get<interface_address>(chosen).address;
-  if (config.name.empty())
-    config.name = mac_node_name(config.address);
-  if (config.cell.empty())
-    config.cell = config.name;
-  if (auto why = check_words(config))
-    return why;
-  if (config.coordinator && !config.join.empty())
-    return fail(error_code::schema_violation,
-                "a coordination node does not join another cell", "",
-                "leave out --join or --coordinator");
-  if (config.wait && (config.coordinator || !config.join.empty()))
-    return fail(error_code::schema_violation,
-                "a node that waits to be chosen neither coordinates a cell nor "
-                "joins one",
-                "", "leave out --wait");
-  if (config.join.empty())
-    return caf::none;
-  const auto server = parse_host_address(config.join, default_discovery_port);
-  if (!server)
-    return fail(
-        error_code::schema_violation,
-        "'" + config.join + "' is not the address of a discovery server", "",
-        "give --join HOST[:PORT], such as 10.0.0.1, 10.0.0.1:11811 or "
-        "base.local");
-  config.join = to_string(*server);
-  return caf::none;
-}
 
 /// Starts the actors of a node, those first that others need.
 class node_builder {
@@ -182,6 +117,7 @@ private:
     supervision.graph = start(graph_watch, parts_.edges->graph);
     supervision.restored = data_.instances;
     supervision.strays = data_.strays;
+    supervision.may_be_lost = !config.coordinator;
     parts_.services->supervisor = start(container_supervisor, supervision);
     resource_probe_config probing;
     probing.host.data_dir = config.data_dir.string();
@@ -212,6 +148,8 @@ private:
     setup.tasks = data_.tasks;
     setup.members = data_.members;
     setup.transfers = data_.transfers;
+    setup.history = data_.history;
+    setup.drains = data_.drains;
     setup.server_id = parts_.edges->server_id;
     setup.rebalance = config.rebalance;
     setup.ros_domain_id = config.ros_domain_id;
@@ -317,27 +255,6 @@ private:
   state_store_actor store_;
 };
 
-/// The skills in folders, and those that the embedding program brings along.
-caf::expected<shared_skill_catalogue>
-collect_skills(const node_config& config, const chosen_runtime& runtime,
-               const node_additions& additions) {
-  auto dirs = config.skill_dirs;
-  // The usual places need not be there; those that were named must be.
-  for (auto& usual :
-       {installed_skills(program_folder()), config.data_dir / "skills"})
-    if (is_directory(usual) && !names_folder(dirs, usual))
-      dirs.push_back(usual);
-  const skill_host host{own_architecture(), runtime.socket.empty()};
-  auto result =
-      std::make_shared<skill_catalogue>(skill_catalogue::scan(dirs, host));
-  for (const auto& text : additions.actor_skills)
-    if (const auto errors = result->add_actor_skill(text); !errors.empty())
-      return fail(error_code::schema_violation,
-                  "the descriptor of an actor skill: " + errors[0].expected,
-                  errors[0].pointer);
-  return shared_skill_catalogue{std::move(result)};
-}
-
 /// Without its type a message would be dropped in silence.
 bool knows_our_types(const caf::actor_system& system) {
   return system.config().type_names_by_rtti.count(typeid(stop_node)) != 0;
@@ -364,7 +281,7 @@ caf::expected<running_node> spawn_node(caf::actor_system& system,
                 "call roscell::add_message_types(config) before the "
                 "caf::actor_system is made");
   auto config = wanted;
-  if (auto why = complete(config))
+  if (auto why = complete_config(config))
     return why;
   auto bound = parse_capacity(config.capacity);
   if (auto* why = std::get_if<edge_error>(&bound))
@@ -373,7 +290,7 @@ caf::expected<running_node> spawn_node(caf::actor_system& system,
   if (!runtime)
     return runtime.error();
   config.runtime = runtime->name;
-  auto skills = collect_skills(config, *runtime, additions);
+  auto skills = offered_skills(config, *runtime, additions.actor_skills);
   if (!skills)
     return skills.error();
   auto data = open_node_data(config);

@@ -4,6 +4,7 @@
 #include "messages/failure.hpp"
 #include "messages/messages.hpp"
 #include "roscell/node_config.hpp"
+#include "roscell/node_facts.hpp"
 
 #include <caf/actor_system.hpp>
 #include <caf/expected.hpp>
@@ -16,19 +17,12 @@
 namespace roscell {
 
 /// A node that runs: its root actor and where it can be reached.
-struct running_node {
+struct running_node : node_facts {
   node_actor actor;            ///< `stop_node` ends it in order.
   event_log_actor events;      ///< The node's facts, for whoever embeds it.
   request_router_actor router; ///< Takes requests as they come from outside.
   /// Who of the node's actors lives, also after `actor` has ended.
   std::shared_ptr<actor_directory> actors;
-  std::string name;
-  std::string http_address;     ///< "ip:port" that was really bound.
-  std::string socket;           ///< Path of the Unix socket.
-  std::string discovery_server; ///< "ip:port"; coordinators only.
-  std::string token_file;       ///< Bearer token for HTTP over TCP.
-  std::string runtime;          ///< "process", "docker" or "podman".
-  std::string runtime_reason;   ///< Why this one, one sentence.
 };
 
 /// What the program that embeds a node adds to it.

@@ -194,7 +194,11 @@ caf::error load_tables(const node_config& config, node_data& data) {
     return why;
   if (auto why = load_records(config, data, "members", data.members))
     return why;
-  return load_records(config, data, "transfers", data.transfers);
+  if (auto why = load_records(config, data, "transfers", data.transfers))
+    return why;
+  if (auto why = load_records(config, data, "history", data.history))
+    return why;
+  return load_records(config, data, "drains", data.drains);
 }
 
 caf::error load_tokens(const node_config& config, node_data& data) {

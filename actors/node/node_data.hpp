@@ -1,6 +1,8 @@
 #pragma once
 
 #include "actors/cell/books/cell_registry.hpp"
+#include "actors/cell/books/drain_book.hpp"
+#include "actors/cell/books/history_book.hpp"
 #include "actors/cell/books/task_book.hpp"
 #include "actors/edge/disk/directory_lock.hpp"
 #include "actors/edge/disk/sqlite_store.hpp"
@@ -35,6 +37,8 @@ struct node_data {
   std::optional<membership_record> membership; ///< Of a primary node.
   std::vector<member_record> members;          ///< Of a coordinator.
   std::vector<transfer_row> transfers;         ///< The same.
+  std::vector<history_record> history;         ///< The same.
+  std::vector<drain_record> drains;            ///< The same.
   std::vector<instance_row> instances;
   std::vector<task_record> tasks;
   std::vector<unread_record> unread; ///< They stay where they are.

@@ -20,12 +20,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
+fs::path shim_of(const node_config& config) {
+  return config.shim.empty() ? find_shim(program_folder()) : config.shim;
+}
+
 caf::expected<chosen_runtime> choose_processes(const node_config& config,
                                                std::string why) {
   chosen_runtime result;
   result.name = "process";
   result.reason = std::move(why);
-  result.shim = config.shim.empty() ? find_shim(program_folder()) : config.shim;
+  result.shim = shim_of(config);
   if (::access(result.shim.c_str(), X_OK) != 0)
     return fail(
         error_code::engine_failed,
@@ -34,11 +38,10 @@ caf::expected<chosen_runtime> choose_processes(const node_config& config,
   return result;
 }
 
-chosen_runtime choose_engine(const found_engine& engine) {
-  return {engine.name,
-          engine.socket,
-          engine.rootless,
-          {},
+/// Without a shim it runs all but what may move to another node.
+chosen_runtime choose_engine(const node_config& config,
+                             const found_engine& engine) {
+  return {engine.name, engine.socket, engine.rootless, shim_of(config),
           engine.name + (engine.version.empty() ? "" : " ") + engine.version
               + " answers on '" + engine.socket
               + (engine.rootless ? "', without root" : "'")};
@@ -49,6 +52,7 @@ process_factory(caf::actor_system& system, const house& context,
                 const node_config& config, const chosen_runtime& chosen,
                 const io_thread& io) {
   process_runtime_config setup;
+  setup.context = context;
   setup.instances_dir = config.data_dir / "instances";
   setup.shim = chosen.shim;
   setup.log_bytes = config.log_bytes;
@@ -76,7 +80,7 @@ caf::expected<chosen_runtime> choose_runtime(const node_config& config) {
           ? engine_sockets(name)
           : std::vector<std::string>{config.runtime.substr(colon + 1)});
   if (const auto* found = std::get_if<found_engine>(&engine))
-    return choose_engine(*found);
+    return choose_engine(config, *found);
   const auto& why = std::get<edge_error>(engine);
   if (name == "auto" && colon == std::string::npos)
     return choose_processes(config, why.message + " (" + why.hint + ")");
@@ -93,6 +97,7 @@ runtime_factory(caf::actor_system& system, const house& context,
   setup.context = context;
   setup.socket = chosen.socket;
   setup.setting = {node_uuid, config.log_bytes, chosen.name, chosen.rootless};
+  setup.shim = chosen.shim;
   setup.data_dir = config.data_dir;
   setup.io = io.core();
   return [&system, context, setup](const container_listener_actor& listener) {

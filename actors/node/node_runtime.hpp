@@ -18,7 +18,7 @@ struct chosen_runtime {
   std::string name;           ///< "process", "docker" or "podman".
   std::string socket;         ///< Of the engine; empty: there is none.
   bool rootless = false;      ///< The engine runs without root.
-  std::filesystem::path shim; ///< For processes.
+  std::filesystem::path shim; ///< For processes, and for fences.
   std::string reason;         ///< Why this one, a sentence for the operator.
 };
 

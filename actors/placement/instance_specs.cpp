@@ -1,5 +1,7 @@
 #include "actors/placement/instance_specs.hpp"
 
+#include "actors/placement/feeders.hpp"
+#include "actors/placement/life_resolution.hpp"
 #include "schemas/parameters/declared_parameter.hpp"
 
 #include <algorithm>
@@ -67,8 +69,10 @@ std::vector<instance_spec> make_specs(const allocated_task& task) {
     spec.parameters = parameters_for(build.model, x.step);
     spec.environment = option.environment;
     spec.resources = option.resources;
+    spec.life = life_of(x.step, option, build.safe_state);
     result.push_back(std::move(spec));
   }
+  name_feeders(result);
   return result;
 }
 

@@ -1,5 +1,7 @@
 #include "actors/placement/skill_resolution.hpp"
 
+#include "actors/placement/life_resolution.hpp"
+
 #include <algorithm>
 #include <map>
 #include <optional>
@@ -72,9 +74,9 @@ public:
   }
 
   std::variant<resolved_step, failure> resolve() {
-    for (auto rule :
-         {&step_resolver::keep_build, &step_resolver::keep_model,
-          &step_resolver::keep_deployment, &step_resolver::keep_ports}) {
+    for (auto rule : {&step_resolver::keep_build, &step_resolver::keep_model,
+                      &step_resolver::keep_deployment,
+                      &step_resolver::keep_ports, &step_resolver::keep_life}) {
       if (!problem_)
         (this->*rule)();
     }
@@ -191,6 +193,25 @@ private:
       problem_ = first;
   }
 
+  /// The same for how the step is to live, deployment by deployment.
+  void keep_life() {
+    std::optional<failure> first;
+    keep_if([&](fitting_build& x) {
+      auto& options = x.model.deployments;
+      const auto cannot = [&](const deployment_option& option) {
+        auto why = check_life(step_, option, x.row->skill.descriptor);
+        if (!first)
+          first = why;
+        return why.has_value();
+      };
+      options.erase(std::remove_if(options.begin(), options.end(), cannot),
+                    options.end());
+      return !options.empty();
+    });
+    if (candidates_.empty() && first)
+      refuse(first->code, first->where, first->message, first->hint);
+  }
+
   void check_ports(const std::string& place,
                    const std::vector<io_endpoint>& endpoints,
                    const port_description& port) {
@@ -232,7 +253,10 @@ private:
     }
     std::vector<skill_build> result;
     for (auto& x : candidates_)
-      result.push_back({x.row->skill.hash, std::move(x.model), {}});
+      result.push_back({x.row->skill.hash,
+                        std::move(x.model),
+                        {},
+                        x.row->skill.descriptor.safe_state});
     for (const auto& [node, choice] : newest)
       result[choice.second].nodes.push_back(node);
     if (!newest.empty())

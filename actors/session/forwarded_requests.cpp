@@ -15,14 +15,14 @@ namespace roscell {
 namespace {
 
 /// What the coordinator answers from what it knows.
-constexpr std::array<std::string_view, 5> queries{
-    cell_query::type, cell_list_query::type, task_query::type,
-    transfer_query::type, topic_query::type};
+constexpr std::array<std::string_view, 6> queries{
+    cell_query::type,         cell_list_query::type, task_query::type,
+    task_history_query::type, transfer_query::type,  topic_query::type};
 
 /// What it has to do something for.
-constexpr std::array<std::string_view, 4> commands{
+constexpr std::array<std::string_view, 6> commands{
     task_request::type, task_plan_query::type, task_termination::type,
-    task_restart::type};
+    task_restart::type, node_drain::type,      node_undrain::type};
 
 template <class Names>
 bool holds(const Names& names, const std::string& type) {

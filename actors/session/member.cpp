@@ -34,6 +34,12 @@ void set_timer(member_self self) {
 }
 
 /// Closes the session and ends the actor.
+/// Since the node's last word.
+std::chrono::milliseconds silence_of(member_self self) {
+  return std::chrono::duration_cast<std::chrono::milliseconds>(
+      self->clock().now() - self->state.life.last_heard());
+}
+
 void end_member(member_self self, const std::string& reason) {
   auto& st = self->state;
   if (std::exchange(st.ended, true))
@@ -41,9 +47,9 @@ void end_member(member_self self, const std::string& reason) {
   st.frames.calls().fail_all("node '" + st.peer.name
                              + "' is out of reach: " + reason);
   if (st.announced && st.phase != phase::departed)
-    self->send(
-        st.coordinator,
-        member_lost{st.peer.uuid, caf::actor_cast<member_actor>(self), reason});
+    self->send(st.coordinator,
+               member_lost{st.peer.uuid, caf::actor_cast<member_actor>(self),
+                           reason, silence_of(self).count()});
   self->send(st.session, close_session{reason});
   self->quit();
 }
@@ -261,7 +267,7 @@ void on_beat(member_self self, const beat_received& beat) {
   if (st.ended || !is_from_session(self))
     return;
   if (auto answer = st.life.heard_beat(beat.kind, now(self)))
-    self->send(st.session, send_beat{*answer});
+    self->send(st.session, send_beat{*answer, beat.sequence});
 }
 
 void on_tick(member_self self, uint64_t number) {
@@ -277,7 +283,7 @@ void on_tick(member_self self, uint64_t number) {
     if (next.over)
       return end_member(self, silence_of_a_lease());
     if (next.send)
-      self->send(st.session, send_beat{*next.send});
+      self->send(st.session, send_beat{*next.send, 0});
   }
   set_timer(self);
 }

@@ -127,7 +127,7 @@ void on_beat(peer_self self, const beat_received& beat) {
   if (st.ended || !is_from_session(self))
     return;
   if (auto answer = st.life.heard_beat(beat.kind, now(self)))
-    self->send(st.setup.session, send_beat{*answer});
+    self->send(st.setup.session, send_beat{*answer, beat.sequence});
 }
 
 void on_tick(peer_self self, uint64_t number) {
@@ -141,7 +141,7 @@ void on_tick(peer_self self, uint64_t number) {
     if (next.over)
       return end_peer(self, silence_of_a_lease());
     if (next.send)
-      self->send(st.setup.session, send_beat{*next.send});
+      self->send(st.setup.session, send_beat{*next.send, 0});
   }
   set_timer(self);
 }

@@ -63,6 +63,30 @@ void take_owner(session_self self, const own_session& wish) {
     hand_over(self, frame);
 }
 
+/// An ack has the number of the beat it answers, so that whoever sent that one
+/// knows when it did. The time is taken before: it may count on that.
+void send_out(session_self self, const send_beat& beat) {
+  auto& st = self->state;
+  const bool is_ack = beat.kind == beat_kind::ack && beat.answers != 0;
+  const auto number = is_ack ? beat.answers : ++st.beat_sequence;
+  if (beat.kind == beat_kind::beat) {
+    st.beats_sent.emplace_back(number, st.context.boot_now_ms(self->system()));
+    if (st.beats_sent.size() > limits::session::remembered_beats)
+      st.beats_sent.pop_front();
+  }
+  st.wire->beats->send(beat.kind, number);
+}
+
+void hand_over(session_self self, beat_received beat) {
+  auto& st = self->state;
+  if (beat.kind == beat_kind::ack)
+    for (const auto& [number, when] : st.beats_sent)
+      if (number == beat.sequence)
+        beat.sent_boot_ms = when;
+  if (st.owner)
+    self->send(st.owner, beat);
+}
+
 void send_text(session_self self, const send_frame& frame) {
   ++self->state.frames_out;
   self->state.wire->link->send(frame.text);
@@ -71,8 +95,10 @@ void send_text(session_self self, const send_frame& frame) {
 } // namespace
 
 session_actor::behavior_type
-wire_session(session_self self, const std::shared_ptr<session_wire>& wire,
+wire_session(session_self self, const house& context,
+             const std::shared_ptr<session_wire>& wire,
              const std::string& peer) {
+  self->state.context = context;
   self->state.wire = wire;
   self->state.peer = peer;
   self->set_down_handler([self](const caf::down_msg&) {
@@ -88,17 +114,12 @@ wire_session(session_self self, const std::shared_ptr<session_wire>& wire,
       },
       [self](const own_session& wish) { take_owner(self, wish); },
       [self](const send_frame& frame) { send_text(self, frame); },
-      [self](const send_beat& beat) {
-        self->state.wire->beats->send(beat.kind, ++self->state.beat_sequence);
-      },
+      [self](const send_beat& beat) { send_out(self, beat); },
       [self](const close_session& wish) {
         end_wire_session(self, wish.reason);
       },
       [self](const frame_received& frame) { on_frame(self, frame); },
-      [self](const beat_received& beat) {
-        if (self->state.owner)
-          self->send(self->state.owner, beat);
-      },
+      [self](const beat_received& beat) { hand_over(self, beat); },
       [self](const session_closed& fact) {
         end_wire_session(self, fact.reason);
       },
@@ -126,14 +147,15 @@ session_actor spawn_session(caf::actor_system& system, const house& context,
                             uint16_t beat_port) {
   auto wire = std::make_shared<session_wire>();
   wire->link = session.link;
-  auto self = spawn(system, context, wire_session, wire, session.peer.node);
+  auto self =
+      spawn(system, context, wire_session, context, wire, session.peer.node);
   beat_registration place{session.agreement, "", 0, {}};
   if (beat_port != 0) {
     place.address = session.peer.address;
     place.port = beat_port;
   }
-  place.on_beat = [self](beat_kind kind, uint32_t) {
-    caf::anon_send(self, beat_received{kind});
+  place.on_beat = [self](beat_kind kind, uint32_t sequence) {
+    caf::anon_send(self, beat_received{kind, sequence, 0});
   };
   wire->beats = beats.register_session(std::move(place));
   session_callbacks callbacks;

@@ -11,6 +11,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace roscell {
@@ -42,6 +43,8 @@ struct wire_session_state {
   session_owner_actor owner;
   std::vector<frame_received> early_frames; ///< Came before there was an owner.
   uint32_t beat_sequence = 0;
+  std::deque<std::pair<uint32_t, int64_t>> beats_sent; ///< Number and time.
+  house context;
   uint64_t frames_in = 0;
   uint64_t frames_out = 0;
   std::string peer;
@@ -50,7 +53,7 @@ struct wire_session_state {
 /// The SESSION over a WebSocket. Messages: messages/inside/link.hpp.
 session_actor::behavior_type
 wire_session(session_actor::stateful_pointer<wire_session_state> self,
-             const std::shared_ptr<session_wire>& wire,
+             const house& context, const std::shared_ptr<session_wire>& wire,
              const std::string& peer);
 
 /// Makes the actor of an established session and begins to read.

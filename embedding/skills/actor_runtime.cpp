@@ -69,8 +69,11 @@ make_side(actor_runtime_pointer self, const start_container& wish,
   ros2::add_ros2_protocol(protocols, lookup);
   return std::make_shared<actor_skill_context::impl>(
       engine::read_environment(lookup), std::move(protocols), self->state.hub,
-      log, [keeper] { caf::anon_send(*keeper, skill_ready{}); },
-      [keeper] { caf::anon_send(*keeper, frames_waiting{}); });
+      log,
+      actor_skill_context::impl::ears{
+          [keeper] { caf::anon_send(*keeper, skill_ready{}); },
+          [keeper] { caf::anon_send(*keeper, frames_waiting{}); },
+          [keeper] { caf::anon_send(*keeper, safety_told{}); }});
 }
 
 void start_keeper(actor_runtime_pointer self, const start_container& wish,
@@ -82,7 +85,8 @@ void start_keeper(actor_runtime_pointer self, const start_container& wish,
   skill_keeper_config config{wish.instance,
                              make_side(self, wish, x.log, keeper), make,
                              reports_of(self, wish.instance, x.container)};
-  *keeper = spawn(*st.config.workers, st.config.context, skill_keeper, config);
+  *keeper = spawn<caf::detached>(*st.config.workers, st.config.context,
+                                 skill_keeper, config);
   x.keeper = *keeper;
   caf::anon_send(x.keeper, begin_skill{});
 }
@@ -210,6 +214,12 @@ void on_hear(actor_runtime_pointer self, const std::string& instance) {
   self->send(self->state.listener, answer);
 }
 
+void ask_to_be_safe(actor_runtime_pointer self, const ask_for_safety& wish) {
+  const auto* x = find(self, wish.instance, wish.container);
+  if (x != nullptr && x->keeper)
+    caf::anon_send(x->keeper, safety_wanted{});
+}
+
 container_adopted adopt(actor_runtime_pointer self,
                         const adopt_container& wish) {
   const auto* x = find(self, wish.instance, wish.container);
@@ -253,6 +263,10 @@ actor_runtime(actor_runtime_pointer self, const actor_runtime_config& config,
       [self](const stop_container& x) { return stop(self, x); },
       [self](const remove_container& x) { return remove(self, x); },
       [self](const adopt_container& x) { return adopt(self, x); },
+      [](const fence_container&) {
+        // A step of actors may not say "move": no shim outlives this process.
+      },
+      [self](const ask_for_safety& x) { ask_to_be_safe(self, x); },
       [self](const hear_container& x) { on_hear(self, x.instance); },
       [self](const log_query& x) { return read_log(self, x); },
       [self](const skill_ended& x) { on_ended(self, x); },

@@ -2,6 +2,7 @@
 
 #include "actors/house/alarm.hpp"
 #include "actors/house/house.hpp"
+#include "actors/instances/logs/log_following.hpp"
 #include "embedding/skills/messages.hpp"
 #include "embedding/skills/skill_keeper.hpp"
 
@@ -23,13 +24,6 @@ struct actor_runtime_config {
   std::size_t log_bytes = 0;                            ///< Of one instance.
 };
 
-/// Someone who waits for more of a log.
-struct line_follower {
-  log_query query;
-  alarm::time_point until;
-  caf::typed_response_promise<log_excerpt> promise;
-};
-
 /// An instance that is an actor of this process, or was.
 struct kept_skill {
   std::string container; ///< Of its present run.
@@ -40,7 +34,7 @@ struct kept_skill {
   std::optional<alarm::time_point> patience;
   std::vector<caf::typed_response_promise<container_stopped>> stoppers;
   std::vector<caf::typed_response_promise<container_removed>> removers;
-  std::vector<line_follower> followers;
+  std::vector<log_follower> followers;
 };
 
 /// Owns the instances of actor skills. It has a thread of its own, so that what

@@ -4,24 +4,36 @@
 
 namespace roscell::embedding {
 
-frame_inbox::frame_inbox(std::size_t ports, std::size_t most_frames,
+frame_inbox::frame_inbox(std::size_t ports, inbox_limits lane_limits,
                          std::function<void()> wake)
-    : most_frames_(most_frames), wake_(std::move(wake)), lanes_(ports) {}
+    : limits_(lane_limits), wake_(std::move(wake)), lanes_(ports) {}
+
+bool frame_inbox::has_room(const lane& x, std::size_t bytes) const {
+  return x.frames.empty()
+         || (x.frames.size() < limits_.frames
+             && x.bytes + bytes <= limits_.bytes);
+}
+
+skill_frame frame_inbox::take_oldest(lane& from) {
+  auto result = std::move(from.frames.front());
+  from.frames.pop_front();
+  from.bytes -= result.data->payload.size();
+  return result;
+}
 
 bool frame_inbox::push(std::size_t port, shared_frame x,
                        engine::when_full policy) {
+  const auto bytes = x->payload.size();
   std::unique_lock<std::mutex> lock{mutex_};
   auto& to = lanes_.at(port);
   if (policy == engine::when_full::wait)
-    room_.wait(lock,
-               [&] { return closed_ || to.frames.size() < most_frames_; });
+    room_.wait(lock, [&] { return closed_ || has_room(to, bytes); });
   if (closed_)
     return false;
-  if (to.frames.size() >= most_frames_) {
-    to.frames.pop_front();
-    ++dropped_;
-  }
+  for (; !has_room(to, bytes); ++dropped_)
+    take_oldest(to);
   to.frames.push_back({std::move(x), port, to.next_sequence++});
+  to.bytes += bytes;
   const bool wakes = std::exchange(idle_, false);
   lock.unlock();
   if (wakes)
@@ -32,12 +44,11 @@ bool frame_inbox::push(std::size_t port, shared_frame x,
 std::optional<skill_frame> frame_inbox::pop() {
   std::lock_guard<std::mutex> lock{mutex_};
   for (std::size_t i = 0; !closed_ && i < lanes_.size(); ++i) {
-    auto& from = lanes_[(turn_ + i) % lanes_.size()].frames;
-    if (from.empty())
+    auto& from = lanes_[(turn_ + i) % lanes_.size()];
+    if (from.frames.empty())
       continue;
     turn_ = (turn_ + i + 1) % lanes_.size();
-    auto result = std::move(from.front());
-    from.pop_front();
+    auto result = take_oldest(from);
     room_.notify_all();
     return result;
   }

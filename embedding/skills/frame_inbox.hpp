@@ -17,13 +17,19 @@ namespace roscell::embedding {
 
 using shared_frame = std::shared_ptr<const engine::frame>;
 
+/// What one lane may hold. A larger frame still fits into an empty lane.
+struct inbox_limits {
+  std::size_t frames = 8;
+  std::size_t bytes = 64UL * 1024 * 1024;
+};
+
 /// What waits for one instance: a bounded lane for each input, which take
 /// turns. Frames come from any thread; the instance's keeper takes them out.
 class frame_inbox {
 public:
   /// `wake` is called, from the thread of a push, when a frame has come after
   /// `pop` had found nothing.
-  frame_inbox(std::size_t ports, std::size_t most_frames,
+  frame_inbox(std::size_t ports, inbox_limits lane_limits,
               std::function<void()> wake);
 
   /// Where there is no room the oldest frame of the port is dropped, or the
@@ -41,10 +47,14 @@ public:
 private:
   struct lane {
     std::deque<skill_frame> frames;
+    std::size_t bytes = 0;
     std::uint64_t next_sequence = 0;
   };
 
-  const std::size_t most_frames_;
+  bool has_room(const lane& x, std::size_t bytes) const;
+  static skill_frame take_oldest(lane& from);
+
+  const inbox_limits limits_;
   const std::function<void()> wake_;
   mutable std::mutex mutex_; // Guards what follows.
   std::condition_variable room_;

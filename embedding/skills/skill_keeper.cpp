@@ -2,6 +2,7 @@
 
 #include "actors/house/limits.hpp"
 #include "roscell/skill/errors.hpp"
+#include "skills/engine/life/heartbeat.hpp"
 
 #include <caf/exit_reason.hpp>
 #include <caf/sec.hpp>
@@ -133,6 +134,20 @@ void on_ready(self_pointer self) {
   pass_on(self);
 }
 
+/// An instance that changes its mind often is not heard more often. It says
+/// nothing more until what it has said is taken.
+void on_safety_told(self_pointer self) {
+  auto& st = self->state;
+  const auto now = self->clock().now();
+  if (now < st.safety_quiet_until)
+    return self->delayed_send(self, st.safety_quiet_until - now, safety_told{});
+  st.safety_quiet_until = now + engine::heartbeat::least_word_pause;
+  instance_notified fact;
+  fact.instance = st.config.instance;
+  fact.safe = st.config.side->take_safety();
+  st.config.reports.notified(fact);
+}
+
 void end(self_pointer self, std::chrono::milliseconds grace) {
   auto& st = self->state;
   if (!st.skill)
@@ -177,6 +192,8 @@ skill_keeper(self_pointer self, const skill_keeper_config& config) {
       [self](const begin_skill&) { begin(self); },
       [self](const skill_ready&) { on_ready(self); },
       [self](const frames_waiting&) { pass_on(self); },
+      [self](const safety_told&) { on_safety_told(self); },
+      [self](const safety_wanted&) { self->state.config.side->want_safety(); },
       [self](const end_skill& x) {
         end(self, std::chrono::milliseconds{x.grace_ms});
       },

@@ -28,8 +28,8 @@ struct skill_keeper_config {
   keeper_reports reports;
 };
 
-/// Owns one instance: its actor and its streams. Lives on the workers of actor
-/// skills.
+/// Owns one instance: its actor and its streams. Opening and closing these
+/// blocks, so that it is spawned detached; the instance is a scheduled actor.
 struct skill_keeper_state {
   static constexpr const char* name = "skill-keeper";
 
@@ -40,6 +40,7 @@ struct skill_keeper_state {
   uint64_t failed = 0;
   std::unique_ptr<engine::processing_times> times;
   std::chrono::steady_clock::time_point frame_begun;
+  alarm::time_point safety_quiet_until; ///< No word on safety is told before.
   alarm timer;
 };
 

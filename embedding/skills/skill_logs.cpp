@@ -1,9 +1,7 @@
 #include "embedding/skills/skill_logs.hpp"
 
 #include "actors/house/limits.hpp"
-#include "messages/failure.hpp"
 
-#include <algorithm>
 #include <utility>
 
 namespace roscell::embedding {
@@ -21,10 +19,6 @@ log_excerpt look(const kept_skill& x, const log_query& query) {
           query.times ? std::move(part.times_unix_ms) : std::vector<int64_t>{}};
 }
 
-bool says_something(const log_excerpt& x) {
-  return !x.text.empty() || x.ended;
-}
-
 std::size_t follower_count(const actor_runtime_state& st) {
   std::size_t result = 0;
   for (const auto& [instance, x] : st.skills)
@@ -39,19 +33,15 @@ caf::result<log_excerpt> read_log(actor_runtime_pointer self,
   auto& st = self->state;
   const auto i = st.skills.find(query.instance);
   if (i == st.skills.end())
-    return fail(error_code::unknown_task,
-                "there is no log of an instance '" + query.instance + "'",
-                "/instance", "`roscell instances` lists them");
+    return no_log_of(query.instance);
   auto excerpt = look(i->second, query);
-  const auto wait_ms =
-      std::clamp<int64_t>(query.wait_ms, 0, limits::log::wait.count());
-  if (says_something(excerpt) || wait_ms == 0)
+  const auto wait = wait_of(query);
+  if (says_something(excerpt) || wait.count() == 0)
     return excerpt;
   if (follower_count(st) >= limits::log::followers)
-    return fail(error_code::conflict, "too many follow the logs of this node",
-                {}, "ask without following");
+    return too_many_followers();
   auto promise = self->make_response_promise<log_excerpt>();
-  const auto until = self->clock().now() + std::chrono::milliseconds{wait_ms};
+  const auto until = self->clock().now() + wait;
   i->second.followers.push_back({query, until, promise});
   st.timer.set(self, until);
   return promise;

@@ -14,7 +14,13 @@ namespace {
 
 constexpr const char* within_process = "actor";
 
-constexpr std::size_t default_queue_length = 8;
+constexpr std::size_t mib = 1024UL * 1024;
+
+/// As an executor's queue has them.
+embedding::inbox_limits limits_of(const engine::parameters& options) {
+  return {options.count("queue_length", 8, 1, 65536),
+          options.count("queue_mib", 64, 1, 65536) * mib};
+}
 
 } // namespace
 
@@ -42,14 +48,11 @@ struct actor_skill_context::impl::input_port : engine::frame_sink {
 actor_skill_context::impl::impl(engine::environment env, engine::registry parts,
                                 std::shared_ptr<embedding::frame_hub> hub,
                                 std::shared_ptr<embedding::line_ring> log,
-                                std::function<void()> on_ready,
-                                std::function<void()> wake)
+                                ears keeper)
     : env_(std::move(env)), parts_(std::move(parts)), hub_(std::move(hub)),
-      log_(std::move(log)), on_ready_(std::move(on_ready)),
+      log_(std::move(log)), keeper_(std::move(keeper)),
       inbox_(std::make_shared<embedding::frame_inbox>(
-          env_.inputs.size(),
-          env_.parameters.count("queue_length", default_queue_length, 1, 65536),
-          std::move(wake))) {}
+          env_.inputs.size(), limits_of(env_.parameters), keeper_.on_frames)) {}
 
 actor_skill_context::impl::~impl() {
   close();
@@ -118,7 +121,36 @@ void actor_skill_context::impl::close() {
 
 void actor_skill_context::impl::ready() {
   if (!is_ready_.exchange(true))
-    on_ready_();
+    keeper_.on_ready();
+}
+
+void actor_skill_context::impl::set_safe(bool safe) {
+  const auto word = safe ? safe_word::safe : safe_word::unsafe;
+  if (safety_.exchange(word) != word && !safety_waits_.exchange(true))
+    keeper_.on_safety();
+}
+
+safe_word actor_skill_context::impl::take_safety() {
+  // First this: what is said between the two is told once more.
+  safety_waits_ = false;
+  return safety_;
+}
+
+void actor_skill_context::impl::on_safety_wanted(std::function<void()> call) {
+  std::lock_guard<std::mutex> lock{wish_mutex_};
+  on_safety_wanted_ = std::move(call);
+}
+
+void actor_skill_context::impl::want_safety() {
+  std::unique_lock<std::mutex> lock{wish_mutex_};
+  const auto call = on_safety_wanted_;
+  lock.unlock();
+  try {
+    if (call)
+      call();
+  } catch (...) {
+    log("on_safety_wanted failed: " + engine::current_error());
+  }
 }
 
 void actor_skill_context::impl::log(const std::string& line) {
@@ -159,6 +191,14 @@ const engine::environment& actor_skill_context::environment() const {
 
 void actor_skill_context::ready() const {
   impl_->ready();
+}
+
+void actor_skill_context::set_safe(bool safe) const {
+  impl_->set_safe(safe);
+}
+
+void actor_skill_context::on_safety_wanted(std::function<void()> call) const {
+  impl_->on_safety_wanted(std::move(call));
 }
 
 void actor_skill_context::log(const std::string& line) const {

@@ -2,6 +2,7 @@
 
 #include "embedding/skills/frame_hub.hpp"
 #include "embedding/skills/line_ring.hpp"
+#include "messages/life.hpp"
 #include "roscell/actor_skill.hpp"
 #include "roscell/skill/handlers.hpp"
 #include "roscell/skill/registry.hpp"
@@ -20,11 +21,17 @@ namespace roscell {
 /// What stands between an instance and the rest: its streams and its log.
 class actor_skill_context::impl {
 public:
-  /// `on_ready` is called from the instance's thread, once.
+  /// What the keeper hears of its instance, from any thread.
+  struct ears {
+    std::function<void()> on_ready;  ///< Once.
+    std::function<void()> on_frames; ///< As `frame_inbox` wakes.
+    /// Once for all words until `take_safety`.
+    std::function<void()> on_safety;
+  };
+
   impl(engine::environment env, engine::registry parts,
        std::shared_ptr<embedding::frame_hub> hub,
-       std::shared_ptr<embedding::line_ring> log,
-       std::function<void()> on_ready, std::function<void()> wake);
+       std::shared_ptr<embedding::line_ring> log, ears keeper);
 
   ~impl();
 
@@ -40,6 +47,15 @@ public:
   void close();
 
   void ready();
+  void set_safe(bool safe);
+  void on_safety_wanted(std::function<void()> call);
+
+  /// What the instance has said last of its safety.
+  safe_word take_safety();
+
+  /// Passes on that somebody waits for it to be safe.
+  void want_safety();
+
   void log(const std::string& line);
   void emit(embedding::shared_frame x, std::size_t port);
   void emit(engine::frame x, std::size_t port);
@@ -68,9 +84,13 @@ private:
   const engine::registry parts_;
   const std::shared_ptr<embedding::frame_hub> hub_;
   const std::shared_ptr<embedding::line_ring> log_;
-  const std::function<void()> on_ready_;
+  const ears keeper_;
   const std::shared_ptr<embedding::frame_inbox> inbox_;
   std::atomic<bool> is_ready_{false};
+  std::atomic<safe_word> safety_{safe_word::untold};
+  std::atomic<bool> safety_waits_{false}; ///< The keeper is to take it.
+  std::mutex wish_mutex_;                 // Guards what follows.
+  std::function<void()> on_safety_wanted_;
   engine::stop_event stop_;
   std::vector<std::unique_ptr<input_port>> inputs_;
   std::mutex output_mutex_; // Guards what follows.

@@ -65,6 +65,16 @@ public:
   /// instance is given up after 30 s.
   void ready() const;
 
+  /// Says whether the instance may be ended now, without harm to what it moves;
+  /// as engine::executor::set_safe does, with the same bounds.
+  void set_safe(bool safe) const;
+
+  /// From now on `call` is called each time that somebody waits for the
+  /// instance to be safe. It runs on a thread of the node and must not block:
+  /// let it send the instance a message. To be told before `ready`; a later one
+  /// replaces it.
+  void on_safety_wanted(std::function<void()> call) const;
+
   /// One line of the instance's log.
   void log(const std::string& line) const;
 

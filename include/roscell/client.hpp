@@ -1,12 +1,12 @@
 #pragma once
 
+#include "roscell/coded_error.hpp"
 #include "roscell/node_event.hpp"
 
 #include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 
@@ -24,22 +24,9 @@ struct client_target {
 /// A node could not be asked. `code` is "unreachable" (nobody listens, or the
 /// node went away in the middle), "timeout", "unauthorized", "schema_violation"
 /// (such a call cannot be made) or the code of the node's own refusal.
-class client_error : public std::runtime_error {
+class client_error : public coded_error {
 public:
-  client_error(std::string code, const std::string& message, std::string hint);
-
-  const std::string& code() const noexcept {
-    return code_;
-  }
-
-  /// What to do about it, or empty.
-  const std::string& hint() const noexcept {
-    return hint_;
-  }
-
-private:
-  std::string code_;
-  std::string hint_;
+  using coded_error::coded_error;
 };
 
 /// Ends a `follow` from another thread or a signal handler. Stays cancelled.

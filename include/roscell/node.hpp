@@ -1,13 +1,14 @@
 #pragma once
 
 #include "roscell/actor_skill.hpp"
+#include "roscell/coded_error.hpp"
 #include "roscell/node_actors.hpp"
 #include "roscell/node_config.hpp"
+#include "roscell/node_facts.hpp"
 
 #include <chrono>
 #include <cstddef>
 #include <memory>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -43,32 +44,9 @@ struct node_setup {
 /// "schema_violation" (a bad option or descriptor, named), "engine_failed" (no
 /// program can be run), "internal" (the actor system does not know our
 /// messages).
-class node_error : public std::runtime_error {
+class node_error : public coded_error {
 public:
-  node_error(std::string code, const std::string& message, std::string hint);
-
-  const std::string& code() const noexcept {
-    return code_;
-  }
-
-  /// What to do about it, or empty.
-  const std::string& hint() const noexcept {
-    return hint_;
-  }
-
-private:
-  std::string code_;
-  std::string hint_;
-};
-
-/// What is known of a node that has started; never changes.
-struct node_facts {
-  std::string name;
-  std::string http_address;     ///< "ip:port" that was really bound.
-  std::string socket;           ///< Path of the Unix socket.
-  std::string discovery_server; ///< "ip:port"; coordinators only.
-  std::string token_file;       ///< Bearer token for HTTP over TCP.
-  std::string runtime;          ///< "process", "docker" or "podman".
+  using coded_error::coded_error;
 };
 
 /// Makes the messages of a node known to an actor system; to be called before

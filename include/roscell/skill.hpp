@@ -18,6 +18,7 @@
 #include "roscell/skill/parameters.hpp"
 #include "roscell/skill/registry.hpp"
 #include "roscell/skill/run.hpp"
+#include "roscell/skill/safe_state.hpp"
 #include "roscell/skill/stop_event.hpp"
 #include "roscell/skill/try_out.hpp"
 #include "roscell/skill/typed_ports.hpp"

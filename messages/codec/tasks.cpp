@@ -41,6 +41,8 @@ ROSCELL_CODEC(task_terminated)
 ROSCELL_CODEC(task_restart)
 ROSCELL_CODEC(task_restarted)
 ROSCELL_CODEC(task_row)
+ROSCELL_CODEC(task_history_query)
+ROSCELL_CODEC(task_history)
 ROSCELL_CODEC(task_query)
 ROSCELL_CODEC(task_description)
 

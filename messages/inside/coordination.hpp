@@ -46,11 +46,13 @@ struct member_lost {
   std::string uuid;
   member_actor member; ///< Ignored unless it is the row's present one.
   std::string reason;
+  int64_t silent_ms = 0; ///< Since its last word.
 
   static constexpr auto fields() {
     return field_list{required("uuid", &member_lost::uuid),
                       required("member", &member_lost::member),
-                      required("reason", &member_lost::reason)};
+                      required("reason", &member_lost::reason),
+                      required("silent_ms", &member_lost::silent_ms)};
   }
 };
 
@@ -150,11 +152,13 @@ struct skill_build {
   std::string hash;
   implementation_model model;     ///< Only the deployments to choose from.
   std::vector<std::string> nodes; ///< Those on which it is the candidate.
+  bool safe_state = false;        ///< It says when it may be ended.
 
   static constexpr auto fields() {
     return field_list{required("hash", &skill_build::hash),
                       required("model", &skill_build::model),
-                      required("nodes", &skill_build::nodes)};
+                      required("nodes", &skill_build::nodes),
+                      required("safe_state", &skill_build::safe_state)};
   }
 };
 

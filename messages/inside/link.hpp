@@ -32,17 +32,25 @@ struct frame_received {
 
 struct send_beat {
   beat_kind kind = beat_kind::beat;
+  uint32_t answers = 0; ///< With an ack: the number of the beat.
 
   static constexpr auto fields() {
-    return field_list{required("kind", &send_beat::kind)};
+    return field_list{required("kind", &send_beat::kind),
+                      required("answers", &send_beat::answers)};
   }
 };
 
 struct beat_received {
   beat_kind kind = beat_kind::beat;
+  uint32_t sequence = 0; ///< An ack has that of the beat it answers.
+  /// When the beat that an ack answers was sent, by the clock of the boot; 0:
+  /// it answers none of the last ones.
+  int64_t sent_boot_ms = 0;
 
   static constexpr auto fields() {
-    return field_list{required("kind", &beat_received::kind)};
+    return field_list{required("kind", &beat_received::kind),
+                      required("sequence", &beat_received::sequence),
+                      required("sent_boot_ms", &beat_received::sent_boot_ms)};
   }
 };
 

@@ -55,20 +55,25 @@ struct start_container {
   std::vector<std::string> devices;
   std::vector<std::string> volumes; ///< "/host/path:/container/path[:ro]".
   int stop_signal = 15;             ///< What asks the program to end.
+  /// When it is ended unless that is moved on before, by the clock of the boot
+  /// (CLOCK_BOOTTIME); 0: never.
+  int64_t fence_boot_ms = 0;
 
   static constexpr auto fields() {
-    return field_list{required("instance", &start_container::instance),
-                      required("image", &start_container::image),
-                      required("command", &start_container::command),
-                      required("environment", &start_container::environment),
-                      required("labels", &start_container::labels),
-                      required("limits", &start_container::limits),
-                      nullable("gpu", &start_container::gpu),
-                      one_or_many("input", &start_container::input),
-                      one_or_many("output", &start_container::output),
-                      required("devices", &start_container::devices),
-                      required("volumes", &start_container::volumes),
-                      optional("stop_signal", &start_container::stop_signal)};
+    return field_list{
+        required("instance", &start_container::instance),
+        required("image", &start_container::image),
+        required("command", &start_container::command),
+        required("environment", &start_container::environment),
+        required("labels", &start_container::labels),
+        required("limits", &start_container::limits),
+        nullable("gpu", &start_container::gpu),
+        one_or_many("input", &start_container::input),
+        one_or_many("output", &start_container::output),
+        required("devices", &start_container::devices),
+        required("volumes", &start_container::volumes),
+        optional("stop_signal", &start_container::stop_signal),
+        optional("fence_boot_ms", &start_container::fence_boot_ms)};
   }
 };
 
@@ -143,6 +148,33 @@ struct container_adopted {
   }
 };
 
+/// Moves the time on at which a container ends unless it is moved on again.
+/// Only for what was started with such a time.
+struct fence_container {
+  std::string instance;
+  std::string container;
+  int64_t fence_boot_ms = 0;
+
+  static constexpr auto fields() {
+    return field_list{
+        required("instance", &fence_container::instance),
+        required("container", &fence_container::container),
+        required("fence_boot_ms", &fence_container::fence_boot_ms)};
+  }
+};
+
+/// Tells the program of a container that somebody waits for it to be safe, by
+/// SIGUSR1.
+struct ask_for_safety {
+  std::string instance;
+  std::string container;
+
+  static constexpr auto fields() {
+    return field_list{required("instance", &ask_for_safety::instance),
+                      required("container", &ask_for_safety::container)};
+  }
+};
+
 /// Reads what waits at the NOTIFY_SOCKET of an instance. It is told as
 /// `instance_notified` with `heard`, after all that has been read before.
 struct hear_container {
@@ -174,6 +206,8 @@ struct instance_notified {
   bool stopping = false; ///< STOPPING=1
   std::string status;    ///< STATUS=..., may be empty.
   bool heard = false;    ///< Answers `hear_container`; may say nothing else.
+  safe_word safe = safe_word::untold; ///< ROSCELL_SAFE=0 or 1
+  std::vector<stream_figure> streams; ///< ROSCELL_STREAMS=...
 
   static constexpr auto fields() {
     return field_list{required("instance", &instance_notified::instance),
@@ -181,7 +215,9 @@ struct instance_notified {
                       required("alive", &instance_notified::alive),
                       required("stopping", &instance_notified::stopping),
                       required("status", &instance_notified::status),
-                      required("heard", &instance_notified::heard)};
+                      required("heard", &instance_notified::heard),
+                      required("safe", &instance_notified::safe),
+                      required("streams", &instance_notified::streams)};
   }
 };
 
@@ -226,9 +262,33 @@ struct start_instance {
 /// INTERNAL to supervision: take it down; repeated requests are harmless.
 struct stop_instance {
   std::string reason;
+  bool force = false; ///< It is not waited for to be safe.
 
   static constexpr auto fields() {
-    return field_list{required("reason", &stop_instance::reason)};
+    return field_list{required("reason", &stop_instance::reason),
+                      required("force", &stop_instance::force)};
+  }
+};
+
+/// A fact: a word of this node, sent at that time by the clock of the boot, has
+/// reached the coordinator. What may move to another node goes on until then
+/// and its patience.
+struct contact_proven {
+  int64_t boot_ms = 0;
+  /// With a registration: what the coordinator wants to go on.
+  std::vector<std::string> kept;
+
+  static constexpr auto fields() {
+    return field_list{required("boot_ms", &contact_proven::boot_ms),
+                      required("kept", &contact_proven::kept)};
+  }
+};
+
+/// A fact: the coordinator is out of reach, or is another one. Until it is
+/// proven again nothing is known of what it wants to go on.
+struct contact_lost {
+  static constexpr auto fields() {
+    return field_list{};
   }
 };
 

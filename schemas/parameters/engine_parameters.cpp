@@ -10,8 +10,8 @@ namespace roscell {
 namespace {
 
 /// What the engines for executors and actors (skills/engine) understand
-/// whatever the model, under "", and what its protocols do, under their names.
-/// In the form of a descriptor.
+/// whatever the model, under ""; what those for executors do, under "executor";
+/// and what protocols do, under their names. In the form of a descriptor.
 constexpr const char* primitive_engine = R"({
   "": {
     "queue_length": {
@@ -21,7 +21,9 @@ constexpr const char* primitive_engine = R"({
     "queue_mib": {
       "type": "integer", "default": 64, "minimum": 1, "maximum": 65536,
       "unit": "MiB", "description": "Their size together."
-    },
+    }
+  },
+  "executor": {
     "max_failures": {
       "type": "integer", "default": 10, "minimum": 1, "maximum": 1000000000,
       "description": "Frames in a row that may fail before the skill does."
@@ -111,6 +113,9 @@ declared_parameters parameters_of(const skill_descriptor& skill,
   if (skill.engine == "primitive" || skill.engine == "actor") {
     static const auto engine = json::parse(primitive_engine);
     add_parameters(engine, "", result);
+    // What an actor throws ends it.
+    if (skill.engine == "primitive")
+      add_parameters(engine, "executor", result);
     for (const auto* port : {&skill.input, &skill.output})
       for (const auto& protocol : port->protocols)
         add_parameters(engine, protocol, result);

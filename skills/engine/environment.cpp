@@ -115,6 +115,7 @@ environment read_environment(const variable_lookup& lookup) {
   auto usec = read_number(lookup, "WATCHDOG_USEC", 1000, 86'400'000'000);
   if (usec)
     result.watchdog = std::chrono::microseconds{*usec};
+  result.health = optional_text(lookup, "ROSCELL_HEALTH") == "1";
   return result;
 }
 

@@ -1,5 +1,7 @@
 #include "skills/engine/frame_queue.hpp"
 
+#include <utility>
+
 namespace roscell::engine {
 
 frame_queue::frame_queue(std::size_t lanes, limits lane_limits)
@@ -29,6 +31,7 @@ std::optional<frame> frame_queue::pop() {
   std::unique_lock guard{mutex_};
   lane* next = nullptr;
   filled_.wait(guard, [&] {
+    do_interposed(guard);
     next = next_filled_lane();
     return next != nullptr || closed_;
   });
@@ -38,6 +41,22 @@ std::optional<frame> frame_queue::pop() {
   // Inputs of different lanes wait on the same condition.
   room_.notify_all();
   return result;
+}
+
+void frame_queue::do_interposed(std::unique_lock<std::mutex>& guard) {
+  while (interposed_ && !closed_) {
+    const auto work = std::exchange(interposed_, nullptr);
+    // It may take a while, and inputs go on.
+    guard.unlock();
+    work();
+    guard.lock();
+  }
+}
+
+void frame_queue::interpose(std::function<void()> work) {
+  std::lock_guard guard{mutex_};
+  interposed_ = std::move(work);
+  filled_.notify_one();
 }
 
 void frame_queue::close() {

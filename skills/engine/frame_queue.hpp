@@ -6,6 +6,7 @@
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <vector>
@@ -32,6 +33,11 @@ public:
   /// Waits for a frame. Returns nothing when the queue is closed and empty.
   std::optional<frame> pop();
 
+  /// Has the thread that waits in `pop`, or the one that calls it next, do
+  /// `work` before it takes a frame. Of several that wait the last one is done;
+  /// none is once the queue is closed.
+  void interpose(std::function<void()> work);
+
   /// Takes no more frames. Those inside are still handed out.
   void close();
 
@@ -50,6 +56,7 @@ private:
   bool has_room(const lane& l, std::size_t bytes) const;
   frame take_front(lane& l);
   lane* next_filled_lane();
+  void do_interposed(std::unique_lock<std::mutex>& guard);
 
   const limits limits_;
   mutable std::mutex mutex_;
@@ -58,6 +65,7 @@ private:
   std::vector<lane> lanes_;
   std::size_t turn_ = 0;
   std::uint64_t dropped_ = 0;
+  std::function<void()> interposed_;
   bool closed_ = false;
 };
 

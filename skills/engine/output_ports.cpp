@@ -48,7 +48,9 @@ void output_ports::write(frame result, std::size_t number) {
     failure_ = current_error();
     throw;
   }
-  write_time_ += std::chrono::steady_clock::now() - start;
+  const auto end = std::chrono::steady_clock::now();
+  write_time_ += end - start;
+  meters_.output(number).count(end);
   const auto age = std::chrono::system_clock::now() - result.time;
   if (age >= age.zero())
     ages_.add(age);

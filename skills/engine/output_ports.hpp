@@ -3,6 +3,7 @@
 #include "roscell/skill/executor.hpp"
 #include "roscell/skill/handlers.hpp"
 #include "skills/engine/life/processing_times.hpp"
+#include "skills/engine/life/stream_meters.hpp"
 
 #include <chrono>
 #include <cstdint>
@@ -16,6 +17,11 @@ namespace roscell::engine {
 /// frame leaves open, and hands it to the output handler.
 class output_ports : public emitter {
 public:
+  /// `meters` must outlive this object.
+  explicit output_ports(stream_meters& meters) : meters_(meters) {
+    // nop
+  }
+
   void add(const stream& config, std::unique_ptr<output_handler> handler);
 
   /// Throws start_error.
@@ -55,6 +61,7 @@ private:
   void write(frame result, std::size_t number) override;
   void fill_in(frame& result, port& target);
 
+  stream_meters& meters_;
   std::vector<port> ports_;
   const frame* input_ = nullptr;
   std::size_t emitted_ = 0;

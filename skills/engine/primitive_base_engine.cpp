@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstring>
+#include <utility>
 
 namespace roscell::engine {
 
@@ -28,8 +29,9 @@ void check_no_loop(const environment& env) {
 
 /// An input with its thread. Numbers the frames on their way into the queue.
 struct primitive_base_engine::input_port : frame_sink {
-  input_port(std::size_t port, const stream& config, frame_queue& target)
-      : number(port), data_type(config.data_type), queue(target) {
+  input_port(std::size_t port, const stream& config, frame_queue& target,
+             stream_meter& speed)
+      : number(port), data_type(config.data_type), queue(target), meter(speed) {
     // nop
   }
 
@@ -38,12 +40,14 @@ struct primitive_base_engine::input_port : frame_sink {
       input.data_type = data_type;
     input.port = number;
     input.sequence = next_sequence++;
+    meter.count(stream_meter::clock::now());
     return queue.push(std::move(input), policy);
   }
 
   const std::size_t number;
   const std::string data_type;
   frame_queue& queue;
+  stream_meter& meter;
   std::atomic<std::uint64_t> next_sequence{0};
   std::unique_ptr<input_handler> handler;
   std::thread thread;
@@ -56,7 +60,8 @@ primitive_base_engine::primitive_base_engine(const registry& parts,
       max_failures_(env.parameters.count("max_failures", 10, 1, 1'000'000'000)),
       queue_(env.inputs.size(), queue_limits(env.parameters)),
       alive_(env.watchdog.value_or(std::chrono::hours{24})),
-      socket_(env.notify_socket) {
+      socket_(env.notify_socket), meters_(env.inputs.size(), env.outputs.size(),
+                                          stream_meters::clock::now()) {
   // nop
 }
 
@@ -106,7 +111,9 @@ void primitive_base_engine::make_parts() {
   for (const auto& config : env_.outputs)
     outputs_.add(config, parts_.make_output({config, env_.parameters, say_}));
   for (const auto& config : env_.inputs) {
-    auto input = std::make_unique<input_port>(inputs_.size(), config, queue_);
+    const auto number = inputs_.size();
+    auto input = std::make_unique<input_port>(number, config, queue_,
+                                              meters_.input(number));
     input->handler = parts_.make_input({config, env_.parameters, say_});
     inputs_.push_back(std::move(input));
   }
@@ -125,8 +132,12 @@ void primitive_base_engine::report_ready() {
     say_("cannot report READY=1 to NOTIFY_SOCKET '" + env_.notify_socket
          + "': " + std::strerror(error)
          + "; the skill runs, but the node may not notice");
-  if (env_.watchdog)
-    heartbeat_.emplace(socket_, alive_, [this] { return status(); });
+  heartbeat::words words{[this] { return status(); }, nullptr};
+  if (env_.health)
+    words.streams = [this](stream_meters::clock::time_point now) {
+      return meters_.take_text(now);
+    };
+  heartbeat_.emplace(socket_, alive_, executor_->safety_, std::move(words));
 }
 
 void primitive_base_engine::start_inputs() {
@@ -169,8 +180,26 @@ void primitive_base_engine::handle(const frame& input) {
   call_process(input);
   auto spent = liveness::clock::now() - start;
   times_.add(spent - outputs_.write_time());
+  work_has_ended();
+}
+
+void primitive_base_engine::work_has_ended() {
   if (alive_.work_ends() && heartbeat_)
     heartbeat_->beat_now();
+}
+
+void primitive_base_engine::want_safety() {
+  queue_.interpose([this] { pass_on_wish(); });
+}
+
+void primitive_base_engine::pass_on_wish() {
+  alive_.work_begins(liveness::clock::now());
+  try {
+    executor_->on_safety_wanted();
+  } catch (...) {
+    say_("on_safety_wanted failed: " + current_error());
+  }
+  work_has_ended();
 }
 
 void primitive_base_engine::call_process(const frame& input) {

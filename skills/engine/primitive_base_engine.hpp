@@ -7,6 +7,7 @@
 #include "skills/engine/life/liveness.hpp"
 #include "skills/engine/life/notify_socket.hpp"
 #include "skills/engine/life/processing_times.hpp"
+#include "skills/engine/life/stream_meters.hpp"
 #include "skills/engine/output_ports.hpp"
 
 #include <atomic>
@@ -46,6 +47,10 @@ public:
   /// thread, at any time, repeatedly.
   void request_stop();
 
+  /// Tells the executor, between two frames, that somebody waits for it to be
+  /// safe. May be called from any thread, at any time, repeatedly.
+  void want_safety();
+
   /// For instance `frames=120 dropped=0 failed=0 median_us=85 p99_us=210
   /// age_us=4200`: frames processed, dropped before that, failed among the
   /// processed ones, and the times that `process` took without its output. May
@@ -63,6 +68,8 @@ private:
   exit_code move_frames();
   void handle(const frame& input);
   void call_process(const frame& input);
+  void pass_on_wish();
+  void work_has_ended();
   exit_code finish(exit_code so_far);
 
   const registry& parts_;
@@ -74,9 +81,10 @@ private:
   liveness alive_;
   notify_socket socket_;
   processing_times times_;
+  stream_meters meters_;
   std::vector<std::unique_ptr<input_port>> inputs_;
   std::unique_ptr<executor> executor_;
-  output_ports outputs_;
+  output_ports outputs_{meters_};
   std::optional<heartbeat> heartbeat_;
   std::atomic<std::size_t> open_inputs_{0};
   std::atomic<bool> input_failed_{false};

@@ -29,10 +29,11 @@ int run(const registry& parts, int argc, char** argv) {
   if (argc > 1)
     return explain(parts, argc == 2 && argv[1] == std::string{"--help"});
   try {
-    block_stop_signals();
+    block_signals();
     auto env = read_environment();
     primitive_base_engine engine{parts, env, say};
-    signal_watch signals{[&] { engine.request_stop(); }};
+    signal_watch signals{[&] { engine.request_stop(); },
+                         [&] { engine.want_safety(); }};
     return static_cast<int>(engine.run());
   } catch (...) {
     say("cannot start: " + current_error());

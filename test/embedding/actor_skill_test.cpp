@@ -115,6 +115,21 @@ TEST_CASE("an operation that is registered is placed, run and ended like any "
   CHECK(site.row_of("work") == nullptr);
 }
 
+TEST_CASE("an instance says whether it may be ended") {
+  skill_site site{[](pointer, const context_type& context) -> behavior {
+    context.set_safe(true);
+    context.set_safe(false);
+    context.ready();
+    return {
+        [](const skill_frame&) {},
+        [](check_life) {},
+        [](stop_skill) {},
+    };
+  }};
+  REQUIRE(site.deploy().at("type") == "task_accepted");
+  CHECK(site.row_of("work").at("safe") == "unsafe");
+}
+
 TEST_CASE("what an instance throws ends that instance alone, with the text in "
           "its log") {
   skill_site site{[](pointer, const context_type& context) -> behavior {

@@ -23,7 +23,7 @@ std::string text_of(const std::optional<skill_frame>& x) {
 
 TEST_CASE("an inbox wakes once until it has been found empty") {
   int wakes = 0;
-  frame_inbox inbox{1, 8, [&] { ++wakes; }};
+  frame_inbox inbox{1, {}, [&] { ++wakes; }};
   inbox.push(0, frame_of("a"), engine::when_full::drop_oldest);
   inbox.push(0, frame_of("b"), engine::when_full::drop_oldest);
   CHECK(wakes == 1);
@@ -35,7 +35,7 @@ TEST_CASE("an inbox wakes once until it has been found empty") {
 }
 
 TEST_CASE("a full lane drops its oldest frame and no other lane's") {
-  frame_inbox inbox{2, 2, [] {}};
+  frame_inbox inbox{2, {2, 100}, [] {}};
   inbox.push(1, frame_of("slow"), engine::when_full::drop_oldest);
   for (const char* text : {"a", "b", "c"})
     inbox.push(0, frame_of(text), engine::when_full::drop_oldest);
@@ -48,8 +48,22 @@ TEST_CASE("a full lane drops its oldest frame and no other lane's") {
   CHECK(text_of(inbox.pop()) == "c");
 }
 
+TEST_CASE("a lane is bounded in bytes, too, but takes any frame when empty") {
+  frame_inbox inbox{1, {8, 10}, [] {}};
+  inbox.push(0, frame_of("twelve bytes"), engine::when_full::drop_oldest);
+  CHECK(inbox.dropped() == 0);
+  inbox.push(0, frame_of("six by"), engine::when_full::drop_oldest);
+  CHECK(inbox.dropped() == 1);
+  inbox.push(0, frame_of("four"), engine::when_full::drop_oldest);
+  CHECK(inbox.dropped() == 1);
+  inbox.push(0, frame_of("1"), engine::when_full::drop_oldest);
+  CHECK(inbox.dropped() == 2);
+  CHECK(text_of(inbox.pop()) == "four");
+  CHECK(text_of(inbox.pop()) == "1");
+}
+
 TEST_CASE("who may not lose frames waits until there is room, or the end") {
-  frame_inbox inbox{1, 1, [] {}};
+  frame_inbox inbox{1, {1, 100}, [] {}};
   inbox.push(0, frame_of("a"), engine::when_full::wait);
   bool second = false;
   bool third = true;
@@ -70,8 +84,8 @@ TEST_CASE("who may not lose frames waits until there is room, or the end") {
 
 TEST_CASE("a hub passes one frame to all readers of a stream without a copy") {
   frame_hub hub;
-  const auto one = std::make_shared<frame_inbox>(1, 8, [] {});
-  auto two = std::make_shared<frame_inbox>(2, 8, [] {});
+  const auto one = std::make_shared<frame_inbox>(1, inbox_limits{}, [] {});
+  auto two = std::make_shared<frame_inbox>(2, inbox_limits{}, [] {});
   hub.subscribe("/a", one, 0);
   hub.subscribe("/a", two, 1);
   const auto sent = frame_of("x");

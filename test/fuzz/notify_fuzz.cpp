@@ -1,10 +1,23 @@
 #include "actors/edge/process/notification.hpp"
 #include "schemas/utf8.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <string_view>
 
-/// Whatever a program says, its status is one short line of valid UTF-8.
+namespace {
+
+bool is_sound(const roscell::stream_figure& x) {
+  return (x.end.rfind("input:", 0) == 0 || x.end.rfind("output:", 0) == 0)
+         && x.end.size() <= 9 && std::isfinite(x.rate_hz) && x.rate_hz >= 0
+         && std::isfinite(x.age_s) && x.age_s >= -1;
+}
+
+} // namespace
+
+/// Whatever a program says, its status is one short line of valid UTF-8, and
+/// figures of its streams are few and finite.
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, size_t size) {
   using namespace roscell;
   const std::string_view bytes{reinterpret_cast<const char*>(data), size};
@@ -13,6 +26,9 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, size_t size) {
       || words.status.find('\n') != std::string::npos
       || valid_utf8(words.status) != words.status
       || unfinished_utf8(words.status) != 0)
+    std::abort();
+  if (words.streams.size() > max_told_streams
+      || !std::all_of(words.streams.begin(), words.streams.end(), is_sound))
     std::abort();
   const auto text = valid_utf8(bytes);
   if (valid_utf8(text) != text || unfinished_utf8(bytes) > 3)

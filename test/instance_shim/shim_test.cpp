@@ -1,95 +1,14 @@
-#include "test/skills/child_process.hpp"
+#include "test/instance_shim/shim_run.hpp"
 
 #include <catch2/catch.hpp>
 
-#include <nlohmann/json.hpp>
-
 #include <csignal>
-#include <cstdint>
-#include <cstring>
-#include <fstream>
-#include <sstream>
 
 using namespace roscell::test;
 using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;
-using nlohmann::json;
 
 namespace {
-
-const std::string shim = ROSCELL_BINARY_DIR "/bin/roscell-instance-shim";
-
-/// Runs a shell script under the shim, with its records in `dir`.
-struct shim_run {
-  explicit shim_run(const std::string& script, std::size_t log_bytes = 65536,
-                    std::optional<std::size_t> limit_file_bytes = {})
-      : process({shim, "--dir", dir(), "--log-bytes", std::to_string(log_bytes),
-                 "--", "/bin/sh", "-c", script},
-                {{"PATH", "/usr/bin:/bin"}}, limit_file_bytes) {
-    // nop
-  }
-
-  std::string dir() const {
-    return folder / "instance";
-  }
-
-  /// Waits for a file of the instance.
-  bool wait_for(const std::string& name) {
-    auto there = [&](const std::string& path) {
-      return std::ifstream{path}.good();
-    };
-    return wait_in_folder(folder / "", [&] { return there(dir() + "/."); })
-           && wait_in_folder(dir(), [&] { return there(dir() + "/" + name); });
-  }
-
-  bool wait_for_log(const std::string& part) {
-    return wait_in_folder(dir(), [&] {
-      return content_of(dir() + "/log.0").find(part) != std::string::npos;
-    });
-  }
-
-  json exit() const {
-    return json::parse(content_of(dir() + "/exit"), nullptr, false);
-  }
-
-  /// The numbers in `pid`: shim, start time, child.
-  std::vector<unsigned long> pids() const {
-    std::istringstream text{content_of(dir() + "/pid")};
-    std::vector<unsigned long> result(3);
-    text >> result[0] >> result[1] >> result[2];
-    return result;
-  }
-
-  /// Offsets of the log files, in order.
-  std::vector<std::size_t> log_offsets() const {
-    std::vector<std::size_t> result;
-    for (const auto& name : names_in(dir()))
-      if (name.compare(0, 4, "log.") == 0)
-        result.push_back(std::stoul(name.substr(4)));
-    std::sort(result.begin(), result.end());
-    return result;
-  }
-
-  std::string log(std::size_t offset) const {
-    return content_of(dir() + "/log." + std::to_string(offset));
-  }
-
-  /// Offsets and times of what stands in a log file.
-  std::vector<std::pair<std::int64_t, std::int64_t>>
-  times(std::size_t offset) const {
-    const auto bytes = content_of(dir() + "/times." + std::to_string(offset));
-    std::vector<std::pair<std::int64_t, std::int64_t>> result;
-    for (std::size_t at = 0; at + 16 <= bytes.size(); at += 16) {
-      std::int64_t note[2];
-      std::memcpy(note, bytes.data() + at, sizeof(note));
-      result.emplace_back(note[0], note[1]);
-    }
-    return result;
-  }
-
-  temp_folder folder;
-  child_process process;
-};
 
 /// `seq -w 0 9999` and the like: `count` lines of five bytes.
 std::string numbered_lines(int count) {
@@ -239,6 +158,20 @@ TEST_CASE("SIGQUIT to the shim kills what ignores SIGTERM") {
   CHECK(run.exit()["signal"] == SIGKILL);
 }
 
+TEST_CASE("SIGUSR1 to the shim reaches the command alone") {
+  shim_run run{"trap 'echo asked; exit 7' USR1;"
+               " sh -c 'trap \"echo wrong\" USR1; echo up;"
+               " while :; do sleep 1000 & wait $!; done' &"
+               " while :; do wait; done"};
+  REQUIRE(run.wait_for("pid"));
+  REQUIRE(run.wait_for_log("up"));
+  run.process.signal(SIGUSR1);
+  CHECK(run.process.wait() == 0);
+  CHECK(run.exit()["code"] == 7);
+  CHECK(run.exit().count("fenced") == 0);
+  CHECK(run.log(0) == "up\nasked\n");
+}
+
 TEST_CASE("nothing that the child started outlives it") {
   // One in the group of the child, one that has left it; both hold the pipe.
   shim_run run{"sleep 1000 & echo $!; setsid sleep 1000 & echo $!; exit 0"};
@@ -291,7 +224,9 @@ TEST_CASE("the shim explains a wrong command line") {
            {shim, "--dir", "/tmp/x", "--", "/bin/true"},
            {shim, "--dir", "/tmp/x", "--log-bytes", "4096", "--"},
            {shim, "--dir", "/tmp/x", "--log-bytes", "4k", "--", "/bin/true"},
-           {shim, "--dir", "/tmp/x", "--log-bytes", "-1", "--", "/bin/true"}}) {
+           {shim, "--dir", "/tmp/x", "--log-bytes", "-1", "--", "/bin/true"},
+           {shim, "--log-bytes", "4096", "--fence", "/f", "--", "/bin/true"},
+           {shim, "--stop-signal", "2", "--", "/bin/true"}}) {
     child_process process{arguments, {}};
     CHECK(process.wait() == 2);
     CHECK_THAT(process.output(), StartsWith("usage: "));

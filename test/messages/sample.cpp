@@ -41,6 +41,11 @@ constexpr std::pair<std::string_view, std::string_view> forms[] = {
     {"registration_challenge.state", "joining"},
     {"kind", "memory"},
     {"build", "H"},
+    {"restart", R"({"delay_s":N})"},
+    {"on_node_loss", R"({"after_s":3N})"},
+    {"health", R"({"grace_s":N})"},
+    {"task_history.events", R"({"level":N})"},
+    {"end", "input:N"},
 };
 
 std::string_view form_of(std::string_view type, std::string_view field) {

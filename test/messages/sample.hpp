@@ -67,12 +67,14 @@ private:
   }
 
   void fill(double& x) {
-    x = 0.25 + ++number_;
+    // Three leases at least.
+    x = (context_.second == "after_s" ? 24.25 : 0.25) + ++number_;
   }
 
   template <class T>
   std::enable_if_t<std::is_integral_v<T>> fill(T& x) {
-    x = static_cast<T>(++number_);
+    ++number_;
+    x = static_cast<T>(context_.second == "priority" ? 7 : number_);
   }
 
   template <class T>

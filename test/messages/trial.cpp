@@ -66,13 +66,13 @@ void try_messages(std::vector<trial>& result) {
 std::vector<trial> message_trials() {
   std::vector<trial> result;
   try_messages<cell_query, cell_list_query, topic_query, task_request,
-               task_plan_query, task_query, task_termination, task_restart,
-               instance_query, log_query, node_query, hello_query, skill_query>(
-      result);
+               task_plan_query, task_query, task_history_query,
+               task_termination, task_restart, instance_query, log_query,
+               node_query, hello_query, skill_query>(result);
   try_messages<cell_description, cell_list, topic_list, task_accepted,
-               task_plan, task_description, task_terminated, task_restarted,
-               instance_description, log_excerpt, node_description, node_hello,
-               skill_list, event>(result);
+               task_plan, task_description, task_history, task_terminated,
+               task_restarted, instance_description, log_excerpt,
+               node_description, node_hello, skill_list, event>(result);
   try_messages<session_request, session_reply, session_notice,
                node_registration, node_registered, node_departure,
                node_departed, resource_query, resource_report, figures_query,
@@ -80,6 +80,7 @@ std::vector<trial> message_trials() {
                instance_removal, instances_removed, instance_changed,
                instance_reservation, instances_reserved>(result);
   try_messages<cell_formation, cell_formed, node_release, node_released,
+               node_drain, node_drained, node_undrain, node_undrained,
                node_transfer, node_transferred, transfer_query,
                transfer_description, registration_query, registration_challenge,
                registration_switch, switch_accepted>(result);
@@ -100,6 +101,13 @@ std::vector<trial> part_trials() {
       try_part<node_resources>("node_resources"),
       try_part<resource_request>("resource_request"),
       try_part<io_endpoint>("io_endpoint"),
+      try_part<restart_policy>("restart_policy"),
+      try_part<node_loss_policy>("node_loss_policy"),
+      try_part<stream_bounds>("stream_bounds"),
+      try_part<health_policy>("health_policy"),
+      try_part<life_policy>("life_policy"),
+      try_part<ended_run>("ended_run"),
+      try_part<safety_wait>("safety_wait"),
       try_part<instance_spec>("instance_spec"),
       try_part<instance_row>("instance_row"),
       try_part<node_identity>("node_identity"),

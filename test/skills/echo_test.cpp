@@ -57,6 +57,21 @@ TEST_CASE("echo repeats a growing file until it is told to stop") {
   CHECK(skill.output().empty());
 }
 
+TEST_CASE("echo lives on when somebody waits for it to be safe") {
+  temp_folder folder;
+  folder.write("in", "one\n");
+  notify_receiver node{folder / "notify"};
+  child_process skill{{echo()}, environment(folder, json::object())};
+  CHECK(node.receive() == "READY=1");
+  skill.signal(SIGUSR1);
+  folder.append("in", "two\n");
+  CHECK(wait_in_folder(
+      folder / "", [&] { return content_of(folder / "out") == "one\ntwo\n"; }));
+  skill.signal(SIGUSR1);
+  skill.signal(SIGTERM);
+  CHECK(skill.wait() == 0);
+}
+
 TEST_CASE("echo ends by itself when it is not to follow") {
   temp_folder folder;
   std::string lines;

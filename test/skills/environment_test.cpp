@@ -55,6 +55,7 @@ TEST_CASE("the environment of a skill has sensible defaults") {
   CHECK_FALSE(env.gpu);
   CHECK_FALSE(env.watchdog);
   CHECK(env.notify_socket.empty());
+  CHECK_FALSE(env.health);
 }
 
 TEST_CASE("the environment of a skill is read completely") {
@@ -68,6 +69,7 @@ TEST_CASE("the environment of a skill is read completely") {
   from["ROSCELL_PARAMETERS"] = R"({"prefix":"> "})";
   from["NOTIFY_SOCKET"] = "@x";
   from["WATCHDOG_USEC"] = "2000000";
+  from["ROSCELL_HEALTH"] = "1";
   auto env = read(from);
   CHECK(env.task + env.step + env.instance + env.operation + env.deployment
         == "tsiod");
@@ -75,6 +77,7 @@ TEST_CASE("the environment of a skill is read completely") {
   CHECK(env.parameters.text("prefix", "") == "> ");
   CHECK(env.notify_socket == "@x");
   CHECK(env.watchdog == std::chrono::seconds{2});
+  CHECK(env.health);
 }
 
 TEST_CASE("a wrong variable is named in the complaint") {

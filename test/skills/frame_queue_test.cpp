@@ -99,3 +99,32 @@ TEST_CASE("a closed queue hands out what it holds, a discarded one does not") {
   CHECK(next(discarded) == "closed");
   CHECK(discarded.dropped() == 0);
 }
+
+TEST_CASE("what is interposed is done by who takes frames, before the next "
+          "one") {
+  frame_queue queue{1, two_frames};
+  queue.push(make("a"), when_full::wait);
+  std::string done;
+  queue.interpose([&] { done += "first "; });
+  queue.interpose([&] { done += "second "; });
+  CHECK(done.empty());
+  CHECK(next(queue) == "a");
+  CHECK(done == "second ");
+}
+
+TEST_CASE("what is interposed wakes who waits for a frame") {
+  frame_queue queue{1, two_frames};
+  std::promise<std::thread::id> doer;
+  std::thread taker{[&] { next(queue); }};
+  queue.interpose([&] { doer.set_value(std::this_thread::get_id()); });
+  CHECK(doer.get_future().get() == taker.get_id());
+  queue.close();
+  taker.join();
+}
+
+TEST_CASE("nothing is interposed once a queue is closed") {
+  frame_queue queue{1, two_frames};
+  queue.close();
+  queue.interpose([] { FAIL("it is done"); });
+  CHECK(next(queue) == "closed");
+}

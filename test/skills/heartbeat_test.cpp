@@ -56,7 +56,8 @@ TEST_CASE("the heart beats with READY, WATCHDOG and now and then a status") {
   notify_receiver node{folder / "notify"};
   notify_socket skill{folder / "notify"};
   liveness alive{20ms};
-  heartbeat beat{skill, alive, [] { return "frames=1"; }};
+  safe_state untold;
+  heartbeat beat{skill, alive, untold, {[] { return "frames=1"; }, nullptr}};
   CHECK(node.receive() == "READY=1\nWATCHDOG=1");
   CHECK(node.receive() == "READY=1\nWATCHDOG=1");
   CHECK(node.wait_for("STATUS") == "READY=1\nWATCHDOG=1\nSTATUS=frames=1");
@@ -70,7 +71,8 @@ TEST_CASE("the heart stands still while work hangs, and makes up for it") {
   // Work that began an hour ago hangs, whatever the machine's speed.
   alive.work_begins(liveness::clock::now() - 1h);
   CHECK_FALSE(alive.allows_beat(liveness::clock::now()));
-  heartbeat beat{skill, alive, [] { return ""; }};
+  safe_state untold;
+  heartbeat beat{skill, alive, untold, {[] { return ""; }, nullptr}};
   // Ten periods of the timer that would have sent a beat.
   stop_event never;
   CHECK_FALSE(never.wait_until(liveness::clock::now() + 100ms));
@@ -78,4 +80,100 @@ TEST_CASE("the heart stands still while work hangs, and makes up for it") {
   CHECK(alive.work_ends());
   beat.beat_now();
   CHECK(node.receive() == "READY=1\nWATCHDOG=1");
+}
+
+namespace {
+
+/// A heart that hardly beats, with a node that hears it.
+struct quiet_heart {
+  temp_folder folder;
+  notify_receiver node{folder / "notify"};
+  notify_socket skill{folder / "notify"};
+  liveness alive{1h};
+  safe_state safety;
+  heartbeat beat{skill, alive, safety, {[] { return ""; }, nullptr}};
+};
+
+} // namespace
+
+TEST_CASE_METHOD(quiet_heart, "a word on safety is told at once") {
+  safety.set(false);
+  CHECK(node.receive() == "ROSCELL_SAFE=0");
+  safety.set(true);
+  CHECK(node.receive() == "ROSCELL_SAFE=1");
+}
+
+TEST_CASE_METHOD(quiet_heart, "a word on safety that says nothing new is not "
+                              "told") {
+  safety.set(true);
+  safety.set(true);
+  safety.set(true);
+  CHECK(node.receive() == "ROSCELL_SAFE=1");
+  safety.set(false);
+  CHECK(node.receive() == "ROSCELL_SAFE=0");
+}
+
+TEST_CASE_METHOD(quiet_heart, "a skill that changes its mind a thousand times "
+                              "sends a few words, and its last one") {
+  const auto begin = liveness::clock::now();
+  for (int i = 0; i < 1000; ++i) {
+    safety.set(i % 2 == 0);
+    safety.set(i % 2 != 0);
+    std::this_thread::yield();
+  }
+  safety.set(false);
+  safety.set(true);
+  std::size_t words = 0;
+  std::string last;
+  while (auto word = node.receive_now()) {
+    ++words;
+    last = *word;
+  }
+  const auto span = liveness::clock::now() - begin;
+  CHECK(words
+        <= static_cast<std::size_t>(span / heartbeat::least_word_pause) + 1);
+  // Only what is said now can follow.
+  if (last != "ROSCELL_SAFE=1")
+    CHECK(node.wait_for("ROSCELL_SAFE=1"));
+}
+
+TEST_CASE("every beat repeats the word on safety, for a node that was "
+          "restarted") {
+  temp_folder folder;
+  notify_receiver node{folder / "notify"};
+  notify_socket skill{folder / "notify"};
+  liveness alive{20ms};
+  safe_state safety;
+  safety.set(false);
+  heartbeat beat{skill, alive, safety, {[] { return ""; }, nullptr}};
+  for (int i = 0; i < 3; ++i)
+    CHECK(node.wait_for("WATCHDOG") == "READY=1\nWATCHDOG=1\nROSCELL_SAFE=0");
+}
+
+TEST_CASE("a word on safety is told while work hangs") {
+  temp_folder folder;
+  notify_receiver node{folder / "notify"};
+  notify_socket skill{folder / "notify"};
+  liveness alive{20ms};
+  alive.work_begins(liveness::clock::now() - 1h);
+  safe_state safety;
+  heartbeat beat{skill, alive, safety, {[] { return ""; }, nullptr}};
+  safety.set(false);
+  CHECK(node.receive() == "ROSCELL_SAFE=0");
+}
+
+TEST_CASE("a heart that tells of streams beats every second or faster") {
+  temp_folder folder;
+  notify_receiver node{folder / "notify"};
+  notify_socket skill{folder / "notify"};
+  liveness alive{1h};
+  safe_state untold;
+  const auto begin = liveness::clock::now();
+  heartbeat beat{skill,
+                 alive,
+                 untold,
+                 {[] { return "s"; }, [](auto) { return "input:0 1 0"; }}};
+  CHECK(node.receive()
+        == "READY=1\nWATCHDOG=1\nROSCELL_STREAMS=input:0 1 0\nSTATUS=s");
+  CHECK(liveness::clock::now() - begin < 5s);
 }

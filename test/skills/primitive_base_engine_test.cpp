@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include <stdexcept>
+#include <thread>
 
 using namespace roscell::engine;
 using namespace roscell::test;
@@ -101,6 +102,29 @@ struct repeater : executor {
   std::size_t port;
 };
 
+/// Says that it is not safe, and that it is when it is wanted to be.
+struct careful : executor {
+  explicit careful(journal& j) : log(j) {
+    set_safe(false);
+  }
+
+  void process(const frame&, emitter&) override {
+    log.text += "process ";
+  }
+
+  void on_safety_wanted() override {
+    log.text += "wanted ";
+    set_safe(true);
+    throw std::runtime_error("the gripper is stuck");
+  }
+
+  void release() override {
+    log.text += "release ";
+  }
+
+  journal& log;
+};
+
 struct fixture {
   fixture() {
     for (const auto* protocol : {"finite", "live"})
@@ -112,6 +136,9 @@ struct fixture {
     });
     parts.add_executor("repeat", [this](const environment& e) {
       return std::make_unique<repeater>(log, e);
+    });
+    parts.add_executor("careful", [this](const environment&) {
+      return std::make_unique<careful>(log);
     });
     env.model = "repeat";
     env.inputs = {{"finite", "3", "number"}};
@@ -260,4 +287,47 @@ TEST_CASE_METHOD(fixture, "a skill that cannot start is never ready") {
   env.inputs[0].endpoint = "closed";
   CHECK(run() == exit_code::cannot_start);
   CHECK_FALSE(node.receive_now());
+}
+
+TEST_CASE_METHOD(fixture, "an executor says whether it is safe, and hears that "
+                          "somebody waits for that") {
+  temp_folder folder;
+  notify_receiver node{folder / "notify"};
+  env.notify_socket = folder / "notify";
+  env.model = "careful";
+  env.inputs[0] = {"live", "0", "n"};
+  primitive_base_engine engine{
+      parts, env, [this](const std::string& line) { log.said += line + "\n"; }};
+  std::thread runner{[&] { CHECK(engine.run() == exit_code::done); }};
+  CHECK(node.wait_for("ROSCELL_SAFE=0"));
+  engine.want_safety();
+  CHECK(node.wait_for("ROSCELL_SAFE=1"));
+  engine.request_stop();
+  runner.join();
+  CHECK(log.text == "open wanted release close");
+  CHECK(log.said == "on_safety_wanted failed: the gripper is stuck\n");
+}
+
+TEST_CASE_METHOD(fixture, "an executor that does not care goes on when it is "
+                          "wanted to be safe") {
+  primitive_base_engine engine{parts, env, [](const std::string&) {}};
+  engine.want_safety();
+  CHECK(engine.run() == exit_code::done);
+  CHECK(log.text == "open 1 2 3 release close");
+}
+
+TEST_CASE_METHOD(fixture, "streams are measured where the node wants to know") {
+  temp_folder folder;
+  notify_receiver node{folder / "notify"};
+  env.notify_socket = folder / "notify";
+  env.health = true;
+  env.inputs = {{"live", "3", "n"}, {"live", "0", "n"}};
+  primitive_base_engine engine{parts, env, [](const std::string&) {}};
+  std::thread runner{[&] { engine.run(); }};
+  const auto told = node.wait_for("ROSCELL_STREAMS=").value_or("");
+  engine.request_stop();
+  runner.join();
+  CHECK_THAT(told, Contains("WATCHDOG=1\nROSCELL_STREAMS=input:0 "));
+  CHECK_THAT(told, Contains(";input:1 0.000 -;output:0 "));
+  CHECK(told.find("output:0 0.000 -") == std::string::npos);
 }

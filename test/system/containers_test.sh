@@ -19,7 +19,9 @@ start_alone() {
 
 # run_task TASK: deploys the echo skill; its container is in $container.
 run_task() {
-  echo_task "$1" > "$scratch/$1.json"
+  # These tests look at how it ends, not at how it comes back.
+  echo_task "$1" | jq '.pipeline[].restart = {policy: "never"}' \
+    > "$scratch/$1.json"
   to head request "$scratch/$1.json" > "$scratch/reply.json" \
     || fail "refused: $(cat "$scratch/reply.json")"
   instance=$(jq -r '.instances[0].instance' "$scratch/reply.json")

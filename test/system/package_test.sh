@@ -1,6 +1,6 @@
 # Debian packages of this build, on a Debian that has never seen ROSCell.
 
-. test/system/debian_host.sh
+. test/system/scenes/debian_host.sh
 . tools/packaging/clean_root.sh
 
 packages=$suite/packages

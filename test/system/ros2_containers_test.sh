@@ -3,7 +3,7 @@
 
 variants=(docker podman rootless)
 . test/system/engine.sh
-. test/system/ros2_scene.sh
+. test/system/scenes/ros2_scene.sh
 
 before_all() {
   start_engine || return

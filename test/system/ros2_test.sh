@@ -1,7 +1,7 @@
 # Stock ROS 2 programs in a cell: beside skills, with nothing but the output of
 # `roscell env`, and as skills.
 
-. test/system/ros2_scene.sh
+. test/system/scenes/ros2_scene.sh
 
 test_a_stock_program_exchanges_images_with_skills_by_roscell_env_alone() {
   start_scene
@@ -42,10 +42,10 @@ test_a_stock_program_runs_as_a_step_and_is_told_to_end_as_ros_2_does() {
   to head logs "$instance" > "$scratch/log"
   has_line "relays from /scene/image to /scene/passed_on" < "$scratch/log" \
     || fail "its log: $(cat "$scratch/log")"
-  # Its own end is a failure of the step at once, also without signs of life.
+  # Its own end is noticed at once, also without signs of life.
   pkill -KILL -f "enclave /${instance//-/_}"
   await arm ".event == \"instance_changed\" and .subject == \"$instance\"
-    and .data.state == \"failed\"" > /dev/null
+    and .data.state == \"backing_off\"" > /dev/null
 }
 
 test_a_step_of_a_package_that_is_not_there_fails_with_the_remedy_in_its_log() {

@@ -15,6 +15,7 @@ pipeline:
   - {id: one, operation: echo, model: plain, parameters: {prefix: "1 "},
      input: $scratch/data/in.txt, output: $scratch/data/between.txt}
   - {id: two, operation: echo, model: plain, parameters: {prefix: "2 "},
+     restart: {policy: never},
      input: {from: one}, output: $scratch/data/out.txt}
 EOF
 }

@@ -34,7 +34,7 @@ known_cell sample() {
   row.status = "frames=7";
   row.figures = {7, 2.5, 0, 1.5};
   known.instances = {row};
-  known.cell.tasks = {{"t", task_state::running, 1000, {row}}};
+  known.cell.tasks = {{"t", task_state::running, 1000, 0, {row}}};
   skill_row skill;
   skill.skill.hash = "0123456789abcdef";
   skill.skill.descriptor.operation = "poses";
@@ -105,6 +105,23 @@ TEST_CASE("an instance is described with its words, figures and log",
   CHECK(has(text, "Says:           frames=7\n"));
   CHECK(has(text, "Figures:        2.5 Hz, 0 dropped, 1.5 ms\n"));
   CHECK(has(text, "\nEnd of the log:\n  a line\n"));
+}
+
+TEST_CASE("an instance's health and safety are described", "[tools]") {
+  auto known = sample();
+  auto& row = known.instances[0];
+  CHECK_FALSE(has(described(known, "t-poses-1a2b3c4d"), "May be ended"));
+  row.health = instance_health::starved;
+  row.health_reason = "input '/image' comes at 2 Hz";
+  row.spec.life.safe_state = true;
+  row.safe = safe_word::unsafe;
+  const auto text = described(known, "t-poses-1a2b3c4d");
+  CHECK(has(text, "running, starved since 59s"));
+  CHECK(has(text, "input '/image' comes at 2 Hz"));
+  CHECK(has(text, "May be ended"));
+  row.safe = safe_word::untold;
+  CHECK(
+      has(described(known, "t-poses-1a2b3c4d"), "no, it has said nothing yet"));
 }
 
 TEST_CASE("a lost node's instance is described as unknown", "[tools]") {

@@ -60,7 +60,7 @@ TEST_CASE("what is printed as JSON follows its published schema", "[tools]") {
                     {"instances"}));
   check("tasks",
         shaped_list(message_json(task_description{{task_row{
-                        "t", task_state::running, 5, {sample_instance()}}}}),
+                        "t", task_state::running, 5, 0, {sample_instance()}}}}),
                     {"tasks"}));
   check(
       "cells",

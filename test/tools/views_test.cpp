@@ -151,17 +151,64 @@ TEST_CASE("a task's row counts the steps that run", "[tools]") {
   failed.state = instance_state::failed;
   failed.node = "arm-2";
   const task_description tasks{
-      {{"t", task_state::degraded, 1000, {sample_instance(), failed}}}};
+      {{"t", task_state::degraded, 1000, 0, {sample_instance(), failed}}}};
   CHECK(tasks_view(tasks, at(6000))
         == "TASK  STATE     AGE  RUNNING  NODES\n"
            "t     degraded   5s      1/2  arm-1,arm-2\n");
+}
+
+TEST_CASE("what waits is shown with whom and for how long", "[tools]") {
+  auto lost = sample_instance();
+  lost.unknown_since_unix_ms = 1000;
+  lost.waits = "moves unless node 'arm-1' is back within 60 s";
+  const auto name = lost.spec.task + "/" + lost.spec.step;
+  task_description tasks{{{"t", task_state::degraded, 1000, 0, {lost}}}};
+  CHECK(has(tasks_view(tasks, at(6000)),
+            name
+                + " moves unless node 'arm-1' is back within 60 s, away for "
+                  "5s\n"));
+  auto unsafe = sample_instance();
+  unsafe.unsafe_since_unix_ms = 1000;
+  unsafe.unsafe_until_unix_ms = 21'000;
+  tasks.tasks[0].instances = {unsafe};
+  CHECK(has(tasks_view(tasks, at(6000)),
+            name + " waits to be safe, 5s; it ends in 15s all the same\n"));
+  cell_description cell;
+  cell.nodes.resize(1);
+  cell.nodes[0].reason = "silent for 8 s";
+  cell.nodes[0].instances = {lost};
+  cell.nodes[0].draining_since_unix_ms = 1;
+  const auto nodes = members_view(cell, at(0));
+  CHECK(has(nodes, "expected, draining"));
+  CHECK(has(nodes, "silent for 8 s; " + name + " moves unless"));
+}
+
+TEST_CASE("a task that has ended shows how long it took", "[tools]") {
+  const task_description tasks{
+      {{"t", task_state::finished, 1000, 4000, {sample_instance()}}}};
+  CHECK(has(tasks_view(tasks, at(90'000)), "TOOK"));
+  CHECK(has(tasks_view(tasks, at(90'000)), " 3s\n"));
+}
+
+TEST_CASE("one instance is shown with how its earlier runs ended", "[tools]") {
+  auto row = sample_instance();
+  row.state = instance_state::backing_off;
+  row.next_start_unix_ms = 9000;
+  row.reason = "it ended with exit code 7";
+  row.restarts = 3;
+  row.ends = {{4000, 7, "it ended with exit code 7", "one\ntwo"}};
+  const auto text = instance_view({{row}}, at(6000));
+  CHECK(has(text, "next start in 3s; it ended with exit code 7\n"));
+  CHECK(has(text, "started again 3 times; its last ends:\n"
+                  "  2s ago: it ended with exit code 7\n"
+                  "      one\n      two\n"));
 }
 
 TEST_CASE("a lost node's instance is not shown as running", "[tools]") {
   auto lost = sample_instance();
   lost.unknown_since_unix_ms = 1000;
   const task_description tasks{
-      {{"t", task_state::degraded, 1000, {sample_instance(), lost}}}};
+      {{"t", task_state::degraded, 1000, 0, {sample_instance(), lost}}}};
   CHECK(has(tasks_view(tasks, at(6000)), "1/2, 1 unknown since 5s  arm-1\n"));
   cell_description cell;
   cell.nodes.resize(1);

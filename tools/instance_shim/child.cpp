@@ -1,5 +1,6 @@
 #include "tools/instance_shim/child.hpp"
 
+#include <dirent.h>
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/prctl.h>
@@ -46,23 +47,29 @@ void reset_signals() {
   reset_signals();
   auto null = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
   ::dup2(null, STDIN_FILENO);
-  ::dup2(output, STDOUT_FILENO);
-  ::dup2(output, STDERR_FILENO);
+  // Without a log it has the shim's own.
+  if (output >= 0) {
+    ::dup2(output, STDOUT_FILENO);
+    ::dup2(output, STDERR_FILENO);
+  }
   if (o.working_dir != nullptr && ::chdir(o.working_dir) != 0)
     fail("change to folder", o.working_dir);
   ::execvp(o.command[0], o.command);
   fail("run", o.command[0]);
 }
 
-/// Kills the direct children. Returns whether there were any.
-bool kill_children() {
+/// Deeper ones come up when those above them have ended.
+constexpr int most_levels = 64;
+
+/// The children that one thread has started, as text: "PID PID ".
+bool read_children(pid_t process, const char* thread, char* text, size_t room) {
   char path[64];
-  char text[4096];
-  std::snprintf(path, sizeof(path), "/proc/self/task/%d/children", ::getpid());
+  std::snprintf(path, sizeof(path), "/proc/%d/task/%.16s/children", process,
+                thread);
   auto fd = ::open(path, O_RDONLY | O_CLOEXEC);
   if (fd < 0)
     return false;
-  auto size = ::read(fd, text, sizeof(text) - 1);
+  auto size = ::read(fd, text, room - 1);
   ::close(fd);
   if (size <= 0)
     return false;
@@ -70,10 +77,33 @@ bool kill_children() {
   // A list that was cut may end with a part of a number.
   if (text[size - 1] != ' ')
     *(std::strrchr(text, ' ') + 1) = '\0';
-  char* rest = nullptr;
-  for (const char* at = text; *at >= '0' && *at <= '9'; at = rest + 1)
-    ::kill(static_cast<pid_t>(std::strtol(at, &rest, 10)), SIGKILL);
   return true;
+}
+
+/// Kills the descendants of a process, the deepest first: the children of one
+/// that has ended have another parent. Returns whether there were any.
+bool kill_descendants(pid_t process, int level = 0) {
+  char path[64];
+  char text[4096];
+  auto any = false;
+  std::snprintf(path, sizeof(path), "/proc/%d/task", process);
+  auto* threads = level < most_levels ? ::opendir(path) : nullptr;
+  if (threads == nullptr)
+    return false;
+  while (const auto* entry = ::readdir(threads)) {
+    if (entry->d_name[0] == '.'
+        || !read_children(process, entry->d_name, text, sizeof(text)))
+      continue;
+    any = true;
+    char* rest = nullptr;
+    for (const char* at = text; *at >= '0' && *at <= '9'; at = rest + 1) {
+      auto child = static_cast<pid_t>(std::strtol(at, &rest, 10));
+      kill_descendants(child, level + 1);
+      ::kill(child, SIGKILL);
+    }
+  }
+  ::closedir(threads);
+  return any;
 }
 
 } // namespace
@@ -110,9 +140,15 @@ bool reap(pid_t child, int& wait_status) {
   return ended;
 }
 
+void kill_all(pid_t child) {
+  ::kill(-child, SIGKILL);
+  kill_descendants(::getpid());
+}
+
 void kill_leftovers(pid_t child, int signals) {
   auto status = 0;
-  for (auto round = 0; round < kill_rounds && kill_children(); ++round) {
+  for (auto round = 0; round < kill_rounds && kill_descendants(::getpid());
+       ++round) {
     pollfd waited{signals, POLLIN, 0};
     ::poll(&waited, 1, kill_round_ms);
     signalfd_siginfo taken{};

@@ -8,14 +8,18 @@
 namespace roscell::shim {
 
 /// Starts the command in a process group of its own. It dies with the shim,
-/// reads from /dev/null, and writes to `output`. If it cannot be started, the
-/// reason goes to `output` and the child ends with code 127. Returns the
-/// process id, or -1 with errno set.
+/// reads from /dev/null, and writes to `output`, or where the shim does if that
+/// is negative. If it cannot be started, it writes the reason and ends with
+/// code 127. Returns the process id, or -1 with errno set.
 pid_t start_child(const options& o, int output);
 
 /// Reaps all children that have ended. Returns whether `child` was among
 /// them; then `wait_status` is set and its process group has been killed.
 bool reap(pid_t child, int& wait_status);
+
+/// Kills the child, which must not have been reaped, and all descendants of the
+/// shim at once. Waits for nothing: to be repeated while one of them ends.
+void kill_all(pid_t child);
 
 /// Kills all descendants that are left, also those that have moved to another
 /// process group. Waits at most a moment for their end; `signals` is the

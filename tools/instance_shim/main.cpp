@@ -10,21 +10,30 @@
 ///   *.tmp         not yet complete; to be ignored
 ///
 /// SIGTERM to the shim is passed on to the command's process group, as the
-/// signal that the shim was told, SIGQUIT
-/// kills that group. The shim closes the stdout and stderr it was given when
-/// `pid` is written; what comes out of them before is the reason for a failure.
-/// Exit code: 0 when `exit` is written, 1 for a failure, 2 for wrong usage.
+/// signal that the shim was told, SIGQUIT kills that group, and SIGUSR1 is
+/// passed on to the command alone. The shim closes the stdout and stderr it was
+/// given when `pid` is written; what comes out of them before is the reason for
+/// a failure. Exit code: 0 when `exit` is written, 1 for a failure, 2 for wrong
+/// usage.
+///
+/// With a fence (fence.hpp) the command and all that it has started is killed
+/// when the fence has passed. Nothing is started without it then.
+///
+/// Without a folder it is the first process of a container, whose engine keeps
+/// the log and the exit: the output is left alone, and the exit code is that of
+/// the command, 128 + n after signal n.
 
 #include "tools/instance_shim/child.hpp"
 #include "tools/instance_shim/log_files.hpp"
 #include "tools/instance_shim/options.hpp"
 #include "tools/instance_shim/records.hpp"
+#include "tools/instance_shim/supervision.hpp"
 
 #include <fcntl.h>
-#include <poll.h>
+#include <signal.h>
 #include <sys/prctl.h>
-#include <sys/signalfd.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -35,10 +44,6 @@
 namespace roscell::shim {
 
 namespace {
-
-/// Of 16 KiB each: the most that a pipe can hold by default for a privileged
-/// user is 1 MiB.
-constexpr int max_last_portions = 64;
 
 int complain(const char* what, const char* subject) {
   ::dprintf(STDERR_FILENO, "roscell-instance-shim: cannot %s %s: %s\n", what,
@@ -63,16 +68,6 @@ void detach() {
     ::signal(number, SIG_IGN);
 }
 
-int open_signals() {
-  sigset_t set;
-  ::sigemptyset(&set);
-  ::sigaddset(&set, SIGTERM);
-  ::sigaddset(&set, SIGQUIT);
-  ::sigaddset(&set, SIGCHLD);
-  ::sigprocmask(SIG_SETMASK, &set, nullptr);
-  return ::signalfd(-1, &set, SFD_CLOEXEC | SFD_NONBLOCK);
-}
-
 /// Makes the folder if need be. Returns a descriptor, or -1 with errno set.
 int open_directory(const char* path) {
   if (::mkdir(path, 0750) != 0 && errno != EEXIST)
@@ -86,77 +81,58 @@ void release_standard_streams() {
     ::dup2(null, fd);
 }
 
-/// Moves one portion of output into the log. Returns whether there may be
-/// more now.
-bool drain(int output, log_files& log) {
-  static char buffer[16384];
-  auto n = ::read(output, buffer, sizeof(buffer));
-  if (n > 0)
-    log.write(buffer, static_cast<std::size_t>(n));
-  return n > 0 || (n < 0 && errno == EINTR);
+int start_failed(const options& o) {
+  return complain("start", o.command[0]);
 }
 
-/// Returns whether the child has ended.
-bool on_signal(int signals, pid_t child, int stop_signal, int& wait_status) {
-  signalfd_siginfo info{};
-  auto ended = false;
-  while (::read(signals, &info, sizeof(info)) == sizeof(info)) {
-    if (info.ssi_signo == SIGTERM)
-      ::kill(-child, stop_signal);
-    else if (info.ssi_signo == SIGQUIT)
-      ::kill(-child, SIGKILL);
-    else
-      ended = reap(child, wait_status) || ended;
-  }
-  return ended;
+/// The first process of a container.
+int run_plain(const options& o, supervision& x) {
+  x.child = start_child(o, -1);
+  if (x.child < 0)
+    return start_failed(o);
+  supervise(x);
+  return WIFSIGNALED(x.wait_status) ? 128 + WTERMSIG(x.wait_status)
+                                    : WEXITSTATUS(x.wait_status);
 }
 
-/// Returns the wait status of the child when it has ended.
-int supervise(pid_t child, int output, int signals, int stop_signal,
-              log_files& log) {
-  auto wait_status = 0;
-  pollfd waited[] = {{signals, POLLIN, 0}, {output, POLLIN, 0}};
-  for (;;) {
-    if (::poll(waited, 2, -1) < 1)
-      continue; // Interrupted.
-    if (waited[0].revents != 0
-        && on_signal(signals, child, stop_signal, wait_status))
-      return wait_status;
-    // The child may close its output long before it ends.
-    if (waited[1].revents != 0 && !drain(output, log))
-      waited[1].fd = -1;
-  }
-}
-
-int run(const options& o) {
-  detach();
-  auto signals = open_signals();
+int run_recorded(const options& o, supervision& x) {
   auto directory = open_directory(o.directory);
   if (directory < 0)
     return complain("open", o.directory);
   int pipe[2] = {-1, -1};
-  if (signals < 0 || ::pipe2(pipe, O_CLOEXEC) != 0)
+  if (::pipe2(pipe, O_CLOEXEC) != 0)
     return complain("make", "pipes");
   ::fcntl(pipe[0], F_SETFL, O_NONBLOCK);
   exit_record record{directory};
   log_files log{directory, o.log_bytes};
-  auto child = start_child(o, pipe[1]);
-  if (child < 0)
-    return complain("start", o.command[0]);
+  x.child = start_child(o, pipe[1]);
+  if (x.child < 0)
+    return start_failed(o);
   ::close(pipe[1]);
-  if (!write_pid(directory, child)) {
+  if (!write_pid(directory, x.child)) {
     auto result = complain("write pid in", o.directory);
-    kill_leftovers(child, signals);
+    kill_leftovers(x.child, x.signals);
     return result;
   }
   release_standard_streams();
-  auto wait_status = supervise(child, pipe[0], signals, o.stop_signal, log);
-  kill_leftovers(child, signals);
-  // A process that could not be killed may still hold the other end.
-  for (auto i = 0; i < max_last_portions && drain(pipe[0], log); ++i) {
-    // Until the pipe is empty.
-  }
-  return record.write(wait_status, log) ? 0 : 1;
+  x.output = pipe[0];
+  x.log = &log;
+  supervise(x);
+  return record.write(x.wait_status, x.fenced, log) ? 0 : 1;
+}
+
+int run(const options& o) {
+  detach();
+  supervision x;
+  x.signals = open_signals();
+  if (x.signals < 0)
+    return complain("take", "signals");
+  fence limit;
+  if (o.fence != nullptr && !limit.hold(o.fence))
+    return complain("keep the fence", o.fence);
+  x.limit = &limit;
+  x.stop_signal = o.stop_signal;
+  return o.directory != nullptr ? run_recorded(o, x) : run_plain(o, x);
 }
 
 } // namespace

@@ -29,9 +29,12 @@ bool read_signal(const char* text, int& result) {
 }
 
 bool usage() {
-  ::dprintf(2, "usage: roscell-instance-shim --dir DIR --log-bytes N "
-               "[--cwd DIR] [--stop-signal S] -- COMMAND [ARGS...]\n"
-               "N is a whole number of at least 1024, S one from 1 to 31.\n");
+  ::dprintf(
+      2,
+      "usage: roscell-instance-shim {--dir DIR --log-bytes N | --fence FILE} "
+      "[--fence FILE] [--cwd DIR] [--stop-signal S] -- COMMAND "
+      "[ARGS...]\n"
+      "N is a whole number of at least 1024, S one from 1 to 31.\n");
   return false;
 }
 
@@ -45,6 +48,8 @@ bool read_options(int argc, char** argv, options& result) {
       result.directory = value;
     else if (std::strcmp(argv[i], "--cwd") == 0)
       result.working_dir = value;
+    else if (std::strcmp(argv[i], "--fence") == 0)
+      result.fence = value;
     else if (std::strcmp(argv[i], "--log-bytes") == 0
                  ? !read_bytes(value, result.log_bytes)
                  : std::strcmp(argv[i], "--stop-signal") != 0
@@ -52,9 +57,11 @@ bool read_options(int argc, char** argv, options& result) {
       return usage();
   }
   result.command = argv + i + 1;
-  auto complete = result.directory != nullptr && result.log_bytes > 0
-                  && i + 1 < argc && std::strcmp(argv[i], "--") == 0;
-  return complete || usage();
+  const auto logs = result.directory != nullptr && result.log_bytes > 0;
+  const auto only_fences = result.directory == nullptr && result.log_bytes == 0
+                           && result.fence != nullptr;
+  const auto has_command = i + 1 < argc && std::strcmp(argv[i], "--") == 0;
+  return ((logs || only_fences) && has_command) || usage();
 }
 
 } // namespace roscell::shim

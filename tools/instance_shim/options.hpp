@@ -6,8 +6,11 @@ namespace roscell::shim {
 
 /// The command line of the shim.
 struct options {
-  const char* directory = nullptr;   ///< where the records and the log go
-  std::uint64_t log_bytes = 0;       ///< most bytes of log that are kept
+  /// Where the records and the log go; null: nowhere, and the output stays the
+  /// shim's own.
+  const char* directory = nullptr;
+  std::uint64_t log_bytes = 0; ///< most bytes of log that are kept
+  const char* fence = nullptr; ///< file with the fence; null: there is none
   const char* working_dir = nullptr; ///< of the command; null: the shim's own
   int stop_signal = 15;              ///< what asks the command to end
   char** command = nullptr;          ///< the command and its arguments

@@ -42,16 +42,16 @@ long long unix_ms() {
   return now.tv_sec * 1000LL + now.tv_nsec / 1'000'000;
 }
 
-int format_exit(int wait_status, char* text) {
+int format_exit(int wait_status, bool fenced, char* text) {
   char code[16] = "null";
   char signal[16] = "null";
   if (WIFSIGNALED(wait_status))
     std::snprintf(signal, sizeof(signal), "%d", WTERMSIG(wait_status));
   else
     std::snprintf(code, sizeof(code), "%d", WEXITSTATUS(wait_status));
-  return std::snprintf(text, record_bytes,
-                       "{\"code\":%s,\"signal\":%s,\"at_unix_ms\":%lld}\n",
-                       code, signal, unix_ms());
+  return std::snprintf(
+      text, record_bytes, "{\"code\":%s,\"signal\":%s,\"at_unix_ms\":%lld%s}\n",
+      code, signal, unix_ms(), fenced ? ",\"fenced\":true" : "");
 }
 
 } // namespace
@@ -82,9 +82,9 @@ exit_record::~exit_record() {
     ::close(file_);
 }
 
-bool exit_record::write(int wait_status, log_files& log) {
+bool exit_record::write(int wait_status, bool fenced, log_files& log) {
   char text[record_bytes];
-  auto size = format_exit(wait_status, text);
+  auto size = format_exit(wait_status, fenced, text);
   if (store(text, size))
     return true;
   // A file system that cannot reserve room may be full: the end of the child

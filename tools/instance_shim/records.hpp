@@ -24,9 +24,10 @@ public:
   exit_record& operator=(const exit_record&) = delete;
 
   /// Writes `exit` as JSON, {"code", "signal", "at_unix_ms"}, of which one of
-  /// the first two is null. `wait_status` is that of waitpid(2). Returns true
-  /// when the record would survive a loss of power.
-  bool write(int wait_status, log_files& log);
+  /// the first two is null, and "fenced": true where its fence has ended it.
+  /// `wait_status` is that of waitpid(2). Returns true when the record would
+  /// survive a loss of power.
+  bool write(int wait_status, bool fenced, log_files& log);
 
 private:
   bool store(const char* text, int size);

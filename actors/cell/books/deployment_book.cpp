@@ -17,12 +17,16 @@ void deployment_book::place(const std::string& task,
     const auto* row = told(x.node, x.spec.instance);
     if (row && !is_live(row->state) && !find(x.spec.instance, x.node))
       forget_told(x.node, x.spec.instance);
+    if (!find(x.spec.instance))
+      ignored_ends_.erase(x.spec.instance);
   }
 }
 
 void deployment_book::forget_task(const std::string& task) {
-  for (const auto& x : of_task(task))
+  for (const auto& x : of_task(task)) {
     forget_told(x.node, x.spec.instance);
+    ignored_ends_.erase(x.spec.instance);
+  }
   by_task_.erase(task);
 }
 
@@ -154,12 +158,21 @@ instance_row deployment_book::row_of(const deployment& x) const {
   return result;
 }
 
+void deployment_book::ignore_end(const std::string& instance) {
+  ignored_ends_.insert(instance);
+}
+
+void deployment_book::heed_end(const std::string& instance) {
+  ignored_ends_.erase(instance);
+}
+
 std::vector<instance_end>
 deployment_book::untaken_ends(const std::string& task) const {
   std::vector<instance_end> result;
   for (const auto& x : of_task(task)) {
     const auto* row = told(x.node, x.spec.instance);
-    if (row && !x.end && !is_live(row->state))
+    if (row && !x.end && !is_live(row->state)
+        && ignored_ends_.count(x.spec.instance) == 0)
       result.push_back({x.spec.instance, row->state, row->exit_code,
                         row->reason, row->since_unix_ms});
   }

@@ -96,6 +96,12 @@ public:
   /// What is known of an instance that a task has placed.
   instance_row row_of(const deployment& x) const;
 
+  /// An instance is ended so that another one takes its place: its end is none
+  /// of its task. `heed` takes it back; what is not deployed any more is
+  /// forgotten.
+  void ignore_end(const std::string& instance);
+  void heed_end(const std::string& instance);
+
   /// Ends of a task's instances that their nodes have told of and that the
   /// placement does not know yet.
   std::vector<instance_end> untaken_ends(const std::string& task) const;
@@ -107,6 +113,7 @@ private:
   std::map<std::string, std::vector<deployment>> by_task_;
   /// By node and instance.
   std::map<std::string, std::map<std::string, instance_row>> told_;
+  std::set<std::string> ignored_ends_; ///< By instance.
 };
 
 } // namespace roscell

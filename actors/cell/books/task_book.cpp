@@ -119,6 +119,7 @@ void task_book::apply(const task_record& record) {
   entry.accepted = record.accepted;
   entry.state = record.state;
   entry.submitted_unix_ms = record.submitted_unix_ms;
+  entry.ended_unix_ms = record.ended_unix_ms;
 }
 
 void task_book::forget(const std::string& task) {
@@ -176,6 +177,7 @@ task_record record_of(const std::string& task, const task_entry& entry,
                       const deployment_book& deployments) {
   task_record result{task, entry.request, entry.accepted, entry.state,
                      entry.submitted_unix_ms};
+  result.ended_unix_ms = entry.ended_unix_ms;
   for (const auto& x : deployments.of_task(task)) {
     result.specs.push_back(x.spec);
     result.nodes.push_back(x.node);
@@ -213,13 +215,15 @@ task_record with_state(task_record record, task_state state) {
   return record;
 }
 
-task_record with_ends(task_record record,
-                      const std::vector<instance_end>& ends) {
+task_record with_ends(task_record record, const std::vector<instance_end>& ends,
+                      int64_t now_unix_ms) {
   for (const auto& x : ends)
     if (!find_end(record, x.instance))
       record.ends.push_back(x);
   if (record.state == task_state::running)
     record.state = state_after(record);
+  if (is_settled(record.state) && record.ended_unix_ms == 0)
+    record.ended_unix_ms = now_unix_ms;
   return record;
 }
 
@@ -253,6 +257,7 @@ task_record with_restarted(task_record record,
   }
   record.accepted = decision_text(std::move(decision));
   record.state = task_state::running;
+  record.ended_unix_ms = 0;
   return record;
 }
 

@@ -27,6 +27,7 @@ struct task_record {
   std::vector<std::string> nodes;     ///< Node of each spec.
   std::vector<instance_end> ends;     ///< Of those that have ended.
   std::vector<std::string> tentative; ///< Instances of a move that goes on.
+  int64_t ended_unix_ms = 0; ///< When its last step ended; 0: it goes on.
 
   static constexpr auto fields() {
     return field_list{
@@ -38,7 +39,8 @@ struct task_record {
         required("specs", &task_record::specs),
         required("nodes", &task_record::nodes),
         optional("ends", &task_record::ends),
-        optional("tentative", &task_record::tentative)};
+        optional("tentative", &task_record::tentative),
+        optional("ended_unix_ms", &task_record::ended_unix_ms)};
   }
 };
 
@@ -49,6 +51,7 @@ struct task_entry {
   task_state state = task_state::deploying; ///< As it is stored.
   int64_t submitted_unix_ms = 0;
   bool ending = false; ///< Its instances are being removed.
+  int64_t ended_unix_ms = 0;
 };
 
 /// How a claim stands to what the book knows.
@@ -131,8 +134,8 @@ task_record with_placement(task_record record, const task_accepted& decision,
 task_record with_state(task_record record, task_state state);
 
 /// With ends of instances. The state follows when it was the last one.
-task_record with_ends(task_record record,
-                      const std::vector<instance_end>& ends);
+task_record with_ends(task_record record, const std::vector<instance_end>& ends,
+                      int64_t now_unix_ms);
 
 /// An instance and the one whose place it takes.
 struct replacement {

@@ -2,7 +2,10 @@
 
 #include "actors/cell/books/cell_registry.hpp"
 #include "actors/cell/books/deployment_book.hpp"
+#include "actors/cell/books/drain_book.hpp"
 #include "actors/cell/books/free_node_book.hpp"
+#include "actors/cell/books/history_book.hpp"
+#include "actors/cell/books/loss_book.hpp"
 #include "actors/cell/books/peer_book.hpp"
 #include "actors/cell/books/place_book.hpp"
 #include "actors/cell/books/task_book.hpp"
@@ -42,6 +45,8 @@ struct coordinator_setup {
   std::vector<task_record> tasks;      ///< As an earlier run has stored them.
   std::vector<member_record> members;  ///< The same.
   std::vector<transfer_row> transfers; ///< The same.
+  std::vector<history_record> history; ///< The same.
+  std::vector<drain_record> drains;    ///< The same.
   /// What instances of this cell find in their environment.
   std::map<std::string, std::string> environment;
   /// Towards other coordinators and nodes in no cell; all invalid in a cell
@@ -70,6 +75,9 @@ struct cell_coordinator_state {
   task_book tasks;
   deployment_book deployments;
   task_desk desk;
+  history_book history;
+  loss_book losses;
+  drain_book drains;
 
   peer_book peers;
   free_node_book free_nodes;

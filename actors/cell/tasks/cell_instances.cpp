@@ -1,6 +1,9 @@
 #include "actors/cell/tasks/cell_instances.hpp"
 
+#include "actors/cell/moves/lost_steps.hpp"
+#include "actors/cell/state/task_story.hpp"
 #include "actors/cell/tasks/task_endings.hpp"
+#include "actors/cell/tasks/task_removals.hpp"
 #include "actors/house/limits.hpp"
 #include "messages/failure.hpp"
 
@@ -17,18 +20,21 @@ namespace {
 bool is_wanted(const cell_coordinator_state& st, const std::string& instance,
                const std::string& node) {
   const auto* placed = st.deployments.find(instance, node);
-  return placed && st.tasks.is_kept(placed->spec.task);
+  return placed && st.tasks.is_kept(placed->spec.task)
+         && !st.losses.is_given_up(instance);
 }
 
 /// What running tasks want on a node, without what has ended.
 std::vector<instance_spec> to_be_run_on(const cell_coordinator_state& st,
-                                        const std::string& node) {
+                                        const node_identity& node) {
   std::vector<instance_spec> result;
   for (const auto& [task, entry] : st.tasks.entries()) {
     if (!st.tasks.is_running(task))
       continue;
     for (const auto& x : st.deployments.of_task(task))
-      if (x.node == node && !x.end && !x.tentative)
+      if (x.node == node.name && !x.end && !x.tentative
+          && !st.losses.is_given_up(x.spec.instance)
+          && !is_elsewhere(st, x.spec.instance, node.uuid))
         result.push_back(x.spec);
   }
   return result;
@@ -46,7 +52,7 @@ std::vector<instance_verdict> reconcile(const cell_coordinator_state& st,
     known.insert(id);
     result.push_back({id, wanted ? verdict::keep : verdict::stop, {}});
   }
-  for (const auto& spec : to_be_run_on(st, node.identity.name))
+  for (const auto& spec : to_be_run_on(st, node.identity))
     if (known.count(spec.instance) == 0)
       result.push_back({spec.instance, verdict::start, {spec}});
   return result;
@@ -97,7 +103,17 @@ void tell_change(coordinator_pointer self, const instance_row& x,
     data["reason"] = x.reason;
   if (x.exit_code >= 0)
     data["exit_code"] = x.exit_code;
-  self->state.context.tell("instance_changed", x.spec.instance, data);
+  if (x.restarts > 0)
+    data["restarts"] = x.restarts;
+  if (x.next_start_unix_ms > 0)
+    data["next_start_unix_ms"] = x.next_start_unix_ms;
+  if (x.health != instance_health::good)
+    data["health"] = to_word(x.health);
+  if (!x.health_reason.empty())
+    data["health_reason"] = x.health_reason;
+  if (!x.waits.empty())
+    data["waits"] = x.waits;
+  tell_of_task(self, "instance_changed", x.spec.task, x.spec.instance, data);
 }
 
 } // namespace
@@ -128,6 +144,7 @@ std::vector<instance_verdict> take_up_instances(coordinator_pointer self,
   auto& st = self->state;
   const auto& name = node.identity.name;
   auto verdicts = reconcile(st, node);
+  find_steps_of(self, node);
   st.deployments.forget_node(name);
   std::set<std::string> tasks;
   for (auto x : node.instances) {
@@ -158,6 +175,8 @@ void on_instance_changed(coordinator_pointer self,
   else
     st.deployments.forget_told(*node, id);
   tell_change(self, x, *node);
+  if (!is_live(x.state))
+    on_instance_gone(self, *node, id);
   if (const auto* placed = st.deployments.find(id, *node))
     record_ends(self, std::string{placed->spec.task});
 }

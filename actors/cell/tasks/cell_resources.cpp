@@ -1,5 +1,6 @@
 #include "actors/cell/tasks/cell_resources.hpp"
 
+#include "actors/cell/cell_drains.hpp"
 #include "actors/cell/cell_topics.hpp"
 #include "actors/house/limits.hpp"
 #include "actors/placement/reservation.hpp"
@@ -114,8 +115,10 @@ void collect_resources_of_cell(
   auto tally = std::make_shared<resource_tally>();
   tally->done = done;
   std::vector<std::string> uuids;
-  self->state.registry.for_each_active(
-      [&](registry_entry& entry) { uuids.push_back(entry.row.identity.uuid); });
+  self->state.registry.for_each_active([&](registry_entry& entry) {
+    if (!is_draining(self->state, entry))
+      uuids.push_back(entry.row.identity.uuid);
+  });
   tally->open = uuids.size() + 1;
   for (const auto& uuid : uuids)
     ask_for_resources(self, uuid, tally, limits::resource::rounds);

@@ -1,6 +1,7 @@
 #include "actors/cell/tasks/cell_tasks.hpp"
 
 #include "actors/cell/state/coordinator_store.hpp"
+#include "actors/cell/state/task_story.hpp"
 #include "actors/cell/tasks/cell_resources.hpp"
 #include "actors/cell/tasks/task_changes.hpp"
 #include "actors/cell/tasks/task_endings.hpp"
@@ -160,8 +161,8 @@ void on_accepted(coordinator_pointer self, const std::string& task,
   promise.deliver(reply_of(task, *st.tasks.find(task), st.deployments));
   for (auto& other : std::exchange(waiters.same_requests, {}))
     other.deliver(known_reply(st, task));
-  st.context.tell("task_accepted", task,
-                  {{"instances", st.deployments.of_task(task).size()}});
+  tell_of_task(self, "task_accepted", task, task,
+               {{"instances", st.deployments.of_task(task).size()}});
   record_ends(self, task);
   settle_ended(self, task);
   settle_awaited_deployments(self);
@@ -250,7 +251,7 @@ caf::result<task_accepted> accept_task(coordinator_pointer self,
   change.still = &task_book::is_deploying;
   change.make = [self, task = fact.task](task_record record) {
     return with_ends(with_state(std::move(record), task_state::running),
-                     self->state.deployments.untaken_ends(task));
+                     self->state.deployments.untaken_ends(task), unix_now_ms());
   };
   change.done = [self, task = fact.task, promise](const failure* why) {
     if (why)

@@ -29,8 +29,11 @@ struct turn_wish {
 struct task_waiters {
   caf::actor_addr owner; ///< The pipeline that deploys it.
   uint64_t turn = 0;     ///< That it was given.
+  bool force = false;    ///< It is ended without waiting for safety.
   std::vector<caf::typed_response_promise<task_claimed>> same_requests;
   std::vector<caf::typed_response_promise<task_terminated>> terminations;
+  /// Called once all of it is gone.
+  std::vector<std::function<void()>> gone;
 };
 
 /// A change of a task's record that is to be written.
@@ -63,6 +66,13 @@ struct awaited_deployments {
   std::function<void()> done;
 };
 
+/// Somebody waits until an instance, which is not safe yet, is gone. Called
+/// once.
+struct awaited_safety {
+  safety_wait wait;
+  std::function<void()> done;
+};
+
 /// What of the coordinator's work on tasks goes on at present.
 struct task_desk {
   uint64_t last_turn = 0;
@@ -71,6 +81,7 @@ struct task_desk {
   std::map<std::string, task_waiters> waiters; ///< By task.
   std::map<std::string, change_line> lines;    ///< The same.
   removal_book removals;
+  std::vector<awaited_safety> unsafe;
   std::vector<awaited_deployments> deployments_awaited;
 };
 

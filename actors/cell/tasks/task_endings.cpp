@@ -1,10 +1,12 @@
 #include "actors/cell/tasks/task_endings.hpp"
 
 #include "actors/cell/state/coordinator_store.hpp"
+#include "actors/cell/state/task_story.hpp"
 #include "actors/cell/tasks/task_changes.hpp"
 #include "actors/cell/tasks/task_removals.hpp"
 #include "actors/cell/tasks/task_turns.hpp"
 #include "actors/house/limits.hpp"
+#include "actors/house/wall_clock.hpp"
 #include "messages/failure.hpp"
 
 #include <algorithm>
@@ -48,13 +50,15 @@ void tell_terminated(coordinator_pointer self, const task_terminated& reply) {
   auto& st = self->state;
   auto gone = take_waiters(self, reply.task);
   st.tasks.remember_terminated(reply);
-  st.context.tell(
-      "task_terminated", reply.task,
+  tell_of_task(
+      self, "task_terminated", reply.task, reply.task,
       {{"instances", reply.instances}, {"pending_nodes", reply.pending_nodes}});
   for (auto& promise : gone.terminations)
     promise.deliver(reply);
   for (auto& promise : gone.same_requests)
     promise.deliver(terminated_meanwhile(reply.task));
+  for (const auto& next : gone.gone)
+    next();
 }
 
 /// Whoever waits for a termination hears that it is not on disk, and may ask
@@ -85,16 +89,33 @@ void remove_record(coordinator_pointer self, const task_terminated& reply) {
   change_task(self, reply.task, std::move(change));
 }
 
+/// Whoever waits for a termination hears what is not safe yet.
+void answer_terminations(coordinator_pointer self,
+                         const task_terminated& reply) {
+  auto& waiting = self->state.desk.waiters[reply.task].terminations;
+  for (auto& promise : std::exchange(waiting, {}))
+    promise.deliver(reply);
+}
+
 /// Removes the instances of a task that no pipeline works on any more.
-void finish_termination(coordinator_pointer self, const std::string& task) {
+void finish_termination(coordinator_pointer self, const std::string& task,
+                        bool force) {
   const auto& st = self->state;
   task_terminated reply{task, {}, {}};
   for (const auto& x : st.deployments.of_task(task))
     reply.instances.push_back(x.spec.instance);
-  remove_everywhere(self, task, {}, [self, reply](const auto& away) mutable {
+  task_removal removal{task, {}, force};
+  // How long that takes nobody knows, so nobody has to wait for it.
+  removal.waits = [self, reply](const auto& waiting) {
+    auto early = reply;
+    early.waiting = waiting;
+    answer_terminations(self, early);
+  };
+  removal.done = [self, reply](const auto& away) mutable {
     reply.pending_nodes = away;
     remove_record(self, reply);
-  });
+  };
+  remove_everywhere(self, removal);
 }
 
 /// A task of which nothing was placed anywhere has not failed: its request was
@@ -109,7 +130,7 @@ void tell_rolled_back(coordinator_pointer self, const std::string& task,
   for (auto& promise : gone.terminations)
     promise.deliver(task_terminated{task, {}, {}});
   if (begun)
-    self->state.context.tell("task_failed", task, {{"reason", reason}});
+    tell_of_task(self, "task_failed", task, task, {{"reason", reason}});
   end_turn(self, gone.turn);
 }
 
@@ -128,7 +149,20 @@ void end_task(coordinator_pointer self, const std::string& task) {
   if (!self->state.tasks.begin_ending(task))
     return;
   record_ending(self, task);
-  finish_termination(self, task);
+  finish_termination(self, task, false);
+}
+
+/// It is being ended already. Asked again, it is ended by force; nobody waits
+/// for what is not safe, the second time either.
+void end_anyway(coordinator_pointer self, const task_termination& request) {
+  auto& st = self->state;
+  const auto& task = request.task;
+  retry_change(self, task);
+  if (request.force)
+    return force_removals(self, task);
+  task_terminated reply{task, {}, {}, safety_waits_of(st, task)};
+  if (!reply.waiting.empty())
+    answer_terminations(self, reply);
 }
 
 } // namespace
@@ -152,7 +186,7 @@ caf::result<task_terminated> terminate_task(coordinator_pointer self,
   auto& waiters = st.desk.waiters[task];
   waiters.terminations.push_back(promise);
   if (!st.tasks.begin_ending(task)) {
-    retry_change(self, task);
+    end_anyway(self, request);
     return promise;
   }
   const auto owner = waiters.owner;
@@ -160,10 +194,11 @@ caf::result<task_terminated> terminate_task(coordinator_pointer self,
   record_ending(self, task);
   // Nothing that the pipeline sends may reach a node after the removal, so the
   // pipeline ends first.
+  waiters.force = request.force;
   if (owner)
     self->send_exit(owner, terminated_meanwhile(task));
   else
-    finish_termination(self, task);
+    finish_termination(self, task, request.force);
   return promise;
 }
 
@@ -175,21 +210,21 @@ void roll_back(coordinator_pointer self, const std::string& task,
   st.tasks.begin_ending(task);
   st.desk.waiters[task].owner = nullptr;
   const bool begun = !st.deployments.of_task(task).empty();
-  remove_everywhere(
-      self, task, also_on, [self, task, reason, begun, done](const auto&) {
-        pending_change change;
-        // Its record goes when there is room; the next start
-        // drops it, too.
-        change.done = [self, task, reason, begun, done](const failure* why) {
-          if (why)
-            forget_refused(self, "tasks", task);
-          self->state.tasks.forget(task);
-          self->state.deployments.forget_task(task);
-          tell_rolled_back(self, task, reason, begun);
-          done();
-        };
-        change_task(self, task, std::move(change));
-      });
+  task_removal removal{task, also_on};
+  removal.done = [self, task, reason, begun, done](const auto&) {
+    pending_change change;
+    // Its record goes when there is room; the next start drops it, too.
+    change.done = [self, task, reason, begun, done](const failure* why) {
+      if (why)
+        forget_refused(self, "tasks", task);
+      self->state.tasks.forget(task);
+      self->state.deployments.forget_task(task);
+      tell_rolled_back(self, task, reason, begun);
+      done();
+    };
+    change_task(self, task, std::move(change));
+  };
+  remove_everywhere(self, removal);
 }
 
 void on_owner_gone(coordinator_pointer self, const std::string& task) {
@@ -198,7 +233,7 @@ void on_owner_gone(coordinator_pointer self, const std::string& task) {
   if (st.tasks.is_deploying(task))
     roll_back(self, task, "the request that deployed it has ended", {}, [] {});
   else
-    finish_termination(self, task);
+    finish_termination(self, task, st.desk.waiters[task].force);
 }
 
 void record_ends(coordinator_pointer self, const std::string& task) {
@@ -211,7 +246,7 @@ void record_ends(coordinator_pointer self, const std::string& task) {
   change.insistent = true;
   change.make = [self, task](task_record record) {
     return with_ends(std::move(record),
-                     self->state.deployments.untaken_ends(task));
+                     self->state.deployments.untaken_ends(task), unix_now_ms());
   };
   change.done = [self, task](const failure* why) {
     if (why)
@@ -231,9 +266,13 @@ void settle_ended(coordinator_pointer self, const std::string& task) {
   for (const auto& x : st.deployments.of_task(task))
     if (x.end && x.end->exit_code != 0)
       data["reason"] = "step '" + x.spec.step + "': " + x.end->reason;
-  st.context.tell(entry->state == task_state::finished ? "task_finished"
-                                                       : "task_failed",
-                  task, data);
+  if (const auto span = entry->ended_unix_ms - entry->submitted_unix_ms;
+      span > 0)
+    data["duration_s"] = static_cast<double>(span) / 1000;
+  tell_of_task(self,
+               entry->state == task_state::finished ? "task_finished"
+                                                    : "task_failed",
+               task, task, data);
   for (const auto& old : st.tasks.superfluous())
     end_task(self, old);
 }

@@ -1,10 +1,14 @@
 #include "actors/cell/tasks/task_removals.hpp"
 
 #include "actors/cell/state/coordinator_timer.hpp"
+#include "actors/cell/state/task_story.hpp"
 #include "actors/house/limits.hpp"
 
+#include <algorithm>
+#include <iterator>
 #include <memory>
 #include <set>
+#include <utility>
 
 namespace roscell {
 
@@ -31,42 +35,106 @@ void remember_overdue(coordinator_pointer self, const std::string& task,
   set_timer(self);
 }
 
+bool is_away(const cell_coordinator_state& st, const std::string& node) {
+  const auto* entry = st.registry.find_name(node);
+  return !entry || !entry->agent;
+}
+
+/// The instance ends by itself; it is asked for again when it has.
+void await_safety(coordinator_pointer self, const safety_wait& wait,
+                  const std::function<void()>& done) {
+  tell_of_task(self, "instance_awaited", wait.task, wait.instance,
+               {{"task", wait.task},
+                {"step", wait.step},
+                {"node", wait.node},
+                {"until_unix_ms", wait.until_unix_ms}});
+  self->state.desk.unsafe.push_back({wait, done});
+}
+
+/// A task's removal, as the nodes answer.
+struct removal_tally {
+  task_removal wish;
+  size_t asked = 1; ///< Nodes that have not answered yet.
+  size_t open = 1;  ///< These, and instances that are not safe.
+  std::set<std::string> away;
+  std::vector<safety_wait> waiting;
+};
+
+void count_down(const std::shared_ptr<removal_tally>& tally) {
+  if (--tally->open == 0)
+    tally->wish.done({tally->away.begin(), tally->away.end()});
+}
+
+void on_node_answered(const std::shared_ptr<removal_tally>& tally) {
+  if (--tally->asked == 0 && !tally->waiting.empty() && tally->wish.waits)
+    tally->wish.waits(tally->waiting);
+  count_down(tally);
+}
+
+void ask_node(coordinator_pointer self, const std::string& node,
+              const node_agent_actor& agent,
+              const std::shared_ptr<removal_tally>& tally) {
+  const auto& task = tally->wish.task;
+  self->request(agent, limits::task::removal_answer,
+                instance_removal{task, "", tally->wish.force})
+      .then(
+          [self, node, tally](const instances_removed& reply) {
+            for (auto wait : reply.waiting) {
+              wait.node = node;
+              ++tally->open;
+              tally->waiting.push_back(wait);
+              await_safety(self, wait, [self, node, tally] {
+                if (is_away(self->state, node))
+                  tally->away.insert(node);
+                count_down(tally);
+              });
+            }
+            on_node_answered(tally);
+          },
+          [self, task, node, tally](const caf::error&) {
+            tally->away.insert(node);
+            remember_overdue(self, task, node);
+            on_node_answered(tally);
+          });
+}
+
+void force_removal(coordinator_pointer self, const safety_wait& x) {
+  remove_instance(
+      self, {x.node, x.task, x.instance}, [] {}, true);
+}
+
+/// Those for whom `is_due` says so, taken out.
+template <class Predicate>
+std::vector<awaited_safety> take_waits(coordinator_pointer self,
+                                       Predicate&& is_due) {
+  auto& xs = self->state.desk.unsafe;
+  const auto due = std::stable_partition(
+      xs.begin(), xs.end(), [&](const auto& x) { return !is_due(x.wait); });
+  std::vector<awaited_safety> result{std::make_move_iterator(due),
+                                     std::make_move_iterator(xs.end())};
+  xs.erase(due, xs.end());
+  return result;
+}
+
 } // namespace
 
-void remove_everywhere(
-    coordinator_pointer self, const std::string& task,
-    const std::vector<std::string>& also_on,
-    const std::function<void(const std::vector<std::string>& away)>& done) {
-  struct tally {
-    size_t open = 1;
-    std::set<std::string> away;
-  };
-  auto state = std::make_shared<tally>();
-  auto count_down = [state, done] {
-    if (--state->open == 0)
-      done({state->away.begin(), state->away.end()});
-  };
-  for (const auto& node : nodes_of(self->state, task, also_on)) {
-    const auto* entry = self->state.registry.find_name(node);
-    if (!entry || !entry->agent) {
-      state->away.insert(node);
+void remove_everywhere(coordinator_pointer self, const task_removal& wish) {
+  auto tally = std::make_shared<removal_tally>();
+  tally->wish = wish;
+  for (const auto& node : nodes_of(self->state, wish.task, wish.also_on)) {
+    if (is_away(self->state, node)) {
+      tally->away.insert(node);
       continue;
     }
-    ++state->open;
-    self->request(entry->agent, limits::task::removal_answer,
-                  instance_removal{task, ""})
-        .then([count_down](const instances_removed&) { count_down(); },
-              [self, task, node, state, count_down](const caf::error&) {
-                state->away.insert(node);
-                remember_overdue(self, task, node);
-                count_down();
-              });
+    ++tally->asked;
+    ++tally->open;
+    ask_node(self, node, self->state.registry.find_name(node)->agent, tally);
   }
-  count_down();
+  on_node_answered(tally);
 }
 
 void remove_instance(coordinator_pointer self, const overdue_removal& what,
-                     const std::function<void()>& done) {
+                     const std::function<void()>& done, bool force) {
   const auto* entry = self->state.registry.find_name(what.node);
   // A node that is away is told what to stop when it registers.
   if (!entry || !entry->agent) {
@@ -74,17 +142,58 @@ void remove_instance(coordinator_pointer self, const overdue_removal& what,
     return done();
   }
   self->request(entry->agent, limits::task::removal_answer,
-                instance_removal{what.task, what.instance})
+                instance_removal{what.task, what.instance, force})
       .then(
-          [self, what, done](const instances_removed&) {
+          [self, what, done](const instances_removed& reply) {
             self->state.desk.removals.settle(what);
-            done();
+            if (reply.waiting.empty())
+              return done();
+            auto wait = reply.waiting.front();
+            wait.node = what.node;
+            await_safety(self, wait, done);
           },
           [self, what, done](const caf::error&) {
             self->state.desk.removals.add(what, self->clock().now());
             set_timer(self);
             done();
           });
+}
+
+void force_removals(coordinator_pointer self, const std::string& task) {
+  for (const auto& x : safety_waits_of(self->state, task))
+    force_removal(self, x);
+}
+
+void force_removals_on(coordinator_pointer self, const std::string& node) {
+  const auto waits = self->state.desk.unsafe;
+  for (const auto& x : waits)
+    if (x.wait.node == node)
+      force_removal(self, x.wait);
+}
+
+std::vector<safety_wait> safety_waits_of(const cell_coordinator_state& st,
+                                         const std::string& task) {
+  std::vector<safety_wait> result;
+  for (const auto& x : st.desk.unsafe)
+    if (x.wait.task == task)
+      result.push_back(x.wait);
+  return result;
+}
+
+void on_instance_gone(coordinator_pointer self, const std::string& node,
+                      const std::string& instance) {
+  const auto is_it = [&](const safety_wait& x) {
+    return x.node == node && x.instance == instance;
+  };
+  // It has ended; what it has left is still to be removed.
+  for (const auto& x : take_waits(self, is_it))
+    remove_instance(self, {node, x.wait.task, instance}, x.done);
+}
+
+void give_up_waits_on(coordinator_pointer self, const std::string& node) {
+  for (const auto& x : take_waits(
+           self, [&](const safety_wait& wait) { return wait.node == node; }))
+    x.done();
 }
 
 void ask_overdue_removals(coordinator_pointer self) {

@@ -6,21 +6,49 @@
 #include <string>
 #include <vector>
 
-/// How the CELL COORDINATOR has instances removed. One that lives and did not
-/// do it in time is asked again.
+/// How the CELL COORDINATOR has nodes remove instances. What is not safe yet is
+/// waited for, however long that takes.
 namespace roscell {
 
-/// Removes what a task has on active nodes, and room that is kept for it on
-/// others, then calls `done` with the nodes that have not said that they did.
-void remove_everywhere(
-    coordinator_pointer self, const std::string& task,
-    const std::vector<std::string>& also_on,
-    const std::function<void(const std::vector<std::string>& away)>& done);
+/// What is removed of a task, and who hears of it.
+struct task_removal {
+  std::string task;
+  std::vector<std::string> also_on; ///< Room may be kept for it there.
+  bool force = false;
+  /// All nodes have answered, and these instances are not safe yet; may be
+  /// null. Not called if there are none.
+  std::function<void(const std::vector<safety_wait>& waiting)> waits;
+  /// All are gone, but on nodes that are away.
+  std::function<void(const std::vector<std::string>& away)> done;
+};
 
-/// Removes one instance, then calls `done`.
+/// Has all nodes remove what they have of a task.
+void remove_everywhere(coordinator_pointer self, const task_removal& wish);
+
+/// Has a node remove one instance, then goes on. One that is overdue is asked
+/// for again, whatever comes next; one that is not safe yet is waited for.
 void remove_instance(coordinator_pointer self, const overdue_removal& what,
-                     const std::function<void()>& done);
+                     const std::function<void()>& done, bool force = false);
 
+/// Does not wait any longer for what of a task is not safe.
+void force_removals(coordinator_pointer self, const std::string& task);
+
+/// The same for what is on a node.
+void force_removals_on(coordinator_pointer self, const std::string& node);
+
+/// What of a task is waited for to be safe.
+std::vector<safety_wait> safety_waits_of(const cell_coordinator_state& st,
+                                         const std::string& task);
+
+/// An instance has ended: whoever has waited for it to be safe goes on.
+void on_instance_gone(coordinator_pointer self, const std::string& node,
+                      const std::string& instance);
+
+/// A node is away, so nothing of it is waited for: it is told what to stop when
+/// it comes back.
+void give_up_waits_on(coordinator_pointer self, const std::string& node);
+
+/// Asks once more for what is overdue.
 void ask_overdue_removals(coordinator_pointer self);
 
 } // namespace roscell

@@ -1,6 +1,7 @@
 #include "actors/cell/tasks/task_restart.hpp"
 
-#include "actors/cell/tasks/move_stages.hpp"
+#include "actors/cell/moves/move_stages.hpp"
+#include "actors/cell/tasks/task_endings.hpp"
 #include "actors/cell/tasks/task_removals.hpp"
 #include "actors/cell/tasks/task_turns.hpp"
 #include "actors/cell/tasks/task_views.hpp"
@@ -81,7 +82,7 @@ void take_turn_to_start(coordinator_pointer self, const std::string& task,
 
 /// Ends these instances of a task on their nodes, then goes on.
 void end_instances(coordinator_pointer self, const std::string& task,
-                   const instance_list& instances,
+                   const instance_list& instances, bool force,
                    const std::function<void()>& next) {
   auto open = std::make_shared<size_t>(instances.size() + 1);
   auto finish = [open, next] {
@@ -90,10 +91,13 @@ void end_instances(coordinator_pointer self, const std::string& task,
   };
   for (const auto& instance : instances) {
     const auto* x = self->state.deployments.find(instance);
-    if (x)
-      remove_instance(self, {std::string{x->node}, task, instance}, finish);
-    else
+    if (!x) {
       finish();
+      continue;
+    }
+    const auto node = x->node;
+    self->state.deployments.ignore_end(instance);
+    remove_instance(self, {node, task, instance}, finish, force);
   }
   finish();
 }
@@ -178,14 +182,18 @@ caf::result<task_restarted> restart_task(coordinator_pointer self,
     return unknown_thing("instance", request.instance);
   auto promise = self->make_response_promise<task_restarted>();
   const auto before = all_instances(st, request.task);
-  auto finish = [self, request, before, promise](const failure* why) mutable {
+  auto finish = [self, request, before, plan,
+                 promise](const failure* why) mutable {
+    for (const auto& instance : plan.running)
+      self->state.deployments.heed_end(instance);
+    record_ends(self, request.task);
     if (why)
       promise.deliver(to_error(*why));
     else
       promise.deliver(task_restarted{
           request.task, new_instances(self->state, request, before)});
   };
-  end_instances(self, request.task, plan.running,
+  end_instances(self, request.task, plan.running, request.force,
                 [self, request, plan, finish] {
                   take_turn_to_start(self, request.task, plan.wanted,
                                      plan.running, finish);

@@ -1,5 +1,7 @@
 #include "actors/cell/tasks/task_views.hpp"
 
+#include "actors/cell/moves/lost_steps.hpp"
+
 #include "messages/failure.hpp"
 
 #include <string>
@@ -16,14 +18,16 @@ instance_row shown(const cell_coordinator_state& st, instance_row row) {
   if (is_live(row.state) && (!node || !node->agent))
     row.unknown_since_unix_ms =
         node ? node->row.since_unix_ms : row.since_unix_ms;
+  if (row.unknown_since_unix_ms > 0)
+    row.waits = wait_of_lost(st, row);
   return row;
 }
 
 /// What of a running task is to be worried about: all but what runs, and what
 /// has done its work.
 bool is_healthy(const instance_row& row) {
-  return (row.state == instance_state::running
-          && row.unknown_since_unix_ms == 0)
+  return (row.state == instance_state::running && row.unknown_since_unix_ms == 0
+          && row.health == instance_health::good)
          || (row.state == instance_state::stopped && row.exit_code == 0);
 }
 
@@ -32,6 +36,7 @@ task_row describe_task(const cell_coordinator_state& st,
   task_row result{task,
                   entry.ending ? task_state::terminating : entry.state,
                   entry.submitted_unix_ms,
+                  entry.ended_unix_ms,
                   {}};
   for (const auto& x : st.deployments.of_task(task)) {
     auto row = shown(st, st.deployments.row_of(x));
@@ -78,6 +83,8 @@ std::vector<registry_row> describe_nodes(const cell_coordinator_state& st) {
     const auto& name = node.identity.name;
     const auto* entry = st.registry.find_name(name);
     const bool away = !entry || !entry->agent;
+    if (const auto* drain = st.drains.find(node.identity.uuid))
+      node.draining_since_unix_ms = drain->record.since_unix_ms;
     for (auto& row : st.deployments.known_on(name, away))
       node.instances.push_back(shown(st, std::move(row)));
   }

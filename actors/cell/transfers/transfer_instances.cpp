@@ -1,8 +1,8 @@
 #include "actors/cell/transfers/transfer_instances.hpp"
 
+#include "actors/cell/moves/task_move.hpp"
 #include "actors/cell/state/transfer_end.hpp"
 #include "actors/cell/tasks/task_endings.hpp"
-#include "actors/cell/tasks/task_move.hpp"
 #include "actors/house/limits.hpp"
 #include "messages/failure.hpp"
 
@@ -29,8 +29,13 @@ void terminate_tasks(coordinator_pointer self, const std::string& id,
   self->request(cell_coordinator_actor{self}, limits::task::termination,
                 task_termination{task})
       .then(
-          [=](const task_terminated&) {
-            terminate_tasks(self, id, tasks, next);
+          [=](const task_terminated& reply) {
+            const auto go_on = [=] { terminate_tasks(self, id, tasks, next); };
+            // What is not safe yet is still on the node.
+            if (reply.waiting.empty() || !self->state.tasks.find(task))
+              go_on();
+            else
+              self->state.desk.waiters[task].gone.push_back(go_on);
           },
           [=](const caf::error& why) {
             call_off_transfer(self, id, to_failure(why));

@@ -1,6 +1,7 @@
 #include "actors/edge/process/notification.hpp"
 
 #include "actors/edge/io/plain_text.hpp"
+#include "actors/edge/process/told_streams.hpp"
 #include "schemas/utf8.hpp"
 
 #include <algorithm>
@@ -25,14 +26,21 @@ std::string status_line(std::string_view bytes) {
 
 void read_line(std::string_view line, notification& result) {
   constexpr std::string_view status = "STATUS=";
+  constexpr std::string_view streams = "ROSCELL_STREAMS=";
   if (line == "READY=1")
     result.ready = true;
   else if (line == "WATCHDOG=1")
     result.alive = true;
   else if (line == "STOPPING=1")
     result.stopping = true;
+  else if (line == "ROSCELL_SAFE=1")
+    result.safe = safe_word::safe;
+  else if (line == "ROSCELL_SAFE=0")
+    result.safe = safe_word::unsafe;
   else if (line.substr(0, status.size()) == status)
     result.status = status_line(line.substr(status.size()));
+  else if (line.substr(0, streams.size()) == streams)
+    result.streams = read_streams(line.substr(streams.size()));
 }
 
 } // namespace
@@ -56,6 +64,10 @@ void merge(notification& before, notification later) {
   before.stopping = before.stopping || later.stopping;
   if (!later.status.empty())
     before.status = std::move(later.status);
+  if (later.safe != safe_word::untold)
+    before.safe = later.safe;
+  if (!later.streams.empty())
+    before.streams = std::move(later.streams);
 }
 
 } // namespace roscell

@@ -1,16 +1,24 @@
 #pragma once
 
+#include "messages/life.hpp"
+
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace roscell {
 
 /// What a program said in the protocol of sd_notify(3).
 struct notification {
-  bool ready = false;    ///< READY=1
-  bool alive = false;    ///< WATCHDOG=1
-  bool stopping = false; ///< STOPPING=1
-  std::string status;    ///< STATUS=, one line of valid UTF-8.
+  bool ready = false;                 ///< READY=1
+  bool alive = false;                 ///< WATCHDOG=1
+  bool stopping = false;              ///< STOPPING=1
+  std::string status;                 ///< STATUS=, one line of valid UTF-8.
+  safe_word safe = safe_word::untold; ///< ROSCELL_SAFE=0 or 1
+  /// ROSCELL_STREAMS=, what its data streams do: "END RATE AGE" for each,
+  /// separated by ";". END is "input:N" or "output:N", RATE in Hz, AGE in
+  /// seconds, or "-" where there was no frame yet.
+  std::vector<stream_figure> streams;
 };
 
 /// Longest datagram that is read; longer ones are ignored whole.
@@ -18,6 +26,10 @@ constexpr size_t max_notification_bytes = 4096;
 
 /// Longest status that is kept, in bytes.
 constexpr size_t max_status_bytes = 256;
+
+/// A line that tells of more streams is ignored: a step has at most 16 inputs
+/// and as many outputs.
+constexpr size_t max_told_streams = 32;
 
 /// Reads one datagram. Unknown and malformed lines are ignored, for programs
 /// may say more than we understand.

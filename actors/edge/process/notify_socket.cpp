@@ -1,9 +1,9 @@
 #include "actors/edge/process/notify_socket.hpp"
 
+#include "actors/edge/disk/own_folder.hpp"
 #include "actors/edge/io/crypto.hpp"
 
 #include <sys/socket.h>
-#include <sys/stat.h>
 #include <sys/un.h>
 
 #include <array>
@@ -31,13 +31,6 @@ edge_error failed(const std::string& what, const fs::path& path) {
           "check who owns the folder and whether its file system has room"};
 }
 
-/// Whether the folder is ours alone: in /tmp anyone may have been there first.
-bool is_own_folder(const fs::path& path) {
-  struct stat info {};
-  return ::lstat(path.c_str(), &info) == 0 && S_ISDIR(info.st_mode)
-         && info.st_uid == ::geteuid() && (info.st_mode & 022) == 0;
-}
-
 } // namespace
 
 fs::path notify_path(const fs::path& instance_dir) {
@@ -60,12 +53,8 @@ edge_result<unique_fd> open_notify_socket(const fs::path& path) {
   }
   path.native().copy(address.sun_path, sizeof(address.sun_path) - 1);
   const auto folder = path.parent_path();
-  if (::mkdir(folder.c_str(), 0700) != 0 && errno != EEXIST)
-    return failed("make the folder", folder);
-  if (!is_own_folder(folder)) {
-    errno = EPERM;
-    return failed("trust the folder", folder);
-  }
+  if (!make_own_folder(folder))
+    return failed("keep for itself the folder", folder);
   unique_fd result{
       ::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0)};
   if (!result)

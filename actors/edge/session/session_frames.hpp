@@ -14,7 +14,7 @@ namespace roscell {
 
 /// Protocol version of sessions. A peer with another major version is
 /// refused by name; a minor version adds optional fields only.
-inline constexpr std::string_view session_version = "1.0";
+inline constexpr std::string_view session_version = "2.0";
 
 /// The role of a joiner that coordinates another cell.
 inline constexpr std::string_view coordinator_role = "coordinator";

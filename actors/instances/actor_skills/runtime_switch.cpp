@@ -81,6 +81,12 @@ runtime_actor::behavior_type runtime_switch(self_pointer self,
       [self](const hear_container& x) {
         self->send(runtime_of(self, x.instance, {}), x);
       },
+      [self](const fence_container& x) {
+        self->send(runtime_of(self, x.instance, x.container), x);
+      },
+      [self](const ask_for_safety& x) {
+        self->send(runtime_of(self, x.instance, x.container), x);
+      },
       [self](const log_query& x) {
         return self->delegate(runtime_of(self, x.instance, {}), x);
       },

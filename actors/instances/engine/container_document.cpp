@@ -7,13 +7,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <csignal>
+#include <string>
 #include <thread>
+#include <vector>
 
 namespace roscell {
 
 namespace {
 
 constexpr int64_t mib = 1024 * 1024;
+
+/// Where a container with a fence has what keeps it.
+constexpr const char* container_shim = "/opt/roscell/instance-shim";
+constexpr const char* container_fence_file = "/opt/roscell/fence";
 
 /// Docker refuses less.
 constexpr int64_t least_memory = 6 * mib;
@@ -108,6 +115,30 @@ json host_json(const start_container& wish, const container_files& files,
   return result;
 }
 
+bool is_fenced(const start_container& wish) {
+  return wish.fence_boot_ms != 0;
+}
+
+/// Whether it is a program of the base image; else it is the skill's.
+bool is_of_base(const start_container& wish) {
+  return !wish.command.empty() && wish.command.front().front() == '/';
+}
+
+/// The shim runs what the container would have run.
+std::vector<std::string> fenced_command(const start_container& wish) {
+  std::vector<std::string> result{container_shim,
+                                  "--fence",
+                                  container_fence_file,
+                                  "--stop-signal",
+                                  std::to_string(wish.stop_signal),
+                                  "--"};
+  auto program = wish.command;
+  if (!is_of_base(wish))
+    program.at(0) = std::string{image_skill_dir} + '/' + program.at(0);
+  result.insert(result.end(), program.begin(), program.end());
+  return result;
+}
+
 /// Files and shared memory belong to the node's user, inside and outside.
 std::string user_of(const container_setting& setting) {
   return setting.rootless
@@ -124,7 +155,15 @@ std::string container_name(const std::string& instance) {
 json container_document(const start_container& wish,
                         const container_files& files,
                         const container_setting& setting,
-                        const std::string& notify_dir) {
+                        const std::string& notify_dir,
+                        const container_fence& fence) {
+  auto seen = files;
+  if (is_fenced(wish)) {
+    seen.mounts.push_back({fence.shim, container_shim, true});
+    seen.mounts.push_back({fence.file, container_fence_file, true});
+  }
+  // The shim is asked to end in one way, and passes it on in the skill's.
+  const auto stop_signal = is_fenced(wish) ? SIGTERM : wish.stop_signal;
   json result{{"Image", wish.image},
               {"User", user_of(setting)},
               {"Env", environment_json(wish)},
@@ -132,10 +171,12 @@ json container_document(const start_container& wish,
               // Signs of life come by the NOTIFY_SOCKET; the base image's own
               // check would only cost.
               {"Healthcheck", {{"Test", json::array({"NONE"})}}},
-              {"HostConfig", host_json(wish, files, setting, notify_dir)},
-              {"StopSignal", std::to_string(wish.stop_signal)}};
-  // A program of the base image; else the image says which.
-  if (!wish.command.empty() && wish.command.front().front() == '/')
+              {"HostConfig", host_json(wish, seen, setting, notify_dir)},
+              {"StopSignal", std::to_string(stop_signal)}};
+  // Else the image says which.
+  if (is_fenced(wish))
+    result["Entrypoint"] = fenced_command(wish);
+  else if (is_of_base(wish))
     result["Entrypoint"] = wish.command;
   return result;
 }

@@ -3,8 +3,10 @@
 #include "actors/edge/http/http_target.hpp"
 #include "actors/edge/io/crypto.hpp"
 #include "actors/edge/process/child_watch.hpp"
+#include "actors/edge/process/fence_file.hpp"
 #include "actors/edge/process/notify_socket.hpp"
 #include "actors/house/edge_failure.hpp"
+#include "actors/instances/life/told_words.hpp"
 #include "messages/failure.hpp"
 
 #include <caf/send.hpp>
@@ -34,6 +36,14 @@ fs::path notify_dir(engine_runtime_pointer self, const std::string& instance) {
          / to_hex(hmac_sha256("roscell instance", instance)).substr(0, digits);
 }
 
+fs::path fence_file(engine_runtime_pointer self, const std::string& instance) {
+  return fence_path(notify_dir(self, instance));
+}
+
+fs::path shim_file(engine_runtime_pointer self) {
+  return self->state.config.data_dir / "instance-shim";
+}
+
 caf::error open_words(engine_runtime_pointer self, const std::string& instance,
                       engine_container& x) {
   const auto dir = notify_dir(self, instance);
@@ -48,9 +58,7 @@ caf::error open_words(engine_runtime_pointer self, const std::string& instance,
   x.words = watch_notifications(
       self->state.config.io, x.notify_socket,
       [listener = self->state.listener, instance](const notification& n) {
-        caf::anon_send(listener,
-                       instance_notified{instance, n.ready, n.alive, n.stopping,
-                                         n.status, false});
+        caf::anon_send(listener, told_words(instance, n, false));
       });
   return {};
 }
@@ -58,8 +66,7 @@ caf::error open_words(engine_runtime_pointer self, const std::string& instance,
 void hear(engine_runtime_pointer self, const std::string& instance) {
   const auto& st = self->state;
   const auto tell = [listener = st.listener, instance](const notification& n) {
-    caf::anon_send(listener, instance_notified{instance, n.ready, n.alive,
-                                               n.stopping, n.status, true});
+    caf::anon_send(listener, told_words(instance, n, true));
   };
   const auto* x = find_container(self, instance);
   if (x == nullptr || !x->notify_socket)
@@ -120,6 +127,7 @@ bool is_running(const json& container) {
 
 void clean_up(engine_runtime_pointer self, const std::string& instance) {
   std::error_code ignored;
+  remove_fence(fence_file(self, instance));
   fs::remove_all(notify_dir(self, instance), ignored);
 }
 
@@ -137,9 +145,7 @@ void on_container_ended(engine_runtime_pointer self,
   // What the program said last must not come after its end.
   const auto words = receive_notifications(x->notify_socket->get());
   if (words.ready || words.stopping || !words.status.empty())
-    self->send(st.listener,
-               instance_notified{instance, words.ready, words.alive,
-                                 words.stopping, words.status, false});
+    self->send(st.listener, told_words(instance, words, false));
   self->send(st.listener, container_exited{instance, id, exit_code});
   forget(self, instance);
 }

@@ -22,6 +22,13 @@ engine_container* find_container(engine_runtime_pointer self,
 std::filesystem::path notify_dir(engine_runtime_pointer self,
                                  const std::string& instance);
 
+/// The host's file with the instance's fence.
+std::filesystem::path fence_file(engine_runtime_pointer self,
+                                 const std::string& instance);
+
+/// The host's copy of the shim, for containers.
+std::filesystem::path shim_file(engine_runtime_pointer self);
+
 /// Makes the NOTIFY_SOCKET and listens to it. Errors: engine_failed.
 caf::error open_words(engine_runtime_pointer self, const std::string& instance,
                       engine_container& x);

@@ -3,6 +3,7 @@
 #include "actors/house/limits.hpp"
 #include "actors/instances/engine/engine_parts.hpp"
 #include "actors/instances/engine/image_packer.hpp"
+#include "actors/instances/life/told_words.hpp"
 #include "messages/failure.hpp"
 
 #include <caf/send.hpp>
@@ -189,9 +190,10 @@ void tell_step(engine_runtime_pointer self, image_work& work) {
   const auto step = std::exchange(work.step, {});
   work.next_words = self->clock().now() + limits::engine::build_words;
   st.config.context.tell("image_building", work.image, {{"step", step}});
+  notification words;
+  words.status = step;
   for (const auto& x : work.waiters)
-    self->send(st.listener,
-               instance_notified{x.instance, false, false, false, step, false});
+    self->send(st.listener, told_words(x.instance, words, false));
 }
 
 } // namespace

@@ -4,6 +4,7 @@
 #include "actors/instances/engine/engine_containers.hpp"
 #include "actors/instances/engine/engine_parts.hpp"
 #include "actors/instances/instance_id.hpp"
+#include "actors/instances/logs/log_following.hpp"
 #include "messages/failure.hpp"
 
 #include <caf/send.hpp>
@@ -16,12 +17,6 @@
 namespace roscell {
 
 namespace {
-
-caf::error no_log(const std::string& instance) {
-  return fail(error_code::unknown_task,
-              "there is no log of an instance '" + instance + "'", "/instance",
-              "`roscell instances` lists them");
-}
 
 /// Asks for whole seconds: Podman reads fractions inexactly. The collector
 /// leaves out what is too early.
@@ -68,7 +63,7 @@ void on_log_ended(engine_runtime_pointer self, uint64_t call,
   auto promise = i->second.promise;
   const auto instance = i->second.query.instance;
   st.followers.erase(i);
-  promise.deliver(x.status == 404 ? no_log(instance)
+  promise.deliver(x.status == 404 ? no_log_of(instance)
                                   : engine_failure("no log can be read", x));
 }
 
@@ -112,18 +107,17 @@ void open_log(engine_runtime_pointer self, const engine_answered& x,
   const auto query = follower.query;
   if (!is_good(x) || !created) {
     follower.promise.deliver(x.status == 404
-                                 ? no_log(query.instance)
+                                 ? no_log_of(query.instance)
                                  : engine_failure("no log can be read", x));
     return;
   }
   follower.running = is_running(found);
-  const auto wait_ms =
-      std::clamp<int64_t>(query.wait_ms, 0, limits::log::wait.count());
-  const bool follow = follower.running && wait_ms > 0
+  const auto wait = wait_of(query);
+  const bool follow = follower.running && wait.count() > 0
                       && st.followers.size() < limits::log::followers;
   const auto origin = *created;
   if (follow) {
-    follower.until = self->clock().now() + std::chrono::milliseconds{wait_ms};
+    follower.until = self->clock().now() + wait;
     st.timer.set(self, *follower.until);
   }
   const auto number = std::make_shared<uint64_t>(0);
@@ -147,7 +141,7 @@ void open_log(engine_runtime_pointer self, const engine_answered& x,
 caf::result<log_excerpt> read_log(engine_runtime_pointer self,
                                   const log_query& query) {
   if (!is_instance_id(query.instance))
-    return no_log(query.instance);
+    return no_log_of(query.instance);
   auto follower = std::make_shared<engine_log_follower>();
   follower->query = query;
   const auto promise = follower->promise =

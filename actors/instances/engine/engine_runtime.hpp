@@ -28,7 +28,10 @@ struct engine_runtime_config {
   house context;
   std::string socket; ///< The engine's Unix socket.
   container_setting setting;
-  std::filesystem::path data_dir; ///< notify/ and build/ go below it.
+  std::filesystem::path shim; ///< tools/instance_shim, for fences.
+  /// notify/, build/ and a copy of the shim go below it: the engine may be
+  /// outside of the container that this node is in, and sees this folder.
+  std::filesystem::path data_dir;
   std::shared_ptr<io_core> io;
 };
 
@@ -37,6 +40,7 @@ struct engine_container {
   std::string id;                ///< Empty: not known yet.
   bool settling = false;         ///< It is being started, or looked for.
   std::optional<int> early_exit; ///< It ended while `settling`.
+  bool fence_fails = false;      ///< Its fence could not be moved on.
   /// What was asked meanwhile.
   std::vector<std::function<void()>> waiting;
   shared_fd notify_socket;
@@ -101,6 +105,7 @@ struct engine_runtime_state {
   std::map<std::string, image_work> works;              ///< By key.
   std::map<uint64_t, engine_log_follower> followers;    ///< By call.
   std::vector<std::function<void()>> waiting_adoptions; ///< For a connection.
+  bool has_shim = false; ///< The copy is that of this version.
   /// Instances whose containers must go, once the engine can be asked.
   std::set<std::string> unwanted;
   alarm timer;

@@ -1,4 +1,5 @@
 #include "actors/edge/http/http_target.hpp"
+#include "actors/edge/process/fence_file.hpp"
 #include "actors/house/edge_failure.hpp"
 #include "actors/house/limits.hpp"
 #include "actors/instances/engine/engine_containers.hpp"
@@ -8,11 +9,15 @@
 #include "messages/failure.hpp"
 
 #include <chrono>
+#include <filesystem>
 #include <memory>
+#include <system_error>
 #include <utility>
 #include <variant>
 
 namespace roscell {
+
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -115,11 +120,47 @@ void create(engine_runtime_pointer self, const shared_attempt& x) {
 
 json body_of(engine_runtime_pointer self, const start_container& wish,
              const container_files& files) {
-  auto document = container_document(wish, files, self->state.config.setting,
-                                     notify_dir(self, wish.instance).string());
+  const auto& config = self->state.config;
+  auto document = container_document(
+      wish, files, config.setting, notify_dir(self, wish.instance).string(),
+      {shim_file(self).string(), fence_file(self, wish.instance).string()});
   return is_podman(self)
              ? podman_document(container_name(wish.instance), document)
              : document;
+}
+
+/// The containers that run keep the copy that they were started with.
+caf::error copy_shim(engine_runtime_pointer self) {
+  auto& st = self->state;
+  if (st.has_shim)
+    return {};
+  const auto copy = shim_file(self);
+  const auto part = copy.string() + ".part";
+  std::error_code problem;
+  fs::copy_file(st.config.shim, part, fs::copy_options::overwrite_existing,
+                problem);
+  if (!problem)
+    fs::rename(part, copy, problem);
+  if (problem)
+    return fail(error_code::engine_failed,
+                "cannot copy the instance shim '" + st.config.shim.string()
+                    + "' to '" + copy.string() + "': " + problem.message(),
+                "",
+                "install roscell-instance-shim beside roscell, or in "
+                "../lib/roscell; the data directory must be writable");
+  st.has_shim = true;
+  return {};
+}
+
+/// Nothing where there is no fence to be set up.
+caf::error set_fence(engine_runtime_pointer self, const start_container& wish) {
+  if (wish.fence_boot_ms == 0)
+    return {};
+  if (auto error = copy_shim(self))
+    return error;
+  const auto why =
+      make_fence(fence_file(self, wish.instance), wish.fence_boot_ms);
+  return why ? to_caf(*why) : caf::error{};
 }
 
 } // namespace
@@ -133,6 +174,8 @@ caf::result<container_started> start(engine_runtime_pointer self,
   const auto files = files_of(wish);
   if (const auto* error = std::get_if<edge_error>(&files))
     return to_caf(*error);
+  if (auto error = set_fence(self, wish))
+    return error;
   engine_container fresh;
   if (auto error = open_words(self, wish.instance, fresh))
     return error;

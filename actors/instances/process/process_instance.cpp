@@ -1,5 +1,6 @@
 #include "actors/instances/process/process_instance.hpp"
 
+#include "actors/edge/process/fence_file.hpp"
 #include "actors/edge/process/marked_processes.hpp"
 #include "actors/edge/process/notify_socket.hpp"
 #include "actors/edge/process/process_spawner.hpp"
@@ -52,18 +53,15 @@ program shim_for(const process_runtime_config& config, const fs::path& dir,
                  const start_container& wish) {
   program result;
   result.path = config.shim;
-  result.arguments = {"--dir",
-                      dir.string(),
-                      "--log-bytes",
-                      std::to_string(config.log_bytes),
-                      "--cwd",
-                      wish.image,
-                      "--stop-signal",
-                      std::to_string(wish.stop_signal),
-                      "--",
-                      (fs::path{wish.image} / wish.command.at(0)).string()};
-  result.arguments.insert(result.arguments.end(), wish.command.begin() + 1,
-                          wish.command.end());
+  result.arguments = {
+      "--dir", dir.string(), "--log-bytes",   std::to_string(config.log_bytes),
+      "--cwd", wish.image,   "--stop-signal", std::to_string(wish.stop_signal)};
+  auto& words = result.arguments;
+  if (wish.fence_boot_ms != 0)
+    words.insert(words.end(), {"--fence", fence_path(dir).string()});
+  words.insert(words.end(),
+               {"--", (fs::path{wish.image} / wish.command.at(0)).string()});
+  words.insert(words.end(), wish.command.begin() + 1, wish.command.end());
   result.environment = wish.environment;
   result.environment["NOTIFY_SOCKET"] = notify_path(dir).string();
   result.environment[folder_variable] = dir.string();
@@ -103,6 +101,9 @@ edge_result<process_instance> launch(const process_runtime_config& config,
   auto socket = fresh_folder(dir);
   if (auto* error = std::get_if<edge_error>(&socket))
     return *error;
+  if (wish.fence_boot_ms != 0)
+    if (auto error = make_fence(fence_path(dir), wish.fence_boot_ms))
+      return *error;
   auto started =
       spawn_program(shim_for(config, dir, wish), limits::instance::shim);
   if (auto* error = std::get_if<edge_error>(&started)) {
@@ -158,7 +159,9 @@ edge_result<bool> clean_up(const process_runtime_config& config,
                            const std::string& instance) {
   const auto dir = config.instances_dir / instance;
   std::error_code error;
+  // The folder goes last: it is by this that the rest is found.
   fs::remove(notify_path(dir), error);
+  remove_fence(fence_path(dir));
   fs::remove_all(dir, error);
   if (error)
     return failed("cannot remove the instance's folder", dir, error.message());

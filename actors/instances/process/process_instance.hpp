@@ -3,6 +3,7 @@
 #include "actors/edge/io/edge_error.hpp"
 #include "actors/edge/process/child_watch.hpp"
 #include "actors/edge/process/process_identity.hpp"
+#include "actors/house/house.hpp"
 #include "messages/inside/runtime.hpp"
 
 #include <cstdint>
@@ -16,6 +17,7 @@
 namespace roscell {
 
 struct process_runtime_config {
+  house context;
   std::filesystem::path instances_dir; ///< One folder per instance goes here.
   std::filesystem::path shim;          ///< tools/instance_shim.
   uint64_t log_bytes = 1024 * 1024;    ///< Bound of one instance's log.
@@ -39,7 +41,8 @@ struct process_instance {
   }
 };
 
-/// Starts the program in a fresh folder. Errors: engine_failed.
+/// Starts the program in a fresh folder, behind its fence if it has one.
+/// Errors: engine_failed.
 edge_result<process_instance> launch(const process_runtime_config& config,
                                      const start_container& wish);
 
@@ -54,7 +57,7 @@ edge_result<process_instance> take_over(const process_runtime_config& config,
 void conclude(const process_runtime_config& config, const std::string& instance,
               process_instance& x);
 
-/// Removes the folder and the socket of an instance that has ended.
+/// Removes the folder, the socket and the fence of an instance that has ended.
 /// Errors: engine_failed.
 edge_result<bool> clean_up(const process_runtime_config& config,
                            const std::string& instance);

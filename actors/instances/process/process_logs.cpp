@@ -30,10 +30,6 @@ log_excerpt look(process_runtime_pointer self, const log_query& query) {
           std::move(part.times_unix_ms)};
 }
 
-bool says_something(const log_excerpt& x) {
-  return !x.text.empty() || x.ended;
-}
-
 size_t follower_count(const process_runtime_state& st) {
   size_t result = 0;
   for (const auto& [instance, x] : st.logs)
@@ -77,20 +73,15 @@ caf::result<log_excerpt> read_log(process_runtime_pointer self,
                                   const log_query& query) {
   auto& st = self->state;
   if (!is_instance_id(query.instance) || !log_of(self, query.instance).exists())
-    return fail(error_code::unknown_task,
-                "there is no log of an instance '" + query.instance + "'",
-                "/instance", "`roscell instances` lists them");
+    return no_log_of(query.instance);
   auto excerpt = look(self, query);
-  const auto wait_ms =
-      std::clamp<int64_t>(query.wait_ms, 0, limits::log::wait.count());
-  if (says_something(excerpt) || wait_ms == 0)
+  const auto wait = wait_of(query);
+  if (says_something(excerpt) || wait.count() == 0)
     return excerpt;
-  // An answer without a word would be asked again at once.
   if (follower_count(st) >= limits::log::followers)
-    return fail(error_code::conflict, "too many follow the logs of this node",
-                {}, "ask without following");
+    return too_many_followers();
   auto promise = self->make_response_promise<log_excerpt>();
-  const auto until = self->clock().now() + std::chrono::milliseconds{wait_ms};
+  const auto until = self->clock().now() + wait;
   follow(self, query.instance).followers.push_back({query, until, promise});
   st.timer.set(self, until);
   // What was written before the watch began makes no noise.

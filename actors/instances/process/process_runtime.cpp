@@ -1,9 +1,12 @@
 #include "actors/instances/process/process_runtime.hpp"
 
+#include "actors/edge/process/fence_file.hpp"
 #include "actors/edge/process/pidfd.hpp"
 #include "actors/house/edge_failure.hpp"
 #include "actors/house/limits.hpp"
+#include "actors/instances/fence_keeping.hpp"
 #include "actors/instances/instance_id.hpp"
+#include "actors/instances/life/told_words.hpp"
 #include "actors/instances/process/process_logs.hpp"
 #include "actors/instances/skill_folder.hpp"
 #include "actors/instances/skill_program.hpp"
@@ -31,8 +34,7 @@ child_watch watch(process_runtime_pointer self, const std::string& instance,
   const auto listener = self->state.listener;
   child_watch::callbacks calls;
   calls.on_notification = [listener, instance](const notification& n) {
-    caf::anon_send(listener, instance_notified{instance, n.ready, n.alive,
-                                               n.stopping, n.status, false});
+    caf::anon_send(listener, told_words(instance, n, false));
   };
   calls.on_end = [target, instance, container = x.container] {
     caf::anon_send(target, program_ended{instance, container});
@@ -117,8 +119,7 @@ caf::result<container_adopted> adopt(process_runtime_pointer self,
 void hear(process_runtime_pointer self, const std::string& instance) {
   const auto& st = self->state;
   const auto tell = [listener = st.listener, instance](const notification& n) {
-    caf::anon_send(listener, instance_notified{instance, n.ready, n.alive,
-                                               n.stopping, n.status, true});
+    caf::anon_send(listener, told_words(instance, n, true));
   };
   const auto i = st.processes.find(instance);
   if (i == st.processes.end() || !i->second.process.runs())
@@ -129,6 +130,24 @@ void hear(process_runtime_pointer self, const std::string& instance) {
 void signal(const running_process& x, int number) {
   if (x.process.runs())
     ::pidfd_send_signal(x.process.pidfd->get(), number, nullptr, 0);
+}
+
+void ask_to_be_safe(process_runtime_pointer self, const ask_for_safety& wish) {
+  const auto i = self->state.processes.find(wish.instance);
+  // The shim passes it on to its command.
+  if (i != self->state.processes.end()
+      && !is_outdated(i->second, wish.container))
+    signal(i->second, SIGUSR1);
+}
+
+void fence(process_runtime_pointer self, const fence_container& wish) {
+  const auto& config = self->state.config;
+  const auto i = self->state.processes.find(wish.instance);
+  if (i == self->state.processes.end() || !i->second.process.runs()
+      || is_outdated(i->second, wish.container))
+    return;
+  keep_fence(config.context, fence_path(config.instances_dir / wish.instance),
+             wish, i->second.fence_fails);
 }
 
 /// Goes to the next stage of ending and says when the one after that begins.
@@ -292,6 +311,8 @@ process_runtime(process_runtime_pointer self,
       [self](const stop_container& x) { return stop(self, x); },
       [self](const remove_container& x) { return remove(self, x); },
       [self](const adopt_container& x) { return adopt(self, x); },
+      [self](const fence_container& x) { fence(self, x); },
+      [self](const ask_for_safety& x) { ask_to_be_safe(self, x); },
       [self](const hear_container& x) { hear(self, x.instance); },
       [self](const log_query& x) { return read_log(self, x); },
       [self](const program_ended& x) { on_end(self, x); },

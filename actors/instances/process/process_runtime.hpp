@@ -2,6 +2,7 @@
 
 #include "actors/house/alarm.hpp"
 #include "actors/house/house.hpp"
+#include "actors/instances/logs/log_following.hpp"
 #include "actors/instances/process/process_instance.hpp"
 #include "messages/messages.hpp"
 
@@ -22,18 +23,12 @@ enum class ending { none, asked, killed, shim_killed };
 struct running_process {
   process_instance process;
   child_watch watch;
+  bool fence_fails = false; ///< Its fence could not be moved on.
   ending stage = ending::none;
   /// When the next stage begins.
   std::optional<alarm::time_point> next_stage;
   std::vector<caf::typed_response_promise<container_stopped>> stoppers;
   std::vector<caf::typed_response_promise<container_removed>> removers;
-};
-
-/// Someone who waits for more of a log.
-struct log_follower {
-  log_query query;
-  alarm::time_point until;
-  caf::typed_response_promise<log_excerpt> promise;
 };
 
 struct followed_log {

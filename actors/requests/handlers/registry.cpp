@@ -42,6 +42,7 @@ void add_cell_queries(request_registry& registry) {
   registry.add(forward_within<cell_list_query, cell_list>(soon, whom));
   registry.add(forward_within<topic_query, topic_list>(soon, whom));
   registry.add(forward_within<task_query, task_description>(soon, whom));
+  registry.add(forward_within<task_history_query, task_history>(soon, whom));
   registry.add(
       forward_within<instance_query, instance_description>(soon, whom));
   registry.add(forward_within<skill_query, skill_list>(soon, whom));
@@ -56,6 +57,8 @@ void add_cell_commands(request_registry& registry) {
       limits::task::termination, whom));
   registry.add(forward_within<task_restart, task_restarted>(
       limits::task::restart, whom));
+  registry.add(forward_within<node_drain, node_drained>(soon, whom));
+  registry.add(forward_within<node_undrain, node_undrained>(soon, whom));
   registry.add(forward_within<cell_formation, cell_formed>(
       limits::transfer::answer, whom));
   registry.add(forward_within<node_release, node_released>(

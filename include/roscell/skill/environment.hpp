@@ -36,6 +36,8 @@ struct stream {
 ///   or `@` and an abstract name | nothing is reported |
 /// | WATCHDOG_USEC | the node takes the skill for hung after so many
 ///   microseconds without WATCHDOG=1 | no watchdog |
+/// | ROSCELL_HEALTH | 1: the node wants to know what the streams do | it is not
+///   told |
 struct environment {
   std::string task;
   std::string step;
@@ -49,6 +51,7 @@ struct environment {
   std::optional<unsigned> gpu;
   std::string notify_socket;
   std::optional<std::chrono::microseconds> watchdog;
+  bool health = false;
 };
 
 /// Returns the value of a variable, or nullptr.

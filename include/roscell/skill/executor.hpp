@@ -1,6 +1,7 @@
 #pragma once
 
 #include "roscell/skill/frame.hpp"
+#include "roscell/skill/safe_state.hpp"
 
 #include <cstddef>
 #include <string>
@@ -49,6 +50,31 @@ public:
   /// Gives back what the executor holds. Called once, after the last
   /// `process`, while the outputs are still open.
   virtual void release() = 0;
+
+  /// Somebody waits for the skill to be safe, to end it or to move it: it
+  /// should come to rest, begin nothing new that must not be broken off, and
+  /// call `set_safe(true)`. Called each time the node asks, between two frames,
+  /// and only for skills whose descriptor says "safe_state". An exception is
+  /// reported.
+  virtual void on_safety_wanted() {
+    // Who never calls `set_safe` need not care.
+  }
+
+protected:
+  /// Says whether the skill may be ended now, without harm to what it moves.
+  /// May be called from any thread, in the constructor too, and never blocks.
+  /// The node hears it within 0.1 s; of what is said more often than every 50
+  /// ms the last word counts. It matters where the descriptor says
+  /// `"safe_state": true`: until the first `set_safe(true)` such a skill is not
+  /// ended but by force, or when its step's `safe_timeout_s` is over.
+  void set_safe(bool safe) noexcept {
+    safety_.set(safe);
+  }
+
+private:
+  friend class primitive_base_engine;
+
+  safe_state safety_;
 };
 
 } // namespace roscell::engine

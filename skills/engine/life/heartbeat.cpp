@@ -4,9 +4,11 @@
 #include <sys/eventfd.h>
 #include <sys/timerfd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdint>
 #include <system_error>
+#include <utility>
 
 namespace roscell::engine {
 
@@ -18,6 +20,29 @@ void drain(int fd) {
   [[maybe_unused]] auto n = ::read(fd, &count, sizeof(count));
 }
 
+/// Rounded up, so that who waits does not wake a moment too early.
+int milliseconds_until(liveness::clock::time_point then,
+                       liveness::clock::time_point now) {
+  using std::chrono::milliseconds;
+  return static_cast<int>(
+      std::chrono::ceil<milliseconds>(std::max(then - now, {})).count());
+}
+
+liveness::clock::duration beat_interval(const liveness& alive, bool measures) {
+  constexpr std::chrono::seconds most_with_figures{1};
+  const auto half = alive.period() / 2;
+  return measures ? std::min<liveness::clock::duration>(half, most_with_figures)
+                  : half;
+}
+
+timespec to_timespec(std::chrono::nanoseconds span) {
+  const auto whole = std::chrono::duration_cast<std::chrono::seconds>(span);
+  timespec result{};
+  result.tv_sec = whole.count();
+  result.tv_nsec = (span - whole).count();
+  return result;
+}
+
 unique_fd checked(int fd) {
   if (fd < 0)
     throw std::system_error(errno, std::generic_category(), "heartbeat");
@@ -27,18 +52,16 @@ unique_fd checked(int fd) {
 } // namespace
 
 heartbeat::heartbeat(const notify_socket& socket, liveness& alive,
-                     status_function status)
-    : socket_(socket), alive_(alive), status_(std::move(status)),
-      last_status_(liveness::clock::now()),
+                     safe_state& safety, words told)
+    : socket_(socket), alive_(alive), safety_(safety), words_(std::move(told)),
+      last_status_(liveness::clock::now()), last_streams_(last_status_),
+      safety_quiet_until_(last_status_),
       timer_(checked(
           ::timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC | TFD_NONBLOCK))),
       wake_(checked(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK))) {
-  using namespace std::chrono;
-  auto half = duration_cast<nanoseconds>(alive_.period() / 2);
-  auto whole = duration_cast<seconds>(half);
   itimerspec every{};
-  every.it_interval.tv_sec = whole.count();
-  every.it_interval.tv_nsec = (half - whole).count();
+  every.it_interval =
+      to_timespec(beat_interval(alive_, static_cast<bool>(words_.streams)));
   every.it_value = every.it_interval;
   ::timerfd_settime(timer_.get(), 0, &every, nullptr);
   thread_ = std::thread{[this] { run(); }};
@@ -57,26 +80,58 @@ void heartbeat::beat_now() noexcept {
 void heartbeat::run() {
   pollfd waited[] = {{stop_.fd(), POLLIN, 0},
                      {timer_.get(), POLLIN, 0},
-                     {wake_.get(), POLLIN, 0}};
+                     {wake_.get(), POLLIN, 0},
+                     {safety_.fd(), POLLIN, 0}};
   for (;;) {
-    if (::poll(waited, 3, -1) < 1)
-      continue; // Interrupted by a signal.
+    const auto quiet =
+        milliseconds_until(safety_quiet_until_, liveness::clock::now());
+    // A descriptor below 0 is not looked at.
+    waited[3].fd = quiet > 0 ? -1 : safety_.fd();
+    if (::poll(waited, 4, quiet > 0 ? quiet : -1) < 1)
+      continue; // Interrupted by a signal, or a word may be sent again.
     if (waited[0].revents != 0)
       return;
-    drain(timer_.get());
-    drain(wake_.get());
-    beat();
+    const auto now = liveness::clock::now();
+    if (waited[3].revents != 0)
+      tell_safety(now);
+    if (waited[1].revents != 0 || waited[2].revents != 0)
+      beat(now);
   }
 }
 
-void heartbeat::beat() {
-  auto now = liveness::clock::now();
+std::string heartbeat::safety_line() {
+  // What changes after this is readable again.
+  drain(safety_.fd());
+  told_safety_ = safety_.get();
+  if (!told_safety_)
+    return {};
+  return *told_safety_ ? "ROSCELL_SAFE=1" : "ROSCELL_SAFE=0";
+}
+
+void heartbeat::tell_safety(time_point now) {
+  const auto before = told_safety_;
+  const auto line = safety_line();
+  if (told_safety_ == before)
+    return;
+  safety_quiet_until_ = now + least_word_pause;
+  socket_.send(line);
+}
+
+void heartbeat::beat(time_point now) {
+  drain(timer_.get());
+  drain(wake_.get());
   if (!alive_.allows_beat(now))
     return;
   std::string state = "READY=1\nWATCHDOG=1";
+  if (safety_.get())
+    state += "\n" + safety_line();
+  if (words_.streams && now - last_streams_ >= least_stream_pause) {
+    last_streams_ = now;
+    state += "\nROSCELL_STREAMS=" + words_.streams(now);
+  }
   if (now - last_status_ >= std::chrono::seconds{1}) {
     last_status_ = now;
-    state += "\nSTATUS=" + status_();
+    state += "\nSTATUS=" + words_.status();
   }
   socket_.send(state);
 }

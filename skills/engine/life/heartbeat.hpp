@@ -1,11 +1,13 @@
 #pragma once
 
+#include "roscell/skill/safe_state.hpp"
 #include "roscell/skill/stop_event.hpp"
 #include "skills/engine/life/liveness.hpp"
 #include "skills/engine/life/notify_socket.hpp"
 #include "skills/engine/life/unique_fd.hpp"
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -13,16 +15,30 @@ namespace roscell::engine {
 
 /// Tells the node twice per watchdog period that the skill is ready and alive,
 /// for as long as its liveness allows. READY=1 is repeated so that a node
-/// that was restarted learns of it. At most once a second the skill's status
-/// goes along. Owns one thread, which only wakes for a beat.
+/// that was restarted learns of it, and so is what the author has said of the
+/// skill's safety. At most once a second the skill's status goes along. Owns
+/// one thread, which only wakes for a beat or for a word on safety.
 class heartbeat {
 public:
-  /// Returns a one-line status for people and for the node.
-  using status_function = std::function<std::string()>;
+  /// What goes along with a beat; each is called from the heartbeat's thread.
+  struct words {
+    /// A one-line status for people and for the node.
+    std::function<std::string()> status;
+    /// What the streams do, see stream_meters; empty: nobody wants to know.
+    /// With it there is a beat at least every second.
+    std::function<std::string(liveness::clock::time_point now)> streams;
+  };
+
+  /// A skill that says more often whether it is safe is not heard more often:
+  /// of what it says meanwhile the last word is sent.
+  static constexpr std::chrono::milliseconds least_word_pause{50};
+
+  /// Figures are not taken over a shorter time.
+  static constexpr std::chrono::milliseconds least_stream_pause{500};
 
   /// The references must outlive this object.
-  heartbeat(const notify_socket& socket, liveness& alive,
-            status_function status);
+  heartbeat(const notify_socket& socket, liveness& alive, safe_state& safety,
+            words told);
 
   /// Ends the beat.
   ~heartbeat();
@@ -31,13 +47,21 @@ public:
   void beat_now() noexcept;
 
 private:
+  using time_point = liveness::clock::time_point;
+
   void run();
-  void beat();
+  void beat(time_point now);
+  void tell_safety(time_point now);
+  std::string safety_line();
 
   const notify_socket& socket_;
   liveness& alive_;
-  status_function status_;
-  liveness::clock::time_point last_status_;
+  safe_state& safety_;
+  const words words_;
+  time_point last_status_;
+  time_point last_streams_;
+  std::optional<bool> told_safety_;
+  time_point safety_quiet_until_;
   unique_fd timer_;
   unique_fd wake_;
   stop_event stop_;

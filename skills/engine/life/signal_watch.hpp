@@ -8,20 +8,27 @@
 
 namespace roscell::engine {
 
-/// Blocks SIGTERM and SIGINT for good in the calling thread and in those it
-/// starts later, so that a signal_watch can receive them.
-void block_stop_signals();
+/// Blocks SIGTERM, SIGINT and SIGUSR1 for good in the calling thread and in
+/// those it starts later, so that a signal_watch can receive them.
+void block_signals();
 
-/// Calls `on_signal` once, on a thread of its own, when SIGTERM or SIGINT
-/// arrives or has arrived since block_stop_signals(). Once the destructor has
-/// returned, the call has happened or never will.
+/// Waits, on a thread of its own, for what a skill is told by signals. SIGTERM
+/// and SIGINT: it is to end; `on_stop` is called once, and nothing after it.
+/// SIGUSR1: somebody waits for it to be safe; `on_safety_wanted` is called each
+/// time. Signals since block_signals() count. Once the destructor has returned
+/// there are no more calls.
 class signal_watch {
 public:
-  explicit signal_watch(std::function<void()> on_signal);
+  signal_watch(std::function<void()> on_stop,
+               std::function<void()> on_safety_wanted);
 
   ~signal_watch();
 
 private:
+  void run();
+
+  const std::function<void()> on_stop_;
+  const std::function<void()> on_safety_wanted_;
   unique_fd signals_;
   stop_event stop_;
   std::thread thread_;

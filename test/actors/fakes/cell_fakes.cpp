@@ -188,6 +188,8 @@ caf::behavior local_parts(caf::event_based_actor* self, fake_site* site,
         result.instances.push_back({"t-a-1", "frames=7", {7, 2.5, 0, 1.5}});
         return result;
       },
+      [](const contact_proven&) {},
+      [](const contact_lost&) {},
       [=](const ends_acknowledged& x) {
         auto& known = node->acknowledged;
         known.insert(known.end(), x.instances.begin(), x.instances.end());

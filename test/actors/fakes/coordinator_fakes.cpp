@@ -177,6 +177,12 @@ void fake_agent::take_down(caf::response_promise promise,
       ++i;
       continue;
     }
+    if (unsafe.count(i->first) > 0 && !what.force) {
+      reply.waiting.push_back(
+          {i->first, row.spec.task, row.spec.step, identity.name, 1000, 0});
+      ++i;
+      continue;
+    }
     reply.instances.push_back(i->first);
     row.state = instance_state::stopped;
     tell(row);
@@ -188,6 +194,14 @@ void fake_agent::take_down(caf::response_promise promise,
     else
       starting.emplace_back(waiting, spec);
   promise.deliver(reply);
+}
+
+void fake_agent::become_safe(const std::string& instance) {
+  unsafe.erase(instance);
+  auto row = running.at(instance);
+  row.state = instance_state::stopped;
+  running.erase(instance);
+  tell(row);
 }
 
 namespace {
@@ -302,6 +316,7 @@ fake_agent& paper_cell::make_agent(const std::string& name) {
   agents.push_back(std::make_unique<fake_agent>());
   auto* x = agents.back().get();
   x->identity = {name, "uuid-of-" + name, 1, "10.0.0.9:8420"};
+  x->skills = {echo_skill()};
   x->has.name = name;
   x->has.architecture = "amd64";
   x->has.cpu = {4, 0};
@@ -325,7 +340,7 @@ caf::expected<node_registered> paper_cell::enter(fake_agent& x) {
   registration.identity = x.identity;
   registration.incarnation = 3;
   registration.resources = report_of(x).resources;
-  registration.skills = {echo_skill()};
+  registration.skills = x.skills;
   for (const auto& [id, row] : x.running)
     registration.instances.push_back(row);
   auto reply = time.ask<node_registered>(coordinator,
@@ -376,12 +391,16 @@ json paper_cell::tasks() {
 }
 
 void paper_cell::write(const store_record& x) {
-  if (x.table != "tasks")
+  auto* table = x.table == "tasks"     ? &disk
+                : x.table == "history" ? &history
+                : x.table == "drains"  ? &drains
+                                       : nullptr;
+  if (table == nullptr)
     return;
   if (x.value.empty())
-    disk.erase(x.key);
+    table->erase(x.key);
   else
-    disk[x.key] = json::parse(x.value);
+    (*table)[x.key] = json::parse(x.value);
 }
 
 void paper_cell::finish_writes() {
@@ -406,6 +425,14 @@ std::string error_of(const json& reply) {
   return reply.is_object() && reply.at("type") == "error"
              ? reply.at("error").at("code").get<std::string>()
              : "";
+}
+
+installed_skill grasp_skill() {
+  auto result = echo_skill();
+  result.descriptor.operation = "grasp";
+  result.descriptor.safe_state = true;
+  result.hash.assign(64, 'b');
+  return result;
 }
 
 installed_skill echo_skill() {
@@ -443,8 +470,11 @@ json echo_task(const std::string& task, const std::vector<json>& steps) {
   return {{"type", "task_request"}, {"task", task}, {"pipeline", steps}};
 }
 
-json termination(const std::string& task) {
-  return {{"type", "task_termination"}, {"task", task}};
+json termination(const std::string& task, bool force) {
+  json result{{"type", "task_termination"}, {"task", task}};
+  if (force)
+    result["force"] = true;
+  return result;
 }
 
 instance_row row_of(const instance_spec& spec, const std::string& node,

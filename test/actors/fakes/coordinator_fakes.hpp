@@ -9,6 +9,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,8 +28,9 @@ struct fake_agent {
   node_identity identity;
   node_resources has; ///< `used` leaves instances out.
   temper mood = temper::happy;
-  bool silent = false;        ///< Answers nothing about resources.
-  bool mute = false;          ///< Answers nothing about figures.
+  std::vector<installed_skill> skills; ///< `echo_skill()` unless changed.
+  bool silent = false;                 ///< Answers nothing about resources.
+  bool mute = false;                   ///< Answers nothing about figures.
   bool slow_reports = false;  ///< Measures at once, answers when told to.
   bool slow_removals = false; ///< Removes when told to.
 
@@ -37,6 +39,7 @@ struct fake_agent {
   cell_coordinator_actor coordinator;
 
   std::map<std::string, instance_row> running;
+  std::set<std::string> unsafe; ///< Instances that do not end yet.
   std::vector<instance_reservation> reservations;
   bool tells_reserved = false; ///< Its reports count what it has reserved.
   int reluctance = 0; ///< How many reservations it refuses from now on.
@@ -57,6 +60,9 @@ struct fake_agent {
 
   void bring_up(caf::response_promise promise, const instance_spec& spec);
   void take_down(caf::response_promise promise, const instance_removal& what);
+
+  /// An instance that was to end is safe, and ends.
+  void become_safe(const std::string& instance);
 
   /// End what has been kept waiting, once messages are handled: a promise can
   /// only be kept by its actor.
@@ -79,7 +85,9 @@ using pending_reply =
 /// To be kept at one place: the actors point to it.
 struct paper_cell {
   virtual_time time;
-  std::map<std::string, json> disk; ///< Records of the table "tasks".
+  std::map<std::string, json> disk;    ///< Records of the table "tasks".
+  std::map<std::string, json> history; ///< The same of that table,
+  std::map<std::string, json> drains;  ///< and of that.
   bool disk_full = false;
   bool slow_disk = false; ///< Writes when told to.
   std::vector<std::pair<caf::response_promise, store_records>> writes;
@@ -133,11 +141,14 @@ std::string error_of(const json& reply);
 
 installed_skill echo_skill();
 
+/// The same as "grasp", which says when it may be ended.
+installed_skill grasp_skill();
+
 /// A step that takes 1 to 4 cores, on any node or on the one named.
 json echo_step(const std::string& id, int cores, const std::string& node = "");
 json echo_task(const std::string& task, const std::vector<json>& steps);
 
-json termination(const std::string& task);
+json termination(const std::string& task, bool force = false);
 
 instance_row row_of(const instance_spec& spec, const std::string& node,
                     instance_state state = instance_state::running);

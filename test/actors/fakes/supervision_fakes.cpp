@@ -67,6 +67,8 @@ instance_spec echo_spec(const std::string& hash, const std::string& instance,
   spec.cell = "kitchen";
   spec.input = {{"file", "/in.txt", "text/plain"}};
   spec.output = {{"file", "/out.txt", "text/plain"}};
+  // What is started again is a rule of its own.
+  spec.life.restart.policy = restart_when::never;
   return spec;
 }
 
@@ -142,6 +144,8 @@ scripted_runtime(scripted_runtime_actor::pointer self,
             caf::actor_cast<skill_instance_actor>(self->current_sender()),
             words);
       },
+      [=](const fence_container& x) { script->fenced.push_back(x); },
+      [=](const ask_for_safety& x) { script->asked_for_safety.push_back(x); },
       [=](const log_query& x) {
         script->queries.push_back(x);
         return log_excerpt{x.instance, script->log, 0, true};
@@ -216,6 +220,8 @@ container_supervisor_actor fake_supervisor(caf::actor_system& system,
         [](const listen_to_instances&) {},
         [](const ends_acknowledged&) {},
         [](const use_environment&) {},
+        [](const contact_proven&) {},
+        [](const contact_lost&) {},
         [](const container_exited&) {},
         [](const instance_notified&) {},
         [](const runtime_troubled&) {},

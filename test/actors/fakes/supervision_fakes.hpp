@@ -73,6 +73,8 @@ struct runtime_script {
   std::vector<adopt_container> adopted;
   std::vector<log_query> queries;
   std::vector<hear_container> heard;
+  std::vector<fence_container> fenced;
+  std::vector<ask_for_safety> asked_for_safety;
   std::vector<caf::typed_response_promise<container_started>> unanswered;
   std::function<void()> answer; ///< Makes it give the answers it has held back.
   caf::actor instance; ///< Who has asked for an image or an adoption last.

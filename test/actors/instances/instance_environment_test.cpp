@@ -55,6 +55,13 @@ TEST_CASE("what the node says of the cell counts more than what the spec "
   CHECK(env.at("ROSCELL_TASK") == "t");
 }
 
+TEST_CASE("a skill measures its streams only where somebody wants to know") {
+  auto spec = example();
+  CHECK(instance_environment(spec, {}).count("ROSCELL_HEALTH") == 0);
+  spec.life.health.inputs.max_age_s = 1;
+  CHECK(instance_environment(spec, {}).at("ROSCELL_HEALTH") == "1");
+}
+
 TEST_CASE("an instance without parameters gets an empty object") {
   auto spec = example();
   spec.parameters.clear();

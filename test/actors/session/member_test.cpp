@@ -197,7 +197,7 @@ TEST_CASE_METHOD(member_test, "a silent member is asked and then lost within a "
   site.pass(100ms);
   CHECK(closed == "silent for 8 s");
   REQUIRE(site.base.losses.size() == 1);
-  CHECK(site.base.losses[0] == member_lost{"a-1", it, "silent for 8 s"});
+  CHECK(site.base.losses[0] == member_lost{"a-1", it, "silent for 8 s", 8000});
 }
 
 TEST_CASE_METHOD(member_test, "a broken connection loses the member at once") {

@@ -154,6 +154,12 @@ void add_files(CLI::App& command, node_options& options) {
                   "Bound of the log that is kept of one instance")
       ->option_text("BYTES [1MiB]");
   command
+      .add_option(
+          "--drain-timeout", options.drain_timeout,
+          "When it is to stop, move its instances to other nodes first, "
+          "for so long at most")
+      ->option_text("TIME [0]");
+  command
       .add_option("--log-level", options.log_level,
                   "What the node itself tells on standard error")
       ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}))

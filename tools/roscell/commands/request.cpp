@@ -5,6 +5,7 @@
 #include "tools/roscell/commands.hpp"
 #include "tools/roscell/common_options.hpp"
 #include "tools/roscell/exit_code.hpp"
+#include "tools/roscell/tasks/wait_finished.hpp"
 #include "tools/roscell/view/format.hpp"
 #include "tools/roscell/view/marked_errors.hpp"
 #include "tools/roscell/view/progress.hpp"
@@ -24,6 +25,7 @@ struct request_options {
   std::string file = "-";
   std::string timeout = "120";
   bool progress = false;
+  bool wait_finished = false;
 };
 
 /// What is sent of a file: the JSON that YAML means. JSON goes as it is, and
@@ -60,10 +62,26 @@ json reply_to(const request_options& options, const std::string& body) {
                    : node.post("/v1/requests", body, limit);
 }
 
+/// Events after the request are looked at from before it, so none is missed.
+int request_and_wait(const request_options& options, const std::string& text,
+                     const std::string& body) {
+  const node_client node{options.connection};
+  const auto since = last_event_of_coordinator(node);
+  const auto reply = reply_to(options, body);
+  print(pretty(reply));
+  if (reply.value("type", "") == "error") {
+    print_text(marked_errors(options.file, text, reply));
+    return exit_refused;
+  }
+  return wait_until_ended(node, task_of(body), since);
+}
+
 int send_request(const request_options& options) {
   const auto text = read_file(options.file);
   const auto body = body_of(options.file, text);
   const auto* unreadable = std::get_if<failure>(&body);
+  if (options.wait_finished && unreadable == nullptr)
+    return request_and_wait(options, text, std::get<std::string>(body));
   const auto reply = unreadable != nullptr
                          ? error_reply(*unreadable)
                          : reply_to(options, std::get<std::string>(body));
@@ -96,6 +114,9 @@ void add_request_command(CLI::App& app, action& chosen) {
   command->add_flag("--progress", options->progress,
                     "Tell on standard error what goes on if it takes more "
                     "than a second, even if that is no terminal");
+  command->add_flag("--wait-finished", options->wait_finished,
+                    "Wait until the task has ended by itself; the exit code is "
+                    "that of its first step that failed");
   command->callback([&chosen, options] {
     chosen = [options] { return send_request(*options); };
   });

@@ -5,6 +5,7 @@
 #include "tools/roscell/common_options.hpp"
 #include "tools/roscell/exit_code.hpp"
 #include "tools/roscell/ros2/topics_view.hpp"
+#include "tools/roscell/tasks/history.hpp"
 #include "tools/roscell/view/formation_view.hpp"
 #include "tools/roscell/view/shape/shape.hpp"
 #include "tools/roscell/view/terminal.hpp"
@@ -74,7 +75,8 @@ const subject subjects[] = {
      "INSTANCE",
      "/v1/instances",
      {"instances"},
-     view_of<instance_description, instances_view>},
+     view_of<instance_description, instances_view>,
+     view_of<instance_description, instance_view>},
     {"topics",
      "List the ROS 2 topics of the cell, who writes and who reads them.",
      "Each end is named by its instance; a stock ROS 2 program by its enclave, "
@@ -101,6 +103,7 @@ struct show_options {
   table_options tables;
   bool watch = false;
   bool actors = false;
+  bool history = false;
 
   bool as_json() const {
     return output == "json" || output == "jsonl";
@@ -163,6 +166,10 @@ json with_figures(const node_client& node, json reply,
 
 int show_subject(const subject& what, const show_options& options) {
   const node_client node{options.connection};
+  if (options.history) {
+    print_history(node, options.argument, options.as_json());
+    return exit_done;
+  }
   auto path = std::string{what.path};
   if (!options.argument.empty())
     path += "/" + percent_encode(options.argument);
@@ -171,6 +178,7 @@ int show_subject(const subject& what, const show_options& options) {
       [&] {
         auto reply = node.get(path);
         return what.one != nullptr && !options.argument.empty()
+                       && reply.contains("tasks")
                    ? with_figures(node, std::move(reply), options.argument)
                    : reply;
       },
@@ -257,6 +265,11 @@ void add_show_commands(CLI::App& app, action& chosen) {
     add_table_options(*command, options->output, options->tables);
     if (what.argument != nullptr)
       command->add_option(what.argument, options->argument, "Only this one");
+    if (command->get_name() == "tasks")
+      command
+          ->add_flag("--history", options->history,
+                     "Show what has happened to TASK, in order")
+          ->needs(command->get_option("TASK"));
     command->callback([&chosen, &what, options, command] {
       // A command below it has been chosen already.
       if (command->get_subcommands().empty())

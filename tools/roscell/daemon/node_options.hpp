@@ -15,6 +15,7 @@ struct node_options {
   std::string log_bytes = "1MiB";
   std::vector<std::string> labels; ///< "key=value"
   std::vector<std::filesystem::path> skill_dirs;
+  std::string drain_timeout = "0"; ///< A duration; 0: it is not drained.
   std::string log_level = "info";
   int ready_fd = -1; ///< Told when the node is ready; negative: none.
 };

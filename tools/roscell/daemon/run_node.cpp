@@ -3,6 +3,7 @@
 #include "actors/house/limits.hpp"
 #include "actors/node/node_builder.hpp"
 #include "tools/roscell/client/open_secret.hpp"
+#include "tools/roscell/daemon/drain_first.hpp"
 #include "tools/roscell/daemon/interface_choice.hpp"
 #include "tools/roscell/daemon/journal.hpp"
 #include "tools/roscell/daemon/node_options.hpp"
@@ -21,8 +22,10 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <csignal>
+#include <memory>
 #include <thread>
 
 #include <unistd.h>
@@ -130,6 +133,26 @@ void await_rest(caf::actor_system& system, const running_node& node,
   rest.join();
 }
 
+/// Gives away what runs here, for as long as it was told to try that, and not
+/// after another signal. What is left goes on running.
+void empty_node(caf::actor_system& system, const running_node& node,
+                stop_signals& signals, std::chrono::milliseconds limit) {
+  // What comes too late must not end another wait.
+  const auto wanted = std::make_shared<std::atomic<bool>>(true);
+  spdlog::info("node '{}' is drained before it stops", node.name);
+  drain_first(system, node, [wanted, &signals](const std::string& trouble) {
+    if (!wanted->exchange(false))
+      return;
+    if (!trouble.empty())
+      spdlog::warn("it cannot be drained: {}", printable(trouble));
+    signals.end();
+  });
+  const auto end = signals.wait_for(limit);
+  if (wanted->exchange(false) && end != stop_signals::cause::ended)
+    spdlog::warn("what is left on node '{}' goes on running", node.name);
+  undrain(system, node);
+}
+
 /// Waits until the node has stopped, but not for long, and not at all after
 /// another signal.
 void stop(caf::actor_system& system, const running_node& node,
@@ -171,6 +194,8 @@ int run_node(const node_options& options) {
     return exit_refused;
   }
   starter.stopping();
+  if (options.drain_timeout != "0")
+    empty_node(system, node, signals, parse_duration(options.drain_timeout));
   stop(system, node, signals);
   return exit_done;
 }

@@ -6,6 +6,7 @@
 #include "tools/roscell/exit_code.hpp"
 #include "tools/roscell/tasks/task_file.hpp"
 #include "tools/roscell/tasks/task_view.hpp"
+#include "tools/roscell/tasks/wait_finished.hpp"
 #include "tools/roscell/view/format.hpp"
 #include "tools/roscell/view/progress.hpp"
 #include "tools/roscell/view/terminal.hpp"
@@ -23,6 +24,8 @@ struct task_options {
   std::string output = "table";
   std::string timeout = "120";
   std::string subject; ///< A file, a task, or an instance.
+  bool wait_finished = false;
+  bool force = false;
 
   bool as_json() const {
     return output == "json";
@@ -62,25 +65,39 @@ int run_task(const task_options& options) {
   if (auto why = validate_request(request))
     throw wrong_document{file, *why};
   const auto task = request.value("task", "");
+  const node_client node{options.connection};
+  const auto since =
+      options.wait_finished ? last_event_of_coordinator(node) : 0;
   const auto reply = ask_about(options, task, request);
   if (reply.value("type", "") == "error")
     throw wrong_document{file, failure_from(reply)};
-  if (options.as_json()) {
-    print(pretty(reply));
-    return exit_done;
-  }
   const auto accepted = reply.get<task_accepted>();
-  print(accepted_view(accepted, stdout_style()));
-  print_warnings(accepted.warnings);
-  return exit_done;
+  print(options.as_json() ? pretty(reply)
+                          : accepted_view(accepted, stdout_style()));
+  if (!options.as_json())
+    print_warnings(accepted.warnings);
+  return options.wait_finished ? wait_until_ended(node, task, since)
+                               : exit_done;
 }
 
+/// What is not safe yet is waited for, unless a program has asked.
 int stop_task(const task_options& options) {
-  const auto reply =
-      ask_or_throw(options, options.subject,
-                   message_json(task_termination{options.subject}));
-  print(options.as_json() ? pretty(reply)
-                          : terminated_view(reply.get<task_terminated>()));
+  const node_client node{options.connection};
+  const auto& task = options.subject;
+  const auto ask = [&] {
+    return ask_or_throw(options, task,
+                        message_json(task_termination{task, options.force}));
+  };
+  const auto kept = kept_events_of(node);
+  auto reply = ask();
+  auto told = reply.get<task_terminated>();
+  if (!told.waiting.empty() && !options.as_json()) {
+    for (const auto& x : told.waiting)
+      print_note(waiting_text(x));
+    wait_until_gone(node, task, kept.empty() ? 0 : kept.back().sequence);
+    told = ask().get<task_terminated>();
+  }
+  print(options.as_json() ? pretty(reply) : terminated_view(told));
   return exit_done;
 }
 
@@ -90,10 +107,10 @@ task_restart restart_of(const task_options& options) {
   const auto tasks = node.get("/v1/tasks").get<task_description>();
   for (const auto& task : tasks.tasks) {
     if (task.task == options.subject)
-      return {task.task, ""};
+      return {task.task, "", options.force};
     for (const auto& x : task.instances)
       if (x.spec.instance == options.subject)
-        return {task.task, options.subject};
+        return {task.task, options.subject, options.force};
   }
   throw command_error{exit_refused,
                       "no task and no instance is named '"
@@ -121,6 +138,11 @@ CLI::App* add_task_command(CLI::App& app, const char* name,
   return command;
 }
 
+void add_force_option(CLI::App& command, task_options& options) {
+  command.add_flag("--force", options.force,
+                   "Do not wait for what is not safe");
+}
+
 void add_run(CLI::App& app, action& chosen) {
   auto options = std::make_shared<task_options>();
   auto* command = add_task_command(
@@ -136,6 +158,9 @@ void add_run(CLI::App& app, action& chosen) {
                    "The task request; - for standard input")
       ->required()
       ->option_text(" ");
+  command->add_flag("--wait-finished", options->wait_finished,
+                    "Wait until the task has ended by itself; the exit code is "
+                    "that of its first step that failed");
   command->callback([&chosen, options] {
     chosen = [options] {
       return with_marks(options->as_json(), [&] { return run_task(*options); });
@@ -147,7 +172,12 @@ void add_stop(CLI::App& app, action& chosen) {
   auto options = std::make_shared<task_options>();
   auto* command = add_task_command(
       app, "stop", "End a task and remove its instances everywhere.",
-      "Examples:\n  roscell stop fleet-poses", options);
+      "What has to be safe before it ends is waited for. Ctrl-C ends the "
+      "waiting only.\n\n"
+      "Examples:\n  roscell stop fleet-poses\n"
+      "  roscell stop fleet-poses --force",
+      options);
+  add_force_option(*command, *options);
   command->add_option("TASK", options->subject, "Its name")
       ->required()
       ->option_text(" ");
@@ -165,6 +195,7 @@ void add_restart(CLI::App& app, action& chosen) {
       "Examples:\n  roscell restart fleet-poses\n"
       "  roscell restart fleet-poses-camera-1a2b3c4d",
       options);
+  add_force_option(*command, *options);
   command->add_option("TASK|INSTANCE", options->subject, "The name of either")
       ->required()
       ->option_text(" ");

@@ -32,11 +32,20 @@ std::string restarted_view(const task_restarted& task,
          + placed_view(task.instances, style);
 }
 
+std::string waiting_text(const safety_wait& wait) {
+  return printable("waits for '" + wait.task + "/" + wait.step + "' on "
+                   + wait.node + " to be safe");
+}
+
 std::string terminated_view(const task_terminated& task) {
   const auto count = task.instances.size();
   auto text = "task " + printable(task.task) + " is gone, with "
               + std::to_string(count)
               + (count == 1 ? " instance\n" : " instances\n");
+  if (!task.waiting.empty())
+    text = "task " + printable(task.task) + " is ending\n";
+  for (const auto& wait : task.waiting)
+    text += waiting_text(wait) + "\n";
   if (!task.pending_nodes.empty())
     text += "away, to remove theirs when they are back: "
             + printable(joined(task.pending_nodes, ", ")) + "\n";

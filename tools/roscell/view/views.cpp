@@ -1,6 +1,7 @@
 #include "tools/roscell/view/views.hpp"
 
 #include "tools/roscell/view/format.hpp"
+#include "tools/roscell/view/instance_words.hpp"
 
 #include <algorithm>
 #include <set>
@@ -20,42 +21,6 @@ std::string memory(const amount& a) {
   return a.capacity == 0 ? "" : format_memory(a.used, a.capacity);
 }
 
-std::string or_nothing(const table& t, const char* what,
-                       const view_style& style) {
-  return t.rows.empty() ? std::string{"no "} + what + "\n"
-                        : t.render(style.text);
-}
-
-/// What stands behind an instance's state: why it is not known at present, why
-/// it ended, or what it says.
-std::string remark(const instance_row& row) {
-  if (row.unknown_since_unix_ms != 0)
-    return "its node is away; it was " + to_string(row.state);
-  if (!row.reason.empty())
-    return row.reason;
-  if (!row.trouble.empty())
-    return row.trouble;
-  // The columns say it better.
-  return row.figures == instance_figures{} ? row.status : "";
-}
-
-std::string figure(double value, int decimals, const char* unit) {
-  return value < 0 ? "" : format_number(value, decimals) + unit;
-}
-
-std::string count_text(int64_t count) {
-  return count < 0 ? "" : std::to_string(count);
-}
-
-bool is_unknown(const instance_row& row) {
-  return row.unknown_since_unix_ms != 0;
-}
-
-/// What a node that is away runs is not known, whatever it ran before.
-std::string state_text(const instance_row& row) {
-  return is_unknown(row) ? "unknown" : to_string(row.state);
-}
-
 /// How many there are, and of how many nobody knows what has become of them.
 std::string known_count(const std::vector<instance_row>& rows) {
   const auto unknown = std::count_if(rows.begin(), rows.end(), is_unknown);
@@ -63,36 +28,20 @@ std::string known_count(const std::vector<instance_row>& rows) {
          + (unknown == 0 ? "" : " (" + std::to_string(unknown) + " unknown)");
 }
 
-std::string since_text(const instance_row& row, const view_style& style) {
-  return format_since(is_unknown(row) ? row.unknown_since_unix_ms
-                                      : row.since_unix_ms,
-                      style.now_unix_ms);
+std::string state_of(const registry_row& row) {
+  return row.draining_since_unix_ms > 0 ? to_string(row.state) + ", draining"
+                                        : to_string(row.state);
 }
 
-/// How many of a task's instances run, and since when some are not known.
-std::string running_text(const std::vector<instance_row>& rows,
-                         const view_style& style) {
-  size_t running = 0;
-  int64_t unknown = 0;
-  int64_t since = 0;
-  for (const auto& row : rows) {
-    if (!is_unknown(row)) {
-      running += row.state == instance_state::running ? 1 : 0;
-      continue;
-    }
-    ++unknown;
-    since = since == 0 ? row.unknown_since_unix_ms
-                       : std::min(since, row.unknown_since_unix_ms);
-  }
-  auto result = std::to_string(running) + "/" + std::to_string(rows.size());
-  if (unknown > 0)
-    result += ", " + std::to_string(unknown) + " unknown since "
-              + format_since(since, style.now_unix_ms);
-  return result;
-}
-
-std::string exit_text(int code) {
-  return code < 0 ? "" : std::to_string(code);
+/// Why a node is not active, and what waits for it.
+std::string reason_of(const registry_row& row) {
+  std::vector<std::string> words;
+  if (!row.reason.empty())
+    words.push_back(row.reason);
+  for (const auto& x : row.instances)
+    if (is_unknown(x) && !x.waits.empty())
+      words.push_back(x.spec.task + "/" + x.spec.step + " " + x.waits);
+  return joined(words, "; ");
 }
 
 /// What is wrong with a cell, as its coordinator or the others tell.
@@ -182,93 +131,16 @@ std::string members_view(const cell_description& cell,
           {}};
   for (const auto& row : cell.nodes) {
     const auto& r = row.resources;
-    t.rows.push_back({row.identity.name, to_string(row.role),
-                      to_string(row.state),
+    t.rows.push_back({row.identity.name, to_string(row.role), state_of(row),
                       format_since(row.since_unix_ms, style.now_unix_ms),
                       row.identity.address, r.architecture, cores(r.cpu),
                       memory(r.memory_mib), memory(r.disk_mib),
                       std::to_string(r.gpus.size()), known_count(row.instances),
-                      row.reason, listed(r.labels), joined(r.devices)});
+                      reason_of(row), listed(r.labels), joined(r.devices)});
   }
   for (const auto& node : cell.free)
     t.rows.push_back(free_row(node, style));
   return or_nothing(t, "nodes", style);
-}
-
-std::string tasks_view(const task_description& tasks, const view_style& style) {
-  table t{{{"TASK"},
-           {"STATE"},
-           {"AGE", align::right, 2},
-           {"RUNNING", align::right},
-           {"NODES", align::left, 1}},
-          {}};
-  for (const auto& row : tasks.tasks) {
-    std::set<std::string> nodes;
-    for (const auto& i : row.instances)
-      nodes.insert(i.node);
-    t.rows.push_back({row.task, to_string(row.state),
-                      format_since(row.submitted_unix_ms, style.now_unix_ms),
-                      running_text(row.instances, style), listed(nodes)});
-  }
-  return or_nothing(t, "tasks", style);
-}
-
-std::string task_view(const task_description& tasks, const view_style& style) {
-  table t{{{"STEP"},
-           {"NODE", align::left, 3},
-           {"STATE"},
-           {"RATE", align::right, 1},
-           {"DROPPED", align::right, 2},
-           {"LATENCY", align::right, 1},
-           {"DATA AGE", align::right}},
-          {}};
-  double oldest_ms = -1;
-  for (const auto& task : tasks.tasks)
-    for (const auto& row : task.instances) {
-      const auto& x = row.figures;
-      oldest_ms = std::max(oldest_ms, x.age_ms);
-      t.rows.push_back({row.spec.step, row.node, state_text(row),
-                        figure(x.rate_hz, 1, " Hz"), count_text(x.dropped),
-                        figure(x.latency_ms, 2, " ms"),
-                        figure(x.age_ms, 1, " ms")});
-    }
-  auto text = tasks_view(tasks, style);
-  if (!t.rows.empty())
-    text += "\n" + t.render(style.text);
-  if (oldest_ms >= 0)
-    text += "\nfrom a sensor's stamp to the last output: "
-            + format_number(oldest_ms, 1) + " ms (median)\n";
-  return text;
-}
-
-std::string instances_view(const instance_description& instances,
-                           const view_style& style) {
-  table t{{{"INSTANCE"},
-           {"TASK", align::left, 6, true},
-           {"STEP", align::left, 5, true},
-           {"NODE"},
-           {"STATE"},
-           {"SINCE", align::right, 2},
-           {"FRAMES", align::right, 4},
-           {"RATE", align::right, 1},
-           {"DROPPED", align::right, 3},
-           {"LATENCY", align::right, 2},
-           {"DATA AGE", align::right, 2},
-           {"DEPLOYMENT", align::left, 7},
-           {"EXIT", align::right, 3},
-           {"REMARK", align::left, 4}},
-          {}};
-  for (const auto& row : instances.instances) {
-    const auto& x = row.figures;
-    t.rows.push_back({row.spec.instance, row.spec.task, row.spec.step, row.node,
-                      state_text(row), since_text(row, style),
-                      count_text(x.frames), figure(x.rate_hz, 1, " Hz"),
-                      count_text(x.dropped), figure(x.latency_ms, 2, " ms"),
-                      figure(x.age_ms, 1, " ms"),
-                      row.spec.model + "/" + row.spec.deployment,
-                      exit_text(row.exit_code), remark(row)});
-  }
-  return or_nothing(t, "instances", style);
 }
 
 } // namespace roscell::cli

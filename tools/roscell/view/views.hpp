@@ -34,6 +34,10 @@ std::string tasks_view(const task_description& tasks, const view_style& style);
 std::string task_view(const task_description& tasks, const view_style& style);
 std::string instances_view(const instance_description& instances,
                            const view_style& style);
+
+/// The same for one, and below it how its earlier runs ended.
+std::string instance_view(const instance_description& instances,
+                          const view_style& style);
 std::string skills_view(const skill_list& skills, const view_style& style);
 
 } // namespace roscell::cli

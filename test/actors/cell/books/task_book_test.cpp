@@ -109,31 +109,32 @@ TEST_CASE("A task is what the store has kept of it", "[task_book]") {
 TEST_CASE("A task is finished when every step has ended with 0",
           "[task_book]") {
   auto x = record("t", task_state::running, {"a", "b"});
-  x = with_ends(x, {end_of("t-0", 0)});
+  x = with_ends(x, {end_of("t-0", 0)}, 7000);
   CHECK(x.state == task_state::running);
-  x = with_ends(x, {end_of("t-0", 0), end_of("t-1", 0)});
+  x = with_ends(x, {end_of("t-0", 0), end_of("t-1", 0)}, 7000);
   CHECK(x.ends.size() == 2);
   CHECK(x.state == task_state::finished);
+  CHECK(x.ended_unix_ms == 7000);
 }
 
 TEST_CASE("A task has failed when every step has ended, not all with 0",
           "[task_book]") {
   auto x = record("t", task_state::running, {"a", "b"});
-  x = with_ends(x, {end_of("t-0", 3)});
+  x = with_ends(x, {end_of("t-0", 3)}, 7000);
   CHECK(x.state == task_state::running);
-  CHECK(with_ends(x, {end_of("t-1", 0)}).state == task_state::failed);
+  CHECK(with_ends(x, {end_of("t-1", 0)}, 7000).state == task_state::failed);
 }
 
 TEST_CASE("An end of a task that is deploying does not make it run",
           "[task_book]") {
   const auto x = record("t", task_state::deploying, {"a"});
-  CHECK(with_ends(x, {end_of("t-0", 0)}).state == task_state::deploying);
+  CHECK(with_ends(x, {end_of("t-0", 0)}, 7000).state == task_state::deploying);
 }
 
 TEST_CASE("A record says what both books know", "[task_book]") {
   both_books books;
   auto x = record("t", task_state::running, {"a", "b"});
-  x = with_ends(x, {end_of("t-1", 0)});
+  x = with_ends(x, {end_of("t-1", 0)}, 7000);
   books.apply(x);
   const auto again = record_of("t", *books.tasks.find("t"), books.deployments);
   CHECK(json(again) == json(x));
@@ -172,7 +173,7 @@ TEST_CASE("What moves is in its old place until the new one runs",
 TEST_CASE("What ended while it was to move is not run again", "[task_book]") {
   const auto x = record("t", task_state::running, {"a"});
   auto moving = with_tentative(x, {moved(x, 0, "c")});
-  moving = with_ends(moving, {end_of("t-0", 0)});
+  moving = with_ends(moving, {end_of("t-0", 0)}, 7000);
   const auto after = with_replaced(moving, {moved(x, 0, "c")});
   REQUIRE(after.specs.size() == 1);
   CHECK(after.specs[0].instance == "t-0");

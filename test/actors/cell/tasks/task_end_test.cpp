@@ -55,7 +55,8 @@ task_record ended_record() {
   result.state = task_state::running;
   result.specs = {spec};
   result.nodes = {"arm"};
-  return with_ends(result, {{"t-on-arm", instance_state::stopped, 0, "", 9}});
+  return with_ends(result, {{"t-on-arm", instance_state::stopped, 0, "", 9}},
+                   9);
 }
 
 } // namespace

@@ -41,12 +41,69 @@ TEST_CASE("a notification longer than a datagram may be is ignored whole") {
           .ready);
 }
 
+TEST_CASE("a program tells whether it may be ended") {
+  CHECK(parse_notification("ROSCELL_SAFE=1").safe == safe_word::safe);
+  CHECK(parse_notification("ROSCELL_SAFE=0\n").safe == safe_word::unsafe);
+  CHECK(parse_notification("ROSCELL_SAFE=0\nX=1\nROSCELL_SAFE=1").safe
+        == safe_word::safe);
+  for (const std::string text :
+       {"READY=1", "ROSCELL_SAFE=", "ROSCELL_SAFE=2", "ROSCELL_SAFE=10",
+        "ROSCELL_SAFE=yes", " ROSCELL_SAFE=1", "ROSCELL_SAFE"})
+    CHECK(parse_notification(text).safe == safe_word::untold);
+}
+
+TEST_CASE("a program tells what its data streams do") {
+  const auto told = parse_notification(
+      "ROSCELL_STREAMS=input:0 12.500 0.040;input:15 0 -;output:1 2 7.25");
+  REQUIRE(told.streams.size() == 3);
+  CHECK(told.streams[0].end == "input:0");
+  CHECK(told.streams[0].rate_hz == Approx(12.5));
+  CHECK(told.streams[0].age_s == Approx(0.04));
+  CHECK(told.streams[1].end == "input:15");
+  CHECK(told.streams[1].age_s < 0);
+  CHECK(told.streams[2].end == "output:1");
+  CHECK(told.streams[2].age_s == Approx(7.25));
+}
+
+TEST_CASE("of a line about streams that is broken nothing is believed") {
+  const std::string good = "input:0 12.5 0.04";
+  for (const std::string broken :
+       {"output:0",       "output:0 1",     "output:0 1 2 3", "output:0  1 2",
+        "output:0 -1 2",  "output:0 1 -2",  "output:0 -0 2",  "output:0 nan 2",
+        "output:0 inf 2", "output:0 1 inf", "output:0 1e3 2", "output:0 1,5 2",
+        "output:0 - 2",   "side:0 1 2",     "output: 1 2",    "output:+1 1 2",
+        "output:123 1 2", "output 1 2",     "output:x 1 2",   ""}) {
+    CAPTURE(broken);
+    CHECK(parse_notification("ROSCELL_STREAMS=" + good + ";" + broken + ";"
+                             + good)
+              .streams.empty());
+  }
+  std::string many = "ROSCELL_STREAMS=";
+  for (size_t i = 0; i < max_told_streams; ++i)
+    many += good + ";";
+  CHECK(parse_notification(many).streams.size() == max_told_streams);
+  CHECK(parse_notification(many + good).streams.empty());
+}
+
+TEST_CASE("merged notifications keep the last word on safety and streams") {
+  auto before = parse_notification("ROSCELL_SAFE=0\n"
+                                   "ROSCELL_STREAMS=input:0 1 2;input:1 1 2");
+  merge(before, parse_notification("WATCHDOG=1"));
+  CHECK(before.safe == safe_word::unsafe);
+  CHECK(before.streams.size() == 2);
+  merge(before, parse_notification("ROSCELL_SAFE=1\n"
+                                   "ROSCELL_STREAMS=input:0 3 2"));
+  CHECK(before.safe == safe_word::safe);
+  REQUIRE(before.streams.size() == 1);
+  CHECK(before.streams[0].rate_hz == Approx(3));
+}
+
 TEST_CASE("merged notifications keep all facts and the last status") {
-  notification before{true, false, false, "old"};
-  merge(before, {false, true, false, ""});
+  auto before = parse_notification("READY=1\nSTATUS=old");
+  merge(before, parse_notification("WATCHDOG=1"));
   CHECK((before.ready && before.alive));
   CHECK(before.status == "old");
-  merge(before, {false, false, true, "new"});
+  merge(before, parse_notification("STOPPING=1\nSTATUS=new"));
   CHECK((before.ready && before.stopping));
   CHECK(before.status == "new");
 }

@@ -139,7 +139,7 @@ TEST_CASE("a proof given to one acceptor is worth nothing to another one") {
 
 TEST_CASE("every field of hello and challenge is under the proofs") {
   const std::pair<const char*, json> of_hello[] = {
-      {"version", "1.1"},
+      {"version", "2.1"},
       {"node", "robot-2"},
       {"uuid", "aaaa"},
       {"epoch", 8},
@@ -154,7 +154,7 @@ TEST_CASE("every field of hello and challenge is under the proofs") {
     check_refused(joiner.receive(challenge.reply), error_code::unauthorized);
   }
   const std::pair<const char*, json> of_challenge[] = {
-      {"version", "1.1"},
+      {"version", "2.1"},
       {"node", "other"},
       {"uuid", "aaaa"},
       {"cell", "hall"},
@@ -195,7 +195,7 @@ TEST_CASE("a joiner without a role proves what it did before there were any") {
   CHECK_FALSE(json::parse(joiner.hello()).contains("role"));
   const auto challenge = json::parse(acceptor.receive(joiner.hello()).reply);
   CHECK(challenge.at("proof")
-        == "9586bb92019690cf9d182813fc963cf21586b4a01cbfa8538e0c8febf04a8b19");
+        == "7524afa429d0075dd3ccd7e1004fefe69584239efe3470adb6f39a11e0968420");
 }
 
 TEST_CASE("the acceptance of a session is proven, too") {
@@ -209,11 +209,11 @@ TEST_CASE("the acceptance of a session is proven, too") {
 TEST_CASE("another major version is refused by name, another minor is not") {
   acceptor_handshake acceptor{base, token, loopback};
   joiner_handshake joiner{robot, token};
-  const auto step = acceptor.receive(with(joiner.hello(), "version", "2.0"));
+  const auto step = acceptor.receive(with(joiner.hello(), "version", "3.0"));
   check_refused(step, error_code::conflict);
-  CHECK(step.failure->message.find("2.0 of node 'robot-1'")
+  CHECK(step.failure->message.find("3.0 of node 'robot-1'")
         != std::string::npos);
-  CHECK(step.reply.find("2.0 of node") != std::string::npos);
+  CHECK(step.reply.find("3.0 of node") != std::string::npos);
 
   pair_of_sides sides;
   check_refused(
@@ -221,7 +221,7 @@ TEST_CASE("another major version is refused by name, another minor is not") {
       error_code::conflict);
 
   acceptor_handshake newer{base, token, loopback};
-  CHECK_FALSE(newer.receive(with(joiner.hello(), "version", "1.12")).failure);
+  CHECK_FALSE(newer.receive(with(joiner.hello(), "version", "2.12")).failure);
 }
 
 TEST_CASE("a joiner that wants a certain cell takes no other") {

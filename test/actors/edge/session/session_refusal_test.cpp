@@ -184,9 +184,9 @@ TEST_CASE("another major version is refused on the wire") {
   auto client = open_websocket(node);
   auto hello =
       nlohmann::json::parse(joiner_handshake{robot_node, site_token}.hello());
-  hello["version"] = "2.0";
+  hello["version"] = "3.0";
   client.send(frame(hello.dump()));
-  CHECK(client.read_to_end().find("2.0 of node 'robot-1'")
+  CHECK(client.read_to_end().find("3.0 of node 'robot-1'")
         != std::string::npos);
   CHECK(node.refusals.take().code == error_code::conflict);
 }

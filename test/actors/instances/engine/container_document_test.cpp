@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
 #include <thread>
 
 using namespace roscell;
@@ -133,6 +134,38 @@ TEST_CASE("a library path of the deployment does not hide the image's") {
   auto wish = echo_wish();
   wish.environment["LD_LIBRARY_PATH"] = "/mine";
   CHECK(document(wish)["Env"][1] == "LD_LIBRARY_PATH=/opt/roscell/lib:/mine");
+}
+
+TEST_CASE("a container with a fence runs its program under the shim") {
+  auto wish = echo_wish();
+  wish.stop_signal = SIGINT;
+  wish.fence_boot_ms = 1;
+  std::string program;
+  SECTION("one of the skill") {
+    wish.command = {"bin/echo", "a"};
+    program = "/opt/roscell/skill/bin/echo";
+  }
+  SECTION("one of the base image") {
+    wish.command = {"/bin/bash", "a"};
+    program = "/bin/bash";
+  }
+  const auto x = container_document(wish, {}, {"uuid", 1024 * 1024}, "/n",
+                                    {"/the/shim", "/the/fence"});
+  CHECK(x["Entrypoint"]
+        == json{"/opt/roscell/instance-shim", "--fence", "/opt/roscell/fence",
+                "--stop-signal", "2", "--", program, "a"});
+  // The shim asks the program in the program's way.
+  CHECK(x["StopSignal"] == "15");
+  const auto& mounts = x["HostConfig"]["Mounts"];
+  REQUIRE(mounts.size() == 3);
+  CHECK(mounts[1]
+        == json{{"Type", "bind"},
+                {"Source", "/the/shim"},
+                {"Target", "/opt/roscell/instance-shim"},
+                {"ReadOnly", true}});
+  CHECK(mounts[2]["Source"] == "/the/fence");
+  CHECK(mounts[2]["Target"] == "/opt/roscell/fence");
+  CHECK(mounts[2]["ReadOnly"] == true);
 }
 
 TEST_CASE("inputs can be read, outputs written") {

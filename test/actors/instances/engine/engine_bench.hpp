@@ -90,6 +90,9 @@ private:
 struct engine_bench {
   engine_bench() {
     config.context = context;
+    config.context.events = events = keep_events(system, told_events);
+    config.shim =
+        std::filesystem::path{ROSCELL_BINARY_DIR} / "bin/roscell-instance-shim";
     config.socket = folder.path() / "engine";
     config.setting = {"uuid", 1024 * 1024};
     config.data_dir = folder.path() / "data";
@@ -115,6 +118,7 @@ struct engine_bench {
   ~engine_bench() {
     end_and_await(self, runtime);
     end_and_await(self, listener);
+    end_and_await(self, events);
     engine = nullptr;
   }
 
@@ -187,6 +191,8 @@ struct engine_bench {
   house context{std::make_shared<actor_directory>(), {}};
   io_thread io;
   facts told;
+  facts told_events;
+  event_log_actor events;
   engine_script script;
   std::unique_ptr<fake_engine> engine;
   engine_runtime_config config;

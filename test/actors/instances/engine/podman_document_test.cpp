@@ -79,6 +79,24 @@ TEST_CASE("Podman is told of a program of the base image and how it ends") {
   CHECK(podman_form(wish).count("entrypoint") == 0);
 }
 
+TEST_CASE("Podman is told of the same fence") {
+  auto wish = podman_wish();
+  wish.command = {"bin/echo"};
+  wish.stop_signal = SIGINT;
+  wish.fence_boot_ms = 1;
+  const auto x = podman_document(
+      "roscell-i", container_document(wish, {}, {"uuid", 1024 * 1024}, "/n",
+                                      {"/the/shim", "/the/fence"}));
+  CHECK(x["entrypoint"][0] == "/opt/roscell/instance-shim");
+  CHECK(x["stop_signal"] == SIGTERM);
+  REQUIRE(x["mounts"].size() == 3);
+  CHECK(x["mounts"][2]
+        == json{{"type", "bind"},
+                {"source", "/the/fence"},
+                {"destination", "/opt/roscell/fence"},
+                {"options", {"rbind", "ro"}}});
+}
+
 TEST_CASE("Podman is asked for a GPU by its CDI name") {
   auto wish = podman_wish();
   wish.gpu = 3;

@@ -63,6 +63,24 @@ void end_and_await(caf::scoped_actor& self, const Handle& whom) {
   self->receive([](const caf::down_msg&) {});
 }
 
+/// An event log that a test reads.
+inline event_log_actor keep_events(caf::actor_system& system, facts& events) {
+  const auto result = system.spawn([&events]() -> caf::behavior {
+    return {[&events](const record_event& x) {
+      events.put(x.what + ' ' + x.subject);
+    }};
+  });
+  return caf::actor_cast<event_log_actor>(result);
+}
+
+/// What stands in the file of a fence, in milliseconds; 0: nothing.
+inline int64_t fence_in(const std::filesystem::path& path) {
+  int64_t result = 0;
+  std::ifstream file{path, std::ios::binary};
+  file.read(reinterpret_cast<char*>(&result), sizeof(result));
+  return file ? result : 0;
+}
+
 struct real_time_config : caf::actor_system_config {
   real_time_config() {
     roscell::add_message_types(*this);
@@ -79,6 +97,8 @@ struct process_bench {
     config.shim =
         std::filesystem::path{ROSCELL_BINARY_DIR} / "bin/roscell-instance-shim";
     config.io = io.core();
+    config.context = context;
+    config.context.events = events = keep_events(system, told_events);
     config.environment = basic_environment();
     using handle = container_listener_actor;
     listener = system.spawn([this](handle::pointer) -> handle::behavior_type {
@@ -105,6 +125,7 @@ struct process_bench {
       ask<container_removed>(remove_container{instance, {}});
     end_and_await(self, runtime);
     end_and_await(self, listener);
+    end_and_await(self, events);
   }
 
   /// The node ends; its programs go on.
@@ -140,7 +161,8 @@ struct process_bench {
 
   /// Runs a shell script as the skill's program.
   std::string start(const std::string& script,
-                    const std::string& instance = "i") {
+                    const std::string& instance = "i",
+                    int64_t fence_boot_ms = 0) {
     folder.write("skill/bin/run", "#!/bin/sh\n" + script + "\n", true);
     instances.push_back(instance);
     start_container wish;
@@ -148,6 +170,7 @@ struct process_bench {
     wish.image = folder.path() / "skill";
     wish.command = {"bin/run", "an argument"};
     wish.environment = {{"GIVEN", "yes"}};
+    wish.fence_boot_ms = fence_boot_ms;
     return get<container_started>(wish).container;
   }
 
@@ -166,7 +189,9 @@ struct process_bench {
   house context{std::make_shared<actor_directory>(), {}};
   io_thread io;
   facts told;
+  facts told_events;
   process_runtime_config config;
+  event_log_actor events;
   container_listener_actor listener;
   process_runtime_actor runtime;
   std::vector<std::string> instances;

@@ -1,6 +1,6 @@
 #include "actors/house/limits.hpp"
+#include "actors/instances/life/skill_instance.hpp"
 #include "actors/instances/ros2/graph_watch.hpp"
-#include "actors/instances/skill_instance.hpp"
 
 #include "messages/failure.hpp"
 #include "test/actors/fakes/supervision_fakes.hpp"

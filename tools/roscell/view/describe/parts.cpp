@@ -4,6 +4,7 @@
 #include "tools/roscell/client/event_words.hpp"
 #include "tools/roscell/view/format.hpp"
 #include "tools/roscell/view/graph/task_graph.hpp"
+#include "tools/roscell/view/instance_words.hpp"
 
 #include <algorithm>
 
@@ -91,7 +92,7 @@ std::string state_words(const instance_row& row, const view_style& style) {
   if (row.unknown_since_unix_ms != 0)
     return "unknown since " + since(row.unknown_since_unix_ms) + ", it was "
            + to_string(row.state);
-  return to_string(row.state) + " since " + since(row.since_unix_ms);
+  return state_text(row) + " since " + since(row.since_unix_ms);
 }
 
 std::string time_words(int64_t unix_ms, const view_style& style) {

@@ -4,6 +4,7 @@
 #include "tools/roscell/view/describe/parts.hpp"
 #include "tools/roscell/view/format.hpp"
 #include "tools/roscell/view/graph/task_graph.hpp"
+#include "tools/roscell/view/instance_words.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -123,6 +124,9 @@ void describe_instance(page& out, const known_cell& known,
   out.fact("Node", row.node);
   out.fact("State", state_words(row, style));
   out.fact("Reason", row.reason);
+  out.fact("Health", row.health_reason);
+  out.fact("May be ended", safety_words(row));
+  out.fact("Waits", row.waits);
   out.fact("Exit code", row.exit_code < 0 ? "" : std::to_string(row.exit_code));
   out.fact("Trouble", row.trouble);
   out.fact("Frames",

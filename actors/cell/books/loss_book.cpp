@@ -1,0 +1,65 @@
+#include "actors/cell/books/loss_book.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace roscell {
+
+void loss_book::lose(lost_step x, std::chrono::milliseconds after) {
+  x.due = x.since + after;
+  const auto instance = x.instance;
+  steps_.emplace(instance, std::move(x));
+}
+
+void loss_book::forget(const std::string& instance) {
+  steps_.erase(instance);
+}
+
+const lost_step* loss_book::find(const std::string& instance) const {
+  const auto i = steps_.find(instance);
+  return i == steps_.end() ? nullptr : &i->second;
+}
+
+bool loss_book::is_given_up(const std::string& instance) const {
+  const auto* x = find(instance);
+  return x && x->given_up;
+}
+
+void loss_book::give_up(const std::string& instance) {
+  if (const auto i = steps_.find(instance); i != steps_.end())
+    i->second.given_up = true;
+}
+
+void loss_book::postpone(const std::string& instance,
+                         const std::string& trouble, time_point now) {
+  const auto i = steps_.find(instance);
+  if (i == steps_.end())
+    return;
+  auto& x = i->second;
+  x.given_up = false;
+  x.trouble = trouble;
+  x.due = now + x.pause.next();
+}
+
+void loss_book::pause(const std::string& instance, time_point until) {
+  if (const auto i = steps_.find(instance); i != steps_.end())
+    i->second.due = until;
+}
+
+std::map<std::string, std::vector<lost_step>>
+loss_book::due(time_point now) const {
+  std::map<std::string, std::vector<lost_step>> result;
+  for (const auto& [instance, x] : steps_)
+    if (x.due <= now)
+      result[x.task].push_back(x);
+  return result;
+}
+
+loss_book::time_point loss_book::next_due() const {
+  auto result = time_point::max();
+  for (const auto& [instance, x] : steps_)
+    result = std::min(result, x.due);
+  return result;
+}
+
+} // namespace roscell

@@ -1,0 +1,196 @@
+#include "actors/cell/moves/lost_steps.hpp"
+
+#include "actors/cell/moves/move_stages.hpp"
+#include "actors/cell/state/coordinator_timer.hpp"
+#include "actors/cell/state/task_story.hpp"
+#include "actors/cell/tasks/task_turns.hpp"
+#include "actors/house/limits.hpp"
+#include "messages/failure.hpp"
+
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace roscell {
+
+namespace {
+
+using std::chrono::milliseconds;
+
+milliseconds patience_of(const instance_spec& spec) {
+  return milliseconds{
+      static_cast<int64_t>(spec.life.on_node_loss.after_s * 1000)};
+}
+
+bool moves(const deployment& x) {
+  return x.spec.life.on_node_loss.policy == loss_action::move && !x.end
+         && !x.tentative;
+}
+
+/// Whether it is still to be placed anew.
+bool is_lost(const cell_coordinator_state& st, const lost_step& x) {
+  return st.losses.find(x.instance) && st.tasks.is_running(x.task)
+         && st.deployments.find(x.instance, x.node);
+}
+
+void postpone(coordinator_pointer self, const std::vector<lost_step>& steps,
+              const failure& why) {
+  for (const auto& x : steps) {
+    const auto* known = self->state.losses.find(x.instance);
+    const bool news = known && known->trouble != why.message;
+    self->state.losses.postpone(x.instance, why.message, self->clock().now());
+    if (news)
+      tell_of_task(
+          self, "step_stranded", x.task, x.instance,
+          {{"task", x.task}, {"node", x.node}, {"reason", why.message}});
+  }
+  set_timer(self);
+}
+
+void place_anew(coordinator_pointer self, const std::vector<lost_step>& steps) {
+  auto move = std::make_shared<task_move>();
+  move->what = "the lost steps of task '" + steps.front().task + "'";
+  move->kind = move_kind::lost;
+  move->done = [self, steps](const failure* why) {
+    if (why)
+      postpone(self, steps, *why);
+  };
+  take_turn(self, caf::actor_addr{}, [self, move, steps](uint64_t turn) {
+    move->turn = turn;
+    const auto& st = self->state;
+    for (const auto& x : steps) {
+      if (!is_lost(st, x))
+        continue;
+      const auto request = request_of(*st.tasks.find(x.task));
+      if (!request)
+        return fail_move(self, move,
+                         {error_code::internal, "the task has no request"});
+      if (auto why = add_moved_step(self, *move, *request,
+                                    *st.deployments.find(x.instance), false))
+        return fail_move(self, move, *why);
+    }
+    place_move(self, move);
+  });
+}
+
+/// Steps that are being placed anew, once nothing of them is left.
+struct clearing {
+  std::vector<lost_step> steps;
+  size_t open = 1;
+  std::optional<failure> problem; ///< The last.
+};
+
+void end_one(coordinator_pointer self, const std::shared_ptr<clearing>& x) {
+  if (--x->open > 0)
+    return;
+  if (x->problem)
+    postpone(self, x->steps, *x->problem);
+  else
+    place_anew(self, x->steps);
+}
+
+/// Where its node lives after all, as its new place has come to nothing, what
+/// is there has to be gone before.
+void clear_and_place(coordinator_pointer self,
+                     const std::vector<lost_step>& steps) {
+  auto all = std::make_shared<clearing>();
+  all->steps = steps;
+  for (const auto& x : steps) {
+    const auto* entry = self->state.registry.find_name(x.node);
+    if (!entry || !entry->agent || entry->row.identity.uuid != x.uuid)
+      continue;
+    ++all->open;
+    self->request(entry->agent, limits::task::removal_answer,
+                  instance_removal{x.task, x.instance, false})
+        .then(
+            [self, all](const instances_removed& reply) {
+              if (!reply.waiting.empty())
+                all->problem = {error_code::conflict,
+                                "what is there is not safe yet"};
+              end_one(self, all);
+            },
+            [self, all](const caf::error& why) {
+              all->problem = to_failure(why);
+              end_one(self, all);
+            });
+  }
+  end_one(self, all);
+}
+
+} // namespace
+
+void lose_steps_of(coordinator_pointer self, const std::string& node,
+                   const std::string& uuid,
+                   std::chrono::steady_clock::time_point since) {
+  auto& st = self->state;
+  for (const auto& [task, entry] : st.tasks.entries())
+    for (const auto& x : st.deployments.of_task(task))
+      if (x.node == node && moves(x))
+        st.losses.lose({task, x.spec.instance, node, uuid, since},
+                       patience_of(x.spec));
+  set_timer(self);
+}
+
+void lose_steps_of_all(coordinator_pointer self) {
+  auto& st = self->state;
+  std::vector<std::pair<std::string, std::string>> nodes;
+  st.registry.for_each([&](registry_entry& entry) {
+    const auto& who = entry.row.identity;
+    if (who.uuid != st.setup.self.uuid)
+      nodes.emplace_back(who.name, who.uuid);
+  });
+  for (const auto& [name, uuid] : nodes)
+    lose_steps_of(self, name, uuid, self->clock().now());
+}
+
+void find_steps_of(coordinator_pointer self, const node_registration& node) {
+  auto& st = self->state;
+  for (const auto& [task, entry] : st.tasks.entries())
+    for (const auto& x : st.deployments.of_task(task)) {
+      const auto& instance = x.spec.instance;
+      if (x.node == node.identity.name && !st.losses.is_given_up(instance)
+          && !is_elsewhere(st, instance, node.identity.uuid)) {
+        st.losses.forget(instance);
+        st.deployments.heed_end(instance);
+      }
+    }
+}
+
+bool is_elsewhere(const cell_coordinator_state& st, const std::string& instance,
+                  const std::string& uuid) {
+  const auto* lost = st.losses.find(instance);
+  return lost && lost->uuid != uuid;
+}
+
+void move_lost_steps(coordinator_pointer self) {
+  auto& st = self->state;
+  for (const auto& [task, steps] : st.losses.due(self->clock().now())) {
+    std::vector<lost_step> wanted;
+    for (const auto& x : steps) {
+      if (!is_lost(st, x)) {
+        st.losses.forget(x.instance);
+        continue;
+      }
+      wanted.push_back(x);
+      // It is due again only after this attempt.
+      st.losses.pause(x.instance,
+                      self->clock().now() + limits::task::deployment_answer);
+    }
+    if (!wanted.empty())
+      clear_and_place(self, wanted);
+  }
+}
+
+std::string wait_of_lost(const cell_coordinator_state& st,
+                         const instance_row& row) {
+  const auto* x = st.losses.find(row.spec.instance);
+  if (!x)
+    return "waits for node '" + row.node + "'";
+  if (!x->trouble.empty())
+    return "waits for a place: " + x->trouble;
+  return "moves unless node '" + row.node + "' is back within "
+         + std::to_string(patience_of(row.spec).count() / 1000) + " s";
+}
+
+} // namespace roscell

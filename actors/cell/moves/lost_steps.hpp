@@ -1,0 +1,36 @@
+#pragma once
+
+#include "actors/cell/state/coordinator_state.hpp"
+
+#include <chrono>
+#include <string>
+
+/// How the CELL COORDINATOR places steps anew whose node is lost, where they
+/// say "move". Never two at once: the lost node's shims end theirs a lease
+/// before (docs/protocols.md, "The fence").
+namespace roscell {
+
+/// A node is away since its last word.
+void lose_steps_of(coordinator_pointer self, const std::string& node,
+                   const std::string& uuid,
+                   std::chrono::steady_clock::time_point since);
+
+/// Nothing is known of any node but this one: the coordinator has just started.
+void lose_steps_of_all(coordinator_pointer self);
+
+/// A node is back and has been told what to keep.
+void find_steps_of(coordinator_pointer self, const node_registration& node);
+
+/// Whether another machine than the one that may still run it has the name of
+/// its node now.
+bool is_elsewhere(const cell_coordinator_state& st, const std::string& instance,
+                  const std::string& uuid);
+
+/// Places anew what has been lost for long enough.
+void move_lost_steps(coordinator_pointer self);
+
+/// For what a step waits whose node is away, in a sentence.
+std::string wait_of_lost(const cell_coordinator_state& st,
+                         const instance_row& row);
+
+} // namespace roscell

@@ -1,0 +1,269 @@
+#include "actors/cell/moves/move_stages.hpp"
+
+#include "actors/cell/state/coordinator_timer.hpp"
+#include "actors/cell/state/task_story.hpp"
+#include "actors/cell/tasks/task_changes.hpp"
+#include "actors/cell/tasks/task_endings.hpp"
+#include "actors/cell/tasks/task_removals.hpp"
+#include "actors/cell/tasks/task_turns.hpp"
+#include "actors/house/limits.hpp"
+#include "messages/failure.hpp"
+
+#include <map>
+#include <utility>
+
+namespace roscell {
+
+namespace {
+
+std::map<std::string, std::vector<replacement>> by_task(const task_move& move) {
+  std::map<std::string, std::vector<replacement>> result;
+  for (const auto& x : move.steps)
+    result[x.task].push_back(x.change);
+  return result;
+}
+
+void tell_moved(coordinator_pointer self, const moved_step& x) {
+  const auto* fact =
+      x.from != x.change.place.node ? "instance_moved" : "instance_restarted";
+  tell_of_task(self, fact, x.task, x.change.spec.instance,
+               {{"task", x.task},
+                {"from", x.from},
+                {"to", x.change.place.node},
+                {"replaces", x.change.old_instance},
+                {"step", x.change.spec.step}});
+}
+
+/// Where the new one has taken the old one's place the old one goes, else the
+/// new one: its task was terminated, or the old one has done its work.
+void complete_move(coordinator_pointer self, const move_ptr& move) {
+  move->open = move->steps.size();
+  const auto steps = move->steps;
+  for (const auto& x : steps) {
+    const auto& added = x.change.spec.instance;
+    const auto* placed = self->state.deployments.find(added);
+    const bool moved = placed && !placed->tentative;
+    if (moved)
+      tell_moved(self, x);
+    record_ends(self, x.task);
+    remove_instance(self,
+                    moved
+                        ? overdue_removal{x.from, x.task, x.change.old_instance}
+                        : overdue_removal{x.change.place.node, x.task, added},
+                    [move] {
+                      if (--move->open == 0)
+                        move->done(nullptr);
+                    });
+  }
+}
+
+void forget_new(coordinator_pointer self, const move_ptr& move) {
+  for (const auto& [task, changes] : by_task(*move)) {
+    std::vector<std::string> added;
+    for (const auto& x : changes)
+      added.push_back(x.spec.instance);
+    if (!self->state.deployments.find(added.front()))
+      continue;
+    pending_change change;
+    change.still = &task_book::is_kept;
+    change.insistent = true;
+    change.make = [added](task_record record) {
+      return without(std::move(record), added);
+    };
+    change.done = [self, task = task](const failure*) {
+      record_ends(self, task);
+    };
+    change_task(self, task, std::move(change));
+  }
+}
+
+/// It has come to nothing: it is placed once more, elsewhere if need be.
+void lose_again(coordinator_pointer self, const moved_step& x) {
+  const auto& node = x.change.place.node;
+  const auto* entry = self->state.registry.find_name(node);
+  const auto uuid = entry ? entry->row.identity.uuid : std::string{};
+  self->state.losses.lose(
+      {x.task, x.change.spec.instance, node, uuid, self->clock().now()},
+      limits::retry::longest);
+  set_timer(self);
+}
+
+/// Of a lost node: the new ones are in the books, whatever becomes of them.
+void complete_lost(coordinator_pointer self, const move_ptr& move) {
+  for (const auto& x : move->steps) {
+    self->state.losses.forget(x.change.old_instance);
+    if (x.is_up) {
+      self->state.deployments.heed_end(x.change.spec.instance);
+      tell_moved(self, x);
+    } else {
+      lose_again(self, x);
+    }
+  }
+  for (const auto& x : move->steps)
+    record_ends(self, x.task);
+  move->done(move->problem ? &*move->problem : nullptr);
+}
+
+/// Writes a change of each task, then goes on.
+void change_tasks(coordinator_pointer self, const move_ptr& move,
+                  task_record (*make)(task_record,
+                                      const std::vector<replacement>&),
+                  move_stage next) {
+  const auto changes = by_task(*move);
+  move->open = changes.size();
+  for (const auto& [task, moved] : changes) {
+    pending_change change;
+    change.still = still_of(*move);
+    change.make = [make, moved = moved](task_record record) {
+      return make(std::move(record), moved);
+    };
+    change.done = [self, move, next, task = task](const failure* why) {
+      // A task that was terminated meanwhile takes all of its instances along.
+      if (why && (self->state.tasks.*still_of(*move))(task))
+        add_problem(move, *why);
+      end_part(self, move, next, undo_move);
+    };
+    change_task(self, task, std::move(change));
+  }
+}
+
+void replace_old(coordinator_pointer self, const move_ptr& move) {
+  change_tasks(self, move,
+               move->kind == move_kind::leaving ? with_replaced
+                                                : with_restarted,
+               complete_move);
+}
+
+/// One of the new ones runs, or does not.
+void end_deployment(coordinator_pointer self, const move_ptr& move) {
+  if (move->kind == move_kind::lost)
+    end_part(self, move, complete_lost, complete_lost);
+  else
+    end_part(self, move, replace_old, undo_move);
+}
+
+void deploy_step(coordinator_pointer self, const move_ptr& move,
+                 const moved_step& x) {
+  const auto& node = x.change.place.node;
+  auto end_with = [self, move, node, task = x.task,
+                   step = x.step.step.id](failure why) {
+    why.message = "step '" + step + "' on '" + node + "': " + why.message;
+    // What was terminated meanwhile need not come up.
+    if ((self->state.tasks.*still_of(*move))(task))
+      add_problem(move, std::move(why));
+    end_deployment(self, move);
+  };
+  // Nor is it started.
+  if (!self->state.deployments.find(x.change.spec.instance, node)
+      || !(self->state.tasks.*still_of(*move))(x.task))
+    return end_deployment(self, move);
+  const auto* entry = self->state.registry.find_name(node);
+  if (!entry || !entry->agent)
+    return end_with({error_code::conflict, "the node left meanwhile"});
+  self->request(entry->agent, limits::task::deployment,
+                instance_deployment{x.change.spec})
+      .then(
+          [self, move,
+           instance = x.change.spec.instance](const instance_deployed&) {
+            for (auto& step : move->steps)
+              step.is_up = step.is_up || step.change.spec.instance == instance;
+            end_deployment(self, move);
+          },
+          [end_with](const caf::error& why) { end_with(to_failure(why)); });
+}
+
+/// Whether a node that is there has told that the old one has ended. Whoever
+/// was to remove it may have given up.
+bool has_ended(const cell_coordinator_state& st, const moved_step& x) {
+  const auto* entry = st.registry.find_name(x.from);
+  const auto* row = st.deployments.told(x.from, x.change.old_instance);
+  return entry && entry->agent && (!row || !is_live(row->state));
+}
+
+void deploy_after_end(coordinator_pointer self, const move_ptr& move,
+                      const moved_step& x) {
+  if (has_ended(self->state, x))
+    return deploy_step(self, move, x);
+  add_problem(move, {error_code::conflict,
+                     "nobody knows whether '" + x.change.old_instance
+                         + "' on node '" + x.from + "' has ended"});
+  end_deployment(self, move);
+}
+
+/// The room is held in the books from here on, so the turn is over.
+void deploy_steps(coordinator_pointer self, const move_ptr& move) {
+  end_turn(self, std::exchange(move->turn, 0));
+  move->open = move->steps.size();
+  const auto steps = move->steps;
+  for (const auto& x : steps) {
+    // One that does not come up is tried elsewhere: its task goes on.
+    if (move->kind == move_kind::lost)
+      self->state.deployments.ignore_end(x.change.spec.instance);
+    if (!move->ends_first) {
+      deploy_step(self, move, x);
+      continue;
+    }
+    self->state.deployments.ignore_end(x.change.old_instance);
+    remove_instance(self, {x.from, x.task, x.change.old_instance},
+                    [self, move, x] { deploy_after_end(self, move, x); });
+  }
+}
+
+/// Whether all of them are still lost. From here on what returns of them is to
+/// end, whether the store has kept that they have moved or not.
+bool give_up(coordinator_pointer self, const task_move& move) {
+  auto& losses = self->state.losses;
+  for (const auto& x : move.steps)
+    if (!losses.find(x.change.old_instance))
+      return false;
+  for (const auto& x : move.steps)
+    losses.give_up(x.change.old_instance);
+  return true;
+}
+
+} // namespace
+
+task_question still_of(const task_move& move) {
+  return move.kind == move_kind::restarted ? &task_book::is_kept
+                                           : &task_book::is_running;
+}
+
+void fail_move(coordinator_pointer self, const move_ptr& move,
+               const failure& why) {
+  end_turn(self, move->turn);
+  move->done(&why);
+}
+
+void end_part(coordinator_pointer self, const move_ptr& move, move_stage next,
+              move_stage otherwise) {
+  if (--move->open > 0)
+    return;
+  (move->problem ? otherwise : next)(self, move);
+}
+
+void add_problem(const move_ptr& move, failure why) {
+  if (!move->problem)
+    move->problem = std::move(why);
+}
+
+/// Nothing has changed, but that room may have been kept for nothing.
+void undo_move(coordinator_pointer self, const move_ptr& move) {
+  for (const auto& x : move->steps) {
+    self->state.deployments.heed_end(x.change.old_instance);
+    remove_instance(self, {x.change.place.node, x.task, x.change.spec.instance},
+                    [] {});
+  }
+  forget_new(self, move);
+  fail_move(self, move, *move->problem);
+}
+
+void hold_steps(coordinator_pointer self, const move_ptr& move) {
+  if (move->kind != move_kind::lost)
+    return change_tasks(self, move, with_tentative, deploy_steps);
+  if (give_up(self, *move))
+    return change_tasks(self, move, with_restarted, deploy_steps);
+  add_problem(move, {error_code::conflict, "a node came back meanwhile"});
+  undo_move(self, move);
+}
+
+} // namespace roscell

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "messages/life.hpp"
+
+#include <string_view>
+#include <vector>
+
+namespace roscell {
+
+/// Reads what follows ROSCELL_STREAMS=, see `notification`. Empty when a part
+/// of it makes no sense: of a line that is broken no figure can be trusted.
+std::vector<stream_figure> read_streams(std::string_view text);
+
+} // namespace roscell

@@ -1,0 +1,175 @@
+#include "actors/instances/instance_upkeep.hpp"
+
+#include "actors/house/limits.hpp"
+#include "actors/house/wall_clock.hpp"
+#include "actors/instances/instance_id.hpp"
+#include "actors/instances/instance_words.hpp"
+#include "actors/instances/life/skill_instance.hpp"
+#include "messages/failure.hpp"
+
+#include <caf/send.hpp>
+
+#include <algorithm>
+#include <utility>
+
+namespace roscell {
+
+void on_ended(container_supervisor_pointer self, const std::string& instance,
+              supervised_instance& x) {
+  x.actor = nullptr;
+  const auto error = to_error(deployment_failure(x.row));
+  for (auto& promise : std::exchange(x.deployers, {}))
+    promise.deliver(error);
+  if (x.removing)
+    clean_instance(self, instance);
+  else
+    trim_ended(self);
+}
+
+void spawn_actor(container_supervisor_pointer self, supervised_instance& x,
+                 bool adopt) {
+  auto& st = self->state;
+  skill_instance_config config{
+      st.config.context,
+      caf::actor_cast<container_supervisor_actor>(self),
+      st.runtime,
+      st.config.store,
+      st.config.skills,
+      x.row,
+      adopt,
+      st.config.builds_images,
+      st.config.graph,
+      st.environment,
+      st.config.may_be_lost,
+      x.confirmed,
+      st.contact_boot_ms};
+  x.actor = spawn(self->system(), st.config.context, skill_instance, config);
+  self->monitor(x.actor);
+  caf::anon_send(x.actor, start_instance{});
+  if (x.removing)
+    caf::anon_send(x.actor, stop_instance{"removed", x.forced});
+}
+
+void start_runtime(container_supervisor_pointer self) {
+  auto& st = self->state;
+  st.runtime =
+      st.config.make_runtime(caf::actor_cast<container_listener_actor>(self));
+  self->monitor(st.runtime);
+}
+
+namespace {
+
+void on_instance_died(container_supervisor_pointer self,
+                      const std::string& instance, supervised_instance& x) {
+  auto& st = self->state;
+  st.config.context.tell("skill_instance_died", instance,
+                         {{"deaths", x.deaths + 1}});
+  if (++x.deaths <= limits::instance::most_deaths)
+    return spawn_actor(self, x, true);
+  x.row.state = instance_state::failed;
+  x.row.since_unix_ms = unix_now_ms();
+  x.row.reason = "its supervision has failed";
+  if (st.listener)
+    self->send(st.listener, instance_changed{x.row});
+  // Nobody watches the program any more, so it must not go on.
+  caf::anon_send(st.runtime, stop_container{instance, x.row.container, 0});
+  on_ended(self, instance, x);
+}
+
+void on_runtime_died(container_supervisor_pointer self,
+                     const caf::error& reason) {
+  auto& st = self->state;
+  if (++st.runtime_deaths > limits::instance::most_deaths)
+    return self->quit(reason);
+  st.config.context.tell("runtime_died", st.config.node,
+                         {{"deaths", st.runtime_deaths}});
+  start_runtime(self);
+  for (auto& [instance, x] : st.instances) {
+    if (!x.actor)
+      continue;
+    self->demonitor(x.actor.address());
+    caf::anon_send_exit(x.actor, caf::exit_reason::kill);
+    spawn_actor(self, x, true);
+  }
+}
+
+} // namespace
+
+void on_down(container_supervisor_pointer self, const caf::down_msg& down) {
+  auto& st = self->state;
+  if (down.source == st.runtime.address())
+    return on_runtime_died(self, down.reason);
+  // An instance's actor that ends in order has said why before.
+  if (!down.reason)
+    return;
+  for (auto& [instance, x] : st.instances)
+    if (x.actor && x.actor.address() == down.source)
+      return on_instance_died(self, instance, x);
+}
+
+namespace {
+
+/// Only what may go to another node needs to hear of it.
+template <class Fact>
+void pass_to_movable(container_supervisor_pointer self, const Fact& fact) {
+  for (const auto& [instance, x] : self->state.instances)
+    if (x.actor && x.row.spec.life.on_node_loss.policy == loss_action::move)
+      self->send(x.actor, fact);
+}
+
+} // namespace
+
+void on_contact(container_supervisor_pointer self, const contact_proven& fact) {
+  auto& known = self->state.contact_boot_ms;
+  known = std::max(known, fact.boot_ms);
+  if (std::exchange(self->state.out_of_contact, false))
+    for (auto& [instance, x] : self->state.instances)
+      x.confirmed = false;
+  for (const auto& instance : fact.kept)
+    if (auto* x = find_instance(self, instance))
+      x->confirmed = true;
+  pass_to_movable(self, fact);
+}
+
+void on_contact_lost(container_supervisor_pointer self) {
+  self->state.out_of_contact = true;
+  pass_to_movable(self, contact_lost{});
+}
+
+void restore(container_supervisor_pointer self) {
+  auto& st = self->state;
+  for (auto& row : std::exchange(st.config.restored, {})) {
+    if (!is_instance_id(row.spec.instance))
+      continue;
+    auto& x = st.instances[row.spec.instance];
+    x.row = std::move(row);
+    x.row.node = st.config.node;
+    // Nobody knows what it has done meanwhile.
+    if (is_live(x.row.state))
+      x.row.figures = {};
+    if (is_live(x.row.state))
+      spawn_actor(self, x, true);
+  }
+  trim_ended(self);
+}
+
+void end_strays(container_supervisor_pointer self) {
+  auto& st = self->state;
+  for (const auto& instance : std::exchange(st.config.strays, {})) {
+    if (!is_instance_id(instance))
+      continue;
+    const auto context = st.config.context;
+    self->request(st.runtime, limits::instance::cleaning,
+                  remove_container{instance, {}})
+        .then(
+            [=](const container_removed&) {
+              context.tell("stray_ended", instance);
+            },
+            [=](const caf::error& why) {
+              context.tell("stray_removal_failed", instance,
+                           {{"reason", to_failure(why).message}});
+            });
+  }
+}
+
+} // namespace roscell

@@ -1,0 +1,100 @@
+#pragma once
+
+#include "actors/house/alarm.hpp"
+#include "actors/house/house.hpp"
+#include "actors/instances/life/health_book.hpp"
+#include "actors/instances/skill_catalogue.hpp"
+#include "messages/messages.hpp"
+
+#include <chrono>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace roscell {
+
+struct skill_instance_config {
+  house context;
+  container_supervisor_actor supervisor; ///< Told of every change.
+  runtime_actor runtime;
+  state_store_actor store;
+  shared_skill_catalogue skills;
+  instance_row row;          ///< What is known of the instance.
+  bool adopt = false;        ///< It may run already.
+  bool builds_images = true; ///< The runtime needs an image of the skill.
+  graph_watch_actor graph;   ///< Sees ROS 2 programs; may be invalid in tests.
+  /// What this node says of the cell; it counts more than what the spec says.
+  std::map<std::string, std::string> environment;
+  /// This node may be lost by its cell: what may move to another one then ends
+  /// here before.
+  bool may_be_lost = false;
+  bool confirmed = false; ///< The coordinator in contact wants it to go on.
+  /// The last word that has reached the coordinator; 0: none has.
+  int64_t contact_boot_ms = 0;
+};
+
+/// Owns one instance from intent to end. The diagram is in docs/protocols.md.
+struct skill_instance_state {
+  static constexpr const char* name = "skill-instance";
+
+  skill_instance_config config;
+  instance_row row;
+  bool begun = false;
+
+  /// Raised at every turn; answers and ticks of an older one are ignored.
+  uint64_t phase = 0;
+
+  /// READY=1 came before the runtime's answer.
+  bool ready = false;
+
+  /// Its deadline has passed, and the last words are being heard.
+  bool listening = false;
+
+  /// The deadline was noticed late: this process, or the whole host, was
+  /// stopped, and maybe the program, too.
+  bool was_away = false;
+
+  /// It has been given time for that since its last word.
+  bool excused = false;
+
+  /// It has ended, and only the end of its log is waited for.
+  bool concluding = false;
+
+  /// It has been ready since it was deployed, so it is started again when it
+  /// ends, and a failure is no failure of its deployment.
+  bool has_run = false;
+
+  /// When it was ready last, on this clock.
+  std::optional<alarm::time_point> ready_since;
+
+  /// What the streams of this run say; none before its skill has told of them.
+  std::optional<health_book> health;
+
+  /// Why it is to end for good; it is not started again.
+  std::optional<std::string> farewell;
+
+  /// When one that is to end, and is not safe yet, ends all the same.
+  std::optional<alarm::time_point> patience;
+
+  /// The coordinator has been out of reach, and not told yet what it wants.
+  bool out_of_contact = false;
+
+  /// When its container ends unless the node hears of its cell; 0: never.
+  int64_t fence_boot_ms = 0;
+
+  /// Of a stock ROS 2 program, which neither says that it is ready nor that it
+  /// is alive: its endpoints say both. None: it speaks for itself.
+  std::optional<watch_endpoints> endpoints;
+  std::vector<std::string> missing; ///< Of these, as they were told last.
+
+  std::optional<alarm::time_point> deadline;
+  alarm timer;
+};
+
+/// The SKILL INSTANCE. Messages: messages/inside/runtime.hpp.
+skill_instance_actor::behavior_type skill_instance(
+    skill_instance_actor::stateful_pointer<skill_instance_state> self,
+    const skill_instance_config& config);
+
+} // namespace roscell

@@ -1,0 +1,214 @@
+#include "actors/house/limits.hpp"
+#include "actors/instances/actor_skills/runtime_switch.hpp"
+#include "actors/instances/instance_environment.hpp"
+#include "actors/instances/instance_words.hpp"
+#include "actors/instances/life/skill_instance_steps.hpp"
+#include "actors/instances/ros2/ros2_program_start.hpp"
+
+#include <csignal>
+#include <utility>
+
+namespace roscell {
+
+namespace {
+
+const deployment_option* find_deployment(const skill_folder& folder,
+                                         const instance_spec& spec) {
+  for (const auto& model : folder.skill.descriptor.models)
+    if (model.name == spec.model)
+      for (const auto& option : model.deployments)
+        if (option.name == spec.deployment)
+          return &option;
+  return nullptr;
+}
+
+const skill_folder* folder_of(const skill_instance_state& st) {
+  return st.config.skills->find(st.row.spec.skill);
+}
+
+/// What is run, and how.
+struct program_plan {
+  std::vector<std::string> command;
+  std::map<std::string, std::string> environment; ///< Before the contract's.
+  int stop_signal = SIGTERM;
+};
+
+void on_built(skill_instance_pointer self, const std::string& image,
+              const program_plan& program, const deployment_option& option) {
+  auto& st = self->state;
+  const auto& spec = st.row.spec;
+  st.row.image = image;
+  if (!may_start(self))
+    return wait_for_contact(self);
+  enter(self, instance_state::starting);
+  start_container wish;
+  wish.instance = spec.instance;
+  wish.image = image;
+  wish.command = program.command;
+  wish.stop_signal = program.stop_signal;
+  wish.environment = instance_environment(spec, option, st.config.environment);
+  wish.environment.insert(program.environment.begin(),
+                          program.environment.end());
+  wish.labels = {
+      {"task", spec.task}, {"instance", spec.instance}, {"cell", spec.cell}};
+  wish.limits = spec.resources;
+  wish.gpu = spec.gpu;
+  wish.input = spec.input;
+  wish.output = spec.output;
+  wish.devices = option.devices;
+  wish.volumes = option.volumes;
+  wish.fence_boot_ms = st.fence_boot_ms = fence_of(st);
+  ask<container_started>(
+      self, st.config.runtime, limits::instance::start, wish,
+      [=](const container_started& x) { on_started(self, x.container); },
+      [=](const caf::error& error) {
+        take_down(self, instance_state::failed, sentence(error));
+      });
+}
+
+/// A stock program's own way of ending is the one that ROS 2 knows. None, with
+/// the instance concluded, when it cannot be run as this step.
+std::optional<program_plan> program_of(skill_instance_pointer self,
+                                       const skill_descriptor& descriptor) {
+  auto& st = self->state;
+  if (descriptor.ros2.empty())
+    return program_plan{descriptor.entry_point, {}};
+  auto start = ros2_start_of(descriptor.ros2.front(), st.row.spec);
+  if (const auto* why = std::get_if<failure>(&start)) {
+    conclude(self, instance_state::failed, sentence(to_error(*why)));
+    return std::nullopt;
+  }
+  auto& x = std::get<ros2_start>(start);
+  st.endpoints = x.endpoints;
+  return program_plan{std::move(x.command), std::move(x.environment), SIGINT};
+}
+
+} // namespace
+
+void build(skill_instance_pointer self) {
+  auto& st = self->state;
+  const auto* folder = folder_of(st);
+  const auto* option =
+      folder != nullptr ? find_deployment(*folder, st.row.spec) : nullptr;
+  if (option == nullptr)
+    return conclude(self, instance_state::failed,
+                    "this node does not have its skill any more");
+  const auto& descriptor = folder->skill.descriptor;
+  if (folder->in_process)
+    return on_built(self, actor_image(descriptor.operation), {}, *option);
+  const auto program = program_of(self, descriptor);
+  if (!program)
+    return;
+  if (st.config.builds_images)
+    enter(self, instance_state::building);
+  ask<image_prepared>(
+      self, st.config.runtime, limits::instance::build,
+      prepare_image{st.row.spec.instance, st.row.spec.operation,
+                    folder->path.string(), folder->skill.hash, folder->look,
+                    descriptor.entry_point, option->base_image},
+      [=, chosen = *option](const image_prepared& x) {
+        on_built(self, x.image, *program, chosen);
+      },
+      [=](const caf::error& error) {
+        self->state.row.log_tail =
+            last_bytes(log_tail_of(error), limits::instance::log_tail_bytes);
+        conclude(self, instance_state::failed, sentence(error));
+      });
+}
+
+/// The intent is on disk before anything is started: a node that is restarted
+/// must know what to look for.
+void begin_anew(skill_instance_pointer self) {
+  enter(self, instance_state::pending);
+  ask<record_stored>(
+      self, self->state.config.store, limits::instance::disk,
+      record_of(self->state.row), [=](const record_stored&) { build(self); },
+      [=](const caf::error& error) {
+        conclude(self, instance_state::failed,
+                 "it cannot be recorded: " + sentence(error));
+      });
+}
+
+namespace {
+
+/// A node that has started again looks for the same endpoints as before.
+void recall_endpoints(skill_instance_pointer self) {
+  auto& st = self->state;
+  const auto* folder = folder_of(st);
+  if (folder == nullptr || folder->skill.descriptor.ros2.empty())
+    return;
+  auto start =
+      ros2_start_of(folder->skill.descriptor.ros2.front(), st.row.spec);
+  if (const auto* x = std::get_if<ros2_start>(&start))
+    st.endpoints = x->endpoints;
+}
+
+void resume(skill_instance_pointer self, const std::string& container) {
+  auto& st = self->state;
+  ++st.phase;
+  st.row.container = container;
+  recall_endpoints(self);
+  switch (st.row.state) {
+  case instance_state::running:
+    st.ready_since = self->clock().now();
+    record_event(self, "instance_adopted");
+    report(self);
+    expect_life(self);
+    return resume_leaving(self);
+  case instance_state::stopping:
+    st.farewell = st.row.reason;
+    return take_down(self, instance_state::stopped, st.row.reason);
+  default:
+    // Its READY=1 comes again with its next sign of life.
+    st.row.state = instance_state::starting;
+    record_event(self, "instance_adopted");
+    report(self);
+    return expect_ready(self);
+  }
+}
+
+void on_found_ended(skill_instance_pointer self, const container_adopted& x) {
+  auto& st = self->state;
+  st.row.exit_code = x.exit_code;
+  if (st.row.state == instance_state::backing_off)
+    return resume_pause(self);
+  if (st.row.state == instance_state::stopping
+      || st.row.unsafe_since_unix_ms > 0)
+    st.farewell = st.row.reason;
+  if (st.row.state == instance_state::stopping)
+    conclude(self, instance_state::stopped, st.row.reason);
+  else if (st.row.state == instance_state::running && x.exit_code == 0)
+    conclude(self, instance_state::stopped, "finished");
+  else
+    conclude(self, instance_state::failed,
+             "it ended " + exit_words(x.exit_code)
+                 + " while the node was away");
+}
+
+void on_adopted(skill_instance_pointer self, const container_adopted& x) {
+  const auto& row = self->state.row;
+  const bool was_started = !x.container.empty() || !row.container.empty()
+                           || row.state >= instance_state::running;
+  if (x.running)
+    resume(self, x.container);
+  else if (was_started)
+    on_found_ended(self, x);
+  else
+    begin_anew(self);
+}
+
+} // namespace
+
+void adopt(skill_instance_pointer self) {
+  auto& st = self->state;
+  ask<container_adopted>(
+      self, st.config.runtime, limits::instance::start,
+      adopt_container{st.row.spec.instance, st.row.container},
+      [=](const container_adopted& x) { on_adopted(self, x); },
+      [=](const caf::error& error) {
+        take_down(self, instance_state::failed,
+                  "it cannot be adopted: " + sentence(error));
+      });
+}
+
+} // namespace roscell

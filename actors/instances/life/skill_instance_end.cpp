@@ -1,0 +1,170 @@
+#include "actors/house/limits.hpp"
+#include "actors/house/wall_clock.hpp"
+#include "actors/instances/instance_words.hpp"
+#include "actors/instances/life/restart_delay.hpp"
+#include "actors/instances/life/skill_instance_steps.hpp"
+
+#include <caf/send.hpp>
+
+#include <functional>
+#include <optional>
+#include <random>
+
+namespace roscell {
+
+namespace {
+
+using std::chrono::milliseconds;
+
+void finish(skill_instance_pointer self, instance_state last,
+            const std::string& reason) {
+  set_state(self, last, reason);
+  auto record = record_of(self->state.row);
+  record.may_wait = true;
+  // Before the report, after which the supervisor may remove the record.
+  // Without a sender: nobody is left to read the answer.
+  caf::anon_send(self->state.config.store, record);
+  report(self);
+  self->quit();
+}
+
+/// Different for each instance, so that those of one node, which may all have
+/// ended with their engine, do not come back at once.
+double jitter_of(const instance_row& row) {
+  std::minstd_rand random{static_cast<uint32_t>(
+      std::hash<std::string>{}(row.spec.instance) + row.restarts)};
+  return std::uniform_real_distribution<double>{0, 1}(random);
+}
+
+/// Nothing of a run that is over counts for the next one.
+void forget_run(skill_instance_state& st) {
+  st.config.adopt = false;
+  st.concluding = st.ready = false;
+  st.ready_since.reset();
+  st.endpoints.reset();
+  st.missing.clear();
+  st.fence_boot_ms = 0;
+  st.row.container.clear();
+  st.row.status.clear();
+  st.row.safe = safe_word::untold;
+  forget_health(st);
+}
+
+/// It is started again after `pause`; none: once the node is back in its cell.
+void back_off(skill_instance_pointer self, const std::string& reason,
+              std::optional<milliseconds> pause) {
+  auto& st = self->state;
+  forget_run(st);
+  st.row.next_start_unix_ms = pause ? unix_now_ms() + pause->count() : 0;
+  st.row.waits = pause ? "" : "waits for its node to be back in its cell";
+  enter(self, instance_state::backing_off, reason);
+  note(self);
+  if (pause)
+    limit(self, *pause);
+}
+
+run_end end_of(skill_instance_pointer self, instance_state last) {
+  const auto& since = self->state.ready_since;
+  run_end result;
+  result.failed = last == instance_state::failed;
+  if (since)
+    result.ran =
+        std::chrono::duration_cast<milliseconds>(self->clock().now() - *since);
+  return result;
+}
+
+void keep_run(instance_row& row, const std::string& reason,
+              const std::string& log) {
+  keep_end(row, {unix_now_ms(), row.exit_code, reason, last_lines(log)});
+}
+
+/// The log is read, so its folder may go.
+void go_on(skill_instance_pointer self, instance_state last,
+           const std::string& reason, const std::string& log) {
+  auto& st = self->state;
+  auto& row = st.row;
+  const auto& policy = row.spec.life.restart;
+  const auto end = end_of(self, last);
+  if (!st.farewell && st.has_run) {
+    row.attempts = attempts_before(policy, row, end);
+    const auto pause = restart_delay(policy, end, row.attempts, jitter_of(row));
+    if (pause || was_fenced(self)) {
+      keep_run(row, reason, log);
+      return back_off(self, reason, was_fenced(self) ? std::nullopt : pause);
+    }
+  }
+  if (end.failed)
+    row.log_tail = last_bytes(log, limits::instance::log_tail_bytes);
+  const bool gave_up = end.failed && row.attempts > 0 && !st.farewell;
+  finish(self, last,
+         gave_up ? reason + ", after " + std::to_string(row.attempts)
+                       + " new starts in a row"
+                 : reason);
+}
+
+} // namespace
+
+void conclude(skill_instance_pointer self, instance_state last,
+              const std::string& reason) {
+  auto& st = self->state;
+  ++st.phase;
+  st.deadline.reset();
+  st.patience.reset();
+  st.concluding = true;
+  st.row.unsafe_since_unix_ms = st.row.unsafe_until_unix_ms = 0;
+  st.row.waits.clear();
+  const auto always = st.row.spec.life.restart.policy == restart_when::always;
+  if (last == instance_state::stopped && (st.farewell || !always))
+    return finish(self, last, reason);
+  // That of a build is there already.
+  if (!st.row.log_tail.empty())
+    return go_on(self, last, reason, std::string{st.row.log_tail});
+  log_query query;
+  query.instance = st.row.spec.instance;
+  ask<log_excerpt>(
+      self, st.config.runtime, limits::instance::disk, query,
+      [=](const log_excerpt& log) { go_on(self, last, reason, log.text); },
+      [=](const caf::error&) { go_on(self, last, reason, ""); });
+}
+
+void resume_pause(skill_instance_pointer self) {
+  auto& st = self->state;
+  ++st.phase;
+  const auto until = st.row.next_start_unix_ms;
+  if (until == 0)
+    return wait_for_contact(self);
+  report(self);
+  limit(self, rest_of_delay(st.row.spec.life.restart, until, unix_now_ms()));
+}
+
+void wait_for_contact(skill_instance_pointer self) {
+  auto& st = self->state;
+  const auto reason = st.row.reason.empty()
+                          ? "its node has not heard of its cell"
+                          : st.row.reason;
+  back_off(self, reason, std::nullopt);
+}
+
+void start_again(skill_instance_pointer self) {
+  auto& st = self->state;
+  if (!may_start(self))
+    return wait_for_contact(self);
+  ++st.row.restarts;
+  ++st.row.attempts;
+  st.row.next_start_unix_ms = 0;
+  st.row.waits.clear();
+  st.row.exit_code = -1;
+  st.row.log_tail.clear();
+  enter(self, instance_state::pending, st.row.reason);
+  ask<container_removed>(
+      self, st.config.runtime, limits::instance::cleaning,
+      remove_container{st.row.spec.instance, {}},
+      [=](const container_removed&) { build(self); },
+      [=](const caf::error& error) {
+        conclude(self, instance_state::failed,
+                 "what its last run has left cannot be removed: "
+                     + sentence(error));
+      });
+}
+
+} // namespace roscell

@@ -1,0 +1,150 @@
+#pragma once
+
+#include "actors/house/limits.hpp"
+#include "actors/instances/life/skill_instance.hpp"
+
+#include <caf/send.hpp>
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+/// INTERNAL to the skill instance: its transitions, as docs/protocols.md draws
+/// them, and the two ways in which it begins.
+namespace roscell {
+
+using skill_instance_pointer =
+    skill_instance_actor::stateful_pointer<skill_instance_state>;
+
+/// A request whose answer is dropped once the instance has moved on.
+template <class Reply, class Handle, class Request, class F, class G>
+void ask(skill_instance_pointer self, const Handle& whom,
+         std::chrono::milliseconds limit, const Request& what, F on_reply,
+         G on_error) {
+  const auto phase = self->state.phase;
+  self->request(whom, limit, what)
+      .then(
+          [=](const Reply& x) {
+            if (self->state.phase == phase)
+              on_reply(x);
+          },
+          [=](const caf::error& x) {
+            if (self->state.phase == phase)
+              on_error(x);
+          });
+}
+
+/// An error in a sentence, with its remedy.
+std::string sentence(const caf::error& error);
+
+/// The end of a build's log, which goes along with its failure.
+std::string log_tail_of(const caf::error& error);
+
+/// Records a fact about the instance.
+void record_event(skill_instance_pointer self, const char* fact);
+
+/// Tells the supervisor how things stand.
+void report(skill_instance_pointer self);
+
+/// Enters a state. What was awaited before is dropped.
+void set_state(skill_instance_pointer self, instance_state next,
+               const std::string& reason);
+
+/// The same, and tells of it.
+void enter(skill_instance_pointer self, instance_state next,
+           const std::string& reason = {});
+
+/// Sets the deadline of the present state.
+void limit(skill_instance_pointer self, std::chrono::milliseconds span);
+
+/// What the store keeps of it.
+store_record record_of(const instance_row& row);
+
+/// Writes how things stand. A restarted node finds the program without it,
+/// only less of its story, so a failure is no reason to end the program.
+void note(skill_instance_pointer self);
+
+// -- skill_instance_end.cpp: from one run to the next, or to the end ----------
+
+/// The program has ended, or there never was one: it is started again after a
+/// pause where its policy says so, or that was the end.
+void conclude(skill_instance_pointer self, instance_state last,
+              const std::string& reason);
+
+/// Waits for the rest of a pause that an earlier run of the node has begun.
+void resume_pause(skill_instance_pointer self);
+
+/// It is not started before the node is back in its cell.
+void wait_for_contact(skill_instance_pointer self);
+
+/// The pause is over, or what was waited for has come.
+void start_again(skill_instance_pointer self);
+
+// -- skill_instance_leave.cpp: safe before it ends, gone before it is elsewhere
+
+/// Takes it down for good, once it is safe.
+void on_stop(skill_instance_pointer self, const stop_instance& wish);
+
+/// Goes on with what an earlier run of the node was asked.
+void resume_leaving(skill_instance_pointer self);
+
+/// Its skill has told whether it may be ended.
+void on_safety(skill_instance_pointer self, safe_word word);
+
+/// The patience with one that is not safe is over.
+void on_patience_over(skill_instance_pointer self);
+
+/// Whether it may be started as far as its cell is concerned: not while another
+/// node may have it.
+bool may_start(skill_instance_pointer self);
+
+/// When its container ends unless that is moved on; 0: never.
+int64_t fence_of(const skill_instance_state& st);
+
+/// Whether it was the fence that has ended it.
+bool was_fenced(skill_instance_pointer self);
+
+void on_contact(skill_instance_pointer self, const contact_proven& fact);
+void on_contact_lost(skill_instance_pointer self);
+
+// -- skill_instance_health.cpp ------------------------------------------------
+
+/// What its skill has measured of its streams. What is unhealthy is taken down,
+/// so that its policy starts it again.
+void on_streams(skill_instance_pointer self,
+                const std::vector<stream_figure>& told);
+
+/// Nothing that was said of a run that is over counts for the next one.
+void forget_health(skill_instance_state& st);
+
+// -- skill_instance_steps.cpp -------------------------------------------------
+
+/// Ends the program, then the instance, which will be `last`.
+void take_down(skill_instance_pointer self, instance_state last,
+               const std::string& reason,
+               std::chrono::milliseconds grace = limits::instance::stop_grace);
+
+/// From here on it has to say in time that it is ready; a stock ROS 2 program
+/// says so by its endpoints.
+void expect_ready(skill_instance_pointer self);
+
+/// From here on it has to give signs of life; of a stock ROS 2 program only its
+/// end, and that of its endpoints, is a sign.
+void expect_life(skill_instance_pointer self);
+
+/// The program has said that it is ready.
+void on_running(skill_instance_pointer self);
+
+/// The runtime has started the program.
+void on_started(skill_instance_pointer self, const std::string& container);
+
+/// Builds and starts; the intent is on disk.
+void build(skill_instance_pointer self);
+
+/// Records the intent, builds, starts.
+void begin_anew(skill_instance_pointer self);
+
+/// Takes over what an earlier run of this node has started, or begins anew.
+void adopt(skill_instance_pointer self);
+
+} // namespace roscell

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "actors/edge/process/notification.hpp"
+#include "messages/inside/runtime.hpp"
+
+#include <string>
+
+namespace roscell {
+
+/// What a program has said at its NOTIFY_SOCKET, as its supervisor is told.
+inline instance_notified told_words(const std::string& instance,
+                                    const notification& x, bool heard) {
+  return {instance, x.ready, x.alive, x.stopping,
+          x.status, heard,   x.safe,  x.streams};
+}
+
+} // namespace roscell

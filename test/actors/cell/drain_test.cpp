@@ -1,0 +1,114 @@
+#include "test/actors/fakes/coordinator_fakes.hpp"
+
+#include "actors/house/limits.hpp"
+
+/// Nodes that are to be empty.
+namespace roscell::test {
+
+namespace {
+
+json drain(const std::string& node) {
+  return {{"type", "node_drain"}, {"node", node}};
+}
+
+struct drained_cell : paper_cell {
+  fake_agent& left = add("left");
+  fake_agent& right = add("right");
+
+  drained_cell() {
+    base.has.cpu.used = 4;
+    right.has.cpu.used = 4;
+    for (const auto* task : {"a", "b"})
+      REQUIRE(request(echo_task(task, {echo_step("s0", 1)})).at("type")
+              == "task_accepted");
+    REQUIRE(left.running.size() == 2);
+    right.has.cpu.used = 0;
+  }
+};
+
+} // namespace
+
+TEST_CASE_METHOD(drained_cell,
+                 "A drained node is emptied and takes nothing new", "[drain]") {
+  const auto reply = request(drain("left"));
+  REQUIRE(reply.at("type") == "node_drained");
+  CHECK(reply.at("left").size() == 2);
+  time.settle();
+  CHECK(left.running.empty());
+  CHECK(right.running.size() == 2);
+  CHECK(count("node_drained") == 1);
+  CHECK(row("left").draining_since_unix_ms > 0);
+  CHECK(request(drain("left")).at("left").empty());
+  CHECK(error_of(request(echo_task("c", {echo_step("s0", 1, "left")})))
+        == "no_feasible_allocation");
+  CHECK(drains.size() == 1);
+}
+
+TEST_CASE_METHOD(drained_cell, "An undrained node takes instances again",
+                 "[drain]") {
+  request(drain("left"));
+  CHECK(request({{"type", "node_undrain"}, {"node", "left"}}).at("type")
+        == "node_undrained");
+  CHECK(drains.empty());
+  CHECK(request(echo_task("c", {echo_step("s0", 1, "left")})).at("type")
+        == "task_accepted");
+  CHECK(row("left").draining_since_unix_ms == 0);
+}
+
+TEST_CASE_METHOD(drained_cell,
+                 "What has no place stays until there is one, and it is told",
+                 "[drain]") {
+  right.has.cpu.used = 4;
+  request(drain("left"));
+  time.settle();
+  CHECK(left.running.size() == 2);
+  CHECK(count("node_drain_stuck") == 1);
+  CHECK_FALSE(request(drain("left")).value("trouble", "").empty());
+  time.advance(5min);
+  CHECK(count("node_drain_stuck") == 1);
+  right.has.cpu.used = 0;
+  time.advance(limits::retry::longest + 1s);
+  CHECK(left.running.empty());
+  CHECK(count("node_drained") == 1);
+}
+
+TEST_CASE_METHOD(drained_cell,
+                 "What a node runs that is away is not started elsewhere",
+                 "[drain]") {
+  lose(left);
+  request(drain("left"));
+  time.advance(5min);
+  CHECK(right.running.empty());
+  REQUIRE(enter(left));
+  time.advance(limits::retry::longest + 1s);
+  CHECK(left.running.empty());
+  CHECK(right.running.size() == 2);
+}
+
+TEST_CASE_METHOD(drained_cell,
+                 "A node is drained when what it waits for is safe",
+                 "[drain]") {
+  const auto instance = left.running.begin()->first;
+  left.unsafe.insert(instance);
+  request(drain("left"));
+  time.advance(60s);
+  CHECK(count("node_drained") == 0);
+  SECTION("by itself") {
+    left.become_safe(instance);
+  }
+  SECTION("by force") {
+    auto wish = drain("left");
+    wish["force"] = true;
+    request(wish);
+  }
+  time.advance(limits::retry::longest + 1s);
+  CHECK(left.running.empty());
+  CHECK(count("node_drained") == 1);
+}
+
+TEST_CASE_METHOD(drained_cell, "A node that is not there cannot be drained",
+                 "[drain]") {
+  CHECK(error_of(request(drain("nobody"))) == "unknown_node");
+}
+
+} // namespace roscell::test

@@ -1,0 +1,228 @@
+#include "test/actors/fakes/coordinator_fakes.hpp"
+
+#include "actors/house/limits.hpp"
+
+/// What becomes of steps whose node is lost.
+namespace roscell::test {
+
+namespace {
+
+json movable_step(double after_s, int cores = 1) {
+  auto result = echo_step("s0", cores);
+  result["on_node_loss"] = {{"policy", "move"}, {"after_s", after_s}};
+  return result;
+}
+
+/// A step on `left` that moves after 30 s.
+struct lossy_cell : paper_cell {
+  fake_agent& left = add("left");
+  fake_agent& right = add("right");
+
+  explicit lossy_cell(const json& step = movable_step(30)) {
+    base.has.cpu.used = 4;
+    right.has.cpu.used = 4;
+    REQUIRE(request(echo_task("a", {step})).at("type") == "task_accepted");
+    REQUIRE(left.running.size() == 1);
+    right.has.cpu.used = 0;
+  }
+
+  json row_of_a() {
+    return request({{"type", "task_query"}, {"task", "a"}})
+        .at("tasks")[0]
+        .at("instances")[0];
+  }
+
+  std::string node_of_a() {
+    return row_of_a().at("node").get<std::string>();
+  }
+
+  std::string waits() {
+    return row_of_a().value("waits", "");
+  }
+};
+
+} // namespace
+
+TEST_CASE_METHOD(lossy_cell, "A step moves once its node is lost for so long",
+                 "[lost_steps]") {
+  lose(left);
+  CHECK(waits() == "moves unless node 'left' is back within 30 s");
+  time.advance(29s);
+  CHECK(right.running.empty());
+  time.advance(2s);
+  CHECK(right.running.size() == 1);
+  CHECK(node_of_a() == "right");
+  CHECK(disk.at("a").at("nodes") == json{"right"});
+  CHECK(count("instance_out_of_reach") == 1);
+  CHECK(count("instance_moved") == 1);
+  CHECK(count("task_failed") == 0);
+}
+
+TEST_CASE_METHOD(lossy_cell, "The time counts from the node's last word",
+                 "[lost_steps]") {
+  caf::anon_send(coordinator,
+                 member_lost{left.identity.uuid, left.member, "gone", 8000});
+  time.advance(21s);
+  CHECK(right.running.empty());
+  time.advance(2s);
+  CHECK(right.running.size() == 1);
+}
+
+TEST_CASE("A step that waits stays with its node, however long",
+          "[lost_steps]") {
+  lossy_cell x{echo_step("s0", 1)};
+  x.lose(x.left);
+  CHECK(x.waits() == "waits for node 'left'");
+  x.time.advance(10min);
+  CHECK(x.right.running.empty());
+  CHECK(x.node_of_a() == "left");
+}
+
+TEST_CASE_METHOD(lossy_cell, "A node that is back in time keeps its step",
+                 "[lost_steps]") {
+  lose(left);
+  time.advance(29s);
+  const auto reply = enter(left);
+  REQUIRE(reply);
+  REQUIRE(reply->verdicts.size() == 1);
+  CHECK(reply->verdicts[0].what == verdict::keep);
+  time.advance(10min);
+  CHECK(right.running.empty());
+  CHECK(waits() == "");
+}
+
+TEST_CASE_METHOD(lossy_cell, "A node that is back too late ends its step",
+                 "[lost_steps]") {
+  lose(left);
+  time.advance(31s);
+  REQUIRE(right.running.size() == 1);
+  const auto reply = enter(left);
+  REQUIRE(reply);
+  REQUIRE(reply->verdicts.size() == 1);
+  CHECK(reply->verdicts[0].what == verdict::stop);
+}
+
+TEST_CASE_METHOD(lossy_cell, "A node that is back while its step moves ends it",
+                 "[lost_steps]") {
+  right.mood = temper::slow;
+  lose(left);
+  time.advance(31s);
+  REQUIRE(right.starting.size() == 1);
+  const auto reply = enter(left);
+  REQUIRE(reply);
+  CHECK(reply->verdicts.at(0).what == verdict::stop);
+}
+
+TEST_CASE_METHOD(lossy_cell,
+                 "A node that is back while the move is written ends its step",
+                 "[lost_steps]") {
+  slow_disk = true;
+  lose(left);
+  time.advance(31s);
+  REQUIRE_FALSE(writes.empty());
+  auto reply = time.ask<node_registered>(
+      coordinator, register_node{{left.identity,
+                                  3,
+                                  left.has,
+                                  {echo_skill()},
+                                  {left.running.begin()->second}},
+                                 left.member});
+  time.settle();
+  slow_disk = false;
+  finish_writes();
+  time.settle();
+  REQUIRE(reply->has_value());
+  REQUIRE(reply->value());
+  CHECK(reply->value()->verdicts.at(0).what == verdict::stop);
+  CHECK(right.running.size() == 1);
+}
+
+TEST_CASE("A lost step that fits nowhere waits, and says why", "[lost_steps]") {
+  lossy_cell x{movable_step(30, 2)};
+  x.right.has.cpu.used = 3;
+  x.lose(x.left);
+  x.time.advance(40s);
+  CHECK(x.waits().rfind("waits for a place: ", 0) == 0);
+  CHECK(x.count("step_stranded") == 1);
+  SECTION("it goes where there is room at last") {
+    x.right.has.cpu.used = 0;
+    x.time.advance(limits::retry::longest + 1s);
+    CHECK(x.right.running.size() == 1);
+  }
+  SECTION("its node comes back, and it goes on there") {
+    const auto reply = x.enter(x.left);
+    REQUIRE(reply);
+    CHECK(reply->verdicts.at(0).what == verdict::keep);
+    x.right.has.cpu.used = 0;
+    x.time.advance(10min);
+    CHECK(x.right.running.empty());
+  }
+}
+
+TEST_CASE_METHOD(lossy_cell, "A place that comes to nothing is tried again",
+                 "[lost_steps]") {
+  right.mood = temper::slow;
+  lose(left);
+  time.advance(31s);
+  REQUIRE(right.starting.size() == 1);
+  auto failed = right.running.begin()->second;
+  failed.state = instance_state::failed;
+  right.tell(failed);
+  right.fail_starting("no camera");
+  time.settle();
+  CHECK(count("task_failed") == 0);
+  right.mood = temper::happy;
+  time.advance(2 * limits::retry::longest);
+  CHECK(right.running.size() == 1);
+  CHECK(node_of_a() == "right");
+}
+
+TEST_CASE_METHOD(lossy_cell, "A task that is ended meanwhile moves nowhere",
+                 "[lost_steps]") {
+  lose(left);
+  request(termination("a"));
+  time.advance(10min);
+  CHECK(right.running.empty());
+}
+
+TEST_CASE_METHOD(lossy_cell, "A node that leaves in order is lost, too",
+                 "[lost_steps]") {
+  depart(left);
+  time.advance(31s);
+  CHECK(right.running.size() == 1);
+}
+
+TEST_CASE_METHOD(lossy_cell,
+                 "Another machine of that name does not run the step early",
+                 "[lost_steps]") {
+  lose(left);
+  time.advance(20s);
+  auto& twin = make_agent("left");
+  twin.identity.uuid = "uuid-of-another";
+  twin.has.cpu.used = 4;
+  const auto reply = enter(twin);
+  REQUIRE(reply);
+  CHECK(reply->verdicts.empty());
+  CHECK(twin.running.empty());
+  time.advance(11s);
+  CHECK(right.running.size() == 1);
+}
+
+TEST_CASE("A coordinator that starts again counts from its start",
+          "[lost_steps]") {
+  lossy_cell before;
+  const auto record = before.disk.at("a").get<task_record>();
+  paper_cell after{{record}};
+  auto& right = after.add("right");
+  after.base.has.cpu.used = 4;
+  // It expects the node that it had.
+  auto& left = after.make_agent("left");
+  left.running = before.left.running;
+  after.time.advance(20s);
+  CHECK(right.running.empty());
+  const auto reply = after.enter(left);
+  REQUIRE(reply);
+  CHECK(reply->verdicts.at(0).what == verdict::keep);
+}
+
+} // namespace roscell::test

@@ -1,0 +1,165 @@
+#include "actors/instances/life/skill_instance.hpp"
+#include "actors/node/event_log.hpp"
+#include "test/actors/fakes/supervision_fakes.hpp"
+
+using namespace roscell;
+using namespace roscell::test;
+using namespace std::chrono_literals;
+
+namespace {
+
+/// A skill that runs, has to have 5 Hz at its input and its output with a grace
+/// of 10 s, and tells of both every second.
+struct measured_skill : virtual_time {
+  measured_skill() {
+    context.events = roscell::spawn(system, context, event_log);
+    config.context = context;
+    config.supervisor = fake_supervisor(system, told);
+    config.runtime = fake_runtime(system, runtime);
+    config.store = fake_store(system, store);
+    config.skills = catalogue.skills;
+    auto& spec = config.row.spec;
+    spec = echo_spec(catalogue.hash, "i");
+    spec.input = {{"ros2", "/image", "sensor_msgs/msg/Image", "camera", false}};
+    spec.output = {{"ros2", "/poses", "tf2_msgs/msg/TFMessage", "", false}};
+    spec.life.restart = {};
+    spec.life.health = {{5, 0}, {5, 0}, 10};
+  }
+
+  ~measured_skill() {
+    kill(config.supervisor);
+    kill(config.runtime);
+    kill(config.store);
+    kill(context.events);
+  }
+
+  void start() {
+    instance = roscell::spawn(system, context, skill_instance, config);
+    caf::anon_send(instance, start_instance{});
+    settle();
+    ready();
+  }
+
+  void ready() {
+    notify(true, {});
+  }
+
+  /// Tells the rates of both ends, in Hz, so many times.
+  void measure(double input_hz, double output_hz, int seconds) {
+    for (int i = 0; i < seconds; ++i) {
+      advance(1s);
+      notify(false, {{"input:0", input_hz, 0.1}, {"output:0", output_hz, 0.1}});
+    }
+  }
+
+  void notify(bool is_ready, std::vector<stream_figure> streams) {
+    instance_notified words;
+    words.instance = "i";
+    words.ready = is_ready;
+    words.alive = true;
+    words.streams = std::move(streams);
+    caf::anon_send(instance, words);
+    settle();
+  }
+
+  const instance_row& row() const {
+    return told->last();
+  }
+
+  /// What was recorded of health, oldest first.
+  std::vector<std::string> facts() {
+    const auto kept = ask<kept_events>(context.events, kept_events_query{});
+    settle();
+    std::vector<std::string> result;
+    for (const auto& x : (*kept)->value().events)
+      if (x.what == "instance_starved" || x.what == "instance_unhealthy"
+          || x.what == "instance_recovered")
+        result.push_back(x.what);
+    return result;
+  }
+
+  echo_catalogue catalogue;
+  std::shared_ptr<told_changes> told = std::make_shared<told_changes>();
+  std::shared_ptr<runtime_script> runtime = std::make_shared<runtime_script>();
+  std::shared_ptr<store_script> store = std::make_shared<store_script>();
+  skill_instance_config config;
+  skill_instance_actor instance;
+};
+
+} // namespace
+
+TEST_CASE("a starved instance goes on, and says what should feed it") {
+  measured_skill s;
+  s.start();
+  s.measure(2, 0, 30);
+  CHECK(s.row().state == instance_state::running);
+  CHECK(s.row().health == instance_health::starved);
+  CHECK(s.row().health_reason
+        == "input '/image' comes at 2 Hz, at least 5 Hz are wanted; it is fed "
+           "by step 'camera'");
+  CHECK(s.runtime->stopped.empty());
+  CHECK(s.facts() == std::vector<std::string>{"instance_starved"});
+}
+
+TEST_CASE("an instance whose input comes again is good again") {
+  measured_skill s;
+  s.start();
+  s.measure(2, 0, 30);
+  s.measure(10, 10, 1);
+  CHECK(s.row().health == instance_health::good);
+  CHECK(s.row().health_reason.empty());
+  CHECK(s.facts()
+        == std::vector<std::string>{"instance_starved", "instance_recovered"});
+}
+
+TEST_CASE("an unhealthy instance is started again, and judged anew") {
+  measured_skill s;
+  s.start();
+  s.measure(10, 0, 12);
+  CHECK(s.facts() == std::vector<std::string>{"instance_unhealthy"});
+  CHECK(s.runtime->stopped.size() == 1);
+  CHECK(s.row().state == instance_state::backing_off);
+  CHECK(s.row().reason
+        == "it is unhealthy: output '/poses' goes at 0 Hz, at least 5 Hz are "
+           "wanted");
+  s.advance(2s);
+  CHECK(s.runtime->started.size() == 2);
+  s.ready();
+  CHECK(s.row().state == instance_state::running);
+  CHECK(s.row().health == instance_health::good);
+  s.measure(10, 0, 11);
+  CHECK(s.row().state == instance_state::running);
+}
+
+TEST_CASE("an instance without bounds is not judged") {
+  measured_skill s;
+  s.config.row.spec.life.health = {};
+  s.start();
+  s.measure(0, 0, 60);
+  CHECK(s.row().state == instance_state::running);
+  CHECK(s.row().health == instance_health::good);
+}
+
+TEST_CASE("one that is to end, and is waited for, is not started again for its "
+          "health") {
+  measured_skill s;
+  s.config.row.spec.life.safe_state = true;
+  s.start();
+  caf::anon_send(s.instance, stop_instance{"asked to"});
+  s.measure(10, 0, 30);
+  CHECK(s.row().state == instance_state::running);
+  CHECK(s.runtime->stopped.empty());
+}
+
+TEST_CASE("a skill's word on its safety is shown at once") {
+  measured_skill s;
+  s.start();
+  instance_notified words;
+  words.instance = "i";
+  for (const auto word : {safe_word::unsafe, safe_word::safe}) {
+    words.safe = word;
+    caf::anon_send(s.instance, words);
+    s.settle();
+    CHECK(s.row().safe == word);
+  }
+}

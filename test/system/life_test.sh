@@ -1,0 +1,189 @@
+# The life of instances and tasks: started again, ended, safe, moved from nodes
+# that are lost, drained, with real programs under real shims.
+
+. test/system/scenes/worker.sh
+
+start_pair() {
+  make_worker
+  start_node head --coordinator --cell line --interface lo --label place=head
+  server=$(discovery_of head)
+  start_node arm --interface lo --join "$server" --label place=arm
+  await_joined head arm
+}
+
+# in_state STATE [SINCE]: waits until an instance is told to be so.
+in_state() {
+  await head ".event == \"instance_changed\" and .data.state == \"$1\"
+              and .data.node != null" "${2:-0}"
+}
+
+test_what_crashes_runs_again_and_its_ends_are_told() {
+  local text instance
+  start_pair
+  work_task t '{"id": "a", "restart": {"delay_s": 0.2}, "labels": {"place": "arm"}}' \
+    | to head request > "$scratch/reply.json"
+  instance=$(jq -r '.instances[0].instance' "$scratch/reply.json")
+  order crash a
+  in_state backing_off > "$scratch/off.json"
+  expect "the reason" "$(jq -r .data.reason "$scratch/off.json")" \
+    "it ended with exit code 7"
+  expect "the task" "$(get head /v1/tasks/t | jq -r '.tasks[0].state')" degraded
+  take_back crash a
+  in_state running "$(jq .sequence "$scratch/off.json")" > /dev/null
+  expect "the task" "$(get head /v1/tasks/t | jq -r '.tasks[0].state')" running
+  expect "the instance" \
+    "$(get arm "/v1/instances/$instance" | jq -r '.instances[0].ends[0].exit_code')" 7
+  text=$(to arm instances "$instance")
+  has_line 'its last ends' <<< "$text" || fail "$text"
+  has_line 'a crashes' <<< "$text" || fail "$text"
+  text=$(to head tasks t --history)
+  has_line 'backing_off on arm' <<< "$text" || fail "$text"
+}
+
+test_an_orphan_starts_again_what_crashes_also_after_its_own_restart() {
+  local instance before
+  start_pair
+  work_task t '{"id": "a", "restart": {"delay_s": 2}, "labels": {"place": "arm"}}' \
+    | to head request > "$scratch/reply.json"
+  stop_node head KILL
+  await arm '.event == "coordinator_lost"' > /dev/null
+  order crash a
+  await arm '.event == "instance_changed" and .data.state == "backing_off"' \
+    > /dev/null
+  take_back crash a
+  stop_node arm KILL
+  start_node arm --interface lo --join "$server" --label place=arm
+  await arm '.event == "instance_changed" and .data.state == "running"' \
+    > "$scratch/running.json"
+  expect "starts" "$(wc -l < "$scratch/orders/starts")" 2
+  expect "restarts" "$(jq .data.restarts "$scratch/running.json")" 1
+}
+
+test_a_task_that_has_finished_says_so_and_how() {
+  start_pair
+  (await head '.event == "task_accepted"' > /dev/null; order done a) &
+  local orderer=$!
+  work_task t '{"id": "a"}' | to head request --wait-finished \
+    > "$scratch/reply.json" 2> "$scratch/said"
+  expect "exit code" $? 0
+  has_line "task 't' finished after" "$scratch/said" \
+    || fail "$(cat "$scratch/said")"
+  expect "the state" "$(get head /v1/tasks/t | jq -r '.tasks[0].state')" finished
+  wait $orderer
+  order crash b
+  work_task u '{"id": "b", "restart": {"policy": "never"}}' \
+    | to head request --wait-finished > "$scratch/reply.json" 2> "$scratch/said"
+  # It may end before it is ready, or after.
+  expect "exit code" "$(($? == 7 || $? == 1))" 1
+}
+
+test_a_skill_that_is_not_safe_is_waited_for_over_restarts() {
+  start_pair
+  work_task t '{"id": "a", "parameters": {"careful": true},
+                "labels": {"place": "arm"}}' \
+    | to head request > "$scratch/reply.json"
+  to head stop t > "$scratch/stopped" 2> "$scratch/said" &
+  echo $! >> "$scratch/pids"
+  local stopping=$!
+  await head '.event == "instance_awaited"' > /dev/null
+  text=$(to head tasks)
+  has_line 't/a waits to be safe' <<< "$text" || fail "$text"
+  stop_node arm KILL
+  start_node arm --interface lo --join "$server" --label place=arm
+  await arm '.event == "instance_adopted"' > /dev/null
+  [[ $(get arm /v1/node | jq -r '.instances[0].state') == running ]] \
+    || fail "it was ended"
+  order safe a
+  await arm '.event == "instance_changed" and .data.state == "stopped"' > /dev/null
+  kill $stopping 2> /dev/null
+  return 0
+}
+
+test_force_ends_what_is_not_safe() {
+  start_pair
+  work_task t '{"id": "a", "parameters": {"careful": true}}' \
+    | to head request > /dev/null
+  to head stop t --force > "$scratch/said"
+  has_line 'task t is gone' "$scratch/said" || fail "$(cat "$scratch/said")"
+}
+
+test_a_node_is_drained_and_shuts_down_empty() {
+  start_pair
+  work_task t '{"id": "a"}' '{"id": "b"}' | to head request > /dev/null
+  to head drain head --until-empty 2> "$scratch/said"
+  expect "instances left" "$(get head /v1/node \
+    | jq '[.instances[] | select(.state == "running")] | length')" 0
+  expect "on arm" "$(get arm /v1/node \
+    | jq '[.instances[] | select(.state == "running")] | length')" 2
+  to head undrain head 2> /dev/null
+  stop_node arm KILL
+  start_node arm --interface lo --join "$server" --drain-timeout 30
+  await_joined head arm "$(await head '.event == "node_lost"' | jq .sequence)"
+  stop_node arm
+  expect "on head" "$(get head /v1/node \
+    | jq '[.instances[] | select(.state == "running")] | length')" 2
+  expect "what was left" "$(ls "$scratch/arm/instances" | wc -l)" 0
+}
+
+# drop_on HOST HOOK FIELD: what comes from, or goes to, the others is lost.
+drop_on() {
+  ip netns exec "${hosts[$(($1 - 1))]}" nft -f - << RULES || skip "no nftables"
+table inet cut {
+  chain everything {
+    type filter hook $2 priority 0
+    $3 "eth0" drop
+  }
+}
+RULES
+}
+
+test_a_lost_step_has_ended_before_it_starts_elsewhere() {
+  local n ended started
+  bridge_hosts 6
+  make_site_token
+  make_worker
+  forget_safety
+  start_on 1 head --coordinator --cell line
+  server=$(discovery_of head)
+  for n in 2 3 4 5; do
+    start_on "$n" "node$n" --join "$server" --label "is$n=yes"
+    await_joined head "node$n"
+    work_task "t$n" "$(jq -nc --arg n "$n" '{id: "s\($n)",
+      labels: {"is\($n)": "yes"},
+      on_node_loss: {policy: "move", after_s: 24}}')" \
+      | to head request > /dev/null
+    watch_end "s$n"
+  done
+  # All that can take their places.
+  start_on 6 spare --join "$server" --label is2=yes --label is3=yes \
+    --label is4=yes --label is5=yes
+  await_joined head spare
+  kill -KILL "${pid[node2]}"
+  kill -STOP "${pid[node3]}"
+  drop_on 4 input iifname
+  drop_on 5 output oifname
+  await head '.event == "node_lost" and .subject == "node2"' > /dev/null
+  text=$(to head tasks t2)
+  has_line "moves unless node 'node2' is back within 24 s" <<< "$text" \
+    || fail "$text"
+  for n in 2 3 4 5; do
+    await head ".event == \"instance_moved\" and .data.task == \"t$n\"" \
+      > /dev/null
+    ended=$(cat "$scratch/end.s$n")
+    [[ -n $ended ]] || fail "s$n is not seen to end"
+    started=$(last_start "s$n")
+    echo "    s$n ended $(jq -n "$started - $ended") s before it started again"
+    expect "s$n ended first" "$(jq -n "$ended < $started")" true
+  done
+  # Those that can come back end what they have of it.
+  kill -CONT "${pid[node3]}"
+  ip netns exec "${hosts[3]}" nft delete table inet cut
+  ip netns exec "${hosts[4]}" nft delete table inet cut
+  for n in 3 4 5; do
+    await_joined head "node$n" \
+      "$(await head ".event == \"node_lost\" and .subject == \"node$n\"" \
+        | jq .sequence)"
+    expect "what node$n runs" "$(get "node$n" /v1/node \
+      | jq '[.instances[] | select(.state != "stopped")] | length')" 0
+  done
+}

@@ -1,0 +1,94 @@
+#include "tools/roscell/tasks/wait_finished.hpp"
+
+#include "messages/node.hpp"
+#include "messages/task.hpp"
+#include "tools/roscell/client/event_words.hpp"
+#include "tools/roscell/exit_code.hpp"
+#include "tools/roscell/view/format.hpp"
+#include "tools/roscell/view/terminal.hpp"
+
+#include "actors/edge/http/http_target.hpp"
+
+#include <algorithm>
+
+namespace roscell::cli {
+
+namespace {
+
+/// Follows events about a task until one of them is wanted.
+template <class Predicate>
+event await(const node_client& node, const std::string& task, uint64_t since,
+            Predicate&& is_wanted) {
+  event result;
+  follow_events(node, since, [&](const event& e) {
+    if (e.subject == task && is_wanted(e.what)) {
+      result = e;
+      return false;
+    }
+    for (const auto& line : progress_lines(e, task))
+      print_note(line);
+    return true;
+  });
+  if (result.what.empty())
+    throw command_error{exit_unreachable, "the node has ended the stream",
+                        "`roscell tasks` shows what has become of the task"};
+  return result;
+}
+
+std::string duration_text(const task_row& row) {
+  const auto span = row.ended_unix_ms - row.submitted_unix_ms;
+  return span > 0
+             ? " after " + format_number(static_cast<double>(span) / 1000, 1)
+                   + " s"
+             : "";
+}
+
+int exit_code_of(const task_row& row) {
+  const auto failed = std::find_if(
+      row.instances.begin(), row.instances.end(), [](const instance_row& x) {
+        return x.state != instance_state::stopped || x.exit_code != 0;
+      });
+  if (failed == row.instances.end())
+    return exit_done;
+  print_note("step '" + printable(failed->spec.step)
+             + "': " + printable(failed->reason));
+  return failed->exit_code > 0 ? failed->exit_code : exit_refused;
+}
+
+} // namespace
+
+uint64_t last_event_of_coordinator(const node_client& node) {
+  if (node.get("/v1/node").get<node_description>().role
+      != node_role::coordinator)
+    throw command_error{exit_usage,
+                        "only a coordinator hears when a task has ended",
+                        "ask it with --to; `roscell status` shows its address"};
+  const auto kept = kept_events_of(node);
+  return kept.empty() ? 0 : kept.back().sequence;
+}
+
+int wait_until_ended(const node_client& node, const std::string& task,
+                     uint64_t since) {
+  const auto end = await(node, task, since, [](const std::string& what) {
+    return what == "task_finished" || what == "task_failed"
+           || what == "task_terminated";
+  });
+  if (end.what == "task_terminated")
+    throw command_error{exit_refused,
+                        "task '" + printable(task) + "' was terminated", ""};
+  const auto tasks =
+      node.get("/v1/tasks/" + percent_encode(task)).get<task_description>();
+  const auto& row = tasks.tasks.at(0);
+  print_note("task '" + printable(task) + "' "
+             + (end.what == "task_finished" ? "finished" : "failed")
+             + duration_text(row));
+  return exit_code_of(row);
+}
+
+void wait_until_gone(const node_client& node, const std::string& task,
+                     uint64_t since) {
+  await(node, task, since,
+        [](const std::string& what) { return what == "task_terminated"; });
+}
+
+} // namespace roscell::cli

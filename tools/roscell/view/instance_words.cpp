@@ -1,0 +1,95 @@
+#include "tools/roscell/view/instance_words.hpp"
+
+#include "tools/roscell/view/format.hpp"
+
+#include <algorithm>
+
+namespace roscell::cli {
+
+std::string or_nothing(const table& t, const char* what,
+                       const view_style& style) {
+  return t.rows.empty() ? std::string{"no "} + what + "\n"
+                        : t.render(style.text);
+}
+
+bool is_unknown(const instance_row& row) {
+  return row.unknown_since_unix_ms != 0;
+}
+
+std::string state_text(const instance_row& row) {
+  if (is_unknown(row))
+    return "unknown";
+  return row.health == instance_health::good
+                 || row.state != instance_state::running
+             ? to_string(row.state)
+             : to_string(row.state) + ", " + to_string(row.health);
+}
+
+std::string since_text(const instance_row& row, const view_style& style) {
+  return format_since(is_unknown(row) ? row.unknown_since_unix_ms
+                                      : row.since_unix_ms,
+                      style.now_unix_ms);
+}
+
+std::string unsafe_text(const instance_row& row, int64_t now_unix_ms) {
+  auto text = "waits to be safe, "
+              + format_since(row.unsafe_since_unix_ms, now_unix_ms);
+  if (row.unsafe_until_unix_ms > 0)
+    text += "; it ends in "
+            + format_since(now_unix_ms, row.unsafe_until_unix_ms)
+            + " all the same";
+  return text;
+}
+
+std::string safety_words(const instance_row& row) {
+  if (!row.spec.life.safe_state)
+    return {};
+  switch (row.safe) {
+  case safe_word::safe:
+    return "yes";
+  case safe_word::unsafe:
+    return "no";
+  default:
+    return "no, it has said nothing yet";
+  }
+}
+
+namespace {
+
+std::string next_start_text(const instance_row& row, int64_t now_unix_ms) {
+  if (row.next_start_unix_ms == 0)
+    return row.waits;
+  return "next start in "
+         + format_since(now_unix_ms,
+                        std::max(now_unix_ms, row.next_start_unix_ms));
+}
+
+} // namespace
+
+std::string remark(const instance_row& row, int64_t now_unix_ms) {
+  if (row.unknown_since_unix_ms != 0)
+    return "its node is away; it was " + to_string(row.state)
+           + (row.waits.empty() ? "" : "; " + row.waits);
+  if (row.unsafe_since_unix_ms != 0)
+    return unsafe_text(row, now_unix_ms);
+  if (row.state == instance_state::backing_off)
+    return next_start_text(row, now_unix_ms) + "; " + row.reason;
+  if (row.health != instance_health::good)
+    return row.health_reason;
+  if (!row.reason.empty())
+    return row.reason;
+  if (!row.trouble.empty())
+    return row.trouble;
+  // The columns say it better.
+  return row.figures == instance_figures{} ? row.status : "";
+}
+
+std::string figure(double value, int decimals, const char* unit) {
+  return value < 0 ? "" : format_number(value, decimals) + unit;
+}
+
+std::string count_text(int64_t count) {
+  return count < 0 ? "" : std::to_string(count);
+}
+
+} // namespace roscell::cli

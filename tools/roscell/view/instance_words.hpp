@@ -1,0 +1,39 @@
+#pragma once
+
+#include "tools/roscell/view/table.hpp"
+#include "tools/roscell/view/views.hpp"
+
+#include <cstdint>
+#include <string>
+
+/// What several tables say of an instance, each in a cell.
+namespace roscell::cli {
+
+/// A table, or "no tasks".
+std::string or_nothing(const table& t, const char* what,
+                       const view_style& style);
+
+/// Its node is away, so nobody knows what has become of it.
+bool is_unknown(const instance_row& row);
+
+/// What a node that is away runs is not known, whatever it ran before.
+std::string state_text(const instance_row& row);
+
+/// For how long it has been so, or has not been known.
+std::string since_text(const instance_row& row, const view_style& style);
+
+/// "waits to be safe, 12 s; it ends in 48 s all the same".
+std::string unsafe_text(const instance_row& row, int64_t now_unix_ms);
+
+/// Whether its skill says that it may be ended; empty: it need not say so.
+std::string safety_words(const instance_row& row);
+
+/// What stands behind an instance's state: why it is not known at present, why
+/// it ended, for what it waits, or what it says.
+std::string remark(const instance_row& row, int64_t now_unix_ms);
+
+/// Nothing for a negative value, which is not known.
+std::string figure(double value, int decimals, const char* unit);
+std::string count_text(int64_t count);
+
+} // namespace roscell::cli
