@@ -103,6 +103,9 @@ public:
     return frozen_.count(x.index) > 0;
   }
 
+  /// Whether a cell's coordinator lives and does not hear that node.
+  bool has_lost(const std::string& cell, const std::string& node) const;
+
   /// Asks a coordinator that lives.
   template <class Reply, class Request>
   void ask(const site_party& whom, const Request& what) {

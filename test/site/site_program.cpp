@@ -46,9 +46,22 @@ void write_end(site& place, site_program& program, int exit_code) {
     place.finished.insert(program.instance);
 }
 
+/// The moment of a clock of the boot.
+time_point moment_of(int64_t boot_ms) {
+  const time_point begin{};
+  return begin + milliseconds{boot_ms - virtual_time::boot_ms_at_start};
+}
+
+/// How one has ended that nobody has stopped.
+int own_exit_code(const site_program& program) {
+  const bool fenced =
+      program.fence && (!program.ends_at || *program.fence < *program.ends_at);
+  return fenced ? killed_code : static_cast<int>(program.script.exit_code);
+}
+
 /// It has come to its end by itself.
 void finish(site& place, site_party& x, site_program& program) {
-  write_end(place, program, static_cast<int>(program.script.exit_code));
+  write_end(place, program, own_exit_code(program));
   if (x.listener)
     caf::anon_send(x.listener,
                    container_exited{program.instance, program.container,
@@ -69,10 +82,28 @@ void say_alive(site& place, site_party& x, const std::string& container) {
               [&place, &x, container] { say_alive(place, x, container); });
 }
 
+/// Its shim looks at the fence when it is due, and again if it has moved on.
+void watch_fence(site& place, site_party& x, const site_program& program) {
+  if (!program.fence)
+    return;
+  place.later(x, until(place, *program.fence),
+              [&place, &x, container = program.container] {
+                for (auto& [instance, known] : x.programs) {
+                  if (known.container != container || known.ended)
+                    continue;
+                  if (place.now() < *known.fence)
+                    watch_fence(place, x, known);
+                  else
+                    finish(place, x, known);
+                }
+              });
+}
+
 /// Lets the program do what its script says, as long as this life of the
 /// party's process lasts.
 void watch(site& place, site_party& x, const site_program& program) {
   const auto container = program.container;
+  watch_fence(place, x, program);
   if (program.ready_at)
     place.later(x, until(place, *program.ready_at),
                 [&place, &x, container] { say_alive(place, x, container); });
@@ -82,6 +113,23 @@ void watch(site& place, site_party& x, const site_program& program) {
         if (known.container == container && !known.ended)
           finish(place, x, known);
     });
+}
+
+/// What may run on a node that its cell has lost is not started elsewhere.
+void check_others(site& place, const site_party& me,
+                  const start_container& wish) {
+  const auto& cell = wish.labels.at("cell");
+  for (const auto& x : place.parties)
+    for (const auto& [instance, known] : x->programs) {
+      const bool same = known.cell == cell
+                        && known.task == wish.labels.at("task")
+                        && known.step == wish.environment.at("ROSCELL_STEP");
+      if (same && known.fence && x->index != me.index && known.runs(place.now())
+          && place.has_lost(cell, x->name))
+        place.report_violation("'" + wish.instance + "' is started on "
+                               + me.name + " while '" + instance
+                               + "' may run on " + x->name);
+    }
 }
 
 /// No instance is started twice, on two machines, or after it has finished.
@@ -102,6 +150,7 @@ void check_start(site& place, const site_party& me,
 caf::result<container_started> start(site* place, site_party* me,
                                      const start_container& wish) {
   check_start(*place, *me, wish);
+  check_others(*place, *me, wish);
   auto& program = me->programs[wish.instance];
   program = {};
   program.instance = wish.instance;
@@ -123,6 +172,8 @@ caf::result<container_started> start(site* place, site_party* me,
   }
   if (script.ends_ms >= 0)
     program.ends_at = end_counts_from + milliseconds{script.ends_ms};
+  if (wish.fence_boot_ms != 0)
+    program.fence = moment_of(wish.fence_boot_ms);
   watch(*place, *me, program);
   return container_started{program.container};
 }
@@ -211,6 +262,13 @@ caf::message_handler program_edge(caf::event_based_actor* self, site* place,
         return container_removed{};
       },
       [=](const adopt_container& x) { return adopt(place, me, x); },
+      [=](const fence_container& x) {
+        auto* program = find(*me, x.instance);
+        if (program && program->container == x.container && program->fence)
+          program->fence =
+              std::max(*program->fence, moment_of(x.fence_boot_ms));
+      },
+      [](const ask_for_safety&) {},
       [=](const log_query& x) {
         return log_excerpt{x.instance, "", 0, true};
       },
@@ -229,7 +287,7 @@ void resume_programs(site& place, site_party& x) {
     if (program.runs(place.now()))
       watch(place, x, program);
     else
-      write_end(place, program, static_cast<int>(program.script.exit_code));
+      write_end(place, program, own_exit_code(program));
   }
 }
 

@@ -45,11 +45,12 @@ struct site_program {
   program_script script;
   std::optional<time_point> ready_at; ///< When it says READY=1.
   std::optional<time_point> ends_at;  ///< By itself.
+  std::optional<time_point> fence;    ///< By its shim, unless moved on.
   bool ended = false;
   int exit_code = -1; ///< Of one that has ended.
 
   bool runs(time_point now) const {
-    return !ended && (!ends_at || now < *ends_at);
+    return !ended && (!ends_at || now < *ends_at) && (!fence || now < *fence);
   }
 };
 

@@ -153,4 +153,13 @@ wire_ptr site::connect(const site_party& from, const site_party& to) {
   return link;
 }
 
+bool site::has_lost(const std::string& cell, const std::string& node) const {
+  for (const auto& x : parties)
+    if (x->coordinator && x->cell == cell) {
+      const auto* entry = x->cell_state().registry.find_name(node);
+      return !entry || !entry->agent;
+    }
+  return false;
+}
+
 } // namespace roscell::test

@@ -66,6 +66,7 @@ void start_supervision(site& place, site_party& x) {
   config.context = x.context;
   config.node = x.name;
   config.skills = site_skills();
+  config.may_be_lost = !x.coordinates;
   config.make_runtime = [&x](const container_listener_actor& listener) {
     x.listener = listener;
     return part<runtime_actor>(x);
@@ -122,6 +123,8 @@ coordinator_setup setup_of(site_party& x) {
   setup.tasks = load<task_record>(x, "tasks");
   setup.members = load<member_record>(x, "members");
   setup.transfers = load<transfer_row>(x, "transfers");
+  setup.history = load<history_record>(x, "history");
+  setup.drains = load<drain_record>(x, "drains");
   return setup;
 }
 

@@ -37,6 +37,8 @@ json work_step(const std::string& id, const program_script& script,
     result["deployment"] = deployment;
   if (!node.empty())
     result["labels"] = {{"is", node}};
+  // What is started again is a rule of its own.
+  result["restart"] = {{"policy", "never"}};
   return result;
 }
 

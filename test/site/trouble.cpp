@@ -218,13 +218,23 @@ program_script trouble::some_script() {
   return x;
 }
 
+/// Some are started again, and some move when their node is lost.
+void trouble::add_policies(json& step) {
+  if (pick(3) == 0)
+    step["restart"] = {{"delay_s", 1}, {"max_attempts", 1 + pick(3)}};
+  if (pick(3) == 0)
+    step["on_node_loss"] = {{"policy", "move"}, {"after_s", 24 + pick(10)}};
+}
+
 json trouble::some_step(size_t number) {
   const auto size = pick(4);
-  return work_step("s" + std::to_string(number), some_script(),
-                   size == 0   ? large_deployment
-                   : size == 1 ? ""
-                               : small_deployment,
-                   pick(4) == 0 ? some_party().name : "");
+  auto result = work_step("s" + std::to_string(number), some_script(),
+                          size == 0   ? large_deployment
+                          : size == 1 ? ""
+                                      : small_deployment,
+                          pick(4) == 0 ? some_party().name : "");
+  add_policies(result);
+  return result;
 }
 
 void trouble::request_some_task(const site_party& whom) {

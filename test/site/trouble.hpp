@@ -46,6 +46,7 @@ private:
   void ask(const site_party& whom, const std::string& node);
   void operate_tasks();
   program_script some_script();
+  void add_policies(json& step);
   json some_step(size_t number);
   void request_some_task(const site_party& whom);
   void request_burst(const site_party& whom);

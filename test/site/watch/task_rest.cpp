@@ -31,7 +31,7 @@ std::string step_complaint(const site& place, const site_party& c,
                            const step_view& step) {
   const auto* node = find_party(place, step.node);
   const auto what = "'" + step.instance + "' of " + c.cell;
-  if (step.ended || is_away(*node))
+  if (step.ended || step.starts_again || is_away(*node))
     return {};
   if (!are_cell(c, *node))
     return may_have_been_taken(place, step.node)

@@ -2,6 +2,17 @@
 
 namespace roscell::test {
 
+namespace {
+
+/// Whether the node has told that it starts the instance once more.
+bool starts_again(const cell_coordinator_state& st, const deployment& x) {
+  const auto* row = st.deployments.told(x.node, x.spec.instance);
+  return row && is_live(row->state) && row->state != instance_state::running
+         && (row->restarts > 0 || row->state == instance_state::backing_off);
+}
+
+} // namespace
+
 std::vector<task_view> tasks_of(const site_party& coordinator) {
   std::vector<task_view> result;
   const auto& st = coordinator.cell_state();
@@ -9,8 +20,8 @@ std::vector<task_view> tasks_of(const site_party& coordinator) {
     task_view view{
         task, entry.ending ? task_state::terminating : entry.state, {}};
     for (const auto& x : st.deployments.of_task(task))
-      view.steps.push_back(
-          {x.spec.step, x.spec.instance, x.node, x.end.has_value()});
+      view.steps.push_back({x.spec.step, x.spec.instance, x.node,
+                            x.end.has_value(), starts_again(st, x)});
     result.push_back(std::move(view));
   }
   return result;

@@ -13,7 +13,8 @@ struct step_view {
   std::string step;
   std::string instance;
   std::string node;
-  bool ended = false; ///< The coordinator knows that it has ended.
+  bool ended = false;        ///< The coordinator knows that it has ended.
+  bool starts_again = false; ///< Its node is starting it again.
 };
 
 struct task_view {
