@@ -83,10 +83,12 @@ void say_alive(site& place, site_party& x, const std::string& container) {
 }
 
 /// Its shim looks at the fence when it is due, and again if it has moved on.
+/// The virtual clock waits whole milliseconds, so the rest of one is rounded
+/// up.
 void watch_fence(site& place, site_party& x, const site_program& program) {
   if (!program.fence)
     return;
-  place.later(x, until(place, *program.fence),
+  place.later(x, until(place, *program.fence) + milliseconds{1},
               [&place, &x, container = program.container] {
                 for (auto& [instance, known] : x.programs) {
                   if (known.container != container || known.ended)

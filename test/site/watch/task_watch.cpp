@@ -24,6 +24,16 @@ const site_task* find_task(const site& place, size_t cell,
   return nullptr;
 }
 
+/// Whether the step goes elsewhere by itself when its node is lost.
+bool moves_by_itself(const site_task* task, const std::string& step) {
+  if (!task)
+    return false;
+  for (const auto& x : task->request.at("pipeline"))
+    if (x.at("id") == step)
+      return x.contains("on_node_loss");
+  return false;
+}
+
 } // namespace
 
 void task_watch::span_book::update(const std::set<key>& present, moment now) {
@@ -159,11 +169,28 @@ void task_watch::look_at_departure(const told_at& fact) {
                                 + fact.subject + "', which is let go");
 }
 
+/// One that was lost has ended on its node, wherever that is and whatever it
+/// believes, before it runs elsewhere.
+void task_watch::look_at_loss(const std::string& old, const std::string& from) {
+  const auto* node = find_party(place_, from);
+  if (!node)
+    return;
+  const auto found = node->programs.find(old);
+  if (found != node->programs.end() && found->second.runs(place_.now()))
+    place_.report_violation("'" + old + "' runs on on " + from
+                            + ", and elsewhere too");
+}
+
 void task_watch::look_at_move(const told_at& fact) {
-  if (!is_wanted(instance_policy::reschedule, fact.party))
+  const auto old = fact.data.at("replaces").get<std::string>();
+  const auto* task = find_task(place_, fact.party, fact.data.at("task"));
+  // One that is wanted to go runs until the new one does.
+  const bool is_asked = is_wanted(instance_policy::reschedule, fact.party);
+  if (!is_asked && moves_by_itself(task, fact.data.at("step")))
+    look_at_loss(old, fact.data.at("from"));
+  else if (!is_asked)
     place_.report_violation("'" + fact.subject
                             + "' is moved, and nobody wants that");
-  const auto old = fact.data.at("replaces").get<std::string>();
   const auto end = place_.facts.begin() + static_cast<ptrdiff_t>(facts_seen_);
   const bool known = std::any_of(place_.facts.begin(), end, [&](const auto& x) {
     return x.what == "instance_changed" && x.party == fact.party
