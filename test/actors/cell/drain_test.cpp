@@ -1,4 +1,4 @@
-#include "test/actors/fakes/coordinator_fakes.hpp"
+#include "test/actors/fakes/crowded_cell.hpp"
 
 #include "actors/house/limits.hpp"
 
@@ -11,24 +11,9 @@ json drain(const std::string& node) {
   return {{"type", "node_drain"}, {"node", node}};
 }
 
-struct drained_cell : paper_cell {
-  fake_agent& left = add("left");
-  fake_agent& right = add("right");
-
-  drained_cell() {
-    base.has.cpu.used = 4;
-    right.has.cpu.used = 4;
-    for (const auto* task : {"a", "b"})
-      REQUIRE(request(echo_task(task, {echo_step("s0", 1)})).at("type")
-              == "task_accepted");
-    REQUIRE(left.running.size() == 2);
-    right.has.cpu.used = 0;
-  }
-};
-
 } // namespace
 
-TEST_CASE_METHOD(drained_cell,
+TEST_CASE_METHOD(crowded_cell,
                  "A drained node is emptied and takes nothing new", "[drain]") {
   const auto reply = request(drain("left"));
   REQUIRE(reply.at("type") == "node_drained");
@@ -44,7 +29,7 @@ TEST_CASE_METHOD(drained_cell,
   CHECK(drains.size() == 1);
 }
 
-TEST_CASE_METHOD(drained_cell, "An undrained node takes instances again",
+TEST_CASE_METHOD(crowded_cell, "An undrained node takes instances again",
                  "[drain]") {
   request(drain("left"));
   CHECK(request({{"type", "node_undrain"}, {"node", "left"}}).at("type")
@@ -55,7 +40,7 @@ TEST_CASE_METHOD(drained_cell, "An undrained node takes instances again",
   CHECK(row("left").draining_since_unix_ms == 0);
 }
 
-TEST_CASE_METHOD(drained_cell,
+TEST_CASE_METHOD(crowded_cell,
                  "What has no place stays until there is one, and it is told",
                  "[drain]") {
   right.has.cpu.used = 4;
@@ -72,7 +57,7 @@ TEST_CASE_METHOD(drained_cell,
   CHECK(count("node_drained") == 1);
 }
 
-TEST_CASE_METHOD(drained_cell,
+TEST_CASE_METHOD(crowded_cell,
                  "What a node runs that is away is not started elsewhere",
                  "[drain]") {
   lose(left);
@@ -85,7 +70,7 @@ TEST_CASE_METHOD(drained_cell,
   CHECK(right.running.size() == 2);
 }
 
-TEST_CASE_METHOD(drained_cell,
+TEST_CASE_METHOD(crowded_cell,
                  "A node is drained when what it waits for is safe",
                  "[drain]") {
   const auto instance = left.running.begin()->first;
@@ -106,7 +91,7 @@ TEST_CASE_METHOD(drained_cell,
   CHECK(count("node_drained") == 1);
 }
 
-TEST_CASE_METHOD(drained_cell, "A node that is not there cannot be drained",
+TEST_CASE_METHOD(crowded_cell, "A node that is not there cannot be drained",
                  "[drain]") {
   CHECK(error_of(request(drain("nobody"))) == "unknown_node");
 }

@@ -1,36 +1,15 @@
-#include "test/actors/fakes/coordinator_fakes.hpp"
+#include "test/actors/fakes/crowded_cell.hpp"
 
 /// What runs on a node that leaves goes on elsewhere.
 namespace roscell::test {
 
 namespace {
 
-struct moving_cell : paper_cell {
-  fake_agent& left = add("left");
-  fake_agent& right = add("right");
-
-  moving_cell() {
-    base.has.cpu.used = 4;
-    right.has.cpu.used = 4;
-    for (const auto* task : {"a", "b"})
-      REQUIRE(request(echo_task(task, {echo_step("s0", 1)})).at("type")
-              == "task_accepted");
-    REQUIRE(left.running.size() == 2);
-    right.has.cpu.used = 0;
-  }
-
+struct moving_cell : crowded_cell {
   json release() {
     return {{"type", "node_release"},
             {"node", "left"},
             {"instances", "reschedule"}};
-  }
-
-  std::string node_of(const std::string& task) {
-    return request({{"type", "task_query"}, {"task", task}})
-        .at("tasks")[0]
-        .at("instances")[0]
-        .at("node")
-        .get<std::string>();
   }
 };
 
