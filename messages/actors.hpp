@@ -269,8 +269,9 @@ using registration_client_actor = introspected_actor::extend<
 
 /// The SCHEDULER. Errors: no_feasible_allocation, conflict (a node has left in
 /// the middle of the search).
-using scheduler_actor =
-    introspected_actor::extend<caf::replies_to<allocate_task>::with<task_plan>>;
+using scheduler_actor = introspected_actor::extend<
+    caf::replies_to<allocate_task>::with<task_plan>,
+    caf::replies_to<plan_moves>::with<moves_planned>>;
 
 /// The CELL COORDINATOR: owns the cell registry and the tasks.
 using cell_coordinator_actor = introspected_actor::extend<
@@ -298,7 +299,10 @@ using cell_coordinator_actor = introspected_actor::extend<
     // Replies once the store has kept it. Errors: conflict (a member has gone
     // meanwhile), internal (the store cannot keep it).
     caf::replies_to<record_intent>::with<intent_recorded>,
-    // The same; what cannot be kept is rolled back.
+    // Replies once what stood in the task's way is gone. Errors: unknown_task
+    // (it was terminated meanwhile).
+    caf::replies_to<make_way>::with<way_made>,
+    // Replies once the store has kept it; what it cannot keep is rolled back.
     caf::replies_to<record_running>::with<task_accepted>,
     // Replies once what was started is gone.
     caf::replies_to<record_failure>::with<task_rolled_back>,
@@ -327,6 +331,8 @@ using cell_coordinator_actor = introspected_actor::extend<
     // Errors: unknown_node, internal (the store cannot keep it).
     caf::replies_to<node_drain>::with<node_drained>,
     caf::replies_to<node_undrain>::with<node_undrained>,
+    // Errors: conflict (other moves are being made).
+    caf::replies_to<cell_rebalance>::with<cell_rebalanced>,
     // Errors: unknown_task.
     caf::replies_to<transfer_query>::with<transfer_description>,
     // From a member, whose user has asked it.

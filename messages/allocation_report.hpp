@@ -171,6 +171,8 @@ struct task_plan {
   /// A strict reading of the CPU has no allocation: what other programs use
   /// was counted up to each node's floor.
   bool cpu_floor = false;
+  /// What has to go before it fits: the fewest, of these the lowest.
+  std::vector<preempted_instance> preempted;
 
   static constexpr auto fields() {
     return field_list{required("task", &task_plan::task),
@@ -182,7 +184,8 @@ struct task_plan {
                       optional("states", &task_plan::states),
                       optional("use", &task_plan::use),
                       optional("alternatives", &task_plan::alternatives),
-                      optional("cpu_floor", &task_plan::cpu_floor)};
+                      optional("cpu_floor", &task_plan::cpu_floor),
+                      optional("preempted", &task_plan::preempted)};
   }
 };
 
@@ -199,6 +202,7 @@ struct task_accepted {
   std::vector<std::string> warnings; ///< What may not be meant so.
   /// Steps that had ended and were started again by this request.
   std::vector<std::string> healed;
+  std::vector<preempted_instance> preempted; ///< What has made way for it.
 
   static constexpr auto fields() {
     return field_list{required("task", &task_accepted::task),
@@ -208,7 +212,8 @@ struct task_accepted {
                       required("instances", &task_accepted::instances),
                       optional("refused", &task_accepted::refused),
                       optional("warnings", &task_accepted::warnings),
-                      optional("healed", &task_accepted::healed)};
+                      optional("healed", &task_accepted::healed),
+                      optional("preempted", &task_accepted::preempted)};
   }
 };
 

@@ -21,6 +21,7 @@
 #include "messages/instance.hpp"
 #include "messages/node.hpp"
 #include "messages/peer.hpp"
+#include "messages/rebalance.hpp"
 #include "messages/reservation.hpp"
 #include "messages/resources.hpp"
 #include "messages/session.hpp"

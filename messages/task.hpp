@@ -50,16 +50,31 @@ struct task_step {
   }
 };
 
+/// What instances of lower priority do where a task does not fit.
+enum class preemption {
+  none, ///< They stay.
+  show, ///< They stay, and the refusal names those that would have to go.
+  yes,  ///< They make way.
+};
+
+constexpr auto enum_words(preemption) {
+  return std::array<std::string_view, 3>{"none", "show", "yes"};
+}
+
 /// Allocates and starts the steps of a pipeline. Answered by `task_accepted`
-/// once all of them run; a second one with the same body gets the same answer.
+/// once all of them run; a second one with the same steps gets the same answer.
 struct task_request {
   static constexpr const char* type = "task_request";
   std::string task;
   std::vector<task_step> pipeline;
+  preemption preempt = preemption::none;
+  bool force = false; ///< What makes way is not waited for to be safe.
 
   static constexpr auto fields() {
     return field_list{required("task", &task_request::task),
-                      required("pipeline", &task_request::pipeline)};
+                      required("pipeline", &task_request::pipeline),
+                      optional("preempt", &task_request::preempt),
+                      optional("force", &task_request::force)};
   }
 };
 
@@ -72,13 +87,16 @@ struct task_plan_query {
   std::vector<node_resources>
       with;        ///< Nodes to be thought of, with all skills.
   std::string why; ///< A step whose best alternative is asked for.
+  /// Where it does not fit, instances of lower priority are thought away.
+  bool preempt = false;
 
   static constexpr auto fields() {
     return field_list{required("task", &task_plan_query::task),
                       required("pipeline", &task_plan_query::pipeline),
                       optional("without", &task_plan_query::without),
                       optional("with", &task_plan_query::with),
-                      optional("why", &task_plan_query::why)};
+                      optional("why", &task_plan_query::why),
+                      optional("preempt", &task_plan_query::preempt)};
   }
 };
 
@@ -92,6 +110,23 @@ struct placed_instance {
     return field_list{required("step", &placed_instance::step),
                       required("instance", &placed_instance::instance),
                       required("node", &placed_instance::node)};
+  }
+};
+
+/// An instance that makes way for a task of higher priority.
+struct preempted_instance {
+  std::string instance;
+  std::string task;
+  std::string step;
+  std::string node;
+  int64_t priority = 0; ///< 0 to 9; lower than that of each step of the task.
+
+  static constexpr auto fields() {
+    return field_list{required("instance", &preempted_instance::instance),
+                      required("task", &preempted_instance::task),
+                      required("step", &preempted_instance::step),
+                      required("node", &preempted_instance::node),
+                      required("priority", &preempted_instance::priority)};
   }
 };
 

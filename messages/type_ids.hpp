@@ -41,6 +41,8 @@
   X(node_drained)                                                              \
   X(node_undrain)                                                              \
   X(node_undrained)                                                            \
+  X(cell_rebalance)                                                            \
+  X(cell_rebalanced)                                                           \
   X(node_transfer)                                                             \
   X(node_transferred)                                                          \
   X(transfer_query)                                                            \
@@ -162,6 +164,10 @@
   X(collect_resources)                                                         \
   X(cell_resources)                                                            \
   X(allocate_task)                                                             \
+  X(plan_moves)                                                                \
+  X(moves_planned)                                                             \
+  X(make_way)                                                                  \
+  X(way_made)                                                                  \
   X(record_intent)                                                             \
   X(intent_recorded)                                                           \
   X(record_running)                                                            \

@@ -11,6 +11,7 @@
 #include "actors/cell/cell_topics.hpp"
 #include "actors/cell/cell_transfers.hpp"
 #include "actors/cell/moves/lost_steps.hpp"
+#include "actors/cell/moves/rebalancing.hpp"
 #include "actors/cell/state/arrivals.hpp"
 #include "actors/cell/state/coordinator_timer.hpp"
 #include "actors/cell/state/task_story.hpp"
@@ -19,6 +20,7 @@
 #include "actors/cell/tasks/cell_tasks.hpp"
 #include "actors/cell/tasks/task_changes.hpp"
 #include "actors/cell/tasks/task_endings.hpp"
+#include "actors/cell/tasks/task_preemption.hpp"
 #include "actors/cell/tasks/task_removals.hpp"
 #include "actors/cell/tasks/task_restart.hpp"
 #include "actors/cell/tasks/task_views.hpp"
@@ -110,6 +112,7 @@ void on_tick(coordinator_pointer self, uint64_t number) {
   ask_overdue_removals(self);
   move_lost_steps(self);
   go_on_draining(self);
+  settle_due_move(self);
   balance_if_due(self);
   set_timer(self);
 }
@@ -170,6 +173,7 @@ cell_coordinator(coordinator_pointer self, const house& context,
       [self](const claim_task& x) { return claim_task_turn(self, x); },
       [self](const collect_resources&) { return answer_resources(self); },
       [self](const record_intent& x) { return hold_placement(self, x); },
+      [self](const make_way& x) { return clear_way(self, x); },
       [self](const record_running& x) { return accept_task(self, x); },
       [self](const record_failure& x) { return undo_deployment(self, x); },
       [self](const task_termination& x) { return terminate_task(self, x); },
@@ -191,6 +195,7 @@ cell_coordinator(coordinator_pointer self, const house& context,
       [self](const node_release& x) { return release_node(self, x); },
       [self](const node_drain& x) { return drain_node(self, x); },
       [self](const node_undrain& x) { return undrain_node(self, x); },
+      [self](const cell_rebalance& x) { return rebalance_cell(self, x); },
       [self](const transfer_query& x) { return describe_transfers(self, x); },
       [self](const route_request& x) { return answer_member(self, x); },
       [self](const serve_members& x) { self->state.router = x.router; },

@@ -422,6 +422,12 @@ constexpr seconds search{60};
 /// What the search itself may take, for a live cell and for a plan on paper.
 constexpr milliseconds allocation_budget{200};
 constexpr milliseconds offline_allocation_budget{20'000};
+/// What a search for better places of running steps may take.
+constexpr milliseconds move_budget{2'000};
+/// How long a moved instance is to be healthy before the next one is moved.
+constexpr seconds healthy_for{10};
+/// For instances of lower priority to be safe and gone.
+constexpr minutes eviction{10};
 /// For one node to keep room, and how long it keeps it at most.
 constexpr seconds reservation{10};
 constexpr minutes longest_reservation{1};
@@ -479,6 +485,7 @@ constexpr size_t terminated = 100;
 constexpr size_t overdue_removals = 1000;
 
 static_assert(allocation_budget < search && offline_allocation_budget < search);
+static_assert(2 * move_budget < search);
 static_assert(local::part < reservation);
 static_assert(reservation < longest_reservation);
 static_assert(store::write < local::answer && local::answer < deployment);
@@ -535,7 +542,7 @@ constexpr milliseconds forwarded = handler + seconds{15};
 constexpr milliseconds member_request = forwarded + seconds{15};
 
 static_assert(task::deployment_answer < handler && handler < router);
-static_assert(task::restart < handler);
+static_assert(task::restart < handler && task::eviction < handler);
 static_assert(local::answer < forwarded_query && handler < forwarded);
 static_assert(member_request < router);
 static_assert(handler < task::claim);

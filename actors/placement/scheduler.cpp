@@ -29,6 +29,13 @@ caf::result<task_plan> hand_on(scheduler_self self,
   return self->delegate(searcher_for(self, asked.trial), asked);
 }
 
+/// A plan of moves holds nothing, as a plan query.
+caf::result<moves_planned> hand_on(scheduler_self self,
+                                   const plan_moves& asked) {
+  ++self->state.trials;
+  return self->delegate(searcher_for(self, true), asked);
+}
+
 void on_searcher_down(scheduler_self self, const caf::down_msg& down) {
   auto& st = self->state;
   for (auto* x : {&st.live, &st.trial})
@@ -49,6 +56,7 @@ scheduler_actor::behavior_type scheduler(scheduler_self self,
                          {"trials", self->state.trials}});
       },
       [self](const allocate_task& asked) { return hand_on(self, asked); },
+      [self](const plan_moves& asked) { return hand_on(self, asked); },
   };
 }
 

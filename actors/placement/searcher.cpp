@@ -1,7 +1,8 @@
 #include "actors/placement/searcher.hpp"
 
 #include "actors/house/limits.hpp"
-#include "actors/placement/task_allocation.hpp"
+#include "actors/placement/questions/move_planning.hpp"
+#include "actors/placement/questions/task_allocation.hpp"
 #include "messages/failure.hpp"
 
 #include <set>
@@ -36,6 +37,15 @@ caf::result<task_plan> search(searcher_self self, const allocate_task& asked) {
   return std::get<task_plan>(std::move(outcome));
 }
 
+caf::result<moves_planned> search_moves(searcher_self self,
+                                        const plan_moves& asked) {
+  auto outcome = plan_better_moves(asked);
+  if (auto* problem = std::get_if<failure>(&outcome))
+    return to_error(*problem);
+  ++self->state.move_plans;
+  return std::get<moves_planned>(std::move(outcome));
+}
+
 } // namespace
 
 scheduler_actor::behavior_type searcher(searcher_self self,
@@ -48,10 +58,12 @@ scheduler_actor::behavior_type searcher(searcher_self self,
   return {
       [self](const state_query&) {
         return state_of({{"plans", self->state.plans},
+                         {"move_plans", self->state.move_plans},
                          {"refusals", self->state.refusals},
                          {"interrupted", self->state.interrupted}});
       },
       [self](const allocate_task& asked) { return search(self, asked); },
+      [self](const plan_moves& asked) { return search_moves(self, asked); },
   };
 }
 

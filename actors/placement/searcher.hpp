@@ -15,6 +15,7 @@ struct searcher_state {
 
   std::shared_ptr<search_guard> guard;
   uint64_t plans = 0;
+  uint64_t move_plans = 0;
   uint64_t refusals = 0;
   uint64_t interrupted = 0; ///< Searches whose nodes did not stay.
 };

@@ -4,6 +4,7 @@
 #include "messages/allocation_report.hpp"
 #include "messages/cell.hpp"
 #include "messages/formation.hpp"
+#include "messages/rebalance.hpp"
 #include "messages/task.hpp"
 #include "messages/topic.hpp"
 
@@ -20,9 +21,10 @@ constexpr std::array<std::string_view, 6> queries{
     task_history_query::type, transfer_query::type,  topic_query::type};
 
 /// What it has to do something for.
-constexpr std::array<std::string_view, 6> commands{
-    task_request::type, task_plan_query::type, task_termination::type,
-    task_restart::type, node_drain::type,      node_undrain::type};
+constexpr std::array<std::string_view, 7> commands{
+    task_request::type,  task_plan_query::type, task_termination::type,
+    task_restart::type,  node_drain::type,      node_undrain::type,
+    cell_rebalance::type};
 
 template <class Names>
 bool holds(const Names& names, const std::string& type) {

@@ -3,6 +3,7 @@
 #include "messages/formation.hpp"
 #include "messages/inside/membership.hpp"
 #include "messages/peer.hpp"
+#include "messages/rebalance.hpp"
 #include "messages/topic.hpp"
 
 namespace roscell {
@@ -25,6 +26,9 @@ ROSCELL_CODEC(node_drain)
 ROSCELL_CODEC(node_drained)
 ROSCELL_CODEC(node_undrain)
 ROSCELL_CODEC(node_undrained)
+ROSCELL_CODEC(cell_rebalance)
+ROSCELL_CODEC(rebalance_move)
+ROSCELL_CODEC(cell_rebalanced)
 ROSCELL_CODEC(node_release)
 ROSCELL_CODEC(node_released)
 ROSCELL_CODEC(node_transfer)

@@ -6,6 +6,7 @@
 #include "messages/inside/agent.hpp"
 #include "messages/inside/link.hpp"
 #include "messages/inside/membership.hpp"
+#include "messages/rebalance.hpp"
 #include "messages/reservation.hpp"
 
 #include <caf/actor.hpp>
@@ -127,6 +128,19 @@ struct deployed_end {
   }
 };
 
+/// An instance that may have to make way, and the room that it holds.
+struct evictable_instance {
+  preempted_instance who;
+  resource_request resources;
+  int gpu = -1; ///< Negative: none.
+
+  static constexpr auto fields() {
+    return field_list{required("who", &evictable_instance::who),
+                      required("resources", &evictable_instance::resources),
+                      nullable("gpu", &evictable_instance::gpu)};
+  }
+};
+
 /// All that a placement starts from.
 struct cell_resources {
   std::string cell;
@@ -136,6 +150,7 @@ struct cell_resources {
   std::vector<deployed_end> written;    ///< What steps in the cell write.
   /// Topics that anybody in the cell writes, ROSCell's own instances too.
   std::vector<io_endpoint> topics;
+  std::vector<evictable_instance> evictable; ///< What runs, of any priority.
 
   static constexpr auto fields() {
     return field_list{required("cell", &cell_resources::cell),
@@ -143,7 +158,8 @@ struct cell_resources {
                       required("nodes", &cell_resources::nodes),
                       required("agents", &cell_resources::agents),
                       required("written", &cell_resources::written),
-                      required("topics", &cell_resources::topics)};
+                      required("topics", &cell_resources::topics),
+                      required("evictable", &cell_resources::evictable)};
   }
 };
 
@@ -186,6 +202,8 @@ struct allocate_task {
   std::vector<excluded_candidate> excluded;
   std::string why;    ///< A step whose best alternative is asked for.
   bool trial = false; ///< Nothing will come of it but the plan.
+  /// What of lower priority may be thought away where the steps do not fit.
+  std::vector<evictable_instance> evictable;
 
   static constexpr auto fields() {
     return field_list{required("task", &allocate_task::task),
@@ -193,7 +211,81 @@ struct allocate_task {
                       required("nodes", &allocate_task::nodes),
                       required("excluded", &allocate_task::excluded),
                       required("why", &allocate_task::why),
-                      required("trial", &allocate_task::trial)};
+                      required("trial", &allocate_task::trial),
+                      required("evictable", &allocate_task::evictable)};
+  }
+};
+
+/// A step that runs, and where.
+struct running_step {
+  std::string instance;
+  std::string task;
+  resolved_step step;
+  std::string node;
+  std::string deployment;
+  int gpu = -1; ///< Negative: none.
+  resource_request resources;
+
+  static constexpr auto fields() {
+    return field_list{required("instance", &running_step::instance),
+                      required("task", &running_step::task),
+                      required("step", &running_step::step),
+                      required("node", &running_step::node),
+                      required("deployment", &running_step::deployment),
+                      nullable("gpu", &running_step::gpu),
+                      required("resources", &running_step::resources)};
+  }
+};
+
+/// What the SCHEDULER is asked about what runs already.
+struct plan_moves {
+  std::vector<running_step> steps;
+  std::vector<node_resources> nodes; ///< The steps' room is in use there.
+  double min_gain = 0;
+  int64_t most_moves = 0;
+
+  static constexpr auto fields() {
+    return field_list{required("steps", &plan_moves::steps),
+                      required("nodes", &plan_moves::nodes),
+                      required("min_gain", &plan_moves::min_gain),
+                      required("most_moves", &plan_moves::most_moves)};
+  }
+};
+
+/// Moves that each make the score of all steps better, in their order.
+struct moves_planned {
+  double before = 0;
+  double after = 0;
+  double lower_bound = 0;
+  bool optimal = false;
+  std::vector<rebalance_move> moves;
+
+  static constexpr auto fields() {
+    return field_list{required("before", &moves_planned::before),
+                      required("after", &moves_planned::after),
+                      required("lower_bound", &moves_planned::lower_bound),
+                      required("optimal", &moves_planned::optimal),
+                      required("moves", &moves_planned::moves)};
+  }
+};
+
+/// Has instances of other tasks go, for whose room a task is held already.
+struct make_way {
+  std::string task;
+  std::vector<preempted_instance> preempted;
+  bool force = false; ///< Nothing is waited for to be safe.
+
+  static constexpr auto fields() {
+    return field_list{required("task", &make_way::task),
+                      required("preempted", &make_way::preempted),
+                      required("force", &make_way::force)};
+  }
+};
+
+/// Reply to `make_way`: they are gone.
+struct way_made {
+  static constexpr auto fields() {
+    return field_list{};
   }
 };
 

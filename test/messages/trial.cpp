@@ -4,6 +4,7 @@
 #include "messages/allocation_report.hpp"
 #include "messages/cell.hpp"
 #include "messages/event.hpp"
+#include "messages/rebalance.hpp"
 #include "messages/reservation.hpp"
 #include "messages/session.hpp"
 #include "messages/topic.hpp"
@@ -81,9 +82,10 @@ std::vector<trial> message_trials() {
                instance_reservation, instances_reserved>(result);
   try_messages<cell_formation, cell_formed, node_release, node_released,
                node_drain, node_drained, node_undrain, node_undrained,
-               node_transfer, node_transferred, transfer_query,
-               transfer_description, registration_query, registration_challenge,
-               registration_switch, switch_accepted>(result);
+               cell_rebalance, cell_rebalanced, node_transfer, node_transferred,
+               transfer_query, transfer_description, registration_query,
+               registration_challenge, registration_switch, switch_accepted>(
+      result);
   try_messages<cell_standing, cell_changed, place_request, place_granted,
                place_reservation, place_reserved, member_surrender,
                members_surrendered>(result);
@@ -123,6 +125,8 @@ std::vector<trial> part_trials() {
       try_part<refused_skill>("refused_skill"),
       try_part<task_step>("task_step"),
       try_part<placed_instance>("placed_instance"),
+      try_part<preempted_instance>("preempted_instance"),
+      try_part<rebalance_move>("rebalance_move"),
       try_part<task_row>("task_row"),
       try_part<allocation_score>("allocation_score"),
       try_part<resource_fractions>("resource_fractions"),

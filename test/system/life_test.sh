@@ -187,3 +187,68 @@ test_a_lost_step_has_ended_before_it_starts_elsewhere() {
       | jq '[.instances[] | select(.state != "stopped")] | length')" 0
   done
 }
+
+# make_heavy: the program takes so many MiB of memory by its description.
+make_heavy() {
+  local text
+  text=$(jq ".models[0].deployments[0].resources.memory_mib = $1" \
+    "$skills/work/skill.json")
+  echo "$text" > "$skills/work/skill.json"
+}
+
+test_what_runs_makes_way_for_a_task_of_higher_priority() {
+  local text
+  make_worker
+  make_heavy 600
+  start_node head --coordinator --cell line --interface lo \
+    --capacity memory_mib=100
+  server=$(discovery_of head)
+  start_node arm --interface lo --join "$server" --capacity memory_mib=1000
+  await_joined head arm
+  work_task low '{"id": "a", "priority": 2}' > "$scratch/low.json"
+  work_task high '{"id": "b", "priority": 8}' > "$scratch/high.json"
+  to head run "$scratch/low.json" > /dev/null
+  watch_end a
+  to head run "$scratch/high.json" --preempt > /dev/null 2> "$scratch/said"
+  expect "exit code" $? 1
+  has_line "'low/a' on 'arm' (priority 2)" "$scratch/said" \
+    || fail "$(cat "$scratch/said")"
+  expect "the task" "$(get head /v1/tasks/low | jq -r '.tasks[0].state')" running
+  to head run "$scratch/high.json" --preempt --yes > "$scratch/said" 2>&1 \
+    || fail "$(cat "$scratch/said")"
+  has_line 'made way: low/a on arm' "$scratch/said" || fail "$(cat "$scratch/said")"
+  expect "it ended first" \
+    "$(jq -n "$(cat "$scratch/end.a") < $(last_start b)")" true
+  text=$(to head tasks low)
+  has_line "it makes way for task 'high'" <<< "$text" || fail "$text"
+  to head stop high > /dev/null
+  to head run "$scratch/low.json" > "$scratch/said" || fail "$(cat "$scratch/said")"
+  has_line 'started again: a' "$scratch/said" || fail "$(cat "$scratch/said")"
+}
+
+test_a_cell_is_brought_nearer_to_its_optimum() {
+  local task
+  make_worker
+  forget_safety
+  make_heavy 300
+  start_node head --coordinator --cell line --interface lo \
+    --capacity memory_mib=100
+  server=$(discovery_of head)
+  start_node arm --interface lo --join "$server" --capacity memory_mib=1000
+  await_joined head arm
+  for task in t u; do
+    work_task $task '{"id": "a"}' | to head request > /dev/null
+  done
+  start_node hand --interface lo --join "$server" --capacity memory_mib=1000
+  await_joined head hand
+  to head rebalance --dry-run > "$scratch/said" || fail "$(cat "$scratch/said")"
+  has_line 'no placement is better' "$scratch/said" || fail "$(cat "$scratch/said")"
+  expect "moves" "$(to head rebalance --dry-run -o json | jq '.moves | length')" 1
+  expect "on hand" "$(get hand /v1/node | jq '.instances | length')" 0
+  to head rebalance > "$scratch/said" 2>&1 || fail "$(cat "$scratch/said")"
+  has_line 'all moves are made' "$scratch/said" || fail "$(cat "$scratch/said")"
+  expect "on hand" "$(get hand /v1/node \
+    | jq '[.instances[] | select(.state == "running")] | length')" 1
+  to head rebalance --dry-run > "$scratch/said"
+  has_line 'no move is worth it' "$scratch/said" || fail "$(cat "$scratch/said")"
+}

@@ -87,7 +87,7 @@ TEST_CASE("completion offers every command", "[tools]") {
   CHECK(
       offered("roscell ''")
       == "node run stop restart check new request plan form transfer release "
-         "drain undrain "
+         "drain undrain rebalance "
          "status cells nodes tasks instances topics skills transfers describe "
          "graph env echo hz bw events logs completion help version --version "
          "--help\n");

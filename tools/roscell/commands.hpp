@@ -20,6 +20,7 @@ void add_plan_command(CLI::App& app, action& chosen);
 /// form, transfer, release.
 void add_form_commands(CLI::App& app, action& chosen);
 void add_drain_commands(CLI::App& app, action& chosen);
+void add_rebalance_command(CLI::App& app, action& chosen);
 
 /// status, cells, nodes, transfers, tasks, instances, topics, skills.
 void add_show_commands(CLI::App& app, action& chosen);

@@ -67,7 +67,7 @@ void place_anew(coordinator_pointer self, const std::vector<lost_step>& steps) {
         return fail_move(self, move,
                          {error_code::internal, "the task has no request"});
       if (auto why = add_moved_step(self, *move, *request,
-                                    *st.deployments.find(x.instance), false))
+                                    *st.deployments.find(x.instance), ""))
         return fail_move(self, move, *why);
     }
     place_move(self, move);

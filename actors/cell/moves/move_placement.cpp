@@ -32,14 +32,37 @@ void keep_together(const task_move& move, std::vector<resolved_step>& steps) {
     by_task[move.steps[i].task].push_back(i);
   uint64_t groups = 0;
   for (const auto& [task, members] : by_task) {
-    std::vector<written_step> written;
+    std::vector<resolved_step> of_task;
     for (const auto i : members)
-      written.push_back(as_written(move.steps[i].step.step));
-    const auto together = find_wiring(task, written, {}).together;
-    for (size_t k = 0; k < members.size(); ++k)
-      steps[members[k]].together = together[k] == 0 ? 0 : groups + together[k];
+      of_task.push_back(move.steps[i].step);
+    bind_together(task, of_task);
+    for (size_t k = 0; k < members.size(); ++k) {
+      const auto number = of_task[k].together;
+      steps[members[k]].together = number == 0 ? 0 : groups + number;
+    }
     groups += members.size();
   }
+}
+
+/// The step of an instance as it is written, with the ends that it has.
+std::optional<task_step> step_of(const task_request& request,
+                                 const deployment& old) {
+  const auto found =
+      std::find_if(request.pipeline.begin(), request.pipeline.end(),
+                   [&](const auto& x) { return x.id == old.spec.step; });
+  if (found == request.pipeline.end())
+    return std::nullopt;
+  auto result = *found;
+  // Short forms stay what they were read as.
+  result.input = old.spec.input;
+  result.output = old.spec.output;
+  return result;
+}
+
+std::variant<std::vector<resolved_step>, failure>
+resolve(const cell_coordinator_state& st, const task_step& step) {
+  return resolve_steps({step},
+                       {st.registry.skills(""), st.registry.refused_skills()});
 }
 
 /// What has been terminated or has ended meanwhile needs no place any more.
@@ -160,19 +183,12 @@ std::optional<task_request> request_of(const task_entry& entry) {
 
 std::optional<failure> add_moved_step(coordinator_pointer self, task_move& move,
                                       const task_request& request,
-                                      const deployment& old, bool stays) {
-  const auto& st = self->state;
-  const auto step =
-      std::find_if(request.pipeline.begin(), request.pipeline.end(),
-                   [&](const auto& x) { return x.id == old.spec.step; });
-  if (step == request.pipeline.end())
+                                      const deployment& old,
+                                      const std::string& only_on) {
+  const auto written = step_of(request, old);
+  if (!written)
     return std::nullopt;
-  auto written = *step;
-  // Short forms stay what they were read as.
-  written.input = old.spec.input;
-  written.output = old.spec.output;
-  auto resolved = resolve_steps(
-      {written}, {st.registry.skills(""), st.registry.refused_skills()});
+  auto resolved = resolve(self->state, *written);
   if (auto* why = std::get_if<failure>(&resolved))
     return *why;
   moved_step moved;
@@ -180,11 +196,32 @@ std::optional<failure> add_moved_step(coordinator_pointer self, task_move& move,
   moved.from = old.node;
   moved.change.old_instance = old.spec.instance;
   moved.step = std::move(std::get<0>(resolved).front());
-  if (stays)
+  if (!only_on.empty())
     for (auto& build : moved.step.builds)
-      build.nodes = only(build.nodes, old.node);
+      build.nodes = only(build.nodes, only_on);
   move.steps.push_back(std::move(moved));
   return std::nullopt;
+}
+
+std::optional<resolved_step> resolve_anew(const cell_coordinator_state& st,
+                                          const task_request& request,
+                                          const deployment& old) {
+  const auto written = step_of(request, old);
+  if (!written)
+    return std::nullopt;
+  auto resolved = resolve(st, *written);
+  if (auto* steps = std::get_if<std::vector<resolved_step>>(&resolved))
+    return std::move(steps->front());
+  return std::nullopt;
+}
+
+void bind_together(const std::string& task, std::vector<resolved_step>& steps) {
+  std::vector<written_step> written;
+  for (const auto& x : steps)
+    written.push_back(as_written(x.step));
+  const auto together = find_wiring(task, written, {}).together;
+  for (size_t i = 0; i < steps.size(); ++i)
+    steps[i].together = together[i];
 }
 
 void place_move(coordinator_pointer self, const move_ptr& move) {

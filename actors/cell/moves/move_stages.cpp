@@ -204,8 +204,9 @@ void deploy_steps(coordinator_pointer self, const move_ptr& move) {
       continue;
     }
     self->state.deployments.ignore_end(x.change.old_instance);
-    remove_instance(self, {x.from, x.task, x.change.old_instance},
-                    [self, move, x] { deploy_after_end(self, move, x); });
+    remove_instance(
+        self, {x.from, x.task, x.change.old_instance},
+        [self, move, x] { deploy_after_end(self, move, x); }, move->force);
   }
 }
 

@@ -36,6 +36,7 @@ struct task_move {
   uint64_t turn = 0;
   std::vector<std::string> tasks;
   bool ends_first = false; ///< The old ones end before the new ones start.
+  bool force = false;      ///< Nothing is waited for to be safe.
   std::vector<moved_step> steps;
   size_t open = 0;
   std::optional<failure> problem; ///< The first.
@@ -62,10 +63,21 @@ void end_part(coordinator_pointer self, const move_ptr& move, move_stage next,
               move_stage otherwise);
 
 /// Adds a step of a task that is to take the place of an instance, resolved
-/// anew, with the ends that it has. With `stays` it is placed on the same node.
+/// anew, with the ends that it has. It is placed on the node of that name, or
+/// anywhere if that is empty.
 std::optional<failure> add_moved_step(coordinator_pointer self, task_move& move,
                                       const task_request& request,
-                                      const deployment& old, bool stays);
+                                      const deployment& old,
+                                      const std::string& only_on);
+
+/// The step of an instance, with the builds that can do it now; none if there
+/// are none.
+std::optional<resolved_step> resolve_anew(const cell_coordinator_state& st,
+                                          const task_request& request,
+                                          const deployment& old);
+
+/// Steps of one task that share files get the same number.
+void bind_together(const std::string& task, std::vector<resolved_step>& steps);
 
 /// Finds places for the steps and has the members keep room; then the stages
 /// below. Ends the turn.

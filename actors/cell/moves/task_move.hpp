@@ -17,4 +17,10 @@ void move_tasks(coordinator_pointer self, const std::string& node,
                 const std::vector<std::string>& tasks,
                 const std::function<void(const failure*)>& done);
 
+/// Moves one instance to that node, in the same way. With `force` nothing is
+/// waited for to be safe.
+void move_instance(coordinator_pointer self, const std::string& instance,
+                   const std::string& to, bool force,
+                   const std::function<void(const failure*)>& done);
+
 } // namespace roscell

@@ -10,6 +10,7 @@
 #include "actors/cell/books/place_book.hpp"
 #include "actors/cell/books/task_book.hpp"
 #include "actors/cell/books/transfer_book.hpp"
+#include "actors/cell/moves/rebalance_book.hpp"
 #include "actors/cell/tasks/task_desk.hpp"
 #include "actors/edge/dds/ros_graph.hpp"
 #include "actors/house/alarm.hpp"
@@ -57,7 +58,7 @@ struct coordinator_setup {
   scheduler_actor scheduler; ///< Places what leaves with a node.
   int64_t server_id = 0;     ///< Of the discovery server.
   int64_t ros_domain_id = 0; ///< Of the cell's skills.
-  bool rebalance = true;     ///< Cells are evened out.
+  bool rebalance = true;     ///< Cells are evened out in size.
   /// What the cell's discovery server knows of ROS 2 topics. May be null in
   /// tests.
   std::shared_ptr<ros_graph> graph;
@@ -78,6 +79,7 @@ struct cell_coordinator_state {
   history_book history;
   loss_book losses;
   drain_book drains;
+  rebalance_book rebalance;
 
   peer_book peers;
   free_node_book free_nodes;

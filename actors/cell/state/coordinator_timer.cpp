@@ -18,7 +18,8 @@ void set_timer(coordinator_pointer self) {
       std::min({st.registry.next_overdue(), st.transfers.next_deadline(),
                 st.places.next_deadline(), next_peer, next_proof(st),
                 next_change_retry(st.desk), st.desk.removals.next_due(),
-                st.losses.next_due(), st.drains.next_due(), balance});
+                st.losses.next_due(), st.drains.next_due(),
+                st.rebalance.next_due(), balance});
   if (when != time_point::max())
     st.timer.set(self, when);
 }

@@ -1,6 +1,7 @@
 #include "actors/cell/tasks/cell_instances.hpp"
 
 #include "actors/cell/moves/lost_steps.hpp"
+#include "actors/cell/moves/rebalancing.hpp"
 #include "actors/cell/state/task_story.hpp"
 #include "actors/cell/tasks/task_endings.hpp"
 #include "actors/cell/tasks/task_removals.hpp"
@@ -175,6 +176,7 @@ void on_instance_changed(coordinator_pointer self,
   else
     st.deployments.forget_told(*node, id);
   tell_change(self, x, *node);
+  watch_moved(self, x);
   if (!is_live(x.state))
     on_instance_gone(self, *node, id);
   if (const auto* placed = st.deployments.find(id, *node))

@@ -2,6 +2,7 @@
 
 #include "actors/cell/cell_drains.hpp"
 #include "actors/cell/cell_topics.hpp"
+#include "actors/cell/tasks/task_preemption.hpp"
 #include "actors/house/limits.hpp"
 #include "actors/placement/reservation.hpp"
 
@@ -41,6 +42,7 @@ void complete_tally(coordinator_pointer self, resource_tally& tally) {
   result.cell = st.setup.cell;
   result.skills = {st.registry.skills(""), st.registry.refused_skills()};
   result.written = written_in(st);
+  result.evictable = evictable_in(st);
   if (st.setup.graph)
     result.topics = written_topics(*st.setup.graph);
   for (auto& [name, node] : tally.nodes) {

@@ -5,6 +5,7 @@
 #include "actors/cell/tasks/cell_resources.hpp"
 #include "actors/cell/tasks/task_changes.hpp"
 #include "actors/cell/tasks/task_endings.hpp"
+#include "actors/cell/tasks/task_preemption.hpp"
 #include "actors/cell/tasks/task_restart.hpp"
 #include "actors/cell/tasks/task_turns.hpp"
 #include "actors/house/limits.hpp"
@@ -166,6 +167,7 @@ void on_accepted(coordinator_pointer self, const std::string& task,
   record_ends(self, task);
   settle_ended(self, task);
   settle_awaited_deployments(self);
+  restore_preempted(self, task);
 }
 
 } // namespace

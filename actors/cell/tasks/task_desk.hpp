@@ -81,6 +81,8 @@ struct task_desk {
   std::map<std::string, task_waiters> waiters; ///< By task.
   std::map<std::string, change_line> lines;    ///< The same.
   removal_book removals;
+  /// What has made way, by the task that it has made way for.
+  std::map<std::string, std::vector<preempted_instance>> preempted;
   std::vector<awaited_safety> unsafe;
   std::vector<awaited_deployments> deployments_awaited;
 };

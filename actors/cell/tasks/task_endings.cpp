@@ -3,6 +3,7 @@
 #include "actors/cell/state/coordinator_store.hpp"
 #include "actors/cell/state/task_story.hpp"
 #include "actors/cell/tasks/task_changes.hpp"
+#include "actors/cell/tasks/task_preemption.hpp"
 #include "actors/cell/tasks/task_removals.hpp"
 #include "actors/cell/tasks/task_turns.hpp"
 #include "actors/house/limits.hpp"
@@ -43,6 +44,7 @@ task_waiters take_waiters(coordinator_pointer self, const std::string& task) {
   auto result = std::move(waiters[task]);
   waiters.erase(task);
   settle_awaited_deployments(self);
+  restore_preempted(self, task);
   return result;
 }
 

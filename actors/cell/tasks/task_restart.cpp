@@ -61,7 +61,7 @@ void start_again(coordinator_pointer self, const move_ptr& move,
   for (const auto& x : st.deployments.of_task(task))
     if (has(wanted, x.spec.instance))
       if (auto why = add_moved_step(self, *move, *request, x,
-                                    has(stay, x.spec.instance)))
+                                    has(stay, x.spec.instance) ? x.node : ""))
         return fail_move(self, move, *why);
   place_move(self, move);
 }
@@ -168,6 +168,12 @@ void heal_task(coordinator_pointer self, const std::string& task,
     if (has_failed(x))
       failed.push_back(x.spec.instance);
   take_turn_to_start(self, task, failed, {}, done);
+}
+
+void start_ended(coordinator_pointer self, const std::string& task,
+                 const std::vector<std::string>& instances,
+                 const std::function<void(const failure*)>& done) {
+  take_turn_to_start(self, task, instances, {}, done);
 }
 
 caf::result<task_restarted> restart_task(coordinator_pointer self,

@@ -1,4 +1,4 @@
-#include "actors/placement/step_ways.hpp"
+#include "actors/placement/questions/step_ways.hpp"
 
 #include "actors/placement/reading/stream_names.hpp"
 

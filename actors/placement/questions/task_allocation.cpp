@@ -1,38 +1,20 @@
-#include "actors/placement/task_allocation.hpp"
+#include "actors/placement/questions/task_allocation.hpp"
 
 #include "actors/house/limits.hpp"
+#include "actors/placement/questions/search_problem.hpp"
+#include "actors/placement/questions/task_eviction.hpp"
 #include "actors/placement/reading/task_reading.hpp"
 #include "actors/placement/search/cpu_floor.hpp"
 #include "actors/placement/search/report/alternative.hpp"
 #include "actors/placement/search/report/use.hpp"
-#include "actors/placement/step_ways.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 namespace roscell {
 
 namespace {
-
-allocation::amount convert(const amount& x) {
-  return {x.capacity, x.used};
-}
-
-allocation::node convert(const node_resources& x) {
-  allocation::node result{x.name,
-                          x.architecture,
-                          x.unified_memory,
-                          convert(x.cpu),
-                          convert(x.memory_mib),
-                          convert(x.disk_mib),
-                          {},
-                          x.labels,
-                          x.devices,
-                          x.cpu_compressible};
-  for (const auto& gpu : x.gpus)
-    result.gpus.push_back({gpu.index, convert(gpu.memory_mib)});
-  return result;
-}
 
 /// A label or a skill is no amount of which anything could be short.
 rejection_cause cause_of(const allocation::reason& why) {
@@ -45,42 +27,20 @@ rejection_cause cause_of(const allocation::reason& why) {
   return result;
 }
 
-/// Position of what a name is of; the size of the list if of none.
-template <class List, class Name>
-size_t position(const List& list, const std::string& wanted, Name name) {
-  return static_cast<size_t>(
-      std::find_if(list.begin(), list.end(),
-                   [&](const auto& x) { return name(x) == wanted; })
-      - list.begin());
-}
-
-size_t step_position(const allocate_task& asked, const std::string& id) {
-  return position(asked.steps, id, [](const auto& x) { return x.step.id; });
-}
-
-std::vector<step_ways> ways_of(const allocate_task& asked) {
-  return {asked.steps.begin(), asked.steps.end()};
-}
-
 void add_exclusion(const allocate_task& asked,
                    const std::vector<step_ways>& ways,
                    const excluded_candidate& x, allocation::problem& to) {
-  auto by_name = [](const auto& y) { return y.name; };
-  const auto step = step_position(asked, x.step);
+  const auto step = step_position(asked.steps, x.step);
   if (step == asked.steps.size())
     return;
-  to.excluded.push_back({step, position(asked.nodes, x.node, by_name),
+  to.excluded.push_back({step, node_position(asked.nodes, x.node),
                          ways[step].find(x.deployment, x.node), x.gpu, x.reason,
                          x.cpu_floor});
 }
 
-allocation::problem convert(const allocate_task& asked,
-                            const std::vector<step_ways>& ways) {
-  allocation::problem result;
-  for (const auto& node : asked.nodes)
-    result.nodes.push_back(convert(node));
-  for (const auto& x : ways)
-    result.steps.push_back(x.to_search());
+allocation::problem make_problem(const allocate_task& asked,
+                                 const std::vector<step_ways>& ways) {
+  auto result = make_problem(asked.nodes, ways);
   for (const auto& x : asked.excluded)
     add_exclusion(asked, ways, x, result);
   return result;
@@ -204,6 +164,13 @@ step_alternative alternative_to(const allocate_task& asked,
   return result;
 }
 
+void add_eviction(const task_eviction& way, task_plan& plan) {
+  plan.preempted = way.preempted;
+  if (!way.optimal)
+    plan.warnings.emplace_back(
+        "the search for what has to make way was stopped: less may do");
+}
+
 failure refusal(const allocate_task& asked, const std::vector<step_ways>& ways,
                 const allocation::result& found) {
   using allocation::outcome;
@@ -225,7 +192,7 @@ failure refusal(const allocate_task& asked, const std::vector<step_ways>& ways,
 std::variant<task_plan, failure>
 allocate(const allocate_task& asked, std::chrono::milliseconds budget,
          const std::function<bool()>& cancelled) {
-  const auto why = step_position(asked, asked.why);
+  const auto why = step_position(asked.steps, asked.why);
   if (!asked.why.empty() && why == asked.steps.size())
     return failure{error_code::schema_violation,
                    "there is no step '" + asked.why + "'", "/why",
@@ -233,12 +200,21 @@ allocate(const allocate_task& asked, std::chrono::milliseconds budget,
   allocation::limits limits;
   limits.budget = budget;
   limits.cancelled = cancelled;
-  const auto ways = ways_of(asked);
-  const auto problem = convert(asked, ways);
-  const auto made = allocation::allocate_with_floor(problem, limits);
+  const auto ways = ways_of(asked.steps);
+  auto problem = make_problem(asked, ways);
+  auto made = allocation::allocate_with_floor(problem, limits);
+  std::optional<task_eviction> way;
+  if (made.found.what == allocation::outcome::infeasible)
+    way = evict_for(asked, problem, limits);
+  if (way) {
+    problem = way->problem;
+    made = allocation::allocate_with_floor(problem, limits);
+  }
   if (!made.found.has_allocation())
     return refusal(asked, ways, made.found);
   auto plan = plan_writer{asked, ways, made.found, problem.alpha}.plan();
+  if (way)
+    add_eviction(*way, plan);
   if ((plan.cpu_floor = made.cpu_floor))
     plan.warnings.emplace_back(busy_cores);
   // As it is, however the CPU was read.

@@ -14,9 +14,10 @@ namespace roscell {
 
 /// Runs the search of actors/allocation on messages, and another one for the
 /// alternative where one is asked for. `cancelled` may be empty; true ends the
-/// search with the best that was found. Errors: no_feasible_allocation with
-/// `rejected` in its details, schema_violation for numbers that make no sense
-/// and for an unknown step, timeout.
+/// search with the best that was found. Where the steps do not fit, what may be
+/// evicted is, as `evict_for` says, and the plan names it. Errors:
+/// no_feasible_allocation with `rejected` in its details, schema_violation for
+/// numbers that make no sense and for an unknown step, timeout.
 std::variant<task_plan, failure>
 allocate(const allocate_task& asked,
          std::chrono::milliseconds budget = limits::task::allocation_budget,

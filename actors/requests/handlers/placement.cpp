@@ -3,6 +3,7 @@
 #include "actors/requests/handlers/task_pipeline.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <memory>
 #include <utility>
@@ -22,6 +23,8 @@ public:
   void search() {
     allocate_task question{
         task_.request.task, task_.steps, task_.cell.nodes, held_.refused, {}};
+    if (task_.request.preempt != preemption::none)
+      question.evictable = task_.cell.evictable;
     ask<task_plan>(context_.services->scheduler, limits::task::search,
                    std::move(question),
                    [](placing& self, task_plan& plan) { self.adopt(plan); });
@@ -46,7 +49,20 @@ private:
     if (why.code == error_code::no_feasible_allocation
         && !held_.refused.empty())
       why.hint = refusals() + "; " + why.hint;
+    if (why.code == error_code::no_feasible_allocation && could_preempt())
+      why.hint += "; `--preempt` shows what of lower priority would have to go";
     done_.fail(std::move(why));
+  }
+
+  /// Whether something runs that could make way, and nobody has asked for it.
+  bool could_preempt() const {
+    int64_t least = std::numeric_limits<int64_t>::max();
+    for (const auto& x : task_.steps)
+      least = std::min(least, x.step.priority);
+    return task_.request.preempt == preemption::none
+           && std::any_of(
+               task_.cell.evictable.begin(), task_.cell.evictable.end(),
+               [&](const auto& x) { return x.who.priority < least; });
   }
 
   void adopt(task_plan& plan) {
@@ -55,7 +71,30 @@ private:
                                     task_.warnings.begin(),
                                     task_.warnings.end());
     held_.specs = make_specs(held_.task);
-    reserve();
+    if (held_.task.plan.preempted.empty())
+      return reserve();
+    // There is no room yet: what is in the way goes once the place is held.
+    for (auto& spec : held_.specs)
+      spec.cell = task_.cell.cell;
+    if (task_.request.preempt == preemption::yes)
+      done_.deliver(std::move(held_));
+    else
+      done_.fail(must_go(held_.task.plan.preempted));
+  }
+
+  static failure must_go(const std::vector<preempted_instance>& all) {
+    std::string names;
+    for (const auto& x : all)
+      names += (names.empty() ? "'" : ", '") + x.task + "/" + x.step + "' on '"
+               + x.node + "' (priority " + std::to_string(x.priority) + ")";
+    failure result{error_code::no_feasible_allocation,
+                   "it fits only if " + names
+                       + (all.size() == 1 ? " makes way" : " make way"),
+                   "/pipeline",
+                   "`--preempt --yes` ends them, and starts them elsewhere "
+                   "where there is room"};
+    result.details = json{{"preempted", all}}.dump();
+    return result;
   }
 
   /// Who speaks for a node of the plan.

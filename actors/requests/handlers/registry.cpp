@@ -59,6 +59,8 @@ void add_cell_commands(request_registry& registry) {
       limits::task::restart, whom));
   registry.add(forward_within<node_drain, node_drained>(soon, whom));
   registry.add(forward_within<node_undrain, node_undrained>(soon, whom));
+  registry.add(forward_within<cell_rebalance, cell_rebalanced>(
+      limits::task::search + soon, whom));
   registry.add(forward_within<cell_formation, cell_formed>(
       limits::transfer::answer, whom));
   registry.add(forward_within<node_release, node_released>(
@@ -72,6 +74,7 @@ void add_task_pipelines(request_registry& registry) {
                    .then("resolve_skills", resolve_skills)
                    .then("reserve", place_with_room)
                    .then("record_intent", record_plan)
+                   .then("make_way", have_way_made)
                    .then("deploy", deploy)
                    .then("record_outcome", record_result));
   registry.add(start_with("collect_resources", adopt_plan_query)

@@ -13,8 +13,10 @@ namespace roscell {
 
 namespace {
 
+/// What tells a request from another one of its task: the way in which room was
+/// made for it does not.
 std::string text_of(const task_request& request) {
-  return message_json(request).dump();
+  return message_json(task_request{request.task, request.pipeline}).dump();
 }
 
 bool has_node(const std::vector<node_resources>& nodes,
@@ -78,13 +80,14 @@ void claim(const request_context& context, task_request request,
 
 void adopt_plan_query(const request_context& context, task_plan_query query,
                       outcome<claimed_task> done) {
-  ask<cell_resources>(context, context.services->coordinator,
-                      limits::local::answer, collect_resources{}, done,
-                      [done, query](cell_resources cell) {
-                        done.deliver({{query.task, query.pipeline},
-                                      std::move(cell),
-                                      {query.without, query.with, query.why}});
-                      });
+  ask<cell_resources>(
+      context, context.services->coordinator, limits::local::answer,
+      collect_resources{}, done, [done, query](cell_resources cell) {
+        const auto preempt = query.preempt ? preemption::yes : preemption::none;
+        done.deliver({{query.task, query.pipeline, preempt},
+                      std::move(cell),
+                      {query.without, query.with, query.why}});
+      });
 }
 
 void resolve_skills(const request_context&, claimed_task task,
@@ -105,9 +108,15 @@ void resolve_skills(const request_context&, claimed_task task,
 
 void place(const request_context& context, resolved_task task,
            outcome<allocated_task> done) {
-  allocate_task question{task.request.task,          task.steps,
-                         std::move(task.cell.nodes), {},
-                         std::move(task.why),        true};
+  allocate_task question{task.request.task,
+                         task.steps,
+                         std::move(task.cell.nodes),
+                         {},
+                         std::move(task.why),
+                         true,
+                         {}};
+  if (task.request.preempt != preemption::none)
+    question.evictable = std::move(task.cell.evictable);
   ask<task_plan>(context, context.services->scheduler, limits::task::search,
                  std::move(question), done,
                  [done, request = std::move(task.request),
@@ -136,13 +145,17 @@ void record_plan(const request_context& context, reserved_task held,
                         {},
                         std::move(held.refused),
                         task.plan.warnings,
-                        {}}};
+                        {},
+                        task.plan.preempted}};
   for (const auto& x : task.plan.allocations)
     intent.nodes.push_back(x.node);
   context.home().tell(
       "allocation_chosen", task.request.task,
       {{"score", task.plan.score}, {"allocations", task.plan.allocations}});
-  intended_task next{task.request.task, {}, intent.nodes, {}};
+  intended_task next{task.request.task,   {},
+                     intent.nodes,        {},
+                     task.plan.preempted, task.request.force,
+                     task.plan.cpu_floor};
   ask<intent_recorded>(context, context.services->coordinator,
                        limits::task::rollback, std::move(intent), done,
                        [done, next](intent_recorded known) mutable {
@@ -254,18 +267,25 @@ void record_success(const request_context& context, const std::string& task,
 
 } // namespace
 
+void undo_placement(const request_context& context, const std::string& task,
+                    failure why,
+                    const std::function<void(const failure&)>& done) {
+  record_failure fact{task, why.message};
+  why.hint = "the other steps were rolled back"
+             + (why.hint.empty() ? "" : "; " + why.hint);
+  context.self
+      ->request(context.services->coordinator, limits::task::rollback,
+                std::move(fact))
+      .then([done, why](const task_rolled_back&) { done(why); },
+            [done](const caf::error& error) { done(to_failure(error)); });
+}
+
 void record_result(const request_context& context, deployed_task task,
                    outcome<task_accepted> done) {
   if (!task.problem)
     return record_success(context, task.task, done);
-  auto why = *task.problem;
-  record_failure fact{task.task, why.message};
-  why.hint = "the other steps were rolled back"
-             + (why.hint.empty() ? "" : "; " + why.hint);
-  ask<task_rolled_back>(
-      context, context.services->coordinator, limits::task::rollback,
-      std::move(fact), done,
-      [done, why](const task_rolled_back&) { done.fail(why); });
+  undo_placement(context, task.task, *task.problem,
+                 [done](const failure& why) { done.fail(why); });
 }
 
 } // namespace roscell

@@ -3,7 +3,9 @@
 #include "actors/placement/instance_specs.hpp"
 #include "actors/requests/request_context.hpp"
 
+#include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 /// The handlers of `task_request` and `task_plan_query`. Each one's output is
@@ -43,8 +45,11 @@ struct reserved_task {
 struct intended_task {
   std::string task;
   std::vector<instance_spec> specs;
-  std::vector<std::string> nodes;       ///< Node of each spec.
-  std::vector<node_agent_actor> agents; ///< The same.
+  std::vector<std::string> nodes;            ///< Node of each spec.
+  std::vector<node_agent_actor> agents;      ///< The same.
+  std::vector<preempted_instance> preempted; ///< They have to go before.
+  bool force = false;     ///< They are not waited for to be safe.
+  bool cpu_floor = false; ///< As in the plan.
 };
 
 /// How the deployment of the steps went.
@@ -67,9 +72,18 @@ void present_plan(const request_context&, allocated_task, outcome<task_plan>);
 void place_with_room(const request_context&, resolved_task,
                      outcome<reserved_task>);
 void record_plan(const request_context&, reserved_task, outcome<intended_task>);
+/// Has instances of lower priority go where the plan says so, and the members
+/// keep the room. In way_making.cpp.
+void have_way_made(const request_context&, intended_task,
+                   outcome<intended_task>);
 /// Starts the steps, each once those run whose files it reads, and waits until
 /// all run or one has failed.
 void deploy(const request_context&, intended_task, outcome<deployed_task>);
+/// Has the coordinator undo what was placed, then calls `done` with the failure
+/// as it is to be told.
+void undo_placement(const request_context&, const std::string& task,
+                    failure why,
+                    const std::function<void(const failure&)>& done);
 /// A failed deployment is rolled back before its error is returned.
 void record_result(const request_context&, deployed_task,
                    outcome<task_accepted>);

@@ -34,6 +34,7 @@ struct bench : virtual_time {
                 held.push_back(promise);
               return promise;
             },
+            [](const plan_moves&) { return moves_planned{}; },
         };
       }));
       return searchers.back();
@@ -79,6 +80,15 @@ TEST_CASE("A plan query at work does not hold up a live request",
   REQUIRE(*live);
   REQUIRE(**live);
   CHECK((**live)->task == "real");
+}
+
+TEST_CASE("A plan of moves does not hold up a live request", "[scheduler]") {
+  bench b;
+  const auto moves = b.ask<moves_planned>(b.scheduler, plan_moves{});
+  b.settle();
+  REQUIRE(*moves);
+  REQUIRE(b.guards.size() == 1);
+  CHECK(b.guards[0] != b.guard);
 }
 
 TEST_CASE("Nodes that leave end the searches for live requests only",

@@ -1,4 +1,4 @@
-#include "actors/placement/task_allocation.hpp"
+#include "actors/placement/questions/task_allocation.hpp"
 #include "schemas/decode.hpp"
 #include "schemas/message_catalogue.hpp"
 

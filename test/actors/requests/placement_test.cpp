@@ -1,4 +1,4 @@
-#include "actors/placement/task_allocation.hpp"
+#include "actors/placement/questions/task_allocation.hpp"
 #include "test/actors/fakes/coordinator_fakes.hpp"
 
 #include <set>

@@ -1,4 +1,4 @@
-#include "actors/placement/task_allocation.hpp"
+#include "actors/placement/questions/task_allocation.hpp"
 #include "schemas/decode.hpp"
 #include "schemas/document.hpp"
 #include "schemas/message_catalogue.hpp"
@@ -36,6 +36,7 @@ struct plan_options {
   std::string why;
   std::vector<std::string> without;
   std::vector<std::string> with; ///< Files.
+  bool preempt = false;
   connection_options connection;
 };
 
@@ -119,6 +120,10 @@ document_result query_of(const plan_options& options, const json& document) {
     query["why"] = options.why;
   if (!options.without.empty())
     query["without"] = options.without;
+  query.erase("preempt");
+  query.erase("force");
+  if (options.preempt)
+    query["preempt"] = true;
   auto with = nodes_in(options.with);
   if (auto* why = std::get_if<failure>(&with))
     return std::move(*why);
@@ -226,6 +231,9 @@ void add_plan_command(CLI::App& app, action& chosen) {
       ->add_option("--why", options->why,
                    "Show the best alternative for this step and its cost")
       ->option_text("STEP");
+  command->add_flag("--preempt", options->preempt,
+                    "Where it does not fit, plan as if instances of lower "
+                    "priority made way, and show them");
   add_connection_options(*command, options->connection);
   add_output_option(*command, options->output);
   command->callback([&chosen, options] {

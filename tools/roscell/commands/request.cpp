@@ -5,6 +5,7 @@
 #include "tools/roscell/commands.hpp"
 #include "tools/roscell/common_options.hpp"
 #include "tools/roscell/exit_code.hpp"
+#include "tools/roscell/tasks/preemption.hpp"
 #include "tools/roscell/tasks/wait_finished.hpp"
 #include "tools/roscell/view/format.hpp"
 #include "tools/roscell/view/marked_errors.hpp"
@@ -26,19 +27,22 @@ struct request_options {
   std::string timeout = "120";
   bool progress = false;
   bool wait_finished = false;
+  preemption_options preemption;
 };
 
 /// What is sent of a file: the JSON that YAML means. JSON goes as it is, and
 /// what is wrong with it is for the node to say.
-std::variant<std::string, failure> body_of(const std::string& file,
+std::variant<std::string, failure> body_of(const request_options& options,
                                            std::string text) {
-  const auto format = format_of(file, text);
-  if (format == document_format::json)
+  const auto format = format_of(options.file, text);
+  if (format == document_format::json && !options.preemption.preempt)
     return text;
-  auto document = parse_document(text, format);
-  if (auto* why = std::get_if<failure>(&document))
+  auto parsed = parse_document(text, format);
+  if (auto* why = std::get_if<failure>(&parsed))
     return std::move(*why);
-  return std::get<json>(document).dump();
+  auto& document = std::get<json>(parsed);
+  apply(options.preemption, document);
+  return document.dump();
 }
 
 /// The task that a request is about; empty if it names none. What is wrong
@@ -78,7 +82,7 @@ int request_and_wait(const request_options& options, const std::string& text,
 
 int send_request(const request_options& options) {
   const auto text = read_file(options.file);
-  const auto body = body_of(options.file, text);
+  const auto body = body_of(options, text);
   const auto* unreadable = std::get_if<failure>(&body);
   if (options.wait_finished && unreadable == nullptr)
     return request_and_wait(options, text, std::get<std::string>(body));
@@ -117,6 +121,7 @@ void add_request_command(CLI::App& app, action& chosen) {
   command->add_flag("--wait-finished", options->wait_finished,
                     "Wait until the task has ended by itself; the exit code is "
                     "that of its first step that failed");
+  add_preemption_options(*command, options->preemption);
   command->callback([&chosen, options] {
     chosen = [options] { return send_request(*options); };
   });

@@ -4,6 +4,7 @@
 #include "tools/roscell/commands.hpp"
 #include "tools/roscell/common_options.hpp"
 #include "tools/roscell/exit_code.hpp"
+#include "tools/roscell/tasks/preemption.hpp"
 #include "tools/roscell/tasks/task_file.hpp"
 #include "tools/roscell/tasks/task_view.hpp"
 #include "tools/roscell/tasks/wait_finished.hpp"
@@ -26,6 +27,7 @@ struct task_options {
   std::string subject; ///< A file, a task, or an instance.
   bool wait_finished = false;
   bool force = false;
+  preemption_options preemption;
 
   bool as_json() const {
     return output == "json";
@@ -61,7 +63,8 @@ void print_warnings(const std::vector<std::string>& warnings) {
 
 int run_task(const task_options& options) {
   const auto file = read_task_file(options.subject);
-  const auto request = file.request();
+  auto request = file.request();
+  apply(options.preemption, request);
   if (auto why = validate_request(request))
     throw wrong_document{file, *why};
   const auto task = request.value("task", "");
@@ -161,6 +164,7 @@ void add_run(CLI::App& app, action& chosen) {
   command->add_flag("--wait-finished", options->wait_finished,
                     "Wait until the task has ended by itself; the exit code is "
                     "that of its first step that failed");
+  add_preemption_options(*command, options->preemption);
   command->callback([&chosen, options] {
     chosen = [options] {
       return with_marks(options->as_json(), [&] { return run_task(*options); });

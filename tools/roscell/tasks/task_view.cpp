@@ -23,6 +23,9 @@ std::string accepted_view(const task_accepted& task, const text_style& style) {
   text += "\n\n" + placed_view(task.instances, style);
   if (!task.healed.empty())
     text += "\nstarted again: " + printable(joined(task.healed, ", ")) + "\n";
+  for (const auto& x : task.preempted)
+    text += "\nmade way: " + printable(x.task + "/" + x.step + " on " + x.node)
+            + "\n";
   return text;
 }
 

@@ -151,6 +151,9 @@ std::string plan_view(const task_plan& plan, const text_style& style) {
               + "\n\n" + steps_view(plan.allocations, style);
   text += "\nscore " + score_view(plan.score) + "\n";
   text += "columns CPU to GPU MEMORY: fraction of what was free\n";
+  for (const auto& x : plan.preempted)
+    text += printable("makes way: " + x.task + "/" + x.step + " on " + x.node)
+            + ", priority " + std::to_string(x.priority) + "\n";
   for (const auto& warning : plan.warnings)
     text += "warning: " + printable(warning) + "\n";
   if (!plan.use.empty())
