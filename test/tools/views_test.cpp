@@ -110,6 +110,17 @@ TEST_CASE("a task that is named is shown with its steps, and how long data "
   CHECK_FALSE(has(task_view({{task}}, at(0)), "DATA AGE"));
 }
 
+TEST_CASE("a step that does not simply run says why", "[tools]") {
+  task_row task;
+  task.instances.resize(2);
+  for (auto& row : task.instances)
+    row.state = instance_state::running;
+  CHECK_FALSE(has(task_view({{task}}, at(0)), "REMARK"));
+  task.instances[1].state = instance_state::failed;
+  task.instances[1].reason = "it makes way for task 'high'";
+  CHECK(has(task_view({{task}}, at(0)), "it makes way for task 'high'\n"));
+}
+
 TEST_CASE("nodes in no cell are listed below the members", "[tools]") {
   cell_description cell;
   cell.nodes.resize(1);

@@ -47,6 +47,15 @@ std::string waits_of(const task_row& task, const view_style& style) {
   return joined(words, "; ");
 }
 
+/// Why a step does not simply run; what it waits for stands beside its task.
+std::string step_remark(const instance_row& row, int64_t now_unix_ms) {
+  const bool runs_well = row.state == instance_state::running
+                         && row.health == instance_health::good;
+  const bool has_finished =
+      row.state == instance_state::stopped && row.exit_code == 0;
+  return runs_well || has_finished ? "" : remark(row, now_unix_ms);
+}
+
 } // namespace
 
 std::string tasks_view(const task_description& tasks, const view_style& style) {
@@ -91,15 +100,21 @@ std::string task_view(const task_description& tasks, const view_style& style) {
            {"DATA AGE", align::right}},
           {}};
   double oldest_ms = -1;
+  bool any_remark = false;
   for (const auto& task : tasks.tasks)
     for (const auto& row : task.instances) {
       const auto& x = row.figures;
+      const auto words = step_remark(row, style.now_unix_ms);
       oldest_ms = std::max(oldest_ms, x.age_ms);
+      any_remark = any_remark || !words.empty();
       t.rows.push_back({row.spec.step, row.node, state_text(row),
                         figure(x.rate_hz, 1, " Hz"), count_text(x.dropped),
                         figure(x.latency_ms, 2, " ms"),
-                        figure(x.age_ms, 1, " ms")});
+                        figure(x.age_ms, 1, " ms"), words});
     }
+  // The cells of a row are cut to the number of columns.
+  if (any_remark)
+    t.columns.push_back({"REMARK", align::left, 1});
   auto text = tasks_view(tasks, style);
   if (!t.rows.empty())
     text += "\n" + t.render(style.text);
