@@ -167,6 +167,14 @@ TEST_CASE("progress leaves out what concerns others", "[tools]") {
             .empty());
 }
 
+TEST_CASE("who waits for a task is told what makes way for it", "[tools]") {
+  CHECK(progress_lines(sample("instance_preempted", "low-a-1",
+                              R"({"by":"t","task":"low","step":"a",)"
+                              R"("node":"arm"})"),
+                       "t")
+        == std::vector<std::string>{"low/a makes way on arm"});
+}
+
 TEST_CASE("who waits for nodes is told what happens to them", "[tools]") {
   const std::vector<std::string> nodes{"arm-1", "arm-2"};
   CHECK(movement_lines(sample("node_joined", "arm-2", R"({"epoch":3})"), nodes)

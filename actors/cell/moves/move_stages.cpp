@@ -172,17 +172,9 @@ void deploy_step(coordinator_pointer self, const move_ptr& move,
           [end_with](const caf::error& why) { end_with(to_failure(why)); });
 }
 
-/// Whether a node that is there has told that the old one has ended. Whoever
-/// was to remove it may have given up.
-bool has_ended(const cell_coordinator_state& st, const moved_step& x) {
-  const auto* entry = st.registry.find_name(x.from);
-  const auto* row = st.deployments.told(x.from, x.change.old_instance);
-  return entry && entry->agent && (!row || !is_live(row->state));
-}
-
 void deploy_after_end(coordinator_pointer self, const move_ptr& move,
                       const moved_step& x) {
-  if (has_ended(self->state, x))
+  if (is_surely_gone(self->state, x.from, x.change.old_instance))
     return deploy_step(self, move, x);
   add_problem(move, {error_code::conflict,
                      "nobody knows whether '" + x.change.old_instance
@@ -247,14 +239,27 @@ void add_problem(const move_ptr& move, failure why) {
     move->problem = std::move(why);
 }
 
+/// One that has ended already, to make room for the other, has failed by that.
+void heed_old(coordinator_pointer self, const task_move& move,
+              const moved_step& x) {
+  const auto& old = x.change.old_instance;
+  if (move.ends_first && is_surely_gone(self->state, x.from, old))
+    record_forced_end(self, x.task, old,
+                      "it was ended to run elsewhere: " + move.problem->message,
+                      [](const failure*) {});
+  else
+    self->state.deployments.heed_end(old);
+}
+
 /// Nothing has changed, but that room may have been kept for nothing.
 void undo_move(coordinator_pointer self, const move_ptr& move) {
-  for (const auto& x : move->steps) {
-    self->state.deployments.heed_end(x.change.old_instance);
+  for (const auto& x : move->steps)
     remove_instance(self, {x.change.place.node, x.task, x.change.spec.instance},
                     [] {});
-  }
+  // A task's state is that of the instances it still has.
   forget_new(self, move);
+  for (const auto& x : move->steps)
+    heed_old(self, *move, x);
   fail_move(self, move, *move->problem);
 }
 

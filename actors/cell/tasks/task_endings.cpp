@@ -259,6 +259,26 @@ void record_ends(coordinator_pointer self, const std::string& task) {
   change_task(self, task, std::move(change));
 }
 
+void record_forced_end(coordinator_pointer self, const std::string& task,
+                       const std::string& instance, const std::string& reason,
+                       const std::function<void(const failure*)>& done) {
+  const instance_end end{instance, instance_state::failed, -1, reason,
+                         unix_now_ms()};
+  pending_change change;
+  change.still = &task_book::is_running;
+  change.insistent = true;
+  change.make = [end](task_record record) {
+    return with_ends(std::move(record), {end}, end.unix_ms);
+  };
+  change.done = [self, task, instance, done](const failure* why) {
+    self->state.deployments.heed_end(instance);
+    if (!why)
+      settle_ended(self, task);
+    done(why);
+  };
+  change_task(self, task, std::move(change));
+}
+
 void settle_ended(coordinator_pointer self, const std::string& task) {
   auto& st = self->state;
   const auto* entry = st.tasks.find(task);

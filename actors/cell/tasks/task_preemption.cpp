@@ -1,57 +1,53 @@
 #include "actors/cell/tasks/task_preemption.hpp"
 
 #include "actors/cell/state/task_story.hpp"
-#include "actors/cell/tasks/task_changes.hpp"
 #include "actors/cell/tasks/task_endings.hpp"
 #include "actors/cell/tasks/task_removals.hpp"
 #include "actors/cell/tasks/task_restart.hpp"
-#include "actors/house/wall_clock.hpp"
 #include "messages/failure.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <utility>
 
 namespace roscell {
 
 namespace {
 
-instance_end end_of(const preempted_instance& x, const std::string& by) {
-  return {x.instance, instance_state::failed, -1,
-          "it makes way for task '" + by + "'", unix_now_ms()};
-}
+using outcome_handler = std::function<void(const failure*)>;
 
 /// It is gone. Its task knows, and whoever asks for that task again starts it.
 void record_eviction(coordinator_pointer self, const std::string& by,
-                     const preempted_instance& x,
-                     const std::function<void()>& done) {
-  pending_change change;
-  change.still = &task_book::is_running;
-  change.insistent = true;
-  change.make = [x, by](task_record record) {
-    return with_ends(std::move(record), {end_of(x, by)}, unix_now_ms());
-  };
-  change.done = [self, by, x, done](const failure* why) {
-    auto& st = self->state;
-    st.deployments.heed_end(x.instance);
-    if (!why) {
-      st.desk.preempted[by].push_back(x);
-      settle_ended(self, x.task);
-    }
-    done();
-    // It was waited for too long, or the task was terminated meanwhile.
-    if (!st.tasks.is_deploying(by))
-      restore_preempted(self, by);
-  };
-  change_task(self, x.task, std::move(change));
+                     const preempted_instance& x, const outcome_handler& done) {
+  if (!is_surely_gone(self->state, x.node, x.instance)) {
+    self->state.deployments.heed_end(x.instance);
+    const failure why{error_code::conflict, "nobody knows whether '" + x.task
+                                                + "/" + x.step + "' on node '"
+                                                + x.node + "' has ended"};
+    return done(&why);
+  }
+  record_forced_end(self, x.task, x.instance,
+                    "it makes way for task '" + by + "'",
+                    [self, by, x, done](const failure* why) {
+                      auto& st = self->state;
+                      if (!why)
+                        st.desk.preempted[by].push_back(x);
+                      done(nullptr);
+                      // It was waited for too long, or the task was terminated
+                      // meanwhile.
+                      if (!st.tasks.is_deploying(by))
+                        restore_preempted(self, by);
+                    });
 }
 
 void evict(coordinator_pointer self, const make_way& wish,
-           const preempted_instance& x, const std::function<void()>& done) {
+           const preempted_instance& x, const outcome_handler& done) {
   auto& st = self->state;
   const auto* placed = st.deployments.find(x.instance, x.node);
   if (!placed || placed->end)
-    return done();
+    return done(nullptr);
   st.deployments.ignore_end(x.instance);
   tell_of_task(self, "instance_preempted", x.task, x.instance,
                {{"task", x.task},
@@ -67,7 +63,8 @@ void evict(coordinator_pointer self, const make_way& wish,
 
 void restore(coordinator_pointer self, const preempted_instance& x) {
   start_ended(self, x.task, {x.instance}, [self, x](const failure* why) {
-    if (why)
+    // A task that is gone needs no place.
+    if (why && self->state.tasks.is_kept(x.task))
       tell_of_task(
           self, "step_stranded", x.task, x.instance,
           {{"task", x.task}, {"node", x.node}, {"reason", why->message}});
@@ -96,14 +93,25 @@ caf::result<way_made> clear_way(coordinator_pointer self,
   if (!self->state.tasks.is_deploying(wish.task))
     return terminated_meanwhile(wish.task);
   auto promise = self->make_response_promise<way_made>();
-  auto open = std::make_shared<size_t>(wish.preempted.size() + 1);
-  auto finish = [open, promise]() mutable {
-    if (--*open == 0)
+  struct tally {
+    size_t open = 0;
+    std::optional<failure> problem; ///< The last.
+  };
+  auto all = std::make_shared<tally>();
+  all->open = wish.preempted.size() + 1;
+  auto finish = [all, promise](const failure* why) mutable {
+    if (why)
+      all->problem = *why;
+    if (--all->open > 0)
+      return;
+    if (all->problem)
+      promise.deliver(to_error(*all->problem));
+    else
       promise.deliver(way_made{});
   };
   for (const auto& x : wish.preempted)
     evict(self, wish, x, finish);
-  finish();
+  finish(nullptr);
   return promise;
 }
 

@@ -159,6 +159,12 @@ void remove_instance(coordinator_pointer self, const overdue_removal& what,
           });
 }
 
+bool is_surely_gone(const cell_coordinator_state& st, const std::string& node,
+                    const std::string& instance) {
+  const auto* row = st.deployments.told(node, instance);
+  return row ? !is_live(row->state) : !is_away(st, node);
+}
+
 void force_removals(coordinator_pointer self, const std::string& task) {
   for (const auto& x : safety_waits_of(self->state, task))
     force_removal(self, x);

@@ -30,6 +30,12 @@ void remove_everywhere(coordinator_pointer self, const task_removal& wish);
 void remove_instance(coordinator_pointer self, const overdue_removal& what,
                      const std::function<void()>& done, bool force = false);
 
+/// Whether a node has told that an instance on it has ended, which it does not
+/// start again by itself, or is there and knows none. Whoever was to remove it
+/// may have given up.
+bool is_surely_gone(const cell_coordinator_state& st, const std::string& node,
+                    const std::string& instance);
+
 /// Does not wait any longer for what of a task is not safe.
 void force_removals(coordinator_pointer self, const std::string& task);
 

@@ -150,6 +150,20 @@ instance_list all_instances(const cell_coordinator_state& st,
   return result;
 }
 
+/// What was ended and does not run again has failed by that, even if its
+/// program has ended with 0.
+void heed_ended(coordinator_pointer self, const std::string& task,
+                const std::string& instance, const failure* why) {
+  auto& deployments = self->state.deployments;
+  const auto* x = deployments.find(instance);
+  if (why && x && is_surely_gone(self->state, x->node, instance))
+    record_forced_end(self, task, instance,
+                      "it was ended to be started again: " + why->message,
+                      [](const failure*) {});
+  else
+    deployments.heed_end(instance);
+}
+
 } // namespace
 
 std::vector<std::string> failed_steps(const cell_coordinator_state& st,
@@ -191,7 +205,7 @@ caf::result<task_restarted> restart_task(coordinator_pointer self,
   auto finish = [self, request, before, plan,
                  promise](const failure* why) mutable {
     for (const auto& instance : plan.running)
-      self->state.deployments.heed_end(instance);
+      heed_ended(self, request.task, instance, why);
     record_ends(self, request.task);
     if (why)
       promise.deliver(to_error(*why));

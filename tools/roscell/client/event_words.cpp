@@ -171,6 +171,9 @@ std::string event_text(const event& e, const char* key) {
 std::vector<std::string> progress_lines(const event& e,
                                         const std::string& task) {
   const auto data = particulars(e);
+  if (text_at(data, "by") == task)
+    return {printable(text_at(data, "task") + "/" + text_at(data, "step")
+                      + " makes way on " + text_at(data, "node"))};
   if (e.subject != task && text_at(data, "task") != task)
     return {};
   if (auto lines = placements(data); !lines.empty())

@@ -187,6 +187,23 @@ TEST_CASE_METHOD(full_cell,
   }
 }
 
+TEST_CASE_METHOD(full_cell,
+                 "What may run on is not taken for gone, nor started elsewhere",
+                 "[preempt]") {
+  left.unsafe.insert(low_instance());
+  const auto reply = post(high("yes"));
+  time.settle();
+  right.has.cpu.used = 0;
+  lose(left);
+  time.settle();
+  CHECK_FALSE(error_of(reply_of(reply)).empty());
+  CHECK(right.running.empty());
+  CHECK(of_task("low").at("state") == "degraded");
+  const auto back = enter(left);
+  REQUIRE(back);
+  CHECK(back->verdicts.at(0).what == verdict::keep);
+}
+
 TEST_CASE_METHOD(full_cell, "A plan shows what would have to go", "[preempt]") {
   auto query = high("none");
   query["type"] = "task_plan_query";

@@ -107,6 +107,48 @@ TEST_CASE_METHOD(unsafe_cell,
   CHECK(back->verdicts.at(0).what == verdict::keep);
 }
 
+TEST_CASE_METHOD(
+    unsafe_cell,
+    "What has told its end goes on elsewhere, though its node left", "[safe]") {
+  post({{"type", "node_drain"}, {"node", "left"}});
+  time.settle();
+  left.slow_removals = true;
+  left.become_safe(instance);
+  time.settle();
+  depart(left);
+  time.advance(limits::task::removal_answer + 1s);
+  CHECK(right.running.size() == 1);
+  CHECK(tasks()[0].at("state") == "running");
+  CHECK(count("task_finished") == 0);
+}
+
+TEST_CASE_METHOD(unsafe_cell,
+                 "What was ended to run elsewhere and does not has failed",
+                 "[safe]") {
+  right.mood = temper::broken;
+  post({{"type", "node_drain"}, {"node", "left"}});
+  time.settle();
+  left.become_safe(instance);
+  time.settle();
+  CHECK(tasks()[0].at("state") == "failed");
+  const auto reason =
+      tasks()[0].at("instances")[0].at("reason").get<std::string>();
+  CHECK(reason.find("it was ended to run elsewhere: ") == 0);
+}
+
+TEST_CASE_METHOD(unsafe_cell,
+                 "What was ended and does not start again has failed",
+                 "[safe]") {
+  left.unsafe.clear();
+  left.mood = temper::broken;
+  CHECK(error_of(request({{"type", "task_restart"}, {"task", "a"}}))
+        == "engine_failed");
+  CHECK(tasks()[0].at("state") == "failed");
+  const auto reason =
+      tasks()[0].at("instances")[0].at("reason").get<std::string>();
+  CHECK(reason.find("it was ended to be started again: ") == 0);
+}
+
 TEST_CASE_METHOD(unsafe_cell,
                  "A node is not let go before its tasks have really ended",
                  "[safe]") {
