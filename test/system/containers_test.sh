@@ -2,7 +2,7 @@
 # Podman, and a Podman of a user who is not root.
 
 variants=(docker podman rootless)
-. test/system/engine.sh
+. test/system/scenes/engine.sh
 
 before_all() {
   start_engine

@@ -2,7 +2,7 @@
 # after which they are placed elsewhere, whatever becomes of their node.
 
 variants=(process docker podman rootless)
-[[ $variant == process ]] || . test/system/engine.sh
+[[ $variant == process ]] || . test/system/scenes/engine.sh
 
 before_all() {
   [[ $variant == process ]] || start_engine

@@ -1,7 +1,7 @@
 # tools/launch.sh: a node in a container, and its skills in others beside it.
 
 variants=(docker podman rootless)
-. test/system/engine.sh
+. test/system/scenes/engine.sh
 
 # What the node's image is made from: this build, and a skill that has room for
 # the sanitizers' memory.

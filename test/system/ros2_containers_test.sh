@@ -2,7 +2,7 @@
 # beside them.
 
 variants=(docker podman rootless)
-. test/system/engine.sh
+. test/system/scenes/engine.sh
 . test/system/scenes/ros2_scene.sh
 
 before_all() {

@@ -27,7 +27,7 @@ play() {
   (cd "${tree:-$scratch}" && exec ip netns exec "${hosts[-1]}" \
     unshare --fork --pid --mount-proc --kill-child \
     bash -c '"$@"; exit $?' reaper \
-    "$root/test/system/play_document.py" "$page" \
+    "$root/test/system/scenes/play_document.py" "$page" \
     --replace "/tmp/=$scratch/" --replace "/home/you/roscell=${tree:-}" "$@") 2> "$scratch/played" &
   played=$!
   echo "$played" >> "$scratch/pids"

@@ -1,6 +1,5 @@
-#include "actors/instances/life/skill_instance.hpp"
 #include "actors/node/event_log.hpp"
-#include "test/actors/fakes/supervision_fakes.hpp"
+#include "test/actors/fakes/instance_bench.hpp"
 
 using namespace roscell;
 using namespace roscell::test;
@@ -10,16 +9,11 @@ namespace {
 
 /// A skill that runs, has to have 5 Hz at its input and its output with a grace
 /// of 10 s, and tells of both every second.
-struct measured_skill : virtual_time {
+struct measured_skill : instance_bench {
   measured_skill() {
-    context.events = roscell::spawn(system, context, event_log);
-    config.context = context;
-    config.supervisor = fake_supervisor(system, told);
-    config.runtime = fake_runtime(system, runtime);
-    config.store = fake_store(system, store);
-    config.skills = catalogue.skills;
+    context.events = config.context.events =
+        roscell::spawn(system, context, event_log);
     auto& spec = config.row.spec;
-    spec = echo_spec(catalogue.hash, "i");
     spec.input = {{"ros2", "/image", "sensor_msgs/msg/Image", "camera", false}};
     spec.output = {{"ros2", "/poses", "tf2_msgs/msg/TFMessage", "", false}};
     spec.life.restart = {};
@@ -27,35 +21,20 @@ struct measured_skill : virtual_time {
   }
 
   ~measured_skill() {
-    kill(config.supervisor);
-    kill(config.runtime);
-    kill(config.store);
     kill(context.events);
-  }
-
-  void start() {
-    instance = roscell::spawn(system, context, skill_instance, config);
-    caf::anon_send(instance, start_instance{});
-    settle();
-    ready();
-  }
-
-  void ready() {
-    notify(true, {});
   }
 
   /// Tells the rates of both ends, in Hz, so many times.
   void measure(double input_hz, double output_hz, int seconds) {
     for (int i = 0; i < seconds; ++i) {
       advance(1s);
-      notify(false, {{"input:0", input_hz, 0.1}, {"output:0", output_hz, 0.1}});
+      tell({{"input:0", input_hz, 0.1}, {"output:0", output_hz, 0.1}});
     }
   }
 
-  void notify(bool is_ready, std::vector<stream_figure> streams) {
+  void tell(std::vector<stream_figure> streams) {
     instance_notified words;
     words.instance = "i";
-    words.ready = is_ready;
     words.alive = true;
     words.streams = std::move(streams);
     caf::anon_send(instance, words);
@@ -77,20 +56,13 @@ struct measured_skill : virtual_time {
         result.push_back(x.what);
     return result;
   }
-
-  echo_catalogue catalogue;
-  std::shared_ptr<told_changes> told = std::make_shared<told_changes>();
-  std::shared_ptr<runtime_script> runtime = std::make_shared<runtime_script>();
-  std::shared_ptr<store_script> store = std::make_shared<store_script>();
-  skill_instance_config config;
-  skill_instance_actor instance;
 };
 
 } // namespace
 
 TEST_CASE("a starved instance goes on, and says what should feed it") {
   measured_skill s;
-  s.start();
+  s.start_ready();
   s.measure(2, 0, 30);
   CHECK(s.row().state == instance_state::running);
   CHECK(s.row().health == instance_health::starved);
@@ -103,7 +75,7 @@ TEST_CASE("a starved instance goes on, and says what should feed it") {
 
 TEST_CASE("an instance whose input comes again is good again") {
   measured_skill s;
-  s.start();
+  s.start_ready();
   s.measure(2, 0, 30);
   s.measure(10, 10, 1);
   CHECK(s.row().health == instance_health::good);
@@ -114,7 +86,7 @@ TEST_CASE("an instance whose input comes again is good again") {
 
 TEST_CASE("an unhealthy instance is started again, and judged anew") {
   measured_skill s;
-  s.start();
+  s.start_ready();
   s.measure(10, 0, 12);
   CHECK(s.facts() == std::vector<std::string>{"instance_unhealthy"});
   CHECK(s.runtime->stopped.size() == 1);
@@ -134,7 +106,7 @@ TEST_CASE("an unhealthy instance is started again, and judged anew") {
 TEST_CASE("an instance without bounds is not judged") {
   measured_skill s;
   s.config.row.spec.life.health = {};
-  s.start();
+  s.start_ready();
   s.measure(0, 0, 60);
   CHECK(s.row().state == instance_state::running);
   CHECK(s.row().health == instance_health::good);
@@ -144,7 +116,7 @@ TEST_CASE("one that is to end, and is waited for, is not started again for its "
           "health") {
   measured_skill s;
   s.config.row.spec.life.safe_state = true;
-  s.start();
+  s.start_ready();
   caf::anon_send(s.instance, stop_instance{"asked to"});
   s.measure(10, 0, 30);
   CHECK(s.row().state == instance_state::running);
@@ -153,7 +125,7 @@ TEST_CASE("one that is to end, and is waited for, is not started again for its "
 
 TEST_CASE("a skill's word on its safety is shown at once") {
   measured_skill s;
-  s.start();
+  s.start_ready();
   instance_notified words;
   words.instance = "i";
   for (const auto word : {safe_word::unsafe, safe_word::safe}) {

@@ -1,4 +1,4 @@
-#include "tools/roscell/view/rebalance_view.hpp"
+#include "tools/roscell/tasks/rebalance_view.hpp"
 
 #include "tools/roscell/view/format.hpp"
 
