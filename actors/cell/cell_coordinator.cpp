@@ -49,6 +49,27 @@ topic_list list_topics(coordinator_pointer self, const topic_query& query) {
   return {topic_rows(graph->endpoints(), query.topic)};
 }
 
+cell_list cells_seen(const cell_coordinator_state& st) {
+  return {list_cells(st)};
+}
+
+skill_list list_skills(const cell_coordinator_state& st,
+                       const skill_query& query) {
+  return {st.registry.skills(query.operation), st.registry.refused_skills()};
+}
+
+void on_standing_told(coordinator_pointer self, const peer_told& fact) {
+  on_peer_told(self, fact);
+  grant_awaited_places(self);
+}
+
+/// Whoever it was that has ended.
+void on_down(coordinator_pointer self, const caf::actor_addr& gone) {
+  on_pipeline_down(self, gone);
+  on_member_down(self, gone);
+  on_peer_down(self, gone);
+}
+
 caf::result<log_excerpt> fetch_log(coordinator_pointer self,
                                    const log_query& query) {
   auto& registry = self->state.registry;
@@ -140,11 +161,8 @@ cell_coordinator(coordinator_pointer self, const house& context,
   self->state.setup = setup;
   self->state.peers = peer_book{setup.self.uuid};
   begin(self);
-  self->set_down_handler([self](const caf::down_msg& down) {
-    on_pipeline_down(self, down.source);
-    on_member_down(self, down.source);
-    on_peer_down(self, down.source);
-  });
+  self->set_down_handler(
+      [self](const caf::down_msg& down) { on_down(self, down.source); });
   return {
       [self](const state_query&) { return state_of(summary(self)); },
       [self](const session_admitted& x) { on_session_admitted(self, x); },
@@ -153,9 +171,7 @@ cell_coordinator(coordinator_pointer self, const house& context,
       [self](const member_lost& x) { on_member_lost(self, x); },
       [self](const instance_changed& x) { on_instance_changed(self, x); },
       [self](const cell_query&) { return describe(self); },
-      [self](const cell_list_query&) {
-        return cell_list{list_cells(self->state)};
-      },
+      [self](const cell_list_query&) { return cells_seen(self->state); },
       [self](const topic_query& x) { return list_topics(self, x); },
       [self](const task_history_query& x) {
         return tell_history(self->state, x);
@@ -165,11 +181,7 @@ cell_coordinator(coordinator_pointer self, const house& context,
         return describe_instances_now(self, x);
       },
       [self](const log_query& x) { return fetch_log(self, x); },
-      [self](const skill_query& x) {
-        const auto& registry = self->state.registry;
-        return skill_list{registry.skills(x.operation),
-                          registry.refused_skills()};
-      },
+      [self](const skill_query& x) { return list_skills(self->state, x); },
       [self](const claim_task& x) { return claim_task_turn(self, x); },
       [self](const collect_resources&) { return answer_resources(self); },
       [self](const record_intent& x) { return hold_placement(self, x); },
@@ -182,10 +194,7 @@ cell_coordinator(coordinator_pointer self, const house& context,
       [self](const presence_gone& x) { on_presence_gone(self, x.who); },
       [self](const peer_opened& x) { on_peer_opened(self, x); },
       [self](const peer_lost& x) { on_peer_lost(self, x); },
-      [self](const peer_told& x) {
-        on_peer_told(self, x);
-        grant_awaited_places(self);
-      },
+      [self](const peer_told& x) { on_standing_told(self, x); },
       [self](const peer_changed& x) { on_peer_changed(self, x); },
       [self](const place_request& x) { return grant_place(self, x); },
       [self](const place_reservation& x) { return reserve_place(self, x); },

@@ -217,6 +217,7 @@ std::optional<resolved_step> resolve_anew(const cell_coordinator_state& st,
 
 void bind_together(const std::string& task, std::vector<resolved_step>& steps) {
   std::vector<written_step> written;
+  written.reserve(steps.size());
   for (const auto& x : steps)
     written.push_back(as_written(x.step));
   const auto together = find_wiring(task, written, {}).together;
