@@ -80,6 +80,14 @@ constexpr int status_ok = 200;
 
 } // namespace
 
+json unless_refused(json reply, bool as_json) {
+  if (reply.value("type", "") != "error")
+    return reply;
+  refused why{std::move(reply)};
+  why.as_json = as_json;
+  throw why;
+}
+
 void add_connection_options(CLI::App& command, connection_options& options) {
   command
       .add_option("--to", options.to,

@@ -31,6 +31,9 @@ public:
   bool as_json = false; ///< Print it on standard output.
 };
 
+/// The reply, unless it is an error: that is thrown as `refused`.
+json unless_refused(json reply, bool as_json);
+
 /// How the node to talk to was named on the command line.
 struct connection_options {
   std::string to;
@@ -71,6 +74,11 @@ public:
 
   const target& where() const {
     return to_;
+  }
+
+  /// The same, with what it is asked with.
+  const http_endpoint& endpoint() const {
+    return http_.endpoint();
   }
 
 private:

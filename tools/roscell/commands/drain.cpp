@@ -29,13 +29,9 @@ using options_ptr = std::shared_ptr<drain_options>;
 
 json ask(const drain_options& options, const node_client& node,
          const json& request) {
-  auto reply = node.post("/v1/requests", request.dump(),
-                         parse_duration(options.timeout));
-  if (reply.value("type", "") != "error")
-    return reply;
-  refused why{std::move(reply)};
-  why.as_json = options.output == "json";
-  throw why;
+  return unless_refused(node.post("/v1/requests", request.dump(),
+                                  parse_duration(options.timeout)),
+                        options.output == "json");
 }
 
 void print_progress(const node_drained& x) {

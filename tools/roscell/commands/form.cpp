@@ -44,11 +44,7 @@ json send(const form_options& options, const json& request) {
   auto reply = stderr_is_terminal()
                    ? post_with_progress(node, body, limit, words)
                    : node.post("/v1/requests", body, limit);
-  if (reply.value("type", "") != "error")
-    return reply;
-  refused why(std::move(reply));
-  why.as_json = options.output == "json";
-  throw why;
+  return unless_refused(std::move(reply), options.output == "json");
 }
 
 template <class Reply>

@@ -4,9 +4,9 @@
 #include "tools/roscell/commands.hpp"
 #include "tools/roscell/common_options.hpp"
 #include "tools/roscell/exit_code.hpp"
+#include "tools/roscell/tasks/rebalance_view.hpp"
 #include "tools/roscell/tasks/wait_finished.hpp"
 #include "tools/roscell/view/format.hpp"
-#include "tools/roscell/view/rebalance_view.hpp"
 #include "tools/roscell/view/terminal.hpp"
 
 #include <CLI/CLI.hpp>
@@ -61,13 +61,10 @@ int rebalance(const rebalance_options& options) {
   const node_client node{options.connection};
   const bool makes_moves = !options.wish.dry_run && !options.wish.stop;
   const auto since = makes_moves ? last_event_of_coordinator(node) : 0;
-  auto reply = node.post("/v1/requests", message_json(options.wish).dump(),
-                         parse_duration(options.timeout));
-  if (reply.value("type", "") == "error") {
-    refused why{std::move(reply)};
-    why.as_json = options.as_json();
-    throw why;
-  }
+  const auto reply = unless_refused(node.post("/v1/requests",
+                                              message_json(options.wish).dump(),
+                                              parse_duration(options.timeout)),
+                                    options.as_json());
   const auto report = reply.get<cell_rebalanced>();
   print(options.as_json() ? pretty(reply)
                           : rebalance_view(report, stdout_style()));

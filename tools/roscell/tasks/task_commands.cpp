@@ -48,12 +48,7 @@ json ask_about(const task_options& options, const std::string& task,
 /// The same where a refusal has no document to point into.
 json ask_or_throw(const task_options& options, const std::string& task,
                   const json& request) {
-  auto reply = ask_about(options, task, request);
-  if (reply.value("type", "") != "error")
-    return reply;
-  refused error{std::move(reply)};
-  error.as_json = options.as_json();
-  throw error;
+  return unless_refused(ask_about(options, task, request), options.as_json());
 }
 
 void print_warnings(const std::vector<std::string>& warnings) {
