@@ -21,4 +21,16 @@ void house::tell(std::string what, std::string subject,
                                                            replace_bad_bytes)});
 }
 
+void house::count(metric which, metric_book::label_values labels,
+                  double amount) const {
+  if (metrics)
+    metrics->add(which, labels, amount);
+}
+
+void house::observe(metric which, metric_book::label_values labels,
+                    double value) const {
+  if (metrics)
+    metrics->observe(which, labels, value);
+}
+
 } // namespace roscell

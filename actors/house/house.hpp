@@ -2,6 +2,7 @@
 
 #include "actors/house/actor_directory.hpp"
 #include "actors/house/boot_clock.hpp"
+#include "actors/house/metric_book.hpp"
 #include "messages/inside/introspection.hpp"
 
 #include <caf/actor_system.hpp>
@@ -25,6 +26,15 @@ struct house {
   event_log_actor events; ///< Invalid in tests that do not care for facts.
   /// Milliseconds since this host was booted; a test has its own.
   int64_t (*boot_now_ms)(caf::actor_system&) = roscell::boot_now_ms;
+
+  /// What is counted; null in tests that do not care.
+  std::shared_ptr<metric_book> metrics;
+
+  /// Counts something, or measures it once.
+  void count(metric which, metric_book::label_values labels,
+             double amount = 1) const;
+  void observe(metric which, metric_book::label_values labels,
+               double value) const;
 
   /// Records a fact; `data` is an object or null.
   void tell(std::string what, std::string subject,

@@ -649,6 +649,14 @@ static_assert(cell::registration_call < nonce_lifetime);
 
 } // namespace token
 
+/// What a node counts of itself.
+namespace metric {
+
+/// Sets of labels that one family may have.
+constexpr size_t label_sets = 512;
+
+} // namespace metric
+
 /// Names and numbers that strangers send. The schemas say the same.
 namespace text {
 

@@ -91,12 +91,20 @@ void keep_waiting(state_store_self self,
     st.waiting[{x.table, x.key}] = x.value;
 }
 
+double size_of(const std::vector<store_record>& records) {
+  size_t result = 0;
+  for (const auto& x : records)
+    result += x.table.size() + x.key.size() + x.value.size();
+  return static_cast<double>(result);
+}
+
 caf::result<record_stored> store(state_store_self self,
                                  const std::vector<store_record>& records) {
   auto& st = self->state;
   const auto error = write(self, changes_of(records));
   if (!error) {
     st.written += records.size();
+    st.context.count(metric::store_written_bytes, {}, size_of(records));
     return record_stored{};
   }
   if (may_wait(st, records)) {

@@ -5,9 +5,11 @@
 #include "actors/placement/questions/task_allocation.hpp"
 #include "messages/failure.hpp"
 
+#include <chrono>
 #include <set>
 #include <string>
 #include <utility>
+#include <variant>
 
 namespace roscell {
 
@@ -15,14 +17,29 @@ namespace {
 
 using searcher_self = scheduler_actor::stateful_pointer<searcher_state>;
 
+void tally(searcher_self self, const std::variant<task_plan, failure>& outcome,
+           std::chrono::duration<double> span) {
+  const auto& home = self->state.context;
+  home.observe(metric::allocation_seconds, {}, span.count());
+  if (const auto* plan = std::get_if<task_plan>(&outcome)) {
+    home.count(metric::allocations, {plan->optimal ? "optimal" : "best_found"});
+    home.observe(metric::allocation_states, {},
+                 static_cast<double>(plan->states));
+  } else {
+    home.count(metric::allocations, {to_word(std::get<failure>(outcome).code)});
+  }
+}
+
 caf::result<task_plan> search(searcher_self self, const allocate_task& asked) {
   auto& guard = *self->state.guard;
   std::set<std::string> nodes;
   for (const auto& node : asked.nodes)
     nodes.insert(node.name);
   guard.begin(std::move(nodes));
+  const auto begin = std::chrono::steady_clock::now();
   auto outcome = allocate(asked, limits::task::allocation_budget,
                           [&guard] { return guard.must_stop(); });
+  tally(self, outcome, std::chrono::steady_clock::now() - begin);
   if (const auto gone = guard.end(); !gone.empty()) {
     ++self->state.interrupted;
     return fail(error_code::conflict,
@@ -49,8 +66,10 @@ caf::result<moves_planned> search_moves(searcher_self self,
 } // namespace
 
 scheduler_actor::behavior_type searcher(searcher_self self,
+                                        const house& context,
                                         std::shared_ptr<search_guard> guard,
                                         const scheduler_actor& owner) {
+  self->state.context = context;
   self->state.guard = std::move(guard);
   self->monitor(owner);
   self->set_down_handler(

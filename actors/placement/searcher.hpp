@@ -13,6 +13,7 @@ namespace roscell {
 struct searcher_state {
   static constexpr const char* name = "searcher";
 
+  house context;
   std::shared_ptr<search_guard> guard;
   uint64_t plans = 0;
   uint64_t move_plans = 0;
@@ -25,6 +26,7 @@ struct searcher_state {
 /// with its owner.
 scheduler_actor::behavior_type
 searcher(scheduler_actor::stateful_pointer<searcher_state> self,
-         std::shared_ptr<search_guard> guard, const scheduler_actor& owner);
+         const house& context, std::shared_ptr<search_guard> guard,
+         const scheduler_actor& owner);
 
 } // namespace roscell

@@ -74,6 +74,16 @@ void answer_request(request_router_self self, const std::string& id,
   }
 }
 
+void tally(request_router_self self, const running_request& request,
+           const request_routed& answer) {
+  const auto& home = self->state.services->context;
+  const std::chrono::duration<double> span =
+      self->clock().now() - request.since;
+  home.count(metric::requests,
+             {request.type, answer.refusal.empty() ? "done" : answer.refusal});
+  home.observe(metric::request_seconds, {request.type}, span.count());
+}
+
 /// Answers the request of a pipeline, unless that has been done.
 void settle(request_router_self self, const caf::actor_addr& worker,
             const std::function<request_routed()>& reply) {
@@ -83,7 +93,9 @@ void settle(request_router_self self, const caf::actor_addr& worker,
     return;
   const auto request = std::move(i->second);
   running.erase(i);
-  answer_request(self, request.id, request.promise, reply());
+  const auto answer = reply();
+  tally(self, request, answer);
+  answer_request(self, request.id, request.promise, answer);
 }
 
 /// A pipeline that is killed cannot answer: it is answered for.
@@ -101,11 +113,13 @@ void on_pipeline_down(request_router_self self, const caf::down_msg& down) {
 void dispatch(request_router_self self, const request_runner& run,
               const std::string& id, json document, promise_type promise) {
   const auto& services = self->state.services;
+  const auto type = document.at("type").get<std::string>();
   auto worker =
       spawn(self->system(), services->context, handler_pipeline, run, services,
             std::make_shared<const json>(std::move(document)));
   const auto address = worker.address();
-  self->state.running[address] = {id, worker, std::move(promise)};
+  self->state.running[address] = {id, type, self->clock().now(), worker,
+                                  std::move(promise)};
   self->monitor(worker);
   self->request(worker, limits::request::handler, process_request{})
       .then(

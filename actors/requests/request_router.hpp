@@ -5,6 +5,7 @@
 #include <caf/actor_addr.hpp>
 #include <caf/typed_response_promise.hpp>
 
+#include <chrono>
 #include <deque>
 #include <map>
 #include <memory>
@@ -23,6 +24,8 @@ struct remembered_request {
 /// A request that a pipeline works on.
 struct running_request {
   std::string id; ///< Its `request_id`, may be empty.
+  std::string type;
+  std::chrono::steady_clock::time_point since;
   handler_pipeline_actor worker;
   caf::typed_response_promise<request_routed> promise;
 };

@@ -2,6 +2,8 @@
 
 #include "actors/house/limits.hpp"
 
+#include <algorithm>
+#include <iterator>
 #include <mutex>
 #include <utility>
 
@@ -48,7 +50,10 @@ void hand_over(session_self self, const frame_received& frame) {
 }
 
 void on_frame(session_self self, const frame_received& frame) {
-  ++self->state.frames_in;
+  auto& st = self->state;
+  ++st.frames_in;
+  st.context.count(metric::session_received_bytes, {st.peer},
+                   static_cast<double>(frame.text.size()));
   if (self->state.owner)
     hand_over(self, frame);
   else
@@ -70,6 +75,7 @@ void send_out(session_self self, const send_beat& beat) {
   const bool is_ack = beat.kind == beat_kind::ack && beat.answers != 0;
   const auto number = is_ack ? beat.answers : ++st.beat_sequence;
   if (beat.kind == beat_kind::beat) {
+    st.context.count(metric::beats_sent, {st.peer});
     st.beats_sent.emplace_back(number, st.context.boot_now_ms(self->system()));
     if (st.beats_sent.size() > limits::session::remembered_beats)
       st.beats_sent.pop_front();
@@ -77,19 +83,36 @@ void send_out(session_self self, const send_beat& beat) {
   st.wire->beats->send(beat.kind, number);
 }
 
+/// Finds the beat that an ack answers. Those before it are lost: what comes of
+/// them later proves nothing that this one does not.
+void settle_beats(session_self self, beat_received& ack) {
+  auto& st = self->state;
+  auto& sent = st.beats_sent;
+  const auto found = std::find_if(sent.begin(), sent.end(), [&](const auto& x) {
+    return x.first == ack.sequence;
+  });
+  if (found == sent.end())
+    return;
+  ack.sent_boot_ms = found->second;
+  st.context.count(metric::beats_lost, {st.peer},
+                   static_cast<double>(found - sent.begin()));
+  sent.erase(sent.begin(), std::next(found));
+}
+
 void hand_over(session_self self, beat_received beat) {
   auto& st = self->state;
   if (beat.kind == beat_kind::ack)
-    for (const auto& [number, when] : st.beats_sent)
-      if (number == beat.sequence)
-        beat.sent_boot_ms = when;
+    settle_beats(self, beat);
   if (st.owner)
     self->send(st.owner, beat);
 }
 
 void send_text(session_self self, const send_frame& frame) {
-  ++self->state.frames_out;
-  self->state.wire->link->send(frame.text);
+  auto& st = self->state;
+  ++st.frames_out;
+  st.context.count(metric::session_sent_bytes, {st.peer},
+                   static_cast<double>(frame.text.size()));
+  st.wire->link->send(frame.text);
 }
 
 } // namespace

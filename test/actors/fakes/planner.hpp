@@ -16,7 +16,7 @@ inline scheduler_actor spawn_planner(caf::actor_system& system,
   config.guard = std::move(guard);
   config.make_searcher = [&system, context](auto live,
                                             const scheduler_actor& owner) {
-    return spawn(system, context, searcher, live, owner);
+    return spawn(system, context, searcher, context, live, owner);
   };
   return spawn(system, context, scheduler, config);
 }

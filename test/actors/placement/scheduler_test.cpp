@@ -131,7 +131,8 @@ TEST_CASE("A searcher ends with its scheduler", "[scheduler]") {
   config.guard = std::make_shared<search_guard>();
   scheduler_actor child;
   config.make_searcher = [&](auto guard, const auto& owner) {
-    child = spawn(time.system, time.context, searcher, guard, owner);
+    child =
+        spawn(time.system, time.context, searcher, time.context, guard, owner);
     return child;
   };
   auto parent = spawn(time.system, time.context, scheduler, config);

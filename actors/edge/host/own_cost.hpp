@@ -1,0 +1,20 @@
+#pragma once
+
+#include <filesystem>
+
+namespace roscell {
+
+/// What this process has cost its host since it was started. What cannot be
+/// read is 0.
+struct own_cost {
+  double cpu_seconds = 0;
+  double resident_bytes = 0;
+  double pss_bytes = 0;     ///< The same, shared pages divided among users.
+  double written_bytes = 0; ///< To disks.
+  double open_files = 0;
+};
+
+/// @param process the process's folder in /proc; tests have their own.
+own_cost read_own_cost(const std::filesystem::path& process = "/proc/self");
+
+} // namespace roscell

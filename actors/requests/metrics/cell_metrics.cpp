@@ -1,0 +1,139 @@
+#include "actors/requests/metrics/cell_metrics.hpp"
+
+#include <map>
+#include <string>
+
+namespace roscell {
+
+namespace {
+
+constexpr double mib = 1024 * 1024;
+constexpr double ms_in_s = 1000;
+
+/// One resource of one node, in base units.
+struct resource_line {
+  std::string node;
+  std::string resource;
+  double capacity = 0;
+  double used = 0;
+};
+
+std::vector<resource_line> lines_of(const std::string& node,
+                                    const node_resources& x) {
+  std::vector<resource_line> result{
+      {node, "cpu_cores", x.cpu.capacity, x.cpu.used},
+      {node, "memory_bytes", x.memory_mib.capacity * mib,
+       x.memory_mib.used * mib},
+      {node, "disk_bytes", x.disk_mib.capacity * mib, x.disk_mib.used * mib}};
+  for (const auto& gpu : x.gpus)
+    result.push_back({node, "gpu_" + std::to_string(gpu.index) + "_bytes",
+                      gpu.memory_mib.capacity * mib,
+                      gpu.memory_mib.used * mib});
+  return result;
+}
+
+void write_resources(const std::vector<resource_line>& lines, exposition& to) {
+  to.gauge("roscell_node_resource_capacity",
+           "What a node offers, in the unit that the resource names.");
+  for (const auto& x : lines)
+    to.sample({{"node", x.node}, {"resource", x.resource}}, x.capacity);
+  to.gauge("roscell_node_resource_used",
+           "What is in use or reserved of it, as last reported.");
+  for (const auto& x : lines)
+    to.sample({{"node", x.node}, {"resource", x.resource}}, x.used);
+}
+
+/// One gauge of all instances; a negative value is not known.
+template <class Value>
+void write_each(const std::vector<instance_row>& rows, exposition& to,
+                Value&& value_of) {
+  for (const auto& x : rows)
+    if (const double value = value_of(x); value >= 0)
+      to.sample({{"instance_id", x.spec.instance},
+                 {"task", x.spec.task},
+                 {"step", x.spec.step},
+                 {"node", x.node}},
+                value);
+}
+
+} // namespace
+
+void write_cost(const own_cost& cost, const node_description& node,
+                exposition& to) {
+  to.gauge("roscell_build_info", "The version of the program.");
+  to.sample({{"version", node.version}}, 1);
+  to.counter("process_cpu_seconds", "CPU time of the node's own process.");
+  to.sample({}, cost.cpu_seconds);
+  to.gauge("process_resident_memory_bytes", "Resident memory of it.");
+  to.sample({}, cost.resident_bytes);
+  to.gauge("roscell_process_pss_bytes",
+           "The same, with shared pages divided among those who share them.");
+  to.sample({}, cost.pss_bytes);
+  to.gauge("process_open_fds", "Its open files.");
+  to.sample({}, cost.open_files);
+  to.gauge("process_start_time_seconds", "When it was started, in Unix time.");
+  to.sample({}, static_cast<double>(node.started_unix_ms) / ms_in_s);
+  to.counter("roscell_process_written_bytes", "What it has written to disks.");
+  to.sample({}, cost.written_bytes);
+}
+
+void write_cell(const cell_description& cell, exposition& to) {
+  std::vector<resource_line> lines;
+  to.gauge("roscell_node_state", "1 for the state in which a node is.");
+  for (const auto& x : cell.nodes) {
+    to.sample({{"node", x.identity.name},
+               {"state", enum_words(x.state)[static_cast<size_t>(x.state)]}},
+              1);
+    for (auto& line : lines_of(x.identity.name, x.resources))
+      lines.push_back(std::move(line));
+  }
+  write_resources(lines, to);
+  std::map<std::string_view, double> tasks;
+  for (const auto word : enum_words(task_state{}))
+    tasks[word] = 0;
+  for (const auto& x : cell.tasks)
+    ++tasks[enum_words(x.state)[static_cast<size_t>(x.state)]];
+  to.gauge("roscell_tasks", "Tasks of the cell, by their state.");
+  for (const auto& [word, count] : tasks)
+    to.sample({{"state", word}}, count);
+}
+
+void write_node(const node_description& node, exposition& to) {
+  write_resources(lines_of(node.identity.name, node.resources), to);
+}
+
+void write_instances(const std::vector<instance_row>& instances,
+                     exposition& to) {
+  to.gauge("roscell_instance_state", "1 for the state an instance is in.");
+  for (const auto& x : instances)
+    to.sample({{"instance_id", x.spec.instance},
+               {"task", x.spec.task},
+               {"step", x.spec.step},
+               {"node", x.node},
+               {"state", enum_words(x.state)[static_cast<size_t>(x.state)]}},
+              1);
+  to.counter("roscell_instance_restarts",
+             "How often its node has started it again.");
+  write_each(instances, to,
+             [](const auto& x) { return static_cast<double>(x.restarts); });
+  to.counter("roscell_instance_frames", "Frames that its skill has processed.");
+  write_each(instances, to, [](const auto& x) {
+    return static_cast<double>(x.figures.frames);
+  });
+  to.counter("roscell_instance_dropped_frames",
+             "Frames that came too fast for it.");
+  write_each(instances, to, [](const auto& x) {
+    return static_cast<double>(x.figures.dropped);
+  });
+  to.gauge("roscell_instance_median_latency_seconds",
+           "Median time in which its skill processes a frame.");
+  write_each(instances, to,
+             [](const auto& x) { return x.figures.latency_ms / ms_in_s; });
+  to.gauge(
+      "roscell_instance_median_age_seconds",
+      "Median time from a frame's stamp to the output of what came of it.");
+  write_each(instances, to,
+             [](const auto& x) { return x.figures.age_ms / ms_in_s; });
+}
+
+} // namespace roscell
