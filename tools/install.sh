@@ -33,6 +33,10 @@ if [[ "${1:-}" == --with-tests ]]; then
     # To check: format, lint and fuzzers; namespaces, HTTP and JSON in scripts.
     clang clang-format clang-tidy libclang-rt-14-dev libfuzzer-14-dev
     iproute2 nftables curl procps
+    # Who scrapes `GET /metrics`, and a check of what it gets.
+    prometheus
+    # A browser for the dashboard, and what drives it.
+    chromium chromium-driver python3-selenium
     # A DDS implementation that is not ours, and a look at the wire.
     cyclonedds-dev cyclonedds-tools tcpdump
     # The other engine. runc, because crun refuses hosts with both versions of

@@ -175,7 +175,8 @@ private:
   scheduler_actor start_scheduler(std::shared_ptr<search_guard> guard) {
     auto make = [&system = system_, context = parts_.context](
                     auto searches, const scheduler_actor& owner) {
-      return spawn<caf::detached>(system, context, searcher, searches, owner);
+      return spawn<caf::detached>(system, context, searcher, context, searches,
+                                  owner);
     };
     return start(scheduler, scheduler_config{std::move(guard), make});
   }
@@ -241,8 +242,15 @@ private:
     if (const auto& coordinator = parts_.services->coordinator)
       caf::anon_send(coordinator, serve_members{parts_.router});
     parts_.services->node = spawn(system_, parts_.context, node, parts_);
-    parts_.edges->handler->set(
-        make_rest_handler(system_, {parts_.context, parts_.router}));
+    parts_.edges->handler->set(make_rest_handler(
+        system_, {parts_.context, parts_.router, parts_.services, pages()}));
+  }
+
+  /// A primary node knows too little to show it.
+  std::shared_ptr<const web_pages> pages() const {
+    return parts_.config.coordinator
+               ? std::make_shared<const web_pages>(parts_.config.pages)
+               : nullptr;
   }
 
   caf::actor_system& system_;
@@ -297,6 +305,7 @@ caf::expected<running_node> spawn_node(caf::actor_system& system,
   if (!data)
     return data.error();
   house context{std::make_shared<actor_directory>(), {}};
+  context.metrics = std::make_shared<metric_book>();
   context.events = spawn(system, context, event_log);
   auto edges = open_edges(config, *data, context);
   if (!edges) {

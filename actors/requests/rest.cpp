@@ -1,6 +1,7 @@
 #include "actors/requests/rest.hpp"
 
 #include "actors/house/limits.hpp"
+#include "actors/requests/metrics/scrape.hpp"
 #include "actors/requests/rest_routes.hpp"
 #include "actors/requests/rest_streams.hpp"
 
@@ -61,6 +62,15 @@ rest_exchange(exchange_pointer self, const request_router_actor& router,
   };
 }
 
+/// Whoever can open the Unix socket may see it; null: it is no page.
+const web_page* page_for(const rest_services& services,
+                         const http_request& request) {
+  if (!services.pages || !request.local || request.method != "GET")
+    return nullptr;
+  const auto found = services.pages->find(request.path);
+  return found == services.pages->end() ? nullptr : &found->second;
+}
+
 /// Starts what a route asks for.
 struct route_starter {
   caf::actor_system& system;
@@ -86,6 +96,10 @@ struct route_starter {
     answer.reply(200, json_content, R"({"status":"ok"})");
   }
 
+  void operator()(const metrics_request& x) const {
+    start_scrape(system, services.services, answer, x.format);
+  }
+
   void operator()(const failure& why) const {
     answer.reply(http_status(why.code), json_content, error_reply(why).dump());
   }
@@ -97,7 +111,11 @@ http_handler make_rest_handler(caf::actor_system& system,
                                const rest_services& services) {
   return [&system, services](const http_request& request,
                              const responder& answer) {
-    std::visit(route_starter{system, services, answer}, route_of(request));
+    if (const auto* page = page_for(services, request))
+      answer.reply(200, std::string{page->content_type},
+                   std::string{page->body});
+    else
+      std::visit(route_starter{system, services, answer}, route_of(request));
   };
 }
 

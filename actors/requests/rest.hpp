@@ -2,7 +2,9 @@
 
 #include "actors/edge/http/http_types.hpp"
 #include "actors/house/house.hpp"
+#include "actors/requests/request_context.hpp"
 #include "messages/messages.hpp"
+#include "roscell/web_page.hpp"
 
 #include <memory>
 
@@ -12,6 +14,10 @@ namespace roscell {
 struct rest_services {
   house context;
   request_router_actor router;
+  std::shared_ptr<const node_services> services =
+      nullptr; ///< May be null in tests.
+  /// For local clients; may be null.
+  std::shared_ptr<const web_pages> pages = nullptr;
 };
 
 /// Makes the handler that the HTTP server calls on its thread: each request

@@ -34,7 +34,7 @@ failure not_found(const http_request& request) {
           "the paths are /v1/requests (POST), /v1/registration (GET and POST), "
           "/v1/hello, /v1/node, /v1/cell, /v1/cells, "
           "/v1/tasks, /v1/instances, /v1/instances/{id}/logs, /v1/skills, "
-          "/v1/events and /healthz"};
+          "/v1/events, /metrics and /healthz"};
 }
 
 /// A number of the query part: `fallback` if absent, nothing if it is no
@@ -146,6 +146,8 @@ rest_route route_of(const http_request& request) {
   }
   if (request.path == "/healthz")
     return health_check{};
+  if (request.path == "/metrics")
+    return metrics_request{format_for(request.accept)};
   if (parts.size() >= 2 && parts[0] == "v1")
     return query_route(request, parts);
   return not_found(request);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "actors/edge/http/http_types.hpp"
+#include "actors/requests/metrics/exposition.hpp"
 #include "messages/failure.hpp"
 #include "messages/instance.hpp"
 
@@ -12,6 +13,11 @@ namespace roscell {
 
 /// `GET /healthz`: the node lives.
 struct health_check {};
+
+/// `GET /metrics`: in the text format that the client prefers.
+struct metrics_request {
+  exposition_format format = exposition_format::text;
+};
 
 /// `GET /v1/events?since=N&follow=0`: server-sent events.
 struct event_stream_request {
@@ -32,8 +38,9 @@ struct json_request {
 };
 
 /// What an HTTP request asks for, or why it asks for nothing.
-using rest_route = std::variant<json_request, event_stream_request,
-                                log_stream_request, health_check, failure>;
+using rest_route =
+    std::variant<json_request, event_stream_request, log_stream_request,
+                 health_check, metrics_request, failure>;
 
 /// The paths of the REST interface; docs/operations.md lists them.
 rest_route route_of(const http_request& request);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "roscell/web_page.hpp"
+
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -43,6 +45,8 @@ struct node_config {
   std::map<std::string, std::string> labels;
   std::vector<std::string> devices; ///< Offered besides those found.
   uint64_t log_bytes = 1024 * 1024; ///< Bound of one instance's log.
+  /// What is shown to whoever asks over the Unix socket. Coordinators only.
+  web_pages pages;
 };
 
 } // namespace roscell

@@ -169,7 +169,12 @@ bool http_connection::on_header() {
     begin_session();
     return false;
   }
-  const bool trusted = local_ || has_token();
+  if (!local_ && !names_host()) {
+    refuse_request(403, error_code::unauthorized,
+                   "this server is not called by that name");
+    return false;
+  }
+  const bool trusted = local_ || has_token() || has_secret(target->path);
   if (!trusted && !is_public(target->path)) {
     refuse_request(
         401, error_code::unauthorized, "the bearer token is missing or wrong",
@@ -198,6 +203,24 @@ bool http_connection::has_token() const {
   const auto value = to_view(parser_->get()[http::field::authorization]);
   return !shared_->token.empty() && value.substr(0, scheme.size()) == scheme
          && equal_in_constant_time(value.substr(scheme.size()), shared_->token);
+}
+
+bool http_connection::has_secret(const std::string& path) const {
+  const auto& secret = shared_->path_secret;
+  return !secret.empty() && path.size() > secret.size() + 1
+         && path[secret.size() + 1] == '/'
+         && equal_in_constant_time(
+             std::string_view{path}.substr(1, secret.size()), secret);
+}
+
+/// Whether the server is called as it may be, whatever the port.
+bool http_connection::names_host() const {
+  const auto& names = shared_->hosts;
+  const auto value = to_view(parser_->get()[http::field::host]);
+  return names.empty()
+         || std::find(names.begin(), names.end(),
+                      value.substr(0, value.find(':')))
+                != names.end();
 }
 
 bool http_connection::is_public(const std::string& path) const {
@@ -239,8 +262,11 @@ void http_connection::dispatch() {
   http_request request;
   request.method = std::string{to_view(message.method_string())};
   request.path = std::move(target->path);
+  if (!local_ && has_secret(request.path))
+    request.path.erase(0, shared_->path_secret.size() + 1);
   request.query = std::move(target->query);
   request.body = std::move(message.body());
+  request.accept = std::string{to_view(message[http::field::accept])};
   request.local = local_;
   responder answer{make_sink(shared_, weak_from_this())};
   shared_->core->guarded(

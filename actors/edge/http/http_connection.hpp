@@ -72,6 +72,8 @@ private:
   bool on_header();
   void on_bad_request(error ec);
   bool has_token() const;
+  bool has_secret(const std::string& path) const;
+  bool names_host() const;
   bool is_public(const std::string& path) const;
   bool check_body(size_t most_bytes);
   void dispatch();

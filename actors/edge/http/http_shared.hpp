@@ -85,6 +85,8 @@ struct http_shared {
   const std::shared_ptr<io_core> core;
   const http_limits limits;
   std::string token;
+  std::string path_secret;
+  std::vector<std::string> hosts;
   std::vector<std::string> public_paths;
   http_handler handler;
   std::shared_ptr<const session_acceptor> sessions; ///< Null: none are taken.

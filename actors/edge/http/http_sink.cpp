@@ -10,6 +10,16 @@ namespace roscell {
 
 namespace {
 
+/// A page loads nothing from elsewhere, makes no code out of text, and is shown
+/// inside no other.
+constexpr const char* page_rules =
+    "\r\nContent-Security-Policy: default-src 'none'; script-src 'self'; "
+    "style-src 'self'; img-src 'self'; connect-src 'self'; base-uri 'none'; "
+    "form-action 'none'; frame-ancestors 'none'; "
+    "require-trusted-types-for 'script'"
+    "\r\nX-Content-Type-Options: nosniff"
+    "\r\nReferrer-Policy: no-referrer";
+
 class connection_sink : public reply_sink {
 public:
   connection_sink(std::shared_ptr<http_shared> shared,
@@ -59,6 +69,8 @@ std::string reply_head(const http_reply& reply, bool is_last) {
   text += "\r\nContent-Type: " + reply.content_type;
   text += "\r\nContent-Length: " + std::to_string(reply.body.size());
   text += "\r\nCache-Control: no-store";
+  if (reply.content_type.rfind("text/html", 0) == 0)
+    text += page_rules;
   if (reply.status == 401)
     text += "\r\nWWW-Authenticate: Bearer";
   if (reply.status == 405)

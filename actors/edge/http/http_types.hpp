@@ -38,6 +38,7 @@ struct http_request {
   std::string path;   ///< Percent-decoded, begins with '/'.
   std::map<std::string, std::string> query; ///< Percent-decoded.
   std::string body;
+  std::string accept; ///< What kinds of reply the client takes.
   bool local = false; ///< It came by the Unix socket.
 };
 

@@ -9,6 +9,7 @@
 #include "tools/roscell/daemon/node_options.hpp"
 #include "tools/roscell/daemon/readiness.hpp"
 #include "tools/roscell/daemon/stop_signals.hpp"
+#include "tools/roscell/dashboard/pages.hpp"
 #include "tools/roscell/exit_code.hpp"
 #include "tools/roscell/view/format.hpp"
 #include "tools/roscell/view/terminal.hpp"
@@ -68,7 +69,8 @@ exit_code exit_code_of(error_code code) {
                                               : exit_refused;
 }
 
-running_node start(caf::actor_system& system, const node_config& config) {
+running_node start(caf::actor_system& system, node_config config) {
+  config.pages = dashboard_pages();
   auto node = spawn_node(system, config);
   if (node)
     return std::move(*node);

@@ -40,6 +40,10 @@ class http_client {
 public:
   explicit http_client(http_endpoint to);
 
+  const http_endpoint& endpoint() const {
+    return to_;
+  }
+
   struct options {
     std::map<std::string, std::string> headers;
     /// For `request` from the first connection attempt to the last byte, for

@@ -71,6 +71,63 @@ TEST_CASE("a server without a token lets nobody in by TCP") {
   CHECK(client.read_to_end().find("401") != std::string::npos);
 }
 
+namespace {
+
+/// A server for a browser: nobody has a token, but some know a path.
+struct browsed_server {
+  io_thread io;
+  std::unique_ptr<http_server> server;
+
+  browsed_server() {
+    http_server_options options;
+    options.port = 0;
+    options.path_secret = "s3cret";
+    options.hosts = {"127.0.0.1", "localhost"};
+    options.handler = [](const http_request& request, const responder& answer) {
+      answer.reply(200, "text/html", request.path);
+    };
+    server = expect(http_server::start(io, options));
+  }
+
+  std::string get(const std::string& path, const std::string& host) const {
+    raw_client client{server->port()};
+    client.send("GET " + path + " HTTP/1.1\r\nHost: " + host
+                + "\r\nConnection: close\r\n\r\n");
+    return client.read_to_end();
+  }
+};
+
+bool has_status(const std::string& reply, const std::string& status) {
+  return reply.find("HTTP/1.1 " + status + " ") == 0;
+}
+
+} // namespace
+
+TEST_CASE("who knows the secret path needs no token") {
+  const browsed_server x;
+  const auto reply = x.get("/s3cret/page", "127.0.0.1:80");
+  CHECK(has_status(reply, "200"));
+  CHECK(body_of(reply) == "/page");
+  for (const auto* path : {"/page", "/", "/s3cret", "/s3crets/page",
+                           "/s3cre/page", "//s3cret/page", "/wrong1/page"})
+    CHECK(has_status(x.get(path, "127.0.0.1"), "401"));
+}
+
+TEST_CASE("a name that leads here by chance is refused") {
+  const browsed_server x;
+  CHECK(has_status(x.get("/s3cret/page", "localhost"), "200"));
+  for (const auto* host : {"evil.example", "127.0.0.1.evil.example", ""})
+    CHECK(has_status(x.get("/s3cret/page", host), "403"));
+}
+
+TEST_CASE("a page may load nothing from elsewhere, nor be shown there") {
+  const browsed_server x;
+  const auto reply = x.get("/s3cret/page", "127.0.0.1");
+  CHECK(reply.find("Content-Security-Policy: default-src 'none'; ")
+        != std::string::npos);
+  CHECK(reply.find("frame-ancestors 'none'") != std::string::npos);
+}
+
 TEST_CASE("methods other than GET and POST are refused") {
   http_fixture node;
   for (const auto* method : {"OPTIONS", "DELETE", "PUT", "BREW"}) {

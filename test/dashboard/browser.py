@@ -1,0 +1,133 @@
+"""A headless browser that looks at the dashboard, and what a person does with it."""
+
+import os
+import shutil
+import tempfile
+import time
+
+from selenium import webdriver
+from selenium.webdriver.chrome.options import Options
+from selenium.webdriver.chrome.service import Service
+from selenium.webdriver.common.by import By
+from selenium.webdriver.common.keys import Keys
+from selenium.webdriver.support.ui import WebDriverWait
+
+ARGUMENTS = ("--headless", "--no-sandbox", "--disable-gpu", "--disable-quic",
+             "--no-first-run", "--disable-background-networking",
+             "--disable-component-update", "--disable-sync", "--hide-scrollbars")
+PATIENCE_S = float(os.environ.get("ROSCELL_DEADLINE_S", "30"))
+
+
+class Browser:
+    """One window with data of its own."""
+
+    def __init__(self, url, width=1440, height=900):
+        self.url = url
+        self.folder = tempfile.mkdtemp(prefix="roscell-browser.")
+        options = Options()
+        options.binary_location = "/usr/bin/chromium"
+        for argument in ARGUMENTS + (f"--user-data-dir={self.folder}",):
+            options.add_argument(argument)
+        options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
+        self.driver = webdriver.Chrome(service=Service("/usr/bin/chromedriver"), options=options)
+        self.size(width, height)
+
+    def close(self):
+        self.driver.quit()
+        shutil.rmtree(self.folder, ignore_errors=True)
+
+    def size(self, width, height, scale=1):
+        self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {
+            "width": width, "height": height, "deviceScaleFactor": scale, "mobile": False})
+
+    def prefers(self, scheme):
+        self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {
+            "features": [{"name": "prefers-color-scheme", "value": scheme}]})
+
+    def open(self, room=""):
+        """Opens a room anew, and waits until the page knows the cell."""
+        self.driver.get("about:blank")
+        self.driver.get(self.url + room)
+        try:
+            self.until(lambda: self.js("return document.documentElement.dataset.ready") == "yes")
+        except Exception as trouble:
+            asked = self.js("""return performance.getEntriesByType('resource').slice(-12)
+                .map((x) => [x.name.slice(-24), Math.round(x.startTime), Math.round(x.duration), x.responseStatus])""")
+            raise AssertionError(f"{room} does not open: {self.text('body')[:300]} {asked} {self.complaints()}") from trouble
+
+    def go(self, room):
+        self.js("location.hash = arguments[0]", room)
+        time.sleep(0.1)
+
+    def js(self, script, *arguments):
+        return self.driver.execute_script(script, *arguments)
+
+    def until(self, condition, patience=PATIENCE_S):
+        return WebDriverWait(self.driver, patience, 0.05, ignored_exceptions=(Exception,)).until(
+            lambda _: condition())
+
+    def text(self, selector="main"):
+        return self.js("return document.querySelector(arguments[0])?.innerText ?? ''", selector)
+
+    def sees(self, *words, selector="main", patience=PATIENCE_S):
+        """Waits until all of these words stand there."""
+        try:
+            self.until(lambda: all(x in self.text(selector) for x in words), patience)
+        except Exception as trouble:
+            raise AssertionError(f"{words} cannot be read in: {self.text(selector)[:2000]}") from trouble
+
+    def find(self, selector):
+        return self.until(lambda: self.driver.find_element(By.CSS_SELECTOR, selector))
+
+    def button(self, words, within="body"):
+        """A button or link by its words, or by the name that is read aloud."""
+        return self.until(lambda: next(
+            x for x in self.driver.find_elements(By.CSS_SELECTOR, f"{within} button, {within} a")
+            if words in (x.text.strip(), x.get_attribute("aria-label")) and x.is_displayed()))
+
+    def press(self, words, within="body"):
+        element = self.button(words, within)
+        self.js("arguments[0].scrollIntoView({block: 'center'})", element)
+        element.click()
+
+    def field(self, where):
+        """The control of a JSON pointer in the task form, or of a label's words."""
+        return self.until(lambda: self.js("""
+            const [where] = arguments;
+            const field = document.querySelector(`.field[data-where="${where}"]`);
+            if (field) return field.querySelector('input, select');
+            const label = [...document.querySelectorAll('label')].find((x) => x.textContent.startsWith(where));
+            return label && document.getElementById(label.htmlFor);""", where))
+
+    def write(self, where, text):
+        element = self.field(where)
+        self.js("""for (let x = arguments[0]; x; x = x.parentElement) if (x.tagName === 'DETAILS') x.open = true;
+                   arguments[0].scrollIntoView({block: 'center'})""", element)
+        element.send_keys(Keys.CONTROL, "a")
+        element.send_keys(Keys.DELETE)
+        element.send_keys(text)
+
+    def choose(self, where, value):
+        self.until(lambda: self.js("""
+            const [element, value] = arguments;
+            element.value = value;
+            return element.value === value
+              && (element.dispatchEvent(new Event('change', {bubbles: true})), true);""", self.field(where), value))
+
+    def keys(self, *keys):
+        for key in keys:
+            self.driver.switch_to.active_element.send_keys(key)
+
+    def picture(self, path):
+        self.driver.save_screenshot(str(path))
+
+    def asked(self):
+        """What the page has asked of the node, by path."""
+        return self.js("""return performance.getEntriesByType('resource')
+            .map((x) => x.name).filter((x) => x.includes('/v1/')).map((x) => x.split('/v1/')[1])""")
+
+    def complaints(self):
+        """What the browser has to say against the page: errors, broken policies. That a
+        question was refused is no error of the page."""
+        return [x["message"] for x in self.driver.get_log("browser")
+                if x["level"] == "SEVERE" and "Failed to load resource" not in x["message"]]

@@ -1,0 +1,100 @@
+#!/usr/bin/env python3
+"""How fluent the dashboard stays with 50 nodes, 500 instances and 10 events a
+second. What answers is fake_cell.py, a load that is made up; how the page behaves
+with a real cell is tried by dashboard_test.py."""
+
+import pathlib
+import sys
+import unittest
+import urllib.request
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent))
+from browser import Browser  # noqa: E402
+from fake_cell import PAGE, serve  # noqa: E402
+
+SECONDS = 8
+# Of 95 of 100 frames, and of the longest piece of work: what a person sees as fluent.
+MOST_FRAME_MS = 34
+MOST_TASK_MS = 150
+
+# How far frames are apart, what the page works, and how much of the time.
+MEASURE = """
+const [seconds, done] = arguments;
+const gaps = [];
+const long = [];
+new PerformanceObserver((list) => list.getEntries().forEach((x) => long.push(x.duration))).observe({type: 'longtask'});
+let last = performance.now();
+const end = last + seconds * 1000;
+const step = (time) => {
+  gaps.push(time - last);
+  last = time;
+  if (time < end) return requestAnimationFrame(step);
+  gaps.sort((a, b) => a - b);
+  const at = (share) => gaps[Math.min(gaps.length - 1, Math.floor(gaps.length * share))];
+  done({frames: gaps.length, median: at(0.5), p95: at(0.95), most: gaps.at(-1), longest: Math.max(0, ...long), long: long.length});
+};
+requestAnimationFrame(step);
+"""
+
+
+class LoadTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.url = serve(rate_hz=10)
+        cls.page = Browser(cls.url)
+        cls.page.driver.set_script_timeout(60)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.page.close()
+
+    def work_ms(self):
+        metrics = self.page.driver.execute_cdp_cmd("Performance.getMetrics", {})["metrics"]
+        return next(x["value"] for x in metrics if x["name"] == "TaskDuration") * 1000
+
+    def test_50_nodes_and_500_instances_at_10_events_a_second_stay_fluent(self):
+        self.page.driver.execute_cdp_cmd("Performance.enable", {})
+        print()
+        for room in ("site", "instances", "tasks", "tasks/task-01", "events", "nodes/node-01"):
+            self.page.open(f"#/{room}")
+            self.page.until(lambda: self.page.text("main").count("\n") > 10)
+            before = self.work_ms()
+            x = self.page.driver.execute_async_script(MEASURE, SECONDS)
+            busy = (self.work_ms() - before) / (SECONDS * 10)
+            print(f"    {room:14} frames {x['median']:.1f} ms, 95 % under {x['p95']:.1f}, most {x['most']:.0f}; "
+                  f"{x['long']} tasks over 50 ms, longest {x['longest']:.0f}; works {busy:.1f} % of the time")
+            self.assertLess(x["p95"], MOST_FRAME_MS, room)
+            self.assertLess(x["longest"], MOST_TASK_MS, room)
+
+    def test_few_questions_are_asked_however_many_events_come(self):
+        self.page.open("#/events")
+        self.page.js("performance.clearResourceTimings()")
+        self.page.driver.execute_async_script(MEASURE, SECONDS)
+        self.assertLessEqual(len(self.page.asked()), 2 * SECONDS, self.page.asked())
+
+    def test_the_page_is_small_and_names_each_of_its_parts(self):
+        index = (PAGE / "index.html").read_text()
+        parts = [x.relative_to(PAGE).as_posix() for x in PAGE.rglob("*") if x.is_file()]
+        self.assertEqual([x for x in parts if x != "index.html" and f'"{x}"' not in index], [])
+        self.assertLess(sum((PAGE / x).stat().st_size for x in parts), 200 * 1024)
+
+    def test_a_page_that_was_left_holds_no_connection(self):
+        # A browser has six connections for one server.
+        for _ in range(12):
+            self.page.open("#/site")
+        self.page.sees("node-01")
+
+    def test_a_node_that_goes_away_is_told_and_found_again(self):
+        page = self.page
+        page.open("#/site")
+        request = urllib.request.Request(self.url.replace("/dashboard/", "/fake/away"), data=b"4")
+        urllib.request.urlopen(request).read()
+        page.sees("The node has not answered since", "Looking again", selector="#banner", patience=5)
+        page.sees("away", selector="#link")
+        page.sees("live", selector="#link", patience=20)
+        page.until(lambda: page.js("return document.querySelector('#banner').hidden"))
+        page.sees("node-01", "active")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], "-v"])

@@ -1,0 +1,126 @@
+// What is known of the cell. Rooms read it and are told which kinds of things
+// have changed, together and once a frame, however many events came.
+import { onceAFrame } from '../page/frames.js';
+
+export const MOST_EVENTS = 2000;
+const MOST_ENDED = 200;
+
+export class Store {
+  constructor() {
+    this.me = null;
+    this.cell = null;
+    this.nodes = new Map();
+    this.tasks = new Map();
+    this.instances = new Map();
+    this.figures = new Map();
+    this.free = [];
+    this.cells = [];
+    this.skills = [];
+    this.refusedSkills = [];
+    this.topics = [];
+    this.events = [];
+    this.link = { state: 'connecting', since: Date.now() };
+    this.ended = new Set();
+    this.listeners = new Set();
+    this.changed = new Set();
+    this.tell = onceAFrame(() => this.tellListeners());
+  }
+
+  /** `listener(kinds)` hears of changes until the function that is returned is called. */
+  subscribe(listener) {
+    this.listeners.add(listener);
+    return () => this.listeners.delete(listener);
+  }
+
+  touch(...kinds) {
+    for (const kind of kinds)
+      this.changed.add(kind);
+    this.tell();
+  }
+
+  tellListeners() {
+    const kinds = this.changed;
+    this.changed = new Set();
+    for (const listener of [...this.listeners])
+      listener(kinds);
+  }
+
+  setCell(description) {
+    this.cell = description;
+    this.nodes = new Map(description.nodes.map((row) => [row.identity.name, row]));
+    this.free = description.free ?? [];
+    this.setTasks(description.tasks);
+    this.touch('cell', 'nodes');
+  }
+
+  setTasks(rows) {
+    this.tasks = new Map();
+    this.instances = new Map();
+    for (const row of this.nodes.values())
+      for (const instance of row.instances)
+        this.instances.set(instance.spec.instance, instance);
+    for (const row of rows)
+      this.putTask(row);
+    this.touch('tasks', 'instances');
+  }
+
+  /** Replaces a task, and with it what is known of its instances. */
+  putTask(row) {
+    this.forgetInstances(row.task);
+    this.tasks.set(row.task, row);
+    for (const instance of row.instances)
+      this.instances.set(instance.spec.instance, instance);
+    this.touch('tasks', 'instances');
+  }
+
+  dropTask(task) {
+    for (const instance of this.forgetInstances(task))
+      this.figures.delete(instance.spec.instance);
+    this.tasks.delete(task);
+    this.touch('tasks', 'instances');
+  }
+
+  /** A task that was terminated: nothing is asked of it any more. */
+  endTask(task) {
+    this.ended.add(task);
+    if (this.ended.size > MOST_ENDED)
+      this.ended.delete(this.ended.values().next().value);
+    this.dropTask(task);
+  }
+
+  forgetInstances(task) {
+    const gone = this.instancesOf(task);
+    gone.forEach((x) => this.instances.delete(x.spec.instance));
+    return gone;
+  }
+
+  instancesOf(task) {
+    const known = this.tasks.get(task);
+    if (known)
+      return known.instances.map((x) => this.instances.get(x.spec.instance) ?? x);
+    return [...this.instances.values()].filter((x) => x.spec.task === task);
+  }
+
+  instancesOn(node) {
+    return [...this.instances.values()].filter((x) => x.node === node);
+  }
+
+  setFigures(rows) {
+    for (const row of rows)
+      this.figures.set(row.spec.instance, { ...row.figures, status: row.status });
+    this.touch('figures');
+  }
+
+  addEvents(events) {
+    this.events.push(...events);
+    if (this.events.length > MOST_EVENTS)
+      this.events.splice(0, this.events.length - MOST_EVENTS);
+    this.touch('events');
+  }
+
+  setLink(state, retryAt) {
+    const since = state === this.link.state ? this.link.since : Date.now();
+    this.link = { state, since, retryAt };
+    this.touch('link');
+  }
+}

@@ -1,0 +1,115 @@
+// Puts the page together: what is known (cell/), the rooms that show it (rooms/),
+// and which of them is open (page/router.js).
+import { EventStream } from './cell/event_stream.js';
+import { Figures } from './cell/figures.js';
+import { applyEvent } from './cell/follow_events.js';
+import { Questions } from './cell/questions.js';
+import { Store } from './cell/store.js';
+import { Announcer } from './page/announcer.js';
+import { setAttribute, setText } from './page/dom.js';
+import { Frame } from './page/frame.js';
+import { place } from './page/router.js';
+import { count } from './page/words.js';
+import { ROOMS } from './rooms/rooms.js';
+
+/** A page that nobody sees lets the node go after this, and catches up when it is looked at. */
+const HIDDEN_MS = 60000;
+/** No first reading takes longer; facts that are newer may not be in it. */
+const READ_MS = 3000;
+
+const store = new Store();
+const announcer = new Announcer(document.getElementById('announcer'));
+const stream = new EventStream({ onEvents, onLink, onNode, onOpen });
+const questions = new Questions(store, () => stream.cut());
+const figures = new Figures(store, () => stream.cut());
+const app = { store, figures, questions, announcer, go: (hash) => { location.hash = hash; } };
+const frame = new Frame(app, stream);
+let room = null;
+
+function onNode(node) {
+  store.me = node;
+  store.touch('me');
+}
+
+let caughtUp = false;
+let late = [];
+
+async function onOpen(again) {
+  caughtUp = false;
+  if (again)
+    announcer.say('The node is back');
+  await questions.readAll();
+  caughtUp = true;
+  // Clocks of nodes differ, so "while it was read" is counted back from the newest fact.
+  const newest = late.at(-1)?.time_unix_ms ?? 0;
+  const doubtful = late.splice(0).filter((x) => x.time_unix_ms > newest - READ_MS);
+  // In this order: what has been terminated in the end is not asked for.
+  doubtful.filter((x) => x.event === 'task_terminated').forEach((x) => store.ended.add(x.subject));
+  doubtful.forEach((x) => applyEvent(store, x, questions.ask));
+  figures.lookSoon();
+  document.documentElement.dataset.ready = 'yes';
+}
+
+function onEvents(events) {
+  if (events.length === 0)
+    return;
+  store.addEvents(events);
+  // What is kept from before the page opened is in what is being read; what
+  // happens while it is read may not be, and is asked for after it.
+  if (!caughtUp)
+    return late.push(...events);
+  events.forEach((x) => applyEvent(store, x, questions.ask));
+  announcer.hear(events);
+}
+
+function onLink(state, retryAt) {
+  if (state === 'away' && store.link.state === 'live')
+    announcer.say('The node does not answer');
+  store.setLink(state, retryAt);
+}
+
+function openRoom() {
+  const where = place();
+  const Room = ROOMS[where.room] ?? ROOMS.site;
+  room?.close?.();
+  figures.wish();
+  room = new Room(app, where);
+  frame.show(where, room);
+  room.update(new Set(['all']));
+}
+
+store.subscribe((kinds) => {
+  frame.update(kinds);
+  room?.update(kinds);
+  const trouble = [...store.nodes.values()].filter((x) => x.state === 'lost').length;
+  document.title = `${trouble ? `(${count(trouble, 'node')} lost) ` : ''}${store.cell?.cell ?? 'ROSCell'} · ROSCell`;
+});
+
+let hiding;
+document.addEventListener('visibilitychange', () => {
+  clearTimeout(hiding);
+  if (document.hidden)
+    hiding = setTimeout(() => { stream.halt(); store.setLink('paused'); }, HIDDEN_MS);
+  else if (stream.halted)
+    stream.resume();
+});
+
+// A browser keeps pages that somebody may come back to, and with them their
+// connections, of which it has six for one node.
+window.addEventListener('pagehide', () => {
+  stream.halt();
+  room?.close?.();
+});
+window.addEventListener('pageshow', (event) => {
+  if (!event.persisted)
+    return;
+  stream.resume();
+  openRoom();
+});
+
+window.addEventListener('hashchange', openRoom);
+window.addEventListener('online', () => stream.lookNow());
+setText(document.getElementById('loading'), '');
+setAttribute(document.body, 'data-open', 'yes');
+openRoom();
+stream.run();

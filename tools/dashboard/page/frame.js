@@ -1,0 +1,111 @@
+// What stays while rooms change: the way between them, how the node is reached,
+// help, theme, shortcuts.
+import { el, replace, setAttribute, setText } from './dom.js';
+import { openHelp } from './help.js';
+import { stateMark, updateState } from './marks.js';
+import { address } from './router.js';
+import { Shortcuts } from './shortcuts.js';
+import { setUpTheme } from './theme.js';
+import { clock, count } from './words.js';
+
+const WAYS = [
+  ['site', 'Site', 's', 'cells and nodes'], ['tasks', 'Tasks', 't', 'tasks'],
+  ['instances', 'Instances', 'i', 'instances'], ['topics', 'Topics', 'o', 'topics'],
+  ['events', 'Events', 'e', 'events'], ['plan', 'New task', 'n', 'a new task, and where it would go'],
+  ['requests', 'Requests', 'r', 'requests to nodes and tasks'],
+];
+
+/** Rooms that belong to a way without being one. */
+const PARENT = { nodes: 'site' };
+
+export class Frame {
+  constructor(app, stream) {
+    this.app = app;
+    this.stream = stream;
+    this.main = document.getElementById('room');
+    this.links = new Map();
+    document.getElementById('ways').append(...WAYS.map((way) => this.makeWay(way)));
+    this.link = stateMark('connecting');
+    document.getElementById('link').append(this.link);
+    this.banner = document.getElementById('banner');
+    this.look = el('button', { type: 'button', on: { click: () => stream.lookNow() } }, 'Look now');
+    this.words = el('span', {});
+    this.banner.append(this.words, this.look);
+    this.setUpKeys(setUpTheme(document.getElementById('theme')));
+    // How long a node has been away is told anew each second, and only then.
+    setInterval(() => this.store.link.state === 'away' && this.showLink(), 1000);
+  }
+
+  get store() {
+    return this.app.store;
+  }
+
+  makeWay([room, title]) {
+    const amount = el('span', { class: 'amount' });
+    const link = el('a', { href: address(room) }, el('span', {}, title), amount);
+    this.links.set(room, { link, amount });
+    return el('li', {}, link);
+  }
+
+  setUpKeys(nextTheme) {
+    const keys = new Shortcuts();
+    for (const [room, , key, meaning] of WAYS)
+      keys.add(`g ${key}`, `Go to ${meaning}`, () => this.app.go(address(room)));
+    keys.add('/', 'Filter what is shown', () => this.main.querySelector('input[type=search]')?.focus());
+    keys.add('n', 'A new task', () => this.app.go(address('plan')));
+    keys.add('m', 'Change the theme', () => this.app.announcer.say(`Theme: ${nextTheme()}`));
+    keys.add('?', 'This help', () => openHelp(keys));
+    document.getElementById('help').addEventListener('click', () => openHelp(keys));
+  }
+
+  show(where, room) {
+    replace(this.main, room.root);
+    this.mark(where);
+    window.scrollTo(0, 0);
+    // Who listens to the page hears where it is now.
+    const title = room.root.querySelector('h1');
+    if (title && this.shown) {
+      title.tabIndex = -1;
+      title.focus({ preventScroll: true });
+    }
+    this.shown = true;
+  }
+
+  mark(where) {
+    const here = PARENT[where.room] ?? where.room;
+    for (const [room, { link }] of this.links)
+      setAttribute(link, 'aria-current', room === here ? 'page' : null);
+    this.links.get(here)?.link.scrollIntoView({ block: 'nearest', inline: 'nearest' });
+  }
+
+  update(kinds) {
+    const { store } = this;
+    if (kinds.has('link'))
+      this.showLink();
+    if (store.cell) {
+      setText(document.getElementById('cell-name'), store.cell.cell);
+      setText(document.getElementById('node-name'), store.me ? `by ${store.me.identity.name}` : '');
+    }
+    const lost = [...store.nodes.values()].filter((x) => x.state === 'lost').length;
+    const troubled = [...store.tasks.values()].filter((x) => ['failed', 'degraded'].includes(x.state)).length;
+    this.showAmount('site', lost, count(lost, 'lost node'));
+    this.showAmount('tasks', troubled, `${count(troubled, 'task')} in trouble`);
+  }
+
+  showAmount(room, amount, meaning) {
+    const element = this.links.get(room).amount;
+    setText(element, amount || '');
+    setAttribute(element, 'title', amount ? meaning : null);
+    setAttribute(element, 'aria-label', amount ? meaning : null);
+  }
+
+  showLink() {
+    const { state, since, retryAt } = this.store.link;
+    updateState(this.link, state);
+    this.banner.hidden = state !== 'away';
+    document.body.classList.toggle('stale', state === 'away');
+    if (state === 'away')
+      setText(this.words, `The node has not answered since ${clock(since)}: what is shown is as it was then. `
+        + `Looking again in ${Math.max(0, Math.ceil((retryAt - Date.now()) / 1000))} s.`);
+  }
+}

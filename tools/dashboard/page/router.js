@@ -1,0 +1,22 @@
+// Which room is open stands behind the # of the address: it can be kept, sent to
+// somebody, and gone back from.
+
+/** '#/tasks/fetch?step=a' is {room: 'tasks', name: 'fetch', query}. */
+export function place(hash = location.hash) {
+  const [path, query = ''] = hash.replace(/^#\/?/, '').split('?');
+  const [room = '', ...rest] = path.split('/');
+  return { room: room || 'site', name: safelyDecoded(rest.join('/')), query: new URLSearchParams(query) };
+}
+
+function safelyDecoded(text) {
+  try {
+    return decodeURIComponent(text);
+  } catch {
+    return text;
+  }
+}
+
+export function address(room, name = '', query = {}) {
+  const words = new URLSearchParams(query).toString();
+  return `#/${room}${name ? `/${encodeURIComponent(name)}` : ''}${words ? `?${words}` : ''}`;
+}

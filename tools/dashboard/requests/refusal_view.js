@@ -1,0 +1,38 @@
+// Why a request was refused: the sentence, what helps, each place that is wrong,
+// and with a placement each candidate and its reasons.
+import { Refusal } from '../cell/api.js';
+import { el } from '../page/dom.js';
+import { shape } from '../page/marks.js';
+import { spoken } from '../page/words.js';
+import { preemptedList, rejectedTable } from '../planning/plan_tables.js';
+
+/** `box` is the JSON that was sent; `fields`, if given, marks the places in a form too. */
+export function refusalView(trouble, box, fields) {
+  if (!(trouble instanceof Refusal))
+    return el('div', { class: 'refusal', role: 'alert' }, head('no answer', trouble.message));
+  const { error } = trouble;
+  const places = placesOf(error);
+  const lines = box ? box.mark(places.map((x) => x.where)) : [];
+  // That nothing fits is no mistake of a field.
+  fields?.mark(error.rejected ? [] : places);
+  return el('div', { class: 'refusal', role: 'alert' }, head(spoken(error.code), error.message),
+    error.hint ? el('p', {}, el('b', {}, 'What helps: '), error.hint) : null,
+    box && places.length > 0 ? el('ul', { class: 'places' }, places.map((x, index) => placeItem(x, lines[index], box))) : null,
+    error.more ? el('p', {}, `and ${error.more} more`) : null,
+    error.rejected?.length ? [el('h3', {}, 'Why each candidate was refused'), rejectedTable(error.rejected)] : null,
+    error.preempted?.length ? [el('h3', {}, 'What would be ended for it'), preemptedList(error.preempted)] : null);
+}
+
+function head(code, message) {
+  return el('p', { class: 'state bad refusal-head' }, shape('bad'), el('span', {}, el('b', {}, `Refused: ${code}. `), message));
+}
+
+function placesOf(error) {
+  if (error.errors?.length)
+    return error.errors.map((x) => ({ where: x.where, words: x.expected }));
+  return error.where ? [{ where: error.where, words: error.message }] : [];
+}
+
+function placeItem({ where, words }, line, box) {
+  return el('li', {}, el('button', { type: 'button', class: 'quiet', on: { click: () => box.goTo(where) } }, `line ${line}, ${where}`), ' ', words);
+}

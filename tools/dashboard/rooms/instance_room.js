@@ -1,0 +1,96 @@
+// One instance: what it is, what it does, how it ended before, and its log.
+import { el, replace, setText } from '../page/dom.js';
+import { stateMark, updateState } from '../page/marks.js';
+import { address } from '../page/router.js';
+import { ago, asList, clock, dateAndTime, hertz, instanceState, milliseconds, number } from '../page/words.js';
+import { LogView } from './log_view.js';
+import { facts } from './node_table.js';
+
+export class InstanceRoom {
+  constructor(app, where) {
+    this.app = app;
+    this.name = where.name;
+    this.title = el('span', {}, this.name);
+    this.state = stateMark('unknown');
+    this.reason = el('p', { class: 'reason' });
+    this.figures = el('p', { class: 'figure-row' });
+    this.actions = el('p', { class: 'actions' });
+    this.facts = el('div', {});
+    this.ends = el('div', {});
+    this.log = new LogView(this.name);
+    this.root = el('div', { class: 'room' },
+      el('p', { class: 'way' }, el('a', { href: address('instances') }, 'Instances')),
+      el('h1', {}, this.title, ' ', this.state), this.reason, this.figures, this.actions,
+      el('section', {}, el('h2', {}, 'Log'), this.log.root),
+      this.ends, el('section', {}, el('h2', {}, 'About'), this.facts));
+    app.figures.wish({ instance: this.name });
+  }
+
+  close() {
+    this.log.close();
+  }
+
+  update(kinds) {
+    const row = this.app.store.instances.get(this.name);
+    if (!row)
+      return this.app.store.cell && setText(this.reason, 'The cell has no instance of that name now; its log may still be there.');
+    const state = instanceState(row);
+    updateState(this.state, state);
+    setText(this.title, `${row.spec.task} / ${row.spec.step}`);
+    setText(this.reason, reasonOf(row));
+    this.showFigures(row);
+    if (this.known !== state && state === 'running')
+      this.log.again();
+    if (this.known !== state || kinds.has('instances') && !this.known)
+      this.showAbout(row);
+    this.known = state;
+  }
+
+  showFigures(row) {
+    const figures = this.app.store.figures.get(this.name) ?? row.figures ?? {};
+    setText(this.figures, [
+      figures.rate_hz !== undefined && `${hertz(figures.rate_hz)}`,
+      figures.latency_ms !== undefined && `${milliseconds(figures.latency_ms)} to process`,
+      figures.age_ms !== undefined && `${milliseconds(figures.age_ms)} old at the output`,
+      figures.frames !== undefined && `${number(figures.frames, 9)} frames`,
+      figures.dropped !== undefined && `${number(figures.dropped, 9)} dropped`,
+      row.restarts && `started again ${row.restarts} times`,
+    ].filter(Boolean).join('   ·   '));
+  }
+
+  showAbout(row) {
+    const { spec } = row;
+    const streams = (list) => asList(list).map((x) => el('div', {}, x.endpoint, ' ', el('span', { class: 'soft' }, x.data_type)));
+    const request = (type, words, query) => el('a', { class: 'button', href: address('requests', type, query) }, words);
+    replace(this.actions, request('task_restart', 'Restart', { task: spec.task, instance: spec.instance }),
+      el('a', { class: 'button', href: address('tasks', spec.task) }, 'Its task'),
+      el('a', { class: 'button', href: address('nodes', row.node) }, `Its node, ${row.node}`));
+    replace(this.facts, facts([
+      ['Instance', spec.instance], ['Task', spec.task], ['Node', row.node],
+      ['Skill', `${spec.operation} / ${spec.model} / ${spec.deployment}`], ['Build', spec.skill.slice(0, 16)],
+      ['Reads', streams(spec.input)], ['Writes', streams(spec.output)],
+      ['Parameters', el('code', {}, JSON.stringify(spec.parameters ?? {}))],
+      ['Reserved', `${number(spec.resources.cpu)} cores, ${number(spec.resources.memory_mib)} MiB memory, ${number(spec.resources.disk_mib)} MiB disk`],
+      ['GPU', spec.gpu], ['In this state since', dateAndTime(row.since_unix_ms)], ['Runs as', row.container], ['Image', row.image],
+      ['Restart', spec.life?.restart?.policy], ['On node loss', spec.life?.on_node_loss?.policy],
+    ]));
+    const ends = row.ends ?? [];
+    replace(this.ends, ends.length === 0 ? null : el('section', {}, el('h2', {}, 'Earlier ends'), ends.map(makeEnd)));
+  }
+}
+
+function reasonOf(row) {
+  const words = [row.waits, row.trouble, row.health_reason, row.reason];
+  if (row.unknown_since_unix_ms)
+    words.unshift(`Its node, ${row.node}, is away since ${clock(row.unknown_since_unix_ms)}; it may run on there.`);
+  if (row.state === 'backing_off' && row.next_start_unix_ms)
+    words.push(`It is started again at ${clock(row.next_start_unix_ms)}.`);
+  if (row.exit_code !== null && row.exit_code !== undefined)
+    words.push(`Exit code ${row.exit_code}, ${ago(row.since_unix_ms)} ago.`);
+  return words.filter(Boolean).join(' ');
+}
+
+function makeEnd(end) {
+  return el('details', {}, el('summary', {}, `${dateAndTime(end.unix_ms)}: exit code ${end.exit_code ?? 'unknown'} ${end.reason ?? ''}`),
+    el('pre', { class: 'log' }, end.log ?? 'no log'));
+}

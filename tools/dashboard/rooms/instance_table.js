@@ -1,0 +1,44 @@
+// Instances with their states and figures, of the cell, a node or a task.
+import { stateMark, updateState } from '../page/marks.js';
+import { setAttribute, setText } from '../page/dom.js';
+import { address } from '../page/router.js';
+import { Table } from '../page/table.js';
+import { ago, hertz, instanceState, milliseconds, number } from '../page/words.js';
+
+export class InstanceTable {
+  constructor(app, { without = '' } = {}) {
+    this.app = app;
+    this.table = new Table({
+      caption: 'Instances', columns: this.columns().filter((x) => x.key !== without),
+      keyOf: (x) => x.spec.instance, href: (x) => address('instances', x.spec.instance),
+      empty: 'None.',
+    });
+    this.root = this.table.root;
+  }
+
+  update(rows) {
+    this.table.update(rows);
+  }
+
+  columns() {
+    const figures = (x) => this.app.store.figures.get(x.spec.instance) ?? x.figures ?? {};
+    return [
+      { title: 'Step', order: (x) => `${x.spec.task} ${x.spec.step}`,
+        update: (cell, x) => setText(cell, x.spec.step) },
+      { title: 'Task', key: 'task', order: (x) => x.spec.task, text: (x) => x.spec.task },
+      { title: 'State', order: instanceState, make: (cell) => cell.appendChild(stateMark('unknown')),
+        update: (cell, x, mark) => {
+          updateState(mark, instanceState(x));
+          setAttribute(mark, 'title', x.reason ?? x.health_reason ?? null);
+        } },
+      { title: 'Node', key: 'node', order: (x) => x.node, text: (x) => x.node },
+      { title: 'Skill', class: 'minor', order: (x) => x.spec.operation, text: (x) => `${x.spec.operation} / ${x.spec.model}` },
+      { title: 'Rate', class: 'number', order: (x) => figures(x).rate_hz ?? -1, text: (x) => hertz(figures(x).rate_hz) },
+      { title: 'Latency', class: 'number', order: (x) => figures(x).latency_ms ?? -1, text: (x) => milliseconds(figures(x).latency_ms) },
+      { title: 'Frames', class: 'number minor', order: (x) => figures(x).frames ?? -1, text: (x) => number(figures(x).frames, 9) },
+      { title: 'Dropped', class: 'number minor', order: (x) => figures(x).dropped ?? -1, text: (x) => number(figures(x).dropped, 9) },
+      { title: 'Restarts', class: 'number minor', order: (x) => x.restarts ?? 0, text: (x) => x.restarts || '' },
+      { title: 'Since', class: 'number', order: (x) => -x.since_unix_ms, text: (x) => ago(x.since_unix_ms) },
+    ];
+  }
+}

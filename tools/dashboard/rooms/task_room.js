@@ -1,0 +1,88 @@
+// One task: its picture over the nodes, its instances, what has happened to it,
+// and what can be asked for it.
+import { send } from '../cell/api.js';
+import { GraphPicture } from '../graph/graph_picture.js';
+import { el, replace, setText } from '../page/dom.js';
+import { debounced } from '../page/frames.js';
+import { stateMark, updateState } from '../page/marks.js';
+import { address } from '../page/router.js';
+import { ago, dateAndTime } from '../page/words.js';
+import { keepDraft } from '../planning/drafts.js';
+import { requestOf } from '../planning/task_document.js';
+import { EventRows } from './event_rows.js';
+import { InstanceTable } from './instance_table.js';
+
+const HISTORY_MS = 1000;
+
+export class TaskRoom {
+  constructor(app, where) {
+    this.app = app;
+    this.name = where.name;
+    this.state = stateMark('unknown');
+    this.about = el('p', { class: 'soft' });
+    this.waits = el('ul', { class: 'waits' });
+    this.picture = new GraphPicture(app.store, this.name);
+    this.instances = new InstanceTable(app, { without: 'task' });
+    this.history = new EventRows(200, { dates: true });
+    this.dropped = el('p', { class: 'soft' });
+    this.root = el('div', { class: 'room' },
+      el('p', { class: 'way' }, el('a', { href: address('tasks') }, 'Tasks')),
+      el('h1', {}, this.name, ' ', this.state), this.about, this.actions(), this.waits,
+      el('section', {}, el('h2', {}, 'Steps over nodes'), this.picture.root),
+      el('section', {}, el('h2', {}, 'Instances'), this.instances.root),
+      el('section', {}, el('h2', {}, 'What has happened'), this.dropped, this.history.root));
+    app.figures.wish({ task: this.name });
+    this.askHistory = debounced(() => this.readHistory(), HISTORY_MS);
+    this.readHistory();
+  }
+
+  actions() {
+    const request = (type, words) => el('a', { class: 'button', href: address('requests', type, { task: this.name }) }, words);
+    return el('p', { class: 'actions' }, request('task_restart', 'Restart'), request('task_termination', 'Stop'),
+      el('button', { type: 'button', on: { click: () => this.planAnew() } }, 'Use as a new task'));
+  }
+
+  update(kinds) {
+    const { store } = this.app;
+    const task = store.tasks.get(this.name);
+    if (task) {
+      updateState(this.state, task.state);
+      setText(this.about, `Asked for ${dateAndTime(task.submitted_unix_ms)}, ${ago(task.submitted_unix_ms)} ago`);
+    } else if (store.cell) {
+      updateState(this.state, 'stopped');
+      setText(this.about, 'The cell has no task of that name now.');
+    }
+    const instances = store.instancesOf(this.name);
+    this.picture.update(instances);
+    this.instances.update(instances);
+    this.showWaits(instances);
+    if (kinds.has('events') && this.concerns(store.events.at(-1)))
+      this.askHistory();
+  }
+
+  concerns(event) {
+    return event?.subject === this.name || event?.data?.task === this.name;
+  }
+
+  showWaits(instances) {
+    const words = instances.filter((x) => x.waits).map((x) => `${x.spec.step}: ${x.waits}`).join('\n');
+    if (words !== this.shownWaits)
+      replace(this.waits, words.split('\n').filter(Boolean).map((text) => el('li', {}, text)));
+    this.shownWaits = words;
+  }
+
+  async readHistory() {
+    try {
+      const story = await send(JSON.stringify({ type: 'task_history_query', task: this.name }));
+      this.history.update(story.events.reverse());
+      setText(this.dropped, story.dropped ? `${story.dropped} facts between the first and the newest are not kept.` : '');
+    } catch (trouble) {
+      setText(this.dropped, trouble.message);
+    }
+  }
+
+  planAnew() {
+    keepDraft(requestOf(this.app.store.instancesOf(this.name), `${this.name}-2`));
+    this.app.go(address('plan'));
+  }
+}

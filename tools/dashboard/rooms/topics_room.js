@@ -1,0 +1,62 @@
+// The ROS 2 topics of the cell. No event tells of them, so they are read when the
+// room is opened, when instances change, and when somebody asks.
+import { get } from '../cell/api.js';
+import { el, freshId, setText } from '../page/dom.js';
+import { debounced, onceAFrame } from '../page/frames.js';
+import { Table } from '../page/table.js';
+import { count } from '../page/words.js';
+
+const AGAIN_MS = 2000;
+
+export class TopicsRoom {
+  constructor(app) {
+    this.app = app;
+    const find = freshId('find');
+    this.find = el('input', { type: 'search', id: find, placeholder: 'topic, type, program …', on: { input: onceAFrame(() => this.draw()) } });
+    this.words = el('span', { class: 'soft', role: 'status' });
+    this.table = new Table({
+      caption: 'Topics', columns: COLUMNS, keyOf: (x) => `${x.topic} ${x.data_type}`, empty: 'No topic is known.',
+    });
+    this.root = el('div', { class: 'room' }, el('h1', {}, 'Topics'),
+      el('p', { class: 'filters' }, el('label', { for: find }, 'Find'), this.find,
+        el('button', { type: 'button', on: { click: () => this.read() } }, 'Read again'), this.words),
+      this.table.root);
+    this.again = debounced(() => this.read(), AGAIN_MS);
+    this.read();
+  }
+
+  update(kinds) {
+    if (kinds.has('instances'))
+      this.again();
+  }
+
+  async read() {
+    try {
+      this.app.store.topics = (await get('topics')).topics;
+      this.trouble = '';
+    } catch (trouble) {
+      this.trouble = trouble.message;
+    }
+    this.draw();
+  }
+
+  draw() {
+    const words = this.find.value.toLowerCase().split(/\s+/).filter(Boolean);
+    const rows = this.app.store.topics.filter((x) => {
+      const text = JSON.stringify(x).toLowerCase();
+      return words.every((word) => text.includes(word));
+    });
+    this.table.update(rows);
+    setText(this.words, this.trouble || count(rows.length, 'topic'));
+  }
+}
+
+const programs = (ends) => ends.map((x) => `${x.program}${x.reliability === 'best_effort' ? ' (best effort)' : ''}`).join(', ');
+
+const COLUMNS = [
+  { title: 'Topic', order: (x) => x.topic, text: (x) => x.topic },
+  { title: 'Type', order: (x) => x.data_type, text: (x) => x.data_type },
+  { title: 'Written by', order: (x) => x.writers.length, text: (x) => programs(x.writers) || 'nobody' },
+  { title: 'Read by', order: (x) => x.readers.length, text: (x) => programs(x.readers) || 'nobody' },
+  { title: 'Ends that do not match', class: 'wrong', text: (x) => (x.mismatches ?? []).join('; ') },
+];

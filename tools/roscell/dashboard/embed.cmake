@@ -1,0 +1,36 @@
+# Writes OUTPUT, the definition of `dashboard_pages()`, from the files of the
+# folder PAGES.
+
+cmake_minimum_required(VERSION 3.25)
+file(GLOB_RECURSE files RELATIVE ${PAGES}
+  ${PAGES}/*.html ${PAGES}/*.css ${PAGES}/*.js ${PAGES}/*.svg)
+list(SORT files)
+
+set(type_html "text/html; charset=utf-8")
+set(type_css "text/css; charset=utf-8")
+set(type_js "text/javascript; charset=utf-8")
+set(type_svg "image/svg+xml")
+
+set(rows "")
+foreach(file IN LISTS files)
+  file(READ ${PAGES}/${file} text)
+  string(REGEX REPLACE ".*[.]" "" ending ${file})
+  string(REGEX REPLACE "^index[.]html$" "" path ${file})
+  string(APPEND rows "      {\"/dashboard/${path}\",\n"
+    "       {\"${type_${ending}}\", R\"~page~(${text})~page~\"}},\n")
+endforeach()
+
+file(WRITE ${OUTPUT}
+"#include \"tools/roscell/dashboard/pages.hpp\"
+
+namespace roscell::cli {
+
+// It is as long as the files are. NOLINTNEXTLINE(readability-function-size)
+const web_pages& dashboard_pages() {
+  static const web_pages table{
+${rows}  };
+  return table;
+}
+
+} // namespace roscell::cli
+")
