@@ -209,6 +209,9 @@ test_what_runs_makes_way_for_a_task_of_higher_priority() {
   work_task high '{"id": "b", "priority": 8}' > "$scratch/high.json"
   to head run "$scratch/low.json" > /dev/null
   watch_end a
+  to head run "$scratch/high.json" > /dev/null 2> "$scratch/said"
+  has_line "hint: \`--preempt\` shows" "$scratch/said" \
+    || fail "$(cat "$scratch/said")"
   to head run "$scratch/high.json" --preempt > /dev/null 2> "$scratch/said"
   expect "exit code" $? 1
   has_line "'low/a' on 'arm' (priority 2)" "$scratch/said" \

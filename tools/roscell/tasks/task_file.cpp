@@ -34,7 +34,16 @@ task_file read_task_file(const std::string& name) {
 namespace {
 
 /// The marks, or the rejected candidates, say what is wrong, so the hint that
-/// they are there says nothing.
+/// they are there says nothing. What else may be done stands behind it.
+std::string hint_beside(const failure& why, bool has_rejected) {
+  if (why.code == error_code::schema_violation)
+    return {};
+  if (!has_rejected)
+    return why.hint;
+  const auto more = why.hint.find("; ");
+  return more == std::string::npos ? "" : why.hint.substr(more + 2);
+}
+
 void show_places(const wrong_document& e, const json& reply) {
   const auto marks = marked_errors(e.file.name, e.file.text, reply);
   const auto rejected = rejected_in(e.why);
@@ -43,9 +52,9 @@ void show_places(const wrong_document& e, const json& reply) {
   if (marks.empty())
     return print_refusal(reply);
   print_text(marks);
-  if (e.why.code != error_code::schema_violation && rejected.empty()
-      && !e.why.hint.empty())
-    print_note("hint: " + printable(e.why.hint));
+  const auto hint = hint_beside(e.why, !rejected.empty());
+  if (!hint.empty())
+    print_note("hint: " + printable(hint));
 }
 
 } // namespace
