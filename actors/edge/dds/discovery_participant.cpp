@@ -182,6 +182,13 @@ void rtps_participant::update_announcement(const std::string& bytes) {
   participant_->update_attributes(attributes);
 }
 
+void rtps_participant::add_remote(
+    const eprosima::fastdds::rtps::RemoteServerAttributes& x) {
+  auto attributes = participant_->getRTPSParticipantAttributes();
+  attributes.builtin.discovery_config.m_DiscoveryServers.push_back(x);
+  participant_->update_attributes(attributes);
+}
+
 void rtps_participant::announce() {
   participant_->announceRTPSParticipantState();
 }

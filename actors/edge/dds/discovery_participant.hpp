@@ -75,6 +75,9 @@ public:
   /// Replaces the USER_DATA, and sends it to all who know us.
   void update_announcement(const std::string& bytes);
 
+  /// A server's: another one, which it registers with.
+  void add_remote(const eprosima::fastdds::rtps::RemoteServerAttributes& x);
+
   /// Sends the own data to all who know us.
   void announce();
 

@@ -4,6 +4,7 @@
 #include "actors/edge/dds/discovery_address.hpp"
 #include "actors/edge/dds/discovery_participant.hpp"
 #include "actors/edge/dds/herald.hpp"
+#include "actors/edge/dds/rtps/server_readiness.hpp"
 
 #include <algorithm>
 #include <mutex>
@@ -24,6 +25,10 @@ constexpr std::chrono::milliseconds greeting_delay{2};
 /// than Fast DDS's 450 ms because a ROS 2 node's start waits for it.
 constexpr std::int32_t serve_repeat_period_ns = 20'000'000;
 
+/// Until Fast DDS knows its own server; some milliseconds, but for a machine
+/// that has no time at all.
+constexpr std::chrono::seconds ready_limit{10};
+
 /// A ROS 2 node may put all its endpoints into one datagram of full size.
 constexpr std::uint32_t max_server_message_bytes = 65500;
 
@@ -38,14 +43,13 @@ participant_settings to_settings(const cell_server_options& options) {
   return result;
 }
 
-void add_remote(eprosima::fastrtps::rtps::DiscoverySettings& discovery,
-                const remote_server& x) {
+auto to_attributes(const remote_server& x) {
   eprosima::fastdds::rtps::RemoteServerAttributes remote;
   const auto prefix = server_prefix(x.id);
   std::copy(prefix.begin(), prefix.end(), remote.guidPrefix.value);
   remote.metatrafficUnicastLocatorList.push_back(
       udp_locator(x.address, x.port));
-  discovery.m_DiscoveryServers.push_back(remote);
+  return remote;
 }
 
 /// The port that was chosen, or any, if it is free now.
@@ -66,8 +70,6 @@ auto server_attributes(const cell_server_options& options, std::uint16_t port,
   auto& discovery = result.builtin.discovery_config;
   discovery.discoveryProtocol = DiscoveryProtocol_t::SERVER;
   discovery.discoveryServer_client_syncperiod = {0, serve_repeat_period_ns};
-  if (options.remote)
-    add_remote(discovery, *options.remote);
   return result;
 }
 
@@ -99,7 +101,7 @@ public:
     participant_ = rtps_participant::create(
         options.domain_id, server_attributes(options, port, route_),
         [this](const sighting& seen) { on_client(seen); }, graph_);
-    if (participant_ == nullptr)
+    if (participant_ == nullptr || (options.remote && !add_remote(options)))
       return false;
     greeter_.start();
     return true;
@@ -129,6 +131,15 @@ public:
   }
 
 private:
+  bool add_remote(const cell_server_options& options) {
+    server_readiness own{*to_socket_address(options.address, port_),
+                         [this] { participant_->announce(); }};
+    if (!own.wait(ready_limit))
+      return false;
+    participant_->add_remote(to_attributes(*options.remote));
+    return true;
+  }
+
   void on_client(const sighting& seen) {
     if (seen.name == probe_name)
       return;

@@ -1,5 +1,6 @@
 #include "actors/edge/dds/rtps/discovery_probe.hpp"
 
+#include "actors/edge/dds/rtps/discovery_wire.hpp"
 #include "actors/edge/dds/rtps/parameter_ids.hpp"
 
 #include <algorithm>
@@ -18,6 +19,8 @@ using bytes = std::vector<std::uint8_t>;
 constexpr std::array<std::uint8_t, 4> participant_entity{0, 0, 1, 0xc1};
 constexpr std::array<std::uint8_t, 4> pdp_writer_entity{0, 1, 0, 0xc2};
 constexpr std::array<std::uint8_t, 4> pdp_reader_entity{0, 1, 0, 0xc7};
+
+constexpr std::uint8_t data_submessage = 0x15;
 
 /// "RTPS", protocol 2.3, vendor eProsima: servers of Fast DDS take no other.
 constexpr std::array<std::uint8_t, 8> rtps_header{'R', 'T', 'P', 'S',
@@ -120,7 +123,7 @@ bytes data_message(const guid_prefix& self, std::uint8_t flags,
   put_all(body, payload);
   bytes result(rtps_header.begin(), rtps_header.end());
   put_all(result, self);
-  result.push_back(0x15);
+  result.push_back(data_submessage);
   result.push_back(flags);
   put(result, static_cast<std::uint16_t>(body.size()));
   put_all(result, body);
@@ -178,6 +181,26 @@ std::optional<guid_prefix> probe_answer(const std::uint8_t* datagram,
     return std::nullopt;
   std::copy_n(datagram + rtps_header.size(), result.size(), result.begin());
   return result;
+}
+
+bool is_introduction(std::uint8_t* datagram, std::size_t size) {
+  if (!probe_answer(datagram, size))
+    return false;
+  const auto header_bytes = rtps_header.size() + guid_prefix{}.size();
+  wire_cursor in{datagram + header_bytes, size - header_bytes};
+  while (in.good() && !in.at_end()) {
+    const auto kind = in.u8();
+    in.little_endian((in.u8() & 1) != 0);
+    auto body = in.take(in.u16());
+    if (kind != data_submessage || !body.skip(8))
+      continue;
+    const auto writer = body.take(pdp_writer_entity.size());
+    if (writer.good()
+        && std::equal(pdp_writer_entity.begin(), pdp_writer_entity.end(),
+                      writer.position()))
+      return true;
+  }
+  return false;
 }
 
 } // namespace roscell

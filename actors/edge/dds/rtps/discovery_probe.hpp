@@ -36,6 +36,10 @@ std::vector<std::uint8_t> probe_farewell(const guid_prefix& self);
 std::optional<guid_prefix> probe_answer(const std::uint8_t* datagram,
                                         std::size_t size);
 
+/// Whether a server tells a participant's data in it, its own if it is asked by
+/// a probe: more than that it lives.
+bool is_introduction(std::uint8_t* datagram, std::size_t size);
+
 /// So long a server remembers a probe whose farewell got lost.
 constexpr std::uint32_t probe_lease_seconds = 5;
 

@@ -3,7 +3,9 @@
 #include "discovery_fixture.hpp"
 
 #include <arpa/inet.h>
+#include <atomic>
 #include <sys/socket.h>
+#include <thread>
 #include <unistd.h>
 
 using namespace roscell;
@@ -34,6 +36,34 @@ void send_to(std::uint16_t port, const std::vector<std::uint8_t>& bytes) {
          reinterpret_cast<const sockaddr*>(&to), sizeof(to));
   ::close(fd);
 }
+
+cell_server_options with_remote(std::uint16_t port, std::uint8_t id) {
+  auto result = local_server(2, "");
+  result.remote = remote_server{"127.0.0.1", port, id};
+  return result;
+}
+
+/// Threads that leave this process's others no time.
+class crowd {
+public:
+  explicit crowd(std::size_t size) {
+    for (std::size_t i = 0; i < size; ++i)
+      threads_.emplace_back([this] {
+        while (!over_)
+          continue;
+      });
+  }
+
+  ~crowd() {
+    over_ = true;
+    for (auto& thread : threads_)
+      thread.join();
+  }
+
+private:
+  std::atomic<bool> over_{false};
+  std::vector<std::thread> threads_;
+};
 
 } // namespace
 
@@ -129,4 +159,24 @@ TEST_CASE("a discovery server can be closed twice", "[discovery]") {
   server->close();
   server->close();
   CHECK_FALSE(server->update_announcement("late"));
+}
+
+TEST_CASE("a discovery server registers with its remote when that is there",
+          "[discovery]") {
+  diary clients;
+  auto remote = must_open(local_server(1, ""), [&](const sighting& seen) {
+    if (server_id_of(seen.prefix))
+      clients.add(std::to_string(*server_id_of(seen.prefix)));
+  });
+  auto server = must_open(with_remote(remote->port(), 1));
+  CHECK(clients.entries().empty());
+  server->reach_remote(true);
+  CHECK(clients.wait_for("2"));
+}
+
+TEST_CASE("a discovery server with a remote starts where no thread gets time",
+          "[discovery]") {
+  const crowd busy{64};
+  for (int i = 0; i < 4; ++i)
+    must_open(with_remote(9, 1))->reach_remote(true);
 }

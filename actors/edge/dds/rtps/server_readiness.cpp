@@ -1,0 +1,75 @@
+#include "actors/edge/dds/rtps/server_readiness.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include <poll.h>
+#include <sys/socket.h>
+
+namespace roscell {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+/// Between questions; each is twice as long as the one before.
+constexpr std::chrono::milliseconds first_interval = 2ms;
+constexpr std::chrono::milliseconds max_interval = 250ms;
+
+std::optional<udp_socket> open_socket(const sockaddr_in& server) {
+  auto bound = udp_socket::bind(address_text(server), 0);
+  if (auto* socket = std::get_if<udp_socket>(&bound))
+    return std::move(*socket);
+  return std::nullopt;
+}
+
+} // namespace
+
+server_readiness::server_readiness(const sockaddr_in& server,
+                                   std::function<void()> announce)
+    : server_(server), announce_(std::move(announce)),
+      socket_(open_socket(server)) {}
+
+server_readiness::~server_readiness() {
+  for (const auto& prefix : asked_)
+    send(probe_farewell(prefix));
+}
+
+bool server_readiness::wait(std::chrono::milliseconds limit) {
+  const auto end = clock::now() + limit;
+  auto interval = first_interval;
+  while (socket_ && clock::now() < end) {
+    // Another asker each time: a server answers each one once.
+    asked_.push_back(make_probe_prefix());
+    send(probe_question(asked_.back(), socket_->local()));
+    announce_(); // Reaches those who asked before.
+    if (hear(std::min(end, clock::now() + interval)))
+      return true;
+    interval = std::min(2 * interval, max_interval);
+  }
+  return false;
+}
+
+void server_readiness::send(const std::vector<std::uint8_t>& bytes) {
+  sendto(socket_->fd(), bytes.data(), bytes.size(), MSG_NOSIGNAL,
+         reinterpret_cast<const sockaddr*>(&server_), sizeof(server_));
+}
+
+bool server_readiness::hear(clock::time_point deadline) {
+  std::array<std::uint8_t, 4096> datagram{};
+  for (;;) {
+    const auto left =
+        std::chrono::ceil<std::chrono::milliseconds>(deadline - clock::now());
+    pollfd waiting{socket_->fd(), POLLIN, 0};
+    if (left.count() <= 0
+        || ::poll(&waiting, 1, static_cast<int>(left.count())) == 0)
+      return false;
+    const auto size = recv(socket_->fd(), datagram.data(), datagram.size(), 0);
+    if (size > 0
+        && is_introduction(datagram.data(), static_cast<std::size_t>(size)))
+      return true;
+  }
+}
+
+} // namespace roscell
