@@ -38,7 +38,9 @@ process(pipeline_pointer self, const request_runner& run,
 handler_pipeline_actor::behavior_type
 handler_pipeline(pipeline_pointer self, const request_runner& run,
                  const std::shared_ptr<const node_services>& services,
-                 const std::shared_ptr<const json>& document) {
+                 const std::shared_ptr<const json>& document,
+                 request_history::ticket ticket) {
+  self->state.ticket = ticket;
   self->set_down_handler(
       [self](const caf::down_msg& down) { self->quit(down.reason); });
   return {

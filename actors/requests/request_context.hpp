@@ -1,6 +1,7 @@
 #pragma once
 
 #include "actors/house/house.hpp"
+#include "actors/requests/history/request_history.hpp"
 #include "messages/failure.hpp"
 #include "messages/messages.hpp"
 
@@ -24,14 +25,18 @@ struct node_services {
   container_supervisor_actor supervisor;
   membership_actor membership;
   node_actor node;
+  /// What was asked of this node, and what was decided.
+  std::shared_ptr<request_history> history =
+      std::make_shared<request_history>();
 };
 
 /// State of a HANDLER PIPELINE.
 struct handler_pipeline_state {
   static constexpr const char* name = "handler-pipeline";
 
-  std::string request; ///< Message type that it works on.
-  std::string handler; ///< The handler that is at work.
+  std::string request;                ///< Message type that it works on.
+  std::string handler;                ///< The handler that is at work.
+  request_history::ticket ticket = 0; ///< 0: its way is not kept.
 };
 
 using pipeline_pointer =
@@ -44,6 +49,41 @@ struct request_context {
 
   const house& home() const {
     return services->context;
+  }
+
+  request_history& history() const {
+    return *services->history;
+  }
+
+  /// The handler of that name begins.
+  void enter(const char* handler) const {
+    self->state.handler = handler;
+    history().enter(self->state.ticket, handler, self->clock().now());
+  }
+
+  /// Asks an actor, and notes that for the request's trace. One of the two is
+  /// called.
+  /// @param node the one that the actor speaks for; empty: this one.
+  template <class Reply, class Handle, class Message, class OnReply,
+            class OnError>
+  void call(const Handle& whom, std::chrono::milliseconds timeout,
+            Message message, OnReply on_reply, OnError on_error,
+            const std::string& node = {}) const {
+    const auto asked = history().ask(self->state.ticket, whom ? whom.id() : 0,
+                                     node, self->clock().now());
+    auto note = [context = *this, asked](bool refused) {
+      context.history().answer(asked, refused, context.self->clock().now());
+    };
+    self->request(whom, timeout, std::move(message))
+        .then(
+            [note, on_reply](Reply& reply) mutable {
+              note(false);
+              on_reply(reply);
+            },
+            [note, on_error](const caf::error& why) mutable {
+              note(true);
+              on_error(why);
+            });
   }
 };
 
@@ -91,9 +131,10 @@ template <class Reply, class Out, class Handle, class Message, class OnReply>
 void ask(const request_context& context, const Handle& whom,
          std::chrono::milliseconds timeout, Message message,
          const outcome<Out>& done, OnReply on_reply) {
-  context.self->request(whom, timeout, std::move(message))
-      .then([on_reply](Reply& reply) mutable { on_reply(std::move(reply)); },
-            [done](const caf::error& why) { done.fail(why); });
+  context.call<Reply>(
+      whom, timeout, std::move(message),
+      [on_reply](Reply& reply) mutable { on_reply(std::move(reply)); },
+      [done](const caf::error& why) { done.fail(why); });
 }
 
 } // namespace roscell

@@ -37,7 +37,7 @@ public:
                   return done.fail(std::move(*why));
                 if (auto* early = std::get_if<early_reply>(&result))
                   return done.conclude(std::move(early->reply));
-                context.self->state.handler = name;
+                context.enter(name);
                 next(context, std::get<End>(std::move(result)), done);
               }});
         }};
@@ -56,7 +56,7 @@ template <class Start, class Out>
 pipeline<Start, Out> start_with(const char* name, handler<Start, Out> first) {
   return pipeline<Start, Out>{[name, first](const request_context& context,
                                             Start input, outcome<Out> done) {
-    context.self->state.handler = name;
+    context.enter(name);
     first(context, std::move(input), std::move(done));
   }};
 }

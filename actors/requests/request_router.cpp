@@ -1,6 +1,7 @@
 #include "actors/requests/request_router.hpp"
 
 #include "actors/house/limits.hpp"
+#include "actors/house/wall_clock.hpp"
 #include "actors/requests/handler_pipeline.hpp"
 #include "schemas/document.hpp"
 #include "schemas/message_catalogue.hpp"
@@ -84,6 +85,31 @@ void tally(request_router_self self, const running_request& request,
   home.observe(metric::request_seconds, {request.type}, span.count());
 }
 
+/// What it is about, for people who look for it.
+std::string subject_of(const json& document) {
+  for (const auto* name : {"task", "node"})
+    if (const auto i = document.find(name);
+        i != document.end() && i->is_string())
+      return i->get<std::string>();
+  return "";
+}
+
+/// Queries change nothing and are many: they would drive out all others.
+bool is_remarkable(const std::string& type) {
+  constexpr std::string_view query = "_query";
+  return type.size() < query.size()
+         || type.compare(type.size() - query.size(), query.size(), query) != 0;
+}
+
+void note_end(request_router_self self, const running_request& request,
+              const request_routed& answer) {
+  auto& history = *self->state.services->history;
+  history.end(request.ticket, answer.refusal, self->clock().now());
+  if (request.type == "task_request"
+      && answer.refusal == to_string(error_code::no_feasible_allocation))
+    history.decide({request.subject, unix_now_ms(), "", answer.text});
+}
+
 /// Answers the request of a pipeline, unless that has been done.
 void settle(request_router_self self, const caf::actor_addr& worker,
             const std::function<request_routed()>& reply) {
@@ -95,6 +121,7 @@ void settle(request_router_self self, const caf::actor_addr& worker,
   running.erase(i);
   const auto answer = reply();
   tally(self, request, answer);
+  note_end(self, request, answer);
   answer_request(self, request.id, request.promise, answer);
 }
 
@@ -114,12 +141,18 @@ void dispatch(request_router_self self, const request_runner& run,
               const std::string& id, json document, promise_type promise) {
   const auto& services = self->state.services;
   const auto type = document.at("type").get<std::string>();
+  const auto subject = subject_of(document);
+  const auto now = self->clock().now();
+  const auto ticket =
+      is_remarkable(type)
+          ? services->history->begin(type, subject, unix_now_ms(), now)
+          : 0;
   auto worker =
       spawn(self->system(), services->context, handler_pipeline, run, services,
-            std::make_shared<const json>(std::move(document)));
+            std::make_shared<const json>(std::move(document)), ticket);
   const auto address = worker.address();
-  self->state.running[address] = {id, type, self->clock().now(), worker,
-                                  std::move(promise)};
+  self->state.running[address] = {id,  type,   subject,           ticket,
+                                  now, worker, std::move(promise)};
   self->monitor(worker);
   self->request(worker, limits::request::handler, process_request{})
       .then(

@@ -25,6 +25,8 @@ struct remembered_request {
 struct running_request {
   std::string id; ///< Its `request_id`, may be empty.
   std::string type;
+  std::string subject; ///< The task or node it is about; may be empty.
+  request_history::ticket ticket = 0; ///< Its place in the history; 0: none.
   std::chrono::steady_clock::time_point since;
   handler_pipeline_actor worker;
   caf::typed_response_promise<request_routed> promise;

@@ -29,12 +29,13 @@ json_request ask(json document) {
 }
 
 failure not_found(const http_request& request) {
-  return {error_code::unknown_type,
-          request.method + " " + request.path + " is not known here", "",
-          "the paths are /v1/requests (POST), /v1/registration (GET and POST), "
-          "/v1/hello, /v1/node, /v1/cell, /v1/cells, "
-          "/v1/tasks, /v1/instances, /v1/instances/{id}/logs, /v1/skills, "
-          "/v1/events, /metrics and /healthz"};
+  return {
+      error_code::unknown_type,
+      request.method + " " + request.path + " is not known here", "",
+      "the paths are /v1/requests (GET and POST), /v1/registration (the same), "
+      "/v1/hello, /v1/node, /v1/cell, /v1/cells, "
+      "/v1/tasks, /v1/instances, /v1/instances/{id}/logs, /v1/skills, "
+      "/v1/events, /metrics and /healthz"};
 }
 
 /// A number of the query part: `fallback` if absent, nothing if it is no
@@ -118,12 +119,18 @@ rest_route query_route(const http_request& request,
       return ask({{"type", "instance_query"}});
     if (what == "skills")
       return ask({{"type", "skill_query"}});
+    if (what == "requests")
+      return ask({{"type", "request_trace_query"}});
     if (what == "registration")
       return registration_route(request);
     if (what == "events")
       return event_route(request);
   } else if (parts.size() == 3 && what == "tasks") {
     return ask({{"type", "task_query"}, {"task", parts[2]}});
+  } else if (parts.size() == 4 && what == "tasks" && parts[3] == "placement") {
+    return ask({{"type", "task_placement_query"}, {"task", parts[2]}});
+  } else if (parts.size() == 4 && what == "tasks" && parts[3] == "trace") {
+    return ask({{"type", "request_trace_query"}, {"subject", parts[2]}});
   } else if (parts.size() == 3 && what == "instances") {
     return ask({{"type", "instance_query"}, {"instance", parts[2]}});
   } else if (parts.size() == 4 && what == "instances" && parts[3] == "logs") {

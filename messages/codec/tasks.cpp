@@ -1,5 +1,7 @@
 #include "messages/allocation_report.hpp"
 #include "messages/codec/instantiate.hpp"
+#include "messages/insight/request_trace.hpp"
+#include "messages/insight/task_placement.hpp"
 #include "messages/reservation.hpp"
 #include "messages/skill.hpp"
 #include "messages/skill_descriptor.hpp"
@@ -32,6 +34,13 @@ ROSCELL_CODEC(deployment_option)
 ROSCELL_CODEC(implementation_model)
 ROSCELL_CODEC(ros2_program)
 ROSCELL_CODEC(skill_descriptor)
+ROSCELL_CODEC(task_placement_query)
+ROSCELL_CODEC(task_placement)
+ROSCELL_CODEC(request_trace_query)
+ROSCELL_CODEC(trace_question)
+ROSCELL_CODEC(trace_hop)
+ROSCELL_CODEC(request_trace)
+ROSCELL_CODEC(request_traces)
 ROSCELL_CODEC(task_step)
 ROSCELL_CODEC(task_request)
 ROSCELL_CODEC(task_plan_query)

@@ -46,6 +46,13 @@ constexpr std::pair<std::string_view, std::string_view> forms[] = {
     {"health", R"({"grace_s":N})"},
     {"task_history.events", R"({"level":N})"},
     {"end", "input:N"},
+    {"task_placement.plan",
+     R"({"allocations":[],"optimal":true,"rejected":[],)"
+     R"("score":{"alpha":0.1,"balance":0.5,"gap":0.0,"load":0.5,)"
+     R"("lower_bound":0.5,"total":0.55},"task":"value_N","type":"task_plan"})"},
+    {"task_placement.refusal",
+     R"({"error":{"code":"conflict","hint":"","message":"value_N",)"
+     R"("where":""},"type":"error"})"},
 };
 
 std::string_view form_of(std::string_view type, std::string_view field) {

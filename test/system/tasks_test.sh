@@ -129,6 +129,36 @@ test_mistakes_are_shown_where_they_are() {
   expect "tasks" "$(get head /v1/tasks | jq '.tasks | length')" 0
 }
 
+test_why_a_task_is_where_it_is_and_how_it_came_there_is_told_afterwards() {
+  local text
+  start_alone
+  start_node arm --join "$(discovery_of head)" --interface lo --cpu-floor 1
+  await_joined head arm
+  chain_task > "$scratch/chain.yaml"
+  to head run "$scratch/chain.yaml" > /dev/null 2>&1 || fail "run refused it"
+  text=$(to arm why chain)
+  has_line 'was placed so' <<< "$text" || fail "$text"
+  has_line 'balance' <<< "$text" || fail "$text"
+  text=$(to head trace chain)
+  has_line "task_request 'chain'.*done after" <<< "$text" || fail "$text"
+  has_line 'deploy' <<< "$text" || fail "$text"
+  has_line 'member *\(arm\|head\)\|node-agent *\(arm\|head\)' <<< "$text" || fail "$text"
+  to head stop chain > /dev/null
+  text=$(to head trace chain)
+  has_line 'task_termination' <<< "$text" || fail "$text"
+  expect "its requests" \
+    "$(get head /v1/tasks/chain/trace | jq -c '[.requests[].request]')" \
+    '["task_request","task_termination"]'
+  sed 's/^task: chain/task: moon/; s/id: one,/id: one, labels: {place: moon},/' \
+    "$scratch/chain.yaml" > "$scratch/moon.yaml"
+  to head run "$scratch/moon.yaml" > /dev/null 2>&1 && fail "moon was not refused"
+  text=$(to arm why moon 2>&1)
+  has_line 'was refused' <<< "$text" || fail "$text"
+  has_line 'no_feasible_allocation' <<< "$text" || fail "$text"
+  to head why nobody 2> "$scratch/err" && fail "nobody was explained"
+  has_line 'no decision about a task' < "$scratch/err" || fail "$(cat "$scratch/err")"
+}
+
 test_a_topic_that_nobody_writes_is_refused_unless_it_is_external() {
   cp -r "$ROSCELL_BUILD/skills/pose_estimation" "$skills"
   ask_no_cpu "$skills/pose_estimation"

@@ -15,7 +15,7 @@ pipeline<Request, Reply> forward_to(Handle node_services::*whom,
   return pipeline<Request, Reply>{[=](const request_context& context,
                                       Request request, outcome<Reply> done) {
     const std::chrono::milliseconds timeout = timeout_of(request);
-    context.self->state.handler = "forward";
+    context.enter("forward");
     ask<Reply>(context, (*context.services).*whom, timeout, std::move(request),
                done, [done](Reply reply) { done.deliver(std::move(reply)); });
   }};

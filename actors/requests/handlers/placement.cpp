@@ -37,9 +37,10 @@ private:
   void ask(const Handle& whom, std::chrono::milliseconds timeout,
            Message message, void (*on_reply)(placing&, Reply&)) {
     auto self = shared_from_this();
-    context_.self->request(whom, timeout, std::move(message))
-        .then([self, on_reply](Reply& x) { on_reply(*self, x); },
-              [self](const caf::error& why) { self->on_error(why); });
+    context_.call<Reply>(
+        whom, timeout, std::move(message),
+        [self, on_reply](Reply& x) { on_reply(*self, x); },
+        [self](const caf::error& why) { self->on_error(why); });
   }
 
   void on_error(const caf::error& error) {
@@ -127,20 +128,21 @@ private:
   void reserve_on(const std::string& node, const node_agent_actor& agent,
                   const instance_reservation& wish) {
     auto self = shared_from_this();
-    context_.self->request(agent, limits::task::reservation, wish)
-        .then(
-            [self](const instances_reserved& reply) {
-              for (const auto& x : reply.refused)
-                self->add_refusal(x.instance, x.reason);
-              self->finish_one();
-            },
-            [self, node, wish](const caf::error& error) {
-              const auto why = to_failure(error);
-              for (const auto& spec : wish.specs)
-                self->add_refusal(spec.instance,
-                                  "node '" + node + "': " + why.message);
-              self->finish_one();
-            });
+    context_.call<instances_reserved>(
+        agent, limits::task::reservation, wish,
+        [self](const instances_reserved& reply) {
+          for (const auto& x : reply.refused)
+            self->add_refusal(x.instance, x.reason);
+          self->finish_one();
+        },
+        [self, node, wish](const caf::error& error) {
+          const auto why = to_failure(error);
+          for (const auto& spec : wish.specs)
+            self->add_refusal(spec.instance,
+                              "node '" + node + "': " + why.message);
+          self->finish_one();
+        },
+        node);
   }
 
   void add_refusal(const std::string& instance, const std::string& reason) {

@@ -2,6 +2,7 @@
 
 #include "actors/house/limits.hpp"
 #include "actors/requests/handlers/forwarding.hpp"
+#include "actors/requests/handlers/insight.hpp"
 #include "actors/requests/handlers/local_skills.hpp"
 #include "actors/requests/handlers/task_pipeline.hpp"
 
@@ -43,6 +44,8 @@ void add_cell_queries(request_registry& registry) {
   registry.add(forward_within<topic_query, topic_list>(soon, whom));
   registry.add(forward_within<task_query, task_description>(soon, whom));
   registry.add(forward_within<task_history_query, task_history>(soon, whom));
+  registry.add(tell_placement);
+  registry.add(list_traces);
   registry.add(
       forward_within<instance_query, instance_description>(soon, whom));
   registry.add(forward_within<skill_query, skill_list>(soon, whom));

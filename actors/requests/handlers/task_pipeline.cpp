@@ -1,6 +1,7 @@
 #include "actors/requests/handlers/task_pipeline.hpp"
 
 #include "actors/house/limits.hpp"
+#include "actors/house/wall_clock.hpp"
 #include "actors/placement/instance_specs.hpp"
 #include "actors/placement/reading/start_order.hpp"
 #include "actors/placement/reading/task_reading.hpp"
@@ -152,6 +153,8 @@ void record_plan(const request_context& context, reserved_task held,
   context.home().tell(
       "allocation_chosen", task.request.task,
       {{"score", task.plan.score}, {"allocations", task.plan.allocations}});
+  context.history().decide(
+      {task.request.task, unix_now_ms(), message_json(task.plan).dump(), ""});
   intended_task next{task.request.task,   {},
                      intent.nodes,        {},
                      task.plan.preempted, task.request.force,
@@ -218,14 +221,15 @@ public:
 private:
   void start(size_t i) {
     auto self = shared_from_this();
-    context_.self
-        ->request(task_.agents[i], limits::task::deployment_answer,
-                  instance_deployment{task_.specs[i]})
-        .then([self, i](const instance_deployed&) { self->on_running(i); },
-              [self, i](const caf::error& why) {
-                self->tally_.add_failure(step_failure(
-                    self->task_.specs[i], self->task_.nodes[i], why, i));
-              });
+    context_.call<instance_deployed>(
+        task_.agents[i], limits::task::deployment_answer,
+        instance_deployment{task_.specs[i]},
+        [self, i](const instance_deployed&) { self->on_running(i); },
+        [self, i](const caf::error& why) {
+          self->tally_.add_failure(
+              step_failure(self->task_.specs[i], self->task_.nodes[i], why, i));
+        },
+        task_.nodes[i]);
   }
 
   /// Others may have waited for this one alone.
@@ -273,11 +277,10 @@ void undo_placement(const request_context& context, const std::string& task,
   record_failure fact{task, why.message};
   why.hint = "the other steps were rolled back"
              + (why.hint.empty() ? "" : "; " + why.hint);
-  context.self
-      ->request(context.services->coordinator, limits::task::rollback,
-                std::move(fact))
-      .then([done, why](const task_rolled_back&) { done(why); },
-            [done](const caf::error& error) { done(to_failure(error)); });
+  context.call<task_rolled_back>(
+      context.services->coordinator, limits::task::rollback, std::move(fact),
+      [done, why](const task_rolled_back&) { done(why); },
+      [done](const caf::error& error) { done(to_failure(error)); });
 }
 
 void record_result(const request_context& context, deployed_task task,

@@ -19,11 +19,11 @@ public:
 
   void begin() {
     auto self = shared_from_this();
-    context_.self
-        ->request(context_.services->coordinator, limits::task::eviction,
-                  make_way{task_.task, task_.preempted, task_.force})
-        .then([self](const way_made&) { self->reserve(); },
-              [self](const caf::error& why) { self->give_up(not_gone(why)); });
+    context_.call<way_made>(
+        context_.services->coordinator, limits::task::eviction,
+        make_way{task_.task, task_.preempted, task_.force},
+        [self](const way_made&) { self->reserve(); },
+        [self](const caf::error& why) { self->give_up(not_gone(why)); });
   }
 
 private:
@@ -60,21 +60,21 @@ private:
 
   void reserve_on(const std::string& node, const wish& x) {
     auto self = shared_from_this();
-    context_.self->request(x.agent, limits::task::reservation, x.message)
-        .then(
-            [self, node](const instances_reserved& reply) {
-              for (const auto& one : reply.refused)
-                self->problem_ = "node '" + node
-                                 + "' has no room although "
-                                   "others made way: "
-                                 + one.reason;
-              self->finish_one();
-            },
-            [self, node](const caf::error& why) {
-              self->problem_ =
-                  "node '" + node + "': " + to_failure(why).message;
-              self->finish_one();
-            });
+    context_.call<instances_reserved>(
+        x.agent, limits::task::reservation, x.message,
+        [self, node](const instances_reserved& reply) {
+          for (const auto& one : reply.refused)
+            self->problem_ = "node '" + node
+                             + "' has no room although "
+                               "others made way: "
+                             + one.reason;
+          self->finish_one();
+        },
+        [self, node](const caf::error& why) {
+          self->problem_ = "node '" + node + "': " + to_failure(why).message;
+          self->finish_one();
+        },
+        node);
   }
 
   void finish_one() {

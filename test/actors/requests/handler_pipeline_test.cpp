@@ -19,6 +19,7 @@ struct handler_fixture {
   std::vector<record_event> facts;
   caf::actor fact_keeper;
   std::shared_ptr<node_services> services = std::make_shared<node_services>();
+  request_history::ticket ticket = 0;
 
   handler_fixture() {
     fact_keeper = time.system.spawn([this]() -> caf::behavior {
@@ -37,7 +38,7 @@ struct handler_fixture {
     return spawn(time.system, services->context, handler_pipeline,
                  *registry.find(document.at("type").get<std::string>()),
                  std::shared_ptr<const node_services>(services),
-                 std::make_shared<const json>(document));
+                 std::make_shared<const json>(document), ticket);
   }
 
   /// Runs `task_query` for a task through the registry's chain.
@@ -106,6 +107,21 @@ TEST_CASE_METHOD(handler_fixture,
   CHECK(facts[0].subject == "task_query");
   CHECK(json::parse(facts[0].data).at("handler") == "second");
   CHECK(to_failure(run(chain(), "stop at once").error()).where == "/task");
+}
+
+TEST_CASE_METHOD(handler_fixture,
+                 "Each handler is a hop of the request's trace",
+                 "[handler_pipeline]") {
+  ticket = services->history->begin("task_query", "t", 0,
+                                    request_history::time_point{});
+  REQUIRE(run(chain(), "t"));
+  const auto traces =
+      services->history->traces("t", [](uint64_t) { return ""; });
+  REQUIRE(traces.size() == 1);
+  std::string hops;
+  for (const auto& x : traces[0].hops)
+    hops += x.handler + " ";
+  CHECK(hops == "first second third ");
 }
 
 TEST_CASE_METHOD(handler_fixture,

@@ -21,6 +21,7 @@ struct router_fixture {
   std::function<void()> word;
   /// The one type that is taken, from coordinators, whose members may be newer.
   std::string only;
+  std::shared_ptr<request_history> history;
 
   router_fixture() {
     gate = time.system.spawn([this](caf::event_based_actor* self) {
@@ -90,6 +91,7 @@ struct router_fixture {
   /// With a membership this is a member's router.
   void start(const membership_actor& membership = {}) {
     auto services = std::make_shared<node_services>();
+    history = services->history;
     services->context = time.context;
     services->membership = membership;
     router = spawn(time.system, time.context, request_router,
@@ -138,7 +140,49 @@ void refuse(const request_context&, task_query,
   done.fail(failure{error_code::unknown_task, "no such task", "/task"});
 }
 
+void refuse_for_want_of_room(const request_context&, task_request,
+                             outcome<task_accepted> done) {
+  done.fail(
+      failure{error_code::no_feasible_allocation, "no room", "/pipeline"});
+}
+
+std::string task_text(const std::string& task) {
+  return json{
+      {"type", "task_request"},
+      {"task", task},
+      {"pipeline", {{{"id", "a"}, {"operation", "echo"}, {"model", "plain"}}}}}
+      .dump();
+}
+
 } // namespace
+
+TEST_CASE_METHOD(router_fixture,
+                 "The way of a command is kept until its end, not a query's",
+                 "[router]") {
+  registry.add(list_by_handler);
+  registry.add(refuse_for_want_of_room);
+  start();
+  ask(list_query("a"));
+  CHECK(error_of(ask(task_text("t"))) == "no_feasible_allocation");
+  const auto traces = history->traces("", [](uint64_t) { return ""; });
+  REQUIRE(traces.size() == 1);
+  CHECK(traces[0].request == "task_request");
+  CHECK(traces[0].subject == "t");
+  CHECK(traces[0].refusal == "no_feasible_allocation");
+  CHECK(traces[0].span_us >= 0);
+}
+
+TEST_CASE_METHOD(router_fixture,
+                 "A task for which there is no room has been decided about",
+                 "[router]") {
+  registry.add(refuse_for_want_of_room);
+  start();
+  const auto reply = ask(task_text("t"));
+  const auto kept = history->placement("t");
+  REQUIRE(kept);
+  CHECK(json::parse(kept->refusal) == reply);
+  CHECK(kept->plan.empty());
+}
 
 TEST_CASE_METHOD(router_fixture,
                  "A pipeline of the start type goes before a dedicated handler",

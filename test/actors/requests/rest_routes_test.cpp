@@ -53,6 +53,15 @@ TEST_CASE("Each path of a table is the query of that table", "[rest_routes]") {
         == json{{"type", "instance_query"}, {"instance", "i1"}});
 }
 
+TEST_CASE("A coordinator's memory of a task is below the task",
+          "[rest_routes]") {
+  CHECK(asked(get("/v1/tasks/t1/placement"))
+        == json{{"type", "task_placement_query"}, {"task", "t1"}});
+  CHECK(asked(get("/v1/tasks/t1/trace"))
+        == json{{"type", "request_trace_query"}, {"subject", "t1"}});
+  CHECK(asked(get("/v1/requests")) == json{{"type", "request_trace_query"}});
+}
+
 TEST_CASE("The node's actors are listed when asked for", "[rest_routes]") {
   CHECK(asked(get("/v1/node")).at("actors") == false);
   CHECK(asked(get("/v1/node", {{"actors", "1"}})).at("actors") == true);
@@ -116,8 +125,8 @@ TEST_CASE("Any other path is refused with the paths there are",
           "[rest_routes]") {
   for (const auto* path :
        {"/", "", "/v1", "/v2/node", "/v1/nodes", "/v1/node/x", "/v1/tasks/a/b",
-        "/v1/instances/i/log", "/v1/instances/i/logs/x", "/healthz/x",
-        "//v1/node", "/v1/requests"}) {
+        "/v1/tasks/a/trace/b", "/v1/instances/i/log", "/v1/instances/i/logs/x",
+        "/healthz/x", "//v1/node", "/v1/request"}) {
     CAPTURE(path);
     CHECK(refused(get(path)) == error_code::unknown_type);
   }

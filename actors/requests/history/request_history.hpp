@@ -1,0 +1,83 @@
+#pragma once
+
+#include "messages/insight/request_trace.hpp"
+#include "messages/insight/task_placement.hpp"
+
+#include <chrono>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace roscell {
+
+/// The latest requests of a node, hop by hop, and the latest placements that
+/// were decided: what `roscell trace` and `roscell why` show. Told the time;
+/// any thread may write and read. Bounded: the oldest go.
+class request_history {
+public:
+  using time_point = std::chrono::steady_clock::time_point;
+  using ticket = uint64_t; ///< Names a request; 0: none.
+
+  static constexpr size_t max_requests = 100;
+  static constexpr size_t max_hops = 32;      ///< Of one request.
+  static constexpr size_t max_questions = 64; ///< Of one hop.
+  static constexpr size_t max_placements = 100;
+  static constexpr size_t max_placement_bytes = 1024 * 1024;
+
+  /// Names a question of a request.
+  struct question {
+    ticket request = 0;
+    size_t hop = 0;
+    size_t index = 0;
+  };
+
+  ticket begin(std::string type, std::string subject, int64_t unix_ms,
+               time_point now);
+
+  /// The hop before, if any, is over.
+  void enter(ticket request, std::string handler, time_point now);
+
+  /// @param actor its id, named when somebody reads.
+  /// @param node the one it speaks for; empty: this one.
+  question ask(ticket request, uint64_t actor, std::string node,
+               time_point now);
+  void answer(const question& asked, bool refused, time_point now);
+
+  /// @param refusal the code of its error; empty: it was done.
+  void end(ticket request, std::string refusal, time_point now);
+
+  using name_function = std::function<std::string(uint64_t actor)>;
+
+  /// Those about the subject, or all if it is empty, the oldest first.
+  std::vector<request_trace> traces(const std::string& subject,
+                                    const name_function& name_of) const;
+
+  /// Replaces an earlier one of the task.
+  void decide(task_placement placement);
+
+  std::optional<task_placement> placement(const std::string& task) const;
+
+private:
+  struct entry {
+    ticket id = 0;
+    time_point came;
+    request_trace trace;
+    std::vector<std::vector<uint64_t>> actors; ///< Of the hops' questions.
+  };
+
+  entry* find(ticket id);
+  void close_hop(entry& of, time_point now);
+  void trim_placements();
+
+  mutable std::mutex mutex_;
+  ticket last_ = 0;
+  std::deque<entry> entries_;
+  std::deque<task_placement> placements_;
+  size_t placement_bytes_ = 0;
+};
+
+} // namespace roscell

@@ -1,0 +1,159 @@
+#include "actors/requests/history/request_history.hpp"
+
+#include <catch2/catch.hpp>
+
+namespace roscell::test {
+
+namespace {
+
+using std::chrono::microseconds;
+
+struct history_fixture {
+  request_history book;
+  request_history::time_point start{std::chrono::hours{1}};
+
+  request_history::time_point at(int us) const {
+    return start + microseconds{us};
+  }
+
+  request_history::ticket begin(const std::string& subject) {
+    return book.begin("task_request", subject, 1000, start);
+  }
+
+  std::vector<request_trace> of(const std::string& subject) const {
+    return book.traces(
+        subject, [](uint64_t id) { return "actor " + std::to_string(id); });
+  }
+};
+
+task_placement decision(const std::string& task, size_t bytes = 2) {
+  return {task, 5, std::string(bytes, '1'), ""};
+}
+
+} // namespace
+
+TEST_CASE_METHOD(history_fixture,
+                 "A trace tells each hop, whom it asked, and how long it took",
+                 "[request_history]") {
+  const auto id = begin("t");
+  book.enter(id, "claim", at(10));
+  const auto asked = book.ask(id, 7, "", at(11));
+  book.answer(asked, false, at(15));
+  book.enter(id, "deploy", at(20));
+  const auto late = book.ask(id, 8, "arm", at(21));
+  book.answer(late, true, at(40));
+  book.end(id, "timeout", at(50));
+  const auto traces = of("t");
+  REQUIRE(traces.size() == 1);
+  const auto& x = traces[0];
+  CHECK(x.request == "task_request");
+  CHECK(x.came_unix_ms == 1000);
+  CHECK(x.span_us == 50);
+  CHECK(x.refusal == "timeout");
+  REQUIRE(x.hops.size() == 2);
+  CHECK(x.hops[0] == trace_hop{"claim", 10, 10, {{"actor 7", "", 11, 4}}});
+  CHECK(x.hops[1]
+        == trace_hop{"deploy", 20, 30, {{"actor 8", "arm", 21, 19, true}}});
+}
+
+TEST_CASE_METHOD(history_fixture,
+                 "What goes on has no end, also while others come",
+                 "[request_history]") {
+  const auto id = begin("t");
+  book.enter(id, "claim", at(1));
+  book.ask(id, 7, "", at(2));
+  begin("u");
+  const auto x = of("t").at(0);
+  CHECK(x.span_us == -1);
+  CHECK(x.hops[0].span_us == -1);
+  CHECK(x.hops[0].asked[0].span_us == -1);
+}
+
+TEST_CASE_METHOD(history_fixture, "An answer after the next hop is its own's",
+                 "[request_history]") {
+  const auto id = begin("t");
+  book.enter(id, "undo", at(1));
+  const auto asked = book.ask(id, 7, "", at(2));
+  book.enter(id, "next", at(3));
+  book.answer(asked, false, at(9));
+  const auto x = of("t").at(0);
+  CHECK(x.hops[0].asked[0].span_us == 7);
+  CHECK(x.hops[1].asked.empty());
+}
+
+TEST_CASE_METHOD(history_fixture, "Traces are of one subject, or of all",
+                 "[request_history]") {
+  begin("t");
+  begin("u");
+  begin("t");
+  CHECK(of("t").size() == 2);
+  CHECK(of("").size() == 3);
+  CHECK(of("v").empty());
+}
+
+TEST_CASE_METHOD(history_fixture,
+                 "The oldest request goes when there are too many",
+                 "[request_history]") {
+  const auto first = begin("first");
+  for (size_t i = 0; i < request_history::max_requests; ++i)
+    begin("t");
+  CHECK(of("first").empty());
+  CHECK(of("").size() == request_history::max_requests);
+  // What it still does is not anybody else's.
+  book.enter(first, "claim", at(1));
+  book.answer(book.ask(first, 7, "", at(2)), false, at(3));
+  book.end(first, "", at(4));
+  for (const auto& x : of(""))
+    CHECK(x.hops.empty());
+}
+
+TEST_CASE_METHOD(history_fixture, "Hops and questions are bounded",
+                 "[request_history]") {
+  const auto id = begin("t");
+  book.enter(id, "deploy", at(1));
+  for (size_t i = 0; i < request_history::max_questions + 3; ++i)
+    book.answer(book.ask(id, i, "", at(2)), false, at(3));
+  const auto hop = of("t").at(0).hops.at(0);
+  CHECK(hop.asked.size() == request_history::max_questions);
+  CHECK(hop.dropped == 3);
+  for (size_t i = 0; i < 2 * request_history::max_hops; ++i)
+    book.enter(id, "again", at(4));
+  CHECK(of("t").at(0).hops.size() == request_history::max_hops);
+}
+
+TEST_CASE_METHOD(history_fixture, "A request without a ticket leaves no trace",
+                 "[request_history]") {
+  book.enter(0, "claim", at(1));
+  book.answer(book.ask(0, 7, "", at(2)), false, at(3));
+  book.end(0, "", at(4));
+  CHECK(of("").empty());
+}
+
+TEST_CASE_METHOD(history_fixture, "A task has its latest decision alone",
+                 "[request_history]") {
+  book.decide(decision("t"));
+  book.decide({"t", 6, "", "{}"});
+  const auto x = book.placement("t");
+  REQUIRE(x);
+  CHECK(x->decided_unix_ms == 6);
+  CHECK(x->plan.empty());
+  CHECK_FALSE(book.placement("u"));
+}
+
+TEST_CASE_METHOD(history_fixture,
+                 "The oldest decisions go when they are too many or too large",
+                 "[request_history]") {
+  book.decide(decision("first"));
+  for (size_t i = 0; i < request_history::max_placements; ++i)
+    book.decide(decision("t" + std::to_string(i)));
+  CHECK_FALSE(book.placement("first"));
+  CHECK(book.placement("t0"));
+  book.decide(decision("large", request_history::max_placement_bytes - 10));
+  CHECK_FALSE(book.placement("t0"));
+  CHECK(book.placement("large"));
+  // One that is larger than all of the room is not kept at all.
+  book.decide(decision("huge", request_history::max_placement_bytes));
+  CHECK_FALSE(book.placement("huge"));
+}
+
+} // namespace roscell::test
