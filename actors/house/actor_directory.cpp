@@ -1,6 +1,9 @@
 #include "actors/house/actor_directory.hpp"
 
+#include <caf/actor_cast.hpp>
+
 #include <algorithm>
+#include <utility>
 
 namespace roscell {
 
@@ -11,6 +14,32 @@ void actor_counters::add(uint64_t handling_us) {
   if (handling_us > longest_us)
     longest_us = handling_us;
 }
+
+void actor_counters::begin(const caf::actor_addr& self) {
+  std::lock_guard guard{mutex_};
+  address_ = self;
+  id = self.id();
+}
+
+caf::actor actor_counters::handle() const {
+  std::lock_guard guard{mutex_};
+  return caf::actor_cast<caf::actor>(address_);
+}
+
+namespace {
+
+actor_row row_of(const actor_counters& x) {
+  actor_row result;
+  result.name = x.name;
+  result.id = x.id;
+  result.messages = x.handled;
+  result.mailbox = x.received - std::min<uint64_t>(x.received, result.messages);
+  result.busy_us = x.busy_us;
+  result.longest_us = x.longest_us;
+  return result;
+}
+
+} // namespace
 
 std::shared_ptr<actor_counters>
 actor_directory::enter(const std::string& name) {
@@ -27,18 +56,25 @@ actor_directory::enter(const std::string& name) {
 std::vector<actor_row> actor_directory::rows() const {
   std::vector<actor_row> result;
   std::lock_guard guard{mutex_};
-  for (const auto& entry : entries_) {
-    auto x = entry.lock();
-    if (!x)
+  for (const auto& known : entries_)
+    if (const auto x = known.lock())
+      result.push_back(row_of(*x));
+  return result;
+}
+
+std::vector<actor_directory::entry>
+actor_directory::find(const std::string& name_or_id, size_t most) const {
+  std::vector<entry> result;
+  std::lock_guard guard{mutex_};
+  for (const auto& known : entries_) {
+    const auto x = known.lock();
+    if (result.size() == most || !x)
       continue;
-    actor_row row;
-    row.name = x->name;
-    row.id = x->id;
-    row.messages = x->handled;
-    row.mailbox = x->received - std::min<uint64_t>(x->received, row.messages);
-    row.busy_us = x->busy_us;
-    row.longest_us = x->longest_us;
-    result.push_back(std::move(row));
+    auto row = row_of(*x);
+    if (row.name != name_or_id && std::to_string(row.id) != name_or_id)
+      continue;
+    if (auto actor = x->handle())
+      result.push_back({std::move(row), std::move(actor)});
   }
   return result;
 }

@@ -2,6 +2,9 @@
 
 #include "messages/node.hpp"
 
+#include <caf/actor.hpp>
+#include <caf/actor_addr.hpp>
+
 #include <atomic>
 #include <cstdint>
 #include <memory>
@@ -22,6 +25,16 @@ struct actor_counters {
 
   /// Counts one handled message.
   void add(uint64_t handling_us);
+
+  /// The actor begins to be one; before that it has no address.
+  void begin(const caf::actor_addr& self);
+
+  /// Null when the actor has ended, or has not begun.
+  caf::actor handle() const;
+
+private:
+  mutable std::mutex mutex_;
+  caf::actor_addr address_; // Weak: it keeps no actor alive.
 };
 
 /// Every live actor that the house function has spawned on one node.
@@ -31,6 +44,15 @@ public:
 
   /// The live actors, oldest first.
   std::vector<actor_row> rows() const;
+
+  /// A live actor and what it has done.
+  struct entry {
+    actor_row row;
+    caf::actor actor;
+  };
+
+  /// Those of that name or id, oldest first, `most` at most.
+  std::vector<entry> find(const std::string& name_or_id, size_t most) const;
 
 private:
   mutable std::mutex mutex_;

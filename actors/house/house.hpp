@@ -54,7 +54,7 @@ public:
                 std::shared_ptr<actor_counters> counters,
                 std::function<behavior_type(pointer)> init)
       : super(cfg), counters_(std::move(counters)), init_(std::move(init)) {
-    counters_->id = this->id();
+    counters_->begin(this->address());
   }
 
   void enqueue(caf::mailbox_element_ptr what,

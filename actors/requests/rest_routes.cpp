@@ -98,6 +98,17 @@ rest_route registration_route(const http_request& request) {
   return ask(std::move(query));
 }
 
+/// `?resources=now` has the nodes asked first.
+rest_route cell_route(const http_request& request) {
+  const auto i = request.query.find("resources");
+  if (i == request.query.end())
+    return ask({{"type", "cell_query"}});
+  if (i->second != "now")
+    return failure{error_code::schema_violation,
+                   "the query parameter 'resources' can only be 'now'"};
+  return ask({{"type", "fresh_cell_query"}});
+}
+
 /// `/v1/tasks`, `/v1/tasks/{id}` and the like.
 rest_route query_route(const http_request& request,
                        const std::vector<std::string>& parts) {
@@ -108,7 +119,7 @@ rest_route query_route(const http_request& request,
     if (what == "hello")
       return ask({{"type", "hello_query"}});
     if (what == "cell")
-      return ask({{"type", "cell_query"}});
+      return cell_route(request);
     if (what == "cells")
       return ask({{"type", "cell_list_query"}});
     if (what == "tasks")
@@ -127,6 +138,8 @@ rest_route query_route(const http_request& request,
       return event_route(request);
   } else if (parts.size() == 3 && what == "tasks") {
     return ask({{"type", "task_query"}, {"task", parts[2]}});
+  } else if (parts.size() == 3 && what == "actors") {
+    return ask({{"type", "actor_query"}, {"actor", parts[2]}});
   } else if (parts.size() == 4 && what == "tasks" && parts[3] == "placement") {
     return ask({{"type", "task_placement_query"}, {"task", parts[2]}});
   } else if (parts.size() == 4 && what == "tasks" && parts[3] == "trace") {

@@ -4,6 +4,7 @@
 #include "messages/allocation_report.hpp"
 #include "messages/cell.hpp"
 #include "messages/formation.hpp"
+#include "messages/insight/fresh_cell_query.hpp"
 #include "messages/insight/request_trace.hpp"
 #include "messages/insight/task_placement.hpp"
 #include "messages/rebalance.hpp"
@@ -18,11 +19,12 @@ namespace roscell {
 namespace {
 
 /// What the coordinator answers from what it knows.
-constexpr std::array<std::string_view, 8> queries{
-    cell_query::type,           cell_list_query::type,
-    task_query::type,           task_history_query::type,
-    task_placement_query::type, request_trace_query::type,
-    transfer_query::type,       topic_query::type};
+constexpr std::array<std::string_view, 9> queries{
+    fresh_cell_query::type,    cell_query::type,
+    cell_list_query::type,     task_query::type,
+    task_history_query::type,  task_placement_query::type,
+    request_trace_query::type, transfer_query::type,
+    topic_query::type};
 
 /// What it has to do something for.
 constexpr std::array<std::string_view, 7> commands{

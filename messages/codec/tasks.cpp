@@ -1,5 +1,7 @@
 #include "messages/allocation_report.hpp"
 #include "messages/codec/instantiate.hpp"
+#include "messages/insight/actor_inspection.hpp"
+#include "messages/insight/fresh_cell_query.hpp"
 #include "messages/insight/request_trace.hpp"
 #include "messages/insight/task_placement.hpp"
 #include "messages/reservation.hpp"
@@ -34,6 +36,10 @@ ROSCELL_CODEC(deployment_option)
 ROSCELL_CODEC(implementation_model)
 ROSCELL_CODEC(ros2_program)
 ROSCELL_CODEC(skill_descriptor)
+ROSCELL_CODEC(fresh_cell_query)
+ROSCELL_CODEC(actor_query)
+ROSCELL_CODEC(inspected_actor_row)
+ROSCELL_CODEC(actor_inspection)
 ROSCELL_CODEC(task_placement_query)
 ROSCELL_CODEC(task_placement)
 ROSCELL_CODEC(request_trace_query)

@@ -39,7 +39,7 @@ std::vector<json::json_pointer> members_of(const json& document) {
 bool is_free_form(const json::json_pointer& place) {
   return !place.empty()
          && (place.back() == "parameters" || place.back() == "data"
-             || place.back() == "body");
+             || place.back() == "body" || place.back() == "state");
 }
 
 void check_valid(const std::string& schema, const json& document) {

@@ -46,6 +46,7 @@ constexpr std::pair<std::string_view, std::string_view> forms[] = {
     {"health", R"({"grace_s":N})"},
     {"task_history.events", R"({"level":N})"},
     {"end", "input:N"},
+    {".state", R"({"level":N})"},
     {"task_placement.plan",
      R"({"allocations":[],"optimal":true,"rejected":[],)"
      R"("score":{"alpha":0.1,"balance":0.5,"gap":0.0,"load":0.5,)"

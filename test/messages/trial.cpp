@@ -4,6 +4,8 @@
 #include "messages/allocation_report.hpp"
 #include "messages/cell.hpp"
 #include "messages/event.hpp"
+#include "messages/insight/actor_inspection.hpp"
+#include "messages/insight/fresh_cell_query.hpp"
 #include "messages/insight/request_trace.hpp"
 #include "messages/insight/task_placement.hpp"
 #include "messages/rebalance.hpp"
@@ -70,14 +72,14 @@ std::vector<trial> message_trials() {
   std::vector<trial> result;
   try_messages<cell_query, cell_list_query, topic_query, task_request,
                task_plan_query, task_query, task_history_query,
-               task_placement_query, request_trace_query, task_termination,
-               task_restart, instance_query, log_query, node_query, hello_query,
-               skill_query>(result);
+               task_placement_query, request_trace_query, actor_query,
+               fresh_cell_query, task_termination, task_restart, instance_query,
+               log_query, node_query, hello_query, skill_query>(result);
   try_messages<cell_description, cell_list, topic_list, task_accepted,
                task_plan, task_description, task_history, task_placement,
-               request_traces, task_terminated, task_restarted,
-               instance_description, log_excerpt, node_description, node_hello,
-               skill_list, event>(result);
+               request_traces, actor_inspection, task_terminated,
+               task_restarted, instance_description, log_excerpt,
+               node_description, node_hello, skill_list, event>(result);
   try_messages<session_request, session_reply, session_notice,
                node_registration, node_registered, node_departure,
                node_departed, resource_query, resource_report, figures_query,
@@ -131,6 +133,7 @@ std::vector<trial> part_trials() {
       try_part<placed_instance>("placed_instance"),
       try_part<preempted_instance>("preempted_instance"),
       try_part<rebalance_move>("rebalance_move"),
+      try_part<inspected_actor_row>("inspected_actor_row"),
       try_part<trace_question>("trace_question"),
       try_part<trace_hop>("trace_hop"),
       try_part<request_trace>("request_trace"),

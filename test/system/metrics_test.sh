@@ -64,3 +64,24 @@ CONFIG
     sleep 0.5
   done
 }
+
+# memory_of PATH: MiB in use on the member, as the coordinator answers there.
+memory_of() {
+  get head "$1" | jq '.nodes[] | select(.identity.name == "arm")
+                      | .resources.memory_mib.used | floor'
+}
+
+test_a_coordinator_asks_its_nodes_what_is_in_use_when_that_is_wanted() {
+  local before
+  start_node head --coordinator --cell line --interface lo
+  start_node arm --join "$(discovery_of head)" --interface lo
+  await_joined head arm
+  before=$(memory_of /v1/cell)
+  coproc holder { exec python3 -c \
+    'x = bytearray(b"x") * (1 << 30); print("held", flush=True); input()'; }
+  read -r _ <&"${holder[0]}"
+  expect "what it has reported" "$(memory_of /v1/cell)" "$before"
+  [[ $(memory_of '/v1/cell?resources=now') -gt $((before + 500)) ]] \
+    || fail "$before MiB before, $(memory_of '/v1/cell?resources=now') with 1024 more"
+  echo >&"${holder[1]}"
+}

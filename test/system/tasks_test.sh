@@ -143,6 +143,12 @@ test_why_a_task_is_where_it_is_and_how_it_came_there_is_told_afterwards() {
   has_line "task_request 'chain'.*done after" <<< "$text" || fail "$text"
   has_line 'deploy' <<< "$text" || fail "$text"
   has_line 'member *\(arm\|head\)\|node-agent *\(arm\|head\)' <<< "$text" || fail "$text"
+  text=$(to head inspect cell-coordinator)
+  has_line 'cell-coordinator [0-9]*: [0-9]* messages' <<< "$text" || fail "$text"
+  expect "its state" \
+    "$(get head /v1/actors/cell-coordinator | jq -r '.actors[0].state | type')" object
+  to arm inspect cell-coordinator 2> "$scratch/err" && fail "a member has a coordinator"
+  has_line "no actor 'cell-coordinator'" < "$scratch/err" || fail "$(cat "$scratch/err")"
   to head stop chain > /dev/null
   text=$(to head trace chain)
   has_line 'task_termination' <<< "$text" || fail "$text"

@@ -50,7 +50,9 @@ void add_echo_command(CLI::App& app, action& chosen);
 void add_traffic_commands(CLI::App& app, action& chosen);
 
 /// why, trace.
-void add_insight_commands(CLI::App& app, action& chosen);
+void add_decision_commands(CLI::App& app, action& chosen);
+
+void add_inspect_command(CLI::App& app, action& chosen);
 
 void add_dashboard_command(CLI::App& app, action& chosen);
 void add_graph_command(CLI::App& app, action& chosen);

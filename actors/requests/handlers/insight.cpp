@@ -1,5 +1,7 @@
 #include "actors/requests/handlers/insight.hpp"
 
+#include "actors/house/limits.hpp"
+
 #include <map>
 #include <utility>
 
@@ -26,6 +28,21 @@ void list_traces(const request_context& context, request_trace_query query,
     const auto i = names.find(id);
     return i == names.end() ? "an actor that has ended" : i->second;
   })});
+}
+
+void read_resources(const request_context& context, fresh_cell_query,
+                    outcome<cell_query> done) {
+  // What has been read is in the coordinator's registry then.
+  ask<cell_resources>(context, context.services->coordinator,
+                      limits::local::answer, collect_resources{}, done,
+                      [done](const cell_resources&) { done.deliver({}); });
+}
+
+void tell_cell(const request_context& context, cell_query query,
+               outcome<cell_description> done) {
+  ask<cell_description>(
+      context, context.services->coordinator, limits::local::answer, query,
+      done, [done](cell_description cell) { done.deliver(std::move(cell)); });
 }
 
 } // namespace roscell

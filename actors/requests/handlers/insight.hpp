@@ -1,8 +1,9 @@
 #pragma once
 
 #include "actors/requests/request_context.hpp"
+#include "messages/insight/fresh_cell_query.hpp"
 
-/// What a coordinator remembers of its own work.
+/// What a coordinator remembers of its own work, and what its nodes have now.
 namespace roscell {
 
 /// `unknown_task` when no decision about the task is kept.
@@ -11,5 +12,11 @@ void tell_placement(const request_context& context, task_placement_query query,
 
 void list_traces(const request_context& context, request_trace_query query,
                  outcome<request_traces> done);
+
+/// A node that does not answer keeps what it has reported last.
+void read_resources(const request_context& context, fresh_cell_query,
+                    outcome<cell_query> done);
+void tell_cell(const request_context& context, cell_query query,
+               outcome<cell_description> done);
 
 } // namespace roscell

@@ -1,6 +1,7 @@
 #include "actors/requests/handlers/registry.hpp"
 
 #include "actors/house/limits.hpp"
+#include "actors/requests/handlers/actor_inspecting.hpp"
 #include "actors/requests/handlers/forwarding.hpp"
 #include "actors/requests/handlers/insight.hpp"
 #include "actors/requests/handlers/local_skills.hpp"
@@ -23,6 +24,7 @@ void add_node_requests(request_registry& registry) {
   registry.add(
       forward_within<node_query, node_description>(soon, &services::node));
   registry.add(forward_within<hello_query, node_hello>(soon, &services::node));
+  registry.add(inspect_actors);
 }
 
 void add_primary_requests(request_registry& registry) {
@@ -44,6 +46,8 @@ void add_cell_queries(request_registry& registry) {
   registry.add(forward_within<topic_query, topic_list>(soon, whom));
   registry.add(forward_within<task_query, task_description>(soon, whom));
   registry.add(forward_within<task_history_query, task_history>(soon, whom));
+  registry.add(start_with("read_resources", read_resources)
+                   .then("tell_cell", tell_cell));
   registry.add(tell_placement);
   registry.add(list_traces);
   registry.add(

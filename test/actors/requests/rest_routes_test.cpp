@@ -62,6 +62,20 @@ TEST_CASE("A coordinator's memory of a task is below the task",
   CHECK(asked(get("/v1/requests")) == json{{"type", "request_trace_query"}});
 }
 
+TEST_CASE("The nodes are asked for their resources when that is wanted",
+          "[rest_routes]") {
+  CHECK(asked(get("/v1/cell", {{"resources", "now"}}))
+        == json{{"type", "fresh_cell_query"}});
+  CHECK(refused(get("/v1/cell", {{"resources", "later"}}))
+        == error_code::schema_violation);
+}
+
+TEST_CASE("An actor is looked into by name or id", "[rest_routes]") {
+  CHECK(asked(get("/v1/actors/member"))
+        == json{{"type", "actor_query"}, {"actor", "member"}});
+  CHECK(refused(get("/v1/actors")) == error_code::unknown_type);
+}
+
 TEST_CASE("The node's actors are listed when asked for", "[rest_routes]") {
   CHECK(asked(get("/v1/node")).at("actors") == false);
   CHECK(asked(get("/v1/node", {{"actors", "1"}})).at("actors") == true);

@@ -117,6 +117,10 @@ TEST_CASE("a stream is passed on as it comes, and ends with the browser",
 TEST_CASE("the dashboard is one page and what it loads", "[dashboard]") {
   const auto& pages = dashboard_pages();
   REQUIRE(pages.count("/dashboard/") == 1);
+  // Without the slash a browser is sent there, below whatever secret it used.
+  REQUIRE(pages.count("/dashboard") == 1);
+  CHECK(pages.at("/dashboard").body.find("url=dashboard/")
+        != std::string_view::npos);
   size_t bytes = 0;
   for (const auto& [path, page] : pages) {
     CHECK_FALSE(page.content_type.empty());

@@ -48,7 +48,8 @@ void set_up(CLI::App& app, action& chosen) {
   add_show_commands(app, chosen);
   add_describe_command(app, chosen);
   add_graph_command(app, chosen);
-  add_insight_commands(app, chosen);
+  add_decision_commands(app, chosen);
+  add_inspect_command(app, chosen);
   add_dashboard_command(app, chosen);
   add_env_command(app, chosen);
   add_echo_command(app, chosen);

@@ -11,7 +11,12 @@ set(type_css "text/css; charset=utf-8")
 set(type_js "text/javascript; charset=utf-8")
 set(type_svg "image/svg+xml")
 
-set(rows "")
+# A browser that was given the address without its last slash.
+set(redirection "<!doctype html><meta charset=utf-8><title>ROSCell</title>")
+string(APPEND redirection
+  "<meta http-equiv=refresh content=\"0;url=dashboard/\">")
+string(CONCAT rows "      {\"/dashboard\",\n"
+  "       {\"${type_html}\", R\"~page~(${redirection})~page~\"}},\n")
 foreach(file IN LISTS files)
   file(READ ${PAGES}/${file} text)
   string(REGEX REPLACE ".*[.]" "" ending ${file})

@@ -6,7 +6,7 @@
 #include "tools/roscell/commands.hpp"
 #include "tools/roscell/common_options.hpp"
 #include "tools/roscell/exit_code.hpp"
-#include "tools/roscell/tasks/trace_view.hpp"
+#include "tools/roscell/insight/trace_view.hpp"
 #include "tools/roscell/view/format.hpp"
 #include "tools/roscell/view/plan_view.hpp"
 #include "tools/roscell/view/terminal.hpp"
@@ -98,7 +98,7 @@ CLI::App* add_insight(CLI::App& app, action& chosen, const char* name,
 
 } // namespace
 
-void add_insight_commands(CLI::App& app, action& chosen) {
+void add_decision_commands(CLI::App& app, action& chosen) {
   auto why = std::make_shared<insight_options>();
   auto* explaining = add_insight(
       app, chosen, "why",

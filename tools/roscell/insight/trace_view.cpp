@@ -1,4 +1,4 @@
-#include "tools/roscell/tasks/trace_view.hpp"
+#include "tools/roscell/insight/trace_view.hpp"
 
 #include "actors/edge/io/time_text.hpp"
 #include "tools/roscell/view/format.hpp"

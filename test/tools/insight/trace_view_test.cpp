@@ -1,4 +1,4 @@
-#include "tools/roscell/tasks/trace_view.hpp"
+#include "tools/roscell/insight/trace_view.hpp"
 
 #include <catch2/catch.hpp>
 

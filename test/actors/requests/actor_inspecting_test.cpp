@@ -1,0 +1,108 @@
+#include "actors/house/limits.hpp"
+#include "actors/requests/handler_pipeline.hpp"
+#include "actors/requests/handlers/actor_inspecting.hpp"
+#include "test/fixture.hpp"
+
+namespace roscell::test {
+
+namespace {
+
+struct watched_state {
+  static constexpr const char* name = "watched";
+};
+
+/// Answers what it is told to, or nothing.
+introspected_actor::behavior_type
+watched(introspected_actor::stateful_pointer<watched_state> self,
+        const std::string& knows) {
+  return {
+      [self, knows](const state_query&) -> caf::result<actor_state> {
+        if (knows.empty())
+          return self->make_response_promise<actor_state>();
+        return actor_state{knows};
+      },
+  };
+}
+
+struct inspection_fixture {
+  virtual_time time;
+  std::shared_ptr<node_services> services = std::make_shared<node_services>();
+  std::vector<introspected_actor> actors;
+
+  inspection_fixture() {
+    services->context = time.context;
+  }
+
+  ~inspection_fixture() {
+    for (auto& x : actors)
+      time.kill(x);
+  }
+
+  introspected_actor start(const std::string& knows) {
+    actors.push_back(spawn(time.system, time.context, watched, knows));
+    time.settle();
+    return actors.back();
+  }
+
+  caf::expected<request_processed> inspect(const std::string& actor) {
+    request_registry registry;
+    registry.add(inspect_actors);
+    const json request{{"type", "actor_query"}, {"actor", actor}};
+    auto reply = time.ask<request_processed>(
+        spawn(time.system, services->context, handler_pipeline,
+              *registry.find("actor_query"),
+              std::shared_ptr<const node_services>(services),
+              std::make_shared<const json>(request),
+              request_history::ticket{0}),
+        process_request{});
+    time.settle();
+    time.pass(limits::local::answer);
+    REQUIRE(*reply);
+    return **reply;
+  }
+
+  json rows(const std::string& actor) {
+    const auto reply = inspect(actor);
+    REQUIRE(reply);
+    return json::parse(reply->text).at("actors");
+  }
+};
+
+} // namespace
+
+TEST_CASE_METHOD(inspection_fixture,
+                 "An actor is looked into by its id, or with all of its name",
+                 "[inspection]") {
+  start(R"({"n":1})");
+  const auto second = start(R"({"n":2})");
+  const auto both = rows("watched");
+  REQUIRE(both.size() == 2);
+  CHECK(both[0].at("state") == json{{"n", 1}});
+  const auto one = rows(std::to_string(second.id()));
+  REQUIRE(one.size() == 1);
+  CHECK(one[0].at("state") == json{{"n", 2}});
+  CHECK(one[0].at("counters").at("name") == "watched");
+}
+
+TEST_CASE_METHOD(inspection_fixture,
+                 "An actor that gives no answer in time has its counters",
+                 "[inspection]") {
+  start("");
+  const auto all = rows("watched");
+  REQUIRE(all.size() == 1);
+  CHECK(all[0].count("state") == 0);
+  CHECK(all[0].at("counters").at("name") == "watched");
+}
+
+TEST_CASE_METHOD(inspection_fixture, "An actor that has ended is not found",
+                 "[inspection]") {
+  const auto id = std::to_string(start(R"({"n":1})").id());
+  time.kill(actors.back());
+  actors.clear();
+  const auto reply = inspect(id);
+  REQUIRE_FALSE(reply);
+  CHECK(to_failure(reply.error()).code == error_code::unknown_task);
+  CHECK_FALSE(inspect("nobody"));
+}
+
+} // namespace roscell::test
