@@ -20,7 +20,8 @@ packages=(
   # To build: docs/decisions.md gives the reason for each.
   g++ cmake ninja-build ccache pkg-config python3
   libcaf-dev libfastrtps-dev nlohmann-json3-dev libvalijson-dev
-  libboost-dev libssl-dev libsqlite3-dev libcli11-dev libspdlog-dev catch2
+  libboost-dev libssl-dev libsqlite3-dev libcli11-dev libspdlog-dev libncurses-dev
+  catch2
   # For the skills that look at images. OpenCV's parts instead of all of it.
   libapriltag-dev libeigen3-dev libpng-dev libturbojpeg0-dev libyaml-cpp-dev
   libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev
@@ -33,6 +34,8 @@ if [[ "${1:-}" == --with-tests ]]; then
     # To check: format, lint and fuzzers; namespaces, HTTP and JSON in scripts.
     clang clang-format clang-tidy libclang-rt-14-dev libfuzzer-14-dev
     iproute2 nftables curl procps
+    # A terminal for `roscell top` that scripts can type into and read.
+    tmux
     # Who scrapes `GET /metrics`, and a check of what it gets.
     prometheus
     # A browser for the dashboard, and what drives it.

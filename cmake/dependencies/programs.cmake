@@ -1,6 +1,11 @@
 roscell_needs(CLI11)
 roscell_needs(spdlog)
 
+# For the full screen of `roscell top`.
+find_path(NCURSES_INCLUDE ncurses.h REQUIRED)
+find_library(NCURSES_LIBRARY ncursesw REQUIRED)
+find_library(TINFO_LIBRARY tinfo REQUIRED)
+
 # For the skills that look at images. OpenCV's CMake package would ask for all
 # of its parts; the few that are used are found one by one.
 find_path(EIGEN_INCLUDE Eigen/Core PATH_SUFFIXES eigen3 REQUIRED)

@@ -89,7 +89,7 @@ TEST_CASE("completion offers every command", "[tools]") {
       == "node run stop restart check new request plan form transfer release "
          "drain undrain rebalance "
          "status cells nodes tasks instances topics skills transfers describe "
-         "graph why trace inspect dashboard env echo hz bw events logs "
+         "graph why trace inspect top dashboard env echo hz bw events logs "
          "completion help "
          "version "
          "--version "

@@ -55,6 +55,7 @@ void add_decision_commands(CLI::App& app, action& chosen);
 void add_inspect_command(CLI::App& app, action& chosen);
 
 void add_dashboard_command(CLI::App& app, action& chosen);
+void add_top_command(CLI::App& app, action& chosen);
 void add_graph_command(CLI::App& app, action& chosen);
 void add_describe_command(CLI::App& app, action& chosen);
 void add_events_command(CLI::App& app, action& chosen);

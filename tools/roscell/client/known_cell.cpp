@@ -11,21 +11,6 @@ namespace roscell::cli {
 
 namespace {
 
-/// The cell as a node sees it that only knows itself.
-cell_description alone(const node_description& node) {
-  cell_description result;
-  result.cell = node.cell;
-  result.address = node.coordinator;
-  registry_row row;
-  row.identity = node.identity;
-  row.role = node.role;
-  row.state = row_state::active;
-  row.resources = node.resources;
-  row.instances = node.instances;
-  result.nodes.push_back(std::move(row));
-  return result;
-}
-
 /// Of those whose kind fits.
 template <class Predicate>
 std::vector<known_thing> those(const std::vector<known_thing>& all,
@@ -66,12 +51,26 @@ std::vector<known_thing> those(const std::vector<known_thing>& all,
 
 } // namespace
 
+cell_description cell_around(const node_description& node) {
+  cell_description result;
+  result.cell = node.cell;
+  result.address = node.coordinator;
+  registry_row row;
+  row.identity = node.identity;
+  row.role = node.role;
+  row.state = row_state::active;
+  row.resources = node.resources;
+  row.instances = node.instances;
+  result.nodes.push_back(std::move(row));
+  return result;
+}
+
 known_cell ask_for_cell(const node_client& node) {
   known_cell result;
   result.asked = node.get("/v1/node").get<node_description>();
   result.cell = result.asked.role == node_role::coordinator
                     ? node.get("/v1/cell").get<cell_description>()
-                    : alone(result.asked);
+                    : cell_around(result.asked);
   result.instances =
       node.get("/v1/instances").get<instance_description>().instances;
   result.skills = node.get("/v1/skills").get<skill_list>();

@@ -19,6 +19,9 @@ struct known_cell {
   std::vector<event> events; ///< The oldest first.
 };
 
+/// The cell as a node sees it that only knows itself.
+cell_description cell_around(const node_description& node);
+
 known_cell ask_for_cell(const node_client& node);
 
 /// What can be described.

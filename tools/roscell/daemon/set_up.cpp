@@ -50,6 +50,7 @@ void set_up(CLI::App& app, action& chosen) {
   add_graph_command(app, chosen);
   add_decision_commands(app, chosen);
   add_inspect_command(app, chosen);
+  add_top_command(app, chosen);
   add_dashboard_command(app, chosen);
   add_env_command(app, chosen);
   add_echo_command(app, chosen);

@@ -1,0 +1,83 @@
+#include "tools/roscell/top/follow/asker.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace roscell::cli::top {
+
+namespace {
+
+using std::chrono::steady_clock;
+
+constexpr std::chrono::milliseconds shortest_pause{250};
+
+/// A node spends so small a part of its time on the answers.
+constexpr int part_of_time = 20;
+
+} // namespace
+
+asker::asker(const http_endpoint& node, mailbox& to)
+    : node_{node}, to_{to}, worker_{[this] { run(); }} {}
+
+asker::~asker() {
+  {
+    const std::lock_guard guard{mutex_};
+    ended_ = true;
+  }
+  wakes_.notify_one();
+  node_.cancel();
+  worker_.join();
+}
+
+void asker::ask(const questions& what) {
+  if (!what.any())
+    return;
+  const std::lock_guard guard{mutex_};
+  wanted_.add(what);
+  wakes_.notify_one();
+}
+
+bool asker::wait_for_questions(questions& due) {
+  std::unique_lock guard{mutex_};
+  wakes_.wait(guard, [this] { return ended_ || wanted_.any(); });
+  wakes_.wait_until(guard, earliest_, [this] { return ended_; });
+  due = std::exchange(wanted_, {});
+  return !ended_;
+}
+
+void asker::run() {
+  for (questions due; wait_for_questions(due);) {
+    const auto begun = steady_clock::now();
+    try {
+      answer(due);
+    } catch (const std::exception& e) {
+      to_.put(question_failed{reason_in(e)});
+    }
+    const auto ended = steady_clock::now();
+    earliest_ = ended
+                + std::max<steady_clock::duration>(
+                    shortest_pause, part_of_time * (ended - begun));
+  }
+}
+
+void asker::answer(const questions& due) {
+  if (due.cell)
+    ask_for_cell();
+  if (due.skills)
+    to_.put(node_.get("/v1/skills").get<skill_list>());
+  if (due.figures)
+    to_.put(figures_answer{
+        node_.get("/v1/instances").get<instance_description>().instances});
+}
+
+void asker::ask_for_cell() {
+  cell_answer result;
+  result.asked = node_.get("/v1/node").get<node_description>();
+  result.cell =
+      result.asked.role == node_role::coordinator
+          ? node_.get("/v1/cell?resources=now").get<cell_description>()
+          : cell_around(result.asked);
+  to_.put(std::move(result));
+}
+
+} // namespace roscell::cli::top

@@ -1,0 +1,190 @@
+#include "tools/roscell/top/layout/controls.hpp"
+
+#include <algorithm>
+
+namespace roscell::cli::top {
+
+namespace {
+
+const listing& list_of(const controls& now, const surroundings& around) {
+  return around.lists.at(now.list);
+}
+
+void select(controls& now, const surroundings& around, size_t index) {
+  const auto& items = list_of(now, around).items;
+  if (!items.empty())
+    now.lists.at(now.list).selected =
+        items[std::min(index, items.size() - 1)].id;
+}
+
+size_t less(size_t x, size_t y) {
+  return x - std::min(x, y);
+}
+
+/// Where a key leads from a place among so many; the same place for a key that
+/// does not move.
+size_t moved(size_t from, const key& pressed, size_t page, size_t last) {
+  switch (pressed.name) {
+  case key_name::up:
+    return less(from, 1);
+  case key_name::down:
+    return std::min(last, from + 1);
+  case key_name::page_up:
+    return less(from, page);
+  case key_name::page_down:
+    return std::min(last, from + page);
+  case key_name::home:
+    return 0;
+  case key_name::end:
+    return last;
+  default:
+    return from;
+  }
+}
+
+void open(controls& now, room where) {
+  now.where = where;
+  now.text_filter.clear();
+  now.scroll = 0;
+  now.at_end = where == room::log || where == room::events;
+}
+
+/// The details or the log of what is selected.
+void open_selected(controls& now, const surroundings& around, room where) {
+  const auto& items = list_of(now, around).items;
+  const auto kind = listed_kinds.at(now.list);
+  if (items.empty()) {
+    now.note = "nothing is selected";
+    return;
+  }
+  if (where == room::log && kind != thing_kind::instance) {
+    now.note = "only instances have a log: Tab leads to them";
+    return;
+  }
+  const auto& selected = now.lists.at(now.list).selected;
+  now.subject = {kind,
+                 items[selected_index(list_of(now, around), selected)].id};
+  open(now, where);
+}
+
+void sort_by_next(controls& now, const surroundings& around) {
+  auto& order = now.lists.at(now.list).order;
+  order.column = (order.column + 1) % list_of(now, around).columns.size();
+}
+
+void type(controls& now, const key& pressed) {
+  auto& filter = filter_of(now);
+  switch (pressed.name) {
+  case key_name::text:
+    filter += pressed.text;
+    break;
+  case key_name::backspace:
+    // A character may be several bytes.
+    while (!filter.empty() && (filter.back() & 0xc0) == 0x80)
+      filter.pop_back();
+    if (!filter.empty())
+      filter.pop_back();
+    break;
+  case key_name::escape:
+    filter.clear();
+    now.typing = false;
+    break;
+  case key_name::enter:
+    now.typing = false;
+    break;
+  default:
+    break;
+  }
+}
+
+/// Keys that mean the same everywhere.
+bool press_anywhere(controls& now, const key& pressed) {
+  if (pressed.text == "/")
+    now.typing = true;
+  else if (pressed.text == "?")
+    open(now, room::help);
+  else if (pressed.text == "e")
+    open(now, room::events);
+  else
+    return false;
+  return true;
+}
+
+void press_in_text(controls& now, const key& pressed,
+                   const surroundings& around) {
+  const auto last = less(around.lines, around.page);
+  const bool leaves = pressed.name == key_name::escape
+                      || pressed.name == key_name::backspace
+                      || pressed.text == "q";
+  // Escape takes the filter away first.
+  if (pressed.name == key_name::escape && !now.text_filter.empty())
+    now.text_filter.clear();
+  else if (leaves)
+    open(now, room::overview);
+  else {
+    const auto from = now.at_end ? last : std::min(now.scroll, last);
+    now.scroll = moved(from, pressed, around.page, last);
+    const bool grows = now.where == room::log || now.where == room::events;
+    now.at_end = grows && now.scroll == last;
+  }
+}
+
+void press_in_lists(controls& now, const key& pressed,
+                    const surroundings& around) {
+  constexpr auto count = listed_kinds.size();
+  auto& choice = now.lists.at(now.list);
+  const auto& shown = list_of(now, around);
+  if (pressed.text == "q")
+    now.left = true;
+  else if (pressed.text == "s")
+    sort_by_next(now, around);
+  else if (pressed.text == "S")
+    choice.order.backwards = !choice.order.backwards;
+  else if (pressed.text == "l")
+    open_selected(now, around, room::log);
+  else if (pressed.name == key_name::enter)
+    open_selected(now, around, room::details);
+  else if (pressed.name == key_name::tab)
+    now.list = (now.list + 1) % count;
+  else if (pressed.name == key_name::back_tab)
+    now.list = (now.list + count - 1) % count;
+  else if (pressed.name == key_name::escape)
+    now.filter.clear();
+  else
+    select(now, around,
+           moved(selected_index(shown, choice.selected), pressed, around.page,
+                 less(shown.items.size(), 1)));
+}
+
+} // namespace
+
+std::string& filter_of(controls& now) {
+  return now.where == room::overview ? now.filter : now.text_filter;
+}
+
+const std::string& filter_of(const controls& now) {
+  return now.where == room::overview ? now.filter : now.text_filter;
+}
+
+size_t selected_index(const listing& shown, const std::string& selected) {
+  const auto found =
+      std::find_if(shown.items.begin(), shown.items.end(),
+                   [&](const item& x) { return x.id == selected; });
+  return found == shown.items.end()
+             ? 0
+             : static_cast<size_t>(found - shown.items.begin());
+}
+
+void press(controls& now, const key& pressed, const surroundings& around) {
+  now.note.clear();
+  if (now.typing)
+    type(now, pressed);
+  else if (press_anywhere(now, pressed))
+    return;
+  else if (now.where == room::overview)
+    press_in_lists(now, pressed, around);
+  else
+    press_in_text(now, pressed, around);
+}
+
+} // namespace roscell::cli::top

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <csignal>
+#include <optional>
+
+namespace roscell::cli::top {
+
+/// Takes the signals that a full screen has to answer, without handlers: the
+/// size has changed, Ctrl-Z and its end, and those that end a program. To be
+/// made before any thread is, so that all of them leave the signals to it.
+class terminal_signals {
+public:
+  terminal_signals();
+  ~terminal_signals();
+
+  terminal_signals(const terminal_signals&) = delete;
+  terminal_signals& operator=(const terminal_signals&) = delete;
+
+  /// Readable while a signal waits.
+  int fd() const {
+    return fd_;
+  }
+
+  /// The next one that waits.
+  std::optional<int> take();
+
+  /// Stops this process, as Ctrl-Z does without us. Returns when it goes on.
+  void stop_here();
+
+private:
+  sigset_t before_{};
+  int fd_;
+};
+
+} // namespace roscell::cli::top
