@@ -20,7 +20,8 @@ packages=(
   # To build: docs/decisions.md gives the reason for each.
   g++ cmake ninja-build ccache pkg-config python3
   libcaf-dev libfastrtps-dev nlohmann-json3-dev libvalijson-dev
-  libboost-dev libssl-dev libsqlite3-dev libcli11-dev libspdlog-dev libncurses-dev
+  libboost-dev libssl-dev libsqlite3-dev libcli11-dev libspdlog-dev
+  libncurses-dev libedit-dev
   catch2
   # For the skills that look at images. OpenCV's parts instead of all of it.
   libapriltag-dev libeigen3-dev libpng-dev libturbojpeg0-dev libyaml-cpp-dev

@@ -6,6 +6,10 @@ find_path(NCURSES_INCLUDE ncurses.h REQUIRED)
 find_library(NCURSES_LIBRARY ncursesw REQUIRED)
 find_library(TINFO_LIBRARY tinfo REQUIRED)
 
+# Debian ships libedit without a CMake package.
+find_path(EDIT_INCLUDE histedit.h REQUIRED)
+find_library(EDIT_LIBRARY edit REQUIRED)
+
 # For the skills that look at images. OpenCV's CMake package would ask for all
 # of its parts; the few that are used are found one by one.
 find_path(EIGEN_INCLUDE Eigen/Core PATH_SUFFIXES eigen3 REQUIRED)

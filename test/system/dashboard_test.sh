@@ -1,5 +1,5 @@
-# The dashboard in a real browser, against a real cell and under load, and
-# `roscell top` in a real terminal.
+# How people look at a cell: the dashboard in a real browser, against a real cell
+# and under load; `roscell top` and the shell at a terminal.
 
 test_people_see_and_do_what_they_came_for() {
   local tool
@@ -198,4 +198,144 @@ test_top_needs_a_terminal_but_a_poor_one_will_do() {
   await_screen '^.arm +active +[#+.]+ .*[0-9]%'
   type_keys q
   await_screen '^prompt>$'
+}
+
+
+# open_shell NODE: the shell of that node at a terminal of its own. What is
+# typed goes into $keyboard, what it shows comes from $screen.
+open_shell() {
+  mkfifo "$scratch/keyboard" "$scratch/screen"
+  exec {keyboard}<> "$scratch/keyboard" {screen}<> "$scratch/screen"
+  TERM=xterm XDG_STATE_HOME=$scratch/state script -qefc \
+    "$ROSCELL shell --to $scratch/$1/node.sock" /dev/null \
+    < "$scratch/keyboard" > "$scratch/screen" 2> "$scratch/script.err" &
+  shell_pid=$!
+  echo "$shell_pid" >> "$scratch/pids"
+}
+
+# type_in KEYS: as printf writes them: \r is Enter, \t Tab, \003 Ctrl-C.
+type_in() {
+  printf '%b' "$1" >&"$keyboard"
+}
+
+# sees TEXT...: reads what the terminal gets until each of them has come.
+sees() {
+  local text shown x end=$((SECONDS + deadline_s))
+  for text in "$@"; do
+    shown=
+    until [[ $shown == *"$text" ]]; do
+      IFS= read -r -N 1 -t $((end - SECONDS)) x <&"$screen" \
+        || fail "the shell does not show '$text' but: $shown"
+      shown+=$x
+    done
+  done
+}
+
+test_a_shell_does_a_line_and_ends_with_its_code() {
+  local code=0 sock=$scratch/head/node.sock
+  start_node head --coordinator --cell line --interface lo
+  to head shell -c 'nodes -o json' | jq -e '.[0].name == "head"' > /dev/null \
+    || fail "the nodes are not told"
+  to head shell -c tree | has_line '^cell-coordinator .*[0-9]' \
+    || fail "the actors are not told"
+  to head shell -c '{"type": "cell_list_query"}' \
+    | jq -e '.cells[0].cell == "line"' > /dev/null || fail "no JSON reply"
+  to head shell -c 'tasks nope' 2> "$scratch/said" || code=$?
+  expect "code of what is refused" "$code" 1
+  for line in taks node "tasks 'x" 'follow' 'tree nope'; do
+    code=0
+    to head shell -c "$line" 2> "$scratch/said" || code=$?
+    expect "code of '$line'" "$code" 2
+    has_line '^hint: \|quote' "$scratch/said" || fail "$(cat "$scratch/said")"
+  done
+  code=0
+  "$ROSCELL" shell --to "$scratch/gone.sock" -c "nodes --to $sock" \
+    > /dev/null || fail "a line may name another node"
+  "$ROSCELL" shell --to "$scratch/gone.sock" -c nodes 2> /dev/null || code=$?
+  expect "code without a node" "$code" 3
+}
+
+test_a_script_of_the_shell_stops_at_its_first_error() {
+  local code=0
+  start_node head --coordinator --cell line --interface lo
+  printf '%s\n' '# what a morning begins with' 'cells --no-headers' '' \
+    '{"type":' ' "cell_list_query"}' 'tasks nope' 'nodes --no-headers' \
+    > "$scratch/script"
+  to head shell < "$scratch/script" > "$scratch/out" 2> "$scratch/err" \
+    || code=$?
+  expect "code" "$code" 1
+  has_line '^line  *head' "$scratch/out" || fail "$(cat "$scratch/out")"
+  has_line '"type": "cell_list"' "$scratch/out" || fail "$(cat "$scratch/out")"
+  has_line 'line 6 has failed with exit code 1' "$scratch/err" \
+    || fail "$(cat "$scratch/err")"
+  ! has_line '^head ' "$scratch/out" || fail "it went on"
+  code=0
+  to head shell --keep-going < "$scratch/script" > "$scratch/out" 2> /dev/null \
+    || code=$?
+  expect "code of one that goes on" "$code" 1
+  has_line '^head ' "$scratch/out" || fail "it did not go on"
+}
+
+test_a_member_shows_its_actors_to_who_has_its_token() {
+  local code=0
+  start_node head --coordinator --cell line --interface lo
+  start_node arm --interface lo --join "$(discovery_of head)"
+  await_joined head arm
+  to head shell -c "tree arm --token-file $scratch/arm/token" \
+    | has_line '^arm, .* in cell line$' || fail "the actors of arm are not told"
+  to head shell -c "tree arm --token-file $scratch/head/token" \
+    2> "$scratch/said" || code=$?
+  expect "code with another token" "$code" 1
+  has_line 'hint: copy `token` of its data directory' "$scratch/said" \
+    || fail "$(cat "$scratch/said")"
+}
+
+test_a_shell_at_a_terminal_completes_follows_and_asks() {
+  start_node head --coordinator --cell line --interface lo
+  echo_task greeting > "$scratch/greeting.json"
+  to head request "$scratch/greeting.json" > /dev/null
+  open_shell head
+  sees 'head@line> '
+  type_in 'tasks gre\t\r'
+  sees 'STEP' 'say' 'head@line> '
+  type_in 'follow task_*\r'
+  sees 'shows task_*' 'head@line> '
+  type_in 'nodes --no-hea'
+  to head stop greeting > /dev/null
+  sees 'task_terminated' 'head@line> ' 'nodes --no-hea'
+  type_in 'ders\r'
+  sees 'head ' 'head@line> '
+  type_in 'events --since 0\r'
+  sees 'node_started' 'task_terminated'
+  type_in '\003'
+  sees 'head@line> '
+  type_in '{"type": "cell_list_query",\r'
+  sees '... '
+  type_in ' "celll": 1,\r'
+  sees 'request.json:2:2: there is no member "celll" here' '... '
+  type_in '\003'
+  sees 'head@line> '
+  type_in '\033[200~{\n\t"type": "cell_list_query"\n}\n\033[201~'
+  sees '"type": "cell_list"' 'head@line> '
+  type_in '\004'
+  timeout "$deadline_s" tail --pid="$shell_pid" -f /dev/null \
+    || fail "Ctrl-D does not end it"
+  wait "$shell_pid" || fail "it ends with $?"
+  expect "mode of the history" "$(stat -c %a "$scratch/state/roscell/history")" 600
+  has_line '^follow task_\*$' "$scratch/state/roscell/history" \
+    || fail "$(cat "$scratch/state/roscell/history")"
+}
+
+test_a_shell_looks_for_a_node_that_is_lost() {
+  start_node head --coordinator --cell line --interface lo
+  open_shell head
+  sees 'head@line> '
+  stop_node head KILL
+  sees 'head is lost: ' 'head (lost)> '
+  type_in 'nodes\r'
+  sees 'cannot connect' 'head (lost)> '
+  start_node head --coordinator --cell line --interface lo
+  sees 'head is back' 'head@line> '
+  type_in 'nodes --no-headers\r'
+  sees 'active' 'head@line> '
 }

@@ -90,7 +90,7 @@ TEST_CASE("completion offers every command", "[tools]") {
          "drain undrain rebalance "
          "status cells nodes tasks instances topics skills transfers describe "
          "graph why trace inspect top dashboard env echo hz bw events logs "
-         "completion help "
+         "shell completion help "
          "version "
          "--version "
          "--help\n");

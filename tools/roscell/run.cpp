@@ -8,8 +8,10 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <new>
 #include <stdexcept>
+#include <utility>
 
 namespace roscell::cli {
 
@@ -48,11 +50,17 @@ int perform(const action& chosen) {
 } // namespace
 
 int run(int argc, char** argv) {
+  return run(set_up, {argv + 1, argv + argc});
+}
+
+int run(const command_set& commands, std::vector<std::string> words) {
   CLI::App app;
   action chosen;
-  set_up(app, chosen);
+  commands(app, chosen);
+  // The parser takes them from the end.
+  std::reverse(words.begin(), words.end());
   try {
-    app.parse(argc, argv);
+    app.parse(std::move(words));
   } catch (const CLI::Success& e) {
     return app.exit(e);
   } catch (const CLI::ParseError& e) {

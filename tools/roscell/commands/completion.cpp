@@ -46,6 +46,9 @@ constexpr value_source sources[] = {
     {"INSTANCE", "ids instances"},
     {"SHELL", "words bash zsh fish"},
     {"COMMAND", "commands"},
+    // Of the shell's own words.
+    {"KIND", "ids kinds"},
+    {"--subject", "ids subjects"},
 };
 
 /// The case of one command: its options, then what follows those of them that

@@ -87,6 +87,8 @@ std::string join_line(const join_trouble& x, int64_t now_unix_ms) {
          + " ago)";
 }
 
+} // namespace
+
 std::string actors_view(const std::vector<actor_row>& actors,
                         const view_style& style) {
   table t{{{"ACTOR"},
@@ -103,8 +105,6 @@ std::string actors_view(const std::vector<actor_row>& actors,
                       format_number(static_cast<double>(a.longest_us) / 1000)});
   return t.render(style.text);
 }
-
-} // namespace
 
 std::string node_view(const node_description& node, const view_style& style) {
   fact_list facts{style};

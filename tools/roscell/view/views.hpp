@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 /// The replies of a node as text for people. `now_unix_ms` is the time that
 /// ages are counted to.
@@ -23,6 +24,10 @@ std::string node_view(const node_description& node, const view_style& style);
 
 /// The part of a status that only a coordinator can tell.
 std::string cell_summary(const cell_description& cell, const view_style& style);
+
+/// The actors of a node with their counters.
+std::string actors_view(const std::vector<actor_row>& actors,
+                        const view_style& style);
 
 std::string cells_view(const cell_list& cells, const view_style& style);
 

@@ -1,0 +1,113 @@
+#include "tools/roscell/shell/editing/history_file.hpp"
+#include "tools/roscell/shell/editing/live_names.hpp"
+#include "tools/roscell/shell/editing/paste_filter.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cstdlib>
+#include <fstream>
+
+#include <unistd.h>
+
+using namespace roscell;
+using namespace roscell::cli;
+namespace fs = std::filesystem;
+
+namespace {
+
+using words = std::vector<std::string>;
+
+/// A folder that goes with the test.
+struct scratch_folder {
+  fs::path path =
+      fs::temp_directory_path() / ("roscell-shell-" + std::to_string(getpid()));
+  scratch_folder() {
+    fs::remove_all(path);
+  }
+  ~scratch_folder() {
+    fs::remove_all(path);
+  }
+};
+
+} // namespace
+
+TEST_CASE("the history is the user's own file", "[shell]") {
+  const scratch_folder folder;
+  const auto file = folder.path / "state/history";
+  CHECK(history_file{file}.add("tasks"));
+  CHECK(fs::status(file).permissions()
+        == (fs::perms::owner_read | fs::perms::owner_write));
+  CHECK(history_file{file}.lines() == words{"tasks"});
+}
+
+TEST_CASE("the history keeps what somebody wants again", "[shell]") {
+  const scratch_folder folder;
+  history_file kept{folder.path / "history"};
+  CHECK(kept.add("tasks"));
+  CHECK_FALSE(kept.add("tasks"));
+  CHECK_FALSE(kept.add(" secret"));
+  CHECK_FALSE(kept.add(""));
+  CHECK_FALSE(kept.add("two\nlines"));
+  CHECK(kept.add("nodes"));
+  CHECK(kept.add("tasks"));
+  CHECK(history_file{folder.path / "history"}.lines()
+        == words{"tasks", "nodes", "tasks"});
+}
+
+TEST_CASE("the history is bounded", "[shell]") {
+  const scratch_folder folder;
+  const auto file = folder.path / "history";
+  fs::create_directory(folder.path);
+  std::ofstream out{file};
+  for (size_t i = 0; i < history_file::most_lines + 10; ++i)
+    out << "line " << i << "\n";
+  out.close();
+  CHECK(history_file{file}.lines().front() == "line 10");
+  CHECK(history_file{file}.lines().size() == history_file::most_lines);
+}
+
+TEST_CASE("two shells add to one history", "[shell]") {
+  const scratch_folder folder;
+  history_file one{folder.path / "history"};
+  history_file two{folder.path / "history"};
+  one.add("a");
+  two.add("b");
+  one.add("c");
+  CHECK(history_file{folder.path / "history"}.lines() == words{"a", "b", "c"});
+}
+
+TEST_CASE("a history that cannot be written stops nobody", "[shell]") {
+  CHECK(history_file{"/dev/null/history"}.add("tasks"));
+  CHECK(history_file{""}.add("tasks"));
+}
+
+TEST_CASE("marks of what is pasted are taken out", "[shell]") {
+  paste_filter filter;
+  CHECK(filter.add("a\tb") == "a\tb");
+  CHECK(filter.add("\x1b[200~{\n\t1}\x1b[201~\t") == "{\n 1}\t");
+}
+
+TEST_CASE("a mark may come in parts", "[shell]") {
+  paste_filter filter;
+  CHECK(filter.add("x\x1b[20").append(filter.add("0~\ty")) == "x y");
+  CHECK(filter.add("\tz\x1b[2").append(filter.add("01~\t")) == " z\t");
+}
+
+TEST_CASE("other keys are not kept back", "[shell]") {
+  paste_filter filter;
+  CHECK(filter.add("\x1b") == "\x1b");
+  CHECK(filter.add("\x1b[A") == "\x1b[A");
+  CHECK(filter.add("\x1b[2~") == "\x1b[2~");
+}
+
+TEST_CASE("names are found in the answers of a node", "[shell]") {
+  const auto cell = json::parse(
+      R"({"nodes":[{"identity":{"name":"head"}}],"free":[{"name":"arm"}]})");
+  CHECK(names_in("nodes", cell) == words{"head", "arm"});
+  const auto tasks = json::parse(R"({"tasks":[{"task":"t"},{"task":7},{}]})");
+  CHECK(names_in("tasks", tasks) == words{"t"});
+  const auto instances =
+      json::parse(R"({"instances":[{"spec":{"instance":"t-a-1"}}]})");
+  CHECK(names_in("instances", instances) == words{"t-a-1"});
+  CHECK(names_in("planets", tasks).empty());
+}
