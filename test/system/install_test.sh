@@ -1,4 +1,5 @@
-# What tools/install.sh and tools/demo.sh say on a computer that is not ready.
+# What tools/install.sh, tools/demo.sh and `roscell doctor` say on a computer that
+# is not ready.
 
 # fake COMMAND SCRIPT: that command of the test's PATH.
 fake() {
@@ -63,4 +64,406 @@ test_who_may_not_write_the_tree_is_told_so_before_anything_is_done() {
   chmod 0555 "$scratch/tree/build"
   says_one_line "build cannot be written by" \
     "${as_nobody[@]}" "$scratch/tree/tools/demo.sh"
+}
+
+# doctor OPTION...: its findings are in $scratch/found; gives its exit code. It
+# looks for no other node of this machine. $inside may hold a command prefix.
+data=data
+doctor() {
+  ROSCELL_TO=unix:$scratch/none.sock "${inside[@]}" "$ROSCELL" doctor -o json \
+    --data-dir "$scratch/$data" "$@" > "$scratch/found" 2> "$scratch/doctor.err"
+}
+
+# found CHECK VERDICT WORDS: the last findings have one of that check.
+found() {
+  jq -e --arg check "$1" --arg verdict "$2" --arg words "$3" \
+    'any(.[]; .check == $check and .verdict == $verdict
+              and (.seen | contains($words)))' "$scratch/found" > /dev/null \
+    || fail "$1 is not $2 with '$3': $(cat "$scratch/found" "$scratch/doctor.err")"
+}
+
+# remedies: the commands that the last findings name.
+remedies() {
+  jq -r '.[] | select(.verdict == "broken" or .verdict == "warning") | .remedy' \
+    "$scratch/found"
+}
+
+# is_mended CHECK [OPTION...]: what was found is gone after its own remedies.
+is_mended() {
+  local check=$1 commands
+  shift
+  commands=$(remedies)
+  "${inside[@]}" bash -ec "$commands" || fail "not a command: $commands"
+  doctor --only "$check" "$@"
+  jq -e 'all(.[]; .verdict == "ok")' "$scratch/found" > /dev/null \
+    || fail "after '$commands': $(cat "$scratch/found")"
+}
+
+# on_a_host: what follows is on a host of its own with eth0.
+on_a_host() {
+  bridge_hosts 1
+  inside=(ip netns exec "${hosts[0]}")
+}
+
+test_doctor_tells_of_an_interface_without_address_down_or_not_there() {
+  on_a_host
+  doctor --only interface --interface eth0 || fail "$(cat "$scratch/found")"
+  found interface ok "eth0 has 10.231.7.1"
+  doctor --only interface --interface eth9 && fail "it is content"
+  found interface broken "'eth9' is no interface"
+  "${inside[@]}" ip address flush dev eth0
+  doctor --only interface --interface eth0 && fail "it is content"
+  found interface broken "eth0 has no IPv4 address"
+  "${inside[@]}" ip link set eth0 down
+  doctor --only interface --interface eth0 && fail "it is content"
+  found interface broken "eth0 is down"
+  "${inside[@]}" bash -ec "$(remedies)"
+  "${inside[@]}" ip link show up | has_line eth0
+}
+
+test_doctor_tells_of_a_small_mtu() {
+  on_a_host
+  "${inside[@]}" ip link set eth0 mtu 1280
+  doctor --only mtu --interface eth0 || fail "a warning is no failure"
+  found mtu warning "1280 bytes"
+  is_mended mtu --interface eth0
+}
+
+test_doctor_tells_of_a_network_without_multicast() {
+  on_a_host
+  doctor --only multicast --interface eth0
+  found multicast ok "takes multicast"
+  "${inside[@]}" ip route del default
+  doctor --only multicast --interface eth0
+  found multicast warning "there is no route to 239.255.0.1"
+  is_mended multicast --interface eth0
+  "${inside[@]}" ip link set eth0 multicast off
+  doctor --only multicast --interface eth0
+  found multicast warning "eth0 takes no multicast"
+  "${inside[@]}" bash -ec "$(remedies)"
+  "${inside[@]}" ip link show eth0 | has_line MULTICAST
+}
+
+# hold_port KIND PORT: a program on the host has it; its id is $!.
+hold_port() {
+  mkfifo "$scratch/holds-$1-$2"
+  "${inside[@]}" python3 -c "
+import signal, socket
+s = socket.socket(type=socket.SOCK_$1)
+s.bind(('0.0.0.0', $2))
+if '$1' == 'STREAM': s.listen()
+print('ready', flush=True)
+signal.pause()" > "$scratch/holds-$1-$2" &
+  echo $! >> "$scratch/pids"
+  read -r _ < "$scratch/holds-$1-$2"
+}
+
+test_doctor_names_who_has_a_port_of_the_node() {
+  on_a_host
+  doctor --only ports --interface eth0 || fail "$(cat "$scratch/found")"
+  found ports ok "tcp port 8420 is free"
+  hold_port STREAM 8420
+  doctor --only ports --interface eth0 && fail "it is content"
+  found ports broken "tcp port 8420 is taken by pid $! (python3)"
+  is_mended ports --interface eth0
+  hold_port DGRAM 11811
+  doctor --only ports --interface eth0 || fail "a member takes another port"
+  found ports warning "udp port 11811 is taken by pid $! (python3)"
+}
+
+test_doctor_tells_of_ports_that_any_program_may_get() {
+  on_a_host
+  doctor --only dds-ports
+  found dds-ports ok "none of ROSCell's"
+  "${inside[@]}" sysctl -qw net.ipv4.ip_local_port_range="8000 33000" \
+    net.ipv4.ip_local_reserved_ports=9000-9010
+  doctor --only dds-ports
+  found dds-ports warning "with 32150-32166,8420,11811 of ROSCell"
+  is_mended dds-ports
+}
+
+test_doctor_tells_which_port_a_firewall_closes_and_opens_it() {
+  on_a_host
+  doctor --only firewall --interface eth0
+  found firewall ok "lets the packets of a node in"
+  "${inside[@]}" nft -f - << RULES
+table inet house {
+  set open { type inet_service; elements = { 22, 8420 } }
+  chain door {
+    type filter hook input priority 0; policy drop;
+    ct state established,related accept
+    iifname "lo" accept
+    tcp dport @open accept
+    udp dport 8420 ip saddr 10.0.0.0/8 accept
+    udp dport 7000-7600 jump hall
+  }
+  chain hall {
+    accept
+  }
+}
+RULES
+  doctor --only firewall --interface eth0 && fail "it is content"
+  found firewall broken \
+    "udp port 11811 is closed by the policy of the chain (inet house door)"
+  found firewall warning "whether udp port 8420 is open depends on rule"
+  expect "ports" "$(jq length "$scratch/found")" 3
+  "${inside[@]}" bash -ec "$(remedies)" > /dev/null
+  doctor --only firewall --interface eth0 || fail "$(cat "$scratch/found")"
+  found firewall warning "udp port 8420"
+  expect "ports" "$(jq length "$scratch/found")" 1
+  "${inside[@]}" nft flush ruleset
+  command -v iptables > /dev/null || return 0
+  "${inside[@]}" iptables -A INPUT -p udp --dport 11811 -j REJECT
+  doctor --only firewall --interface eth0 && fail "it is content"
+  found firewall broken "udp port 11811 is closed by rule"
+  is_mended firewall --interface eth0
+}
+
+test_doctor_does_not_guess_what_it_may_not_see() {
+  on_a_host
+  inside+=(setpriv --reuid=65534 --clear-groups)
+  doctor --only firewall || fail "$(cat "$scratch/found")"
+  found firewall skipped "only root may list its rules"
+  inside=(env PATH=/nowhere)
+  doctor --only firewall || fail "$(cat "$scratch/found")"
+  found firewall skipped 'there is no program `nft`'
+}
+
+test_doctor_says_what_the_kernel_gives_a_socket() {
+  doctor --only buffers
+  if [[ $(< /proc/sys/net/core/rmem_max) -ge 8388608
+    && $(< /proc/sys/net/core/wmem_max) -ge 8388608 ]]; then
+    found buffers ok "8 MiB to receive"
+  else
+    found buffers warning "of 8 MiB that skills ask for"
+  fi
+}
+
+# with_mounts COMMANDS: what follows is in a mount namespace where these were
+# done before.
+with_mounts() {
+  [[ $(id -u) -eq 0 ]] || skip "mount namespaces need root"
+  inside=(unshare -m --propagation private bash -ec "$1; exec \"\$@\"" -)
+}
+
+# with_shm OPTIONS [COMMANDS]: /dev/shm is one of its own.
+with_shm() {
+  with_mounts "mount -t tmpfs -o $1 tmpfs /dev/shm; ${2:-:}"
+}
+
+# mends_shm OPTIONS COMMANDS: the remedy does, too.
+mends_shm() {
+  with_shm "$1" "$2; $(remedies | sed 's/sudo //')"
+  doctor --only shm
+  found shm ok "free in /dev/shm"
+}
+
+test_doctor_tells_of_shared_memory_that_is_full_small_closed_or_none() {
+  with_shm mode=1777,size=256m
+  doctor --only shm || fail "$(cat "$scratch/found")"
+  found shm ok "are free in /dev/shm"
+  local fill='head -c 256M /dev/zero > /dev/shm/full || true'
+  with_shm mode=1777,size=256m "$fill 2> /dev/null"
+  doctor --only shm && fail "it is content"
+  found shm broken "0 B of 256 MiB"
+  mends_shm mode=1777,size=256m "$fill 2> /dev/null"
+  with_shm mode=1777,size=64m
+  doctor --only shm
+  found shm warning "64 MiB of 64 MiB"
+  mends_shm mode=1777,size=64m :
+  with_shm mode=755
+  doctor --only shm
+  found shm warning "not open to all users"
+  mends_shm mode=755 :
+  with_shm ro
+  doctor --only shm && fail "it is content"
+  found shm broken "cannot write to /dev/shm"
+  mends_shm ro :
+}
+
+test_doctor_removes_from_shared_memory_what_nobody_uses_and_no_more() {
+  local shm=/dev/shm/fastrtps_ fill
+  fill="touch ${shm}dead ${shm}dead_el ${shm}live ${shm}live_el
+    touch ${shm}port7 ${shm}port7_el ${shm}port7_sl /dev/shm/other
+    touch /dev/shm/sem.fastrtps_port7_mutex
+    exec 8< ${shm}live_el 9< ${shm}port7_sl; flock 8; flock -s 9
+    mkdir /dev/shm/roscell-0; head -c 8 /dev/zero > /dev/shm/roscell-0/past
+    printf '\\0\\0\\0\\0\\0\\377\\0\\0' > /dev/shm/roscell-0/to-come"
+  with_shm mode=1777 "$fill"
+  doctor --only leftovers
+  found leftovers warning "2 files of Fast DDS that nobody uses"
+  expect "remedies" "$(remedies)" "rm -f ${shm}dead ${shm}dead_el
+rm -f /dev/shm/roscell-0/past"
+  with_shm mode=1777 "$fill; $(remedies)"
+  doctor --only leftovers
+  found leftovers ok "nothing that nobody uses"
+}
+
+test_doctor_finds_what_a_killed_ros_2_program_leaves_in_shared_memory() {
+  with_shm mode=1777 "exec 7< <(exec '$ROSCELL_BUILD/bin/stock_program' std_msgs/msg/String)
+    read -r said <&7
+    '$ROSCELL' doctor -o json --only leftovers > '$scratch/living'
+    kill -9 \$!; read -r said <&7 || true"
+  doctor --only leftovers
+  found leftovers warning "files of Fast DDS that nobody uses"
+  remedies | has_line /dev/shm/sem.fastrtps_port
+  jq -e 'all(.[]; .verdict == "ok")' "$scratch/living" > /dev/null \
+    || fail "of a living one: $(cat "$scratch/living")"
+}
+
+test_doctor_tells_of_a_data_directory_that_is_full_closed_or_read_only() {
+  local folder=$scratch/data
+  mkdir "$folder"
+  doctor --only disk,fsync || fail "$(cat "$scratch/found")"
+  found fsync ok "4 KiB are kept in"
+  with_mounts "mount -t tmpfs -o size=64k tmpfs $folder
+    head -c 64k /dev/zero > $folder/full"
+  doctor --only disk,fsync && fail "it is content"
+  found disk broken "0 B are free in $folder"
+  found fsync skipped "nothing can be written"
+  with_mounts "mount -t tmpfs -o ro,size=2g tmpfs $folder"
+  doctor --only disk && fail "it is content"
+  found disk broken "Read-only file system"
+  with_mounts "mount -t tmpfs -o ro,size=2g tmpfs $folder
+    $(remedies | sed 's/sudo //')"
+  doctor --only disk || fail "$(cat "$scratch/found")"
+  chmod 755 "$scratch"
+  inside=(setpriv --reuid=65534 --clear-groups)
+  doctor --only disk && fail "it is content"
+  found disk broken "this user cannot write to $folder: Permission denied"
+}
+
+test_doctor_tells_of_few_file_descriptors() {
+  inside=(prlimit --nofile=100:100)
+  doctor --only descriptors && fail "it is content"
+  found descriptors broken "may open 100 files"
+}
+
+# listen_at SOCKET [WORDS]: somebody listens there, and says no more than that.
+listen_at() {
+  mkfifo "$1.ready"
+  python3 -c "
+import signal, socket
+s = socket.socket(socket.AF_UNIX)
+s.bind('$1')
+s.listen()
+print('ready', flush=True)
+signal.pause()" > "$1.ready" &
+  echo $! >> "$scratch/pids"
+  read -r _ < "$1.ready"
+}
+
+test_doctor_tells_why_a_container_engine_cannot_be_used() {
+  local socket=$scratch/docker.sock
+  echo "runtime = docker:$socket" > "$scratch/node.conf"
+  doctor --config "$scratch/node.conf" --only engine && fail "it is content"
+  found engine broken "there is no socket '$socket'"
+  listen_at "$socket"
+  doctor --config "$scratch/node.conf" --only engine && fail "it is content"
+  found engine broken "does not answer"
+  chmod 755 "$scratch"
+  chmod 600 "$socket"
+  inside=(setpriv --reuid=65534 --clear-groups)
+  doctor --config "$scratch/node.conf" --only engine && fail "it is content"
+  found engine broken "no permission to use"
+  expect "remedy" "$(remedies)" 'sudo usermod -aG docker "$(id -un)"'
+  inside=()
+  kill "$(tail -1 "$scratch/pids")"
+  tail --pid="$(tail -1 "$scratch/pids")" -f /dev/null
+  doctor --config "$scratch/node.conf" --only engine && fail "it is content"
+  found engine broken "does not run"
+  echo "runtime = process" > "$scratch/node.conf"
+  doctor --config "$scratch/node.conf" --only engine || fail "$(cat "$scratch/found")"
+  found engine skipped "wanted as processes"
+}
+
+test_doctor_tells_what_of_a_gpu_is_missing() {
+  local dev=$scratch/dev
+  mkdir -p "$dev" "$scratch/lib"
+  cp -a /dev/null /dev/zero /dev/urandom /dev/random "$dev"
+  mknod "$dev/nvidia0" c 1 3 && chmod 666 "$dev/nvidia0"
+  mkdir "$dev/shm"
+  with_mounts "mount --bind $dev /dev"
+  doctor --only gpu
+  found gpu warning "no libnvidia-ml.so.1"
+  inside=(env "LD_LIBRARY_PATH=$scratch/lib" "${inside[@]}")
+  ln -s "$ROSCELL_BUILD/test/libfake_nvml.so" "$scratch/lib/libnvidia-ml.so.1"
+  doctor --only gpu
+  found gpu ok "Fake GPU 0"
+  command -v cc > /dev/null || skip "there is no C compiler"
+  rm "$scratch/lib/libnvidia-ml.so.1"
+  cc -shared -fPIC -x c -o "$scratch/lib/libnvidia-ml.so.1" - << SOURCE
+int nvmlInit_v2(void) { return 18; }
+int nvmlShutdown(void) { return 0; }
+const char *nvmlErrorString(int code) { return "Driver/library version mismatch"; }
+SOURCE
+  doctor --only gpu && fail "it is content"
+  found gpu broken "Driver/library version mismatch"
+}
+
+test_doctor_tells_of_another_fast_dds_than_it_was_built_with() {
+  local real
+  real=$(ldd "$ROSCELL" | awk '$1 ~ /^libfastrtps/ {print $3}')
+  mkdir "$scratch/lib"
+  cp "$(realpath "$real")" "$scratch/lib/libfastrtps.so.2.9.99"
+  ln -s libfastrtps.so.2.9.99 "$scratch/lib/$(basename "$real")"
+  doctor --only versions
+  found versions ok "Fast DDS 2"
+  inside=(env "LD_LIBRARY_PATH=$scratch/lib")
+  doctor --only versions
+  found versions warning "libfastrtps.so.2.9.99"
+}
+
+test_doctor_tells_of_skills_that_cannot_be_loaded() {
+  mkdir "$scratch/data"
+  cp -r "$skills" "$scratch/data/skills"
+  doctor --only skills || fail "$(cat "$scratch/found")"
+  found skills ok "1 can be loaded"
+  rm "$scratch/data/skills/echo/bin/echo"
+  doctor --only skills && fail "it is content"
+  found skills broken "bin/echo"
+  [[ $(remedies) == "roscell skill check "* ]] || fail "$(remedies)"
+}
+
+test_doctor_asks_the_node_and_tells_who_is_away() {
+  start_node head --coordinator --cell line --interface lo
+  doctor --to "$scratch/head/node.sock" || fail "$(cat "$scratch/found")"
+  found node-version ok "head is of version"
+  found joining ok "head is in cell line"
+  found cell ok "1 nodes are in cell line"
+  found topics ok "have ends that match"
+  found ports ok "in use by the node"
+  doctor --to "$(get head /v1/node | jq -r .identity.address)" --only clock \
+    && fail "it needs no token"
+  found node broken "the bearer token is missing or wrong"
+  inside=(env -u ROSCELL_TO)
+  data=head
+  doctor --only node-version
+  found node-version ok "head is of version"
+  start_node arm --interface lo --join "$(discovery_of head)"
+  await_joined head arm
+  kill -9 "${pid[arm]}"
+  await head '.event == "node_lost"' > /dev/null
+  doctor --to "$scratch/head/node.sock" --only cell && fail "it is content"
+  found cell broken "arm is lost"
+}
+
+test_doctor_tells_of_a_node_that_does_not_come_into_its_cell() {
+  rm "$skills/echo/bin/echo"
+  start_node arm --interface lo --join 127.0.0.1:9
+  await arm '.event == "join_failed"' > /dev/null
+  doctor --to "$scratch/arm/node.sock" && fail "it is content"
+  found joining broken "arm does not come into 127.0.0.1:9"
+  found refused-skills broken "bin/echo"
+}
+
+test_doctor_with_nobody_there_or_wrong_words() {
+  doctor --to "$scratch/none.sock" --only clock && fail "it is content"
+  found node broken "cannot connect"
+  doctor --only moon
+  expect "exit code" $? 2
+  echo "interfac = lo" > "$scratch/node.conf"
+  doctor --config "$scratch/node.conf"
+  expect "exit code" $? 2
+  has_line "did you mean 'interface'" "$scratch/doctor.err"
 }

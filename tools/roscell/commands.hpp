@@ -54,6 +54,7 @@ void add_decision_commands(CLI::App& app, action& chosen);
 
 void add_inspect_command(CLI::App& app, action& chosen);
 
+void add_doctor_command(CLI::App& app, action& chosen);
 void add_dashboard_command(CLI::App& app, action& chosen);
 void add_top_command(CLI::App& app, action& chosen);
 void add_graph_command(CLI::App& app, action& chosen);

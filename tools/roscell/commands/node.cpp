@@ -175,16 +175,20 @@ void add_files(CLI::App& command, node_options& options) {
 
 } // namespace
 
+void add_node_options(CLI::App& command, node_options& options) {
+  add_identity(command, options);
+  add_network(command, options);
+  add_resources(command, options);
+  add_files(command, options);
+}
+
 void add_node_command(CLI::App& app, action& chosen) {
   auto options = std::make_shared<node_options>();
   auto file = std::make_shared<std::filesystem::path>();
   auto* command = app.add_subcommand(
       "node", "Run a node on this machine, until Ctrl-C or SIGTERM.");
   command->footer(footer);
-  add_identity(*command, *options);
-  add_network(*command, *options);
-  add_resources(*command, *options);
-  add_files(*command, *options);
+  add_node_options(*command, *options);
   command
       ->add_option("--config", *file,
                    "File of lines `OPTION = VALUE`; what the command line says "

@@ -6,6 +6,10 @@
 #include <string>
 #include <vector>
 
+namespace CLI {
+class App;
+} // namespace CLI
+
 namespace roscell::cli {
 
 /// The command line of `roscell node`.
@@ -19,6 +23,9 @@ struct node_options {
   std::string log_level = "info";
   int ready_fd = -1; ///< Told when the node is ready; negative: none.
 };
+
+/// Adds them to a command, all but --config.
+void add_node_options(CLI::App& command, node_options& options);
 
 /// The configuration that the options mean, with absolute paths and without
 /// the address. Throws command_error for a value that cannot be meant.

@@ -51,6 +51,7 @@ void set_up(CLI::App& app, action& chosen) {
   add_decision_commands(app, chosen);
   add_inspect_command(app, chosen);
   add_top_command(app, chosen);
+  add_doctor_command(app, chosen);
   add_dashboard_command(app, chosen);
   add_env_command(app, chosen);
   add_echo_command(app, chosen);

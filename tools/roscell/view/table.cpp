@@ -58,15 +58,17 @@ private:
 
 std::string state_colour(const std::string& word) {
   static constexpr std::string_view good[] = {
-      "running", "active",         "member", "deployed", "optimal",
-      "joined",  "already_member", "done",   "finished"};
+      "running",        "active", "member",   "deployed", "optimal", "joined",
+      "already_member", "done",   "finished", "ok",       "✓"};
   static constexpr std::string_view bad[] = {
-      "failed",  "lost",   "orphaned",         "degraded",          "returned",
-      "unknown", "silent", "running, starved", "running, unhealthy"};
+      "failed",  "lost",   "orphaned",         "degraded",           "returned",
+      "unknown", "silent", "running, starved", "running, unhealthy", "broken",
+      "✗"};
   static constexpr std::string_view moving[] = {
-      "pending",   "building",  "starting",   "stopping",    "joining",
-      "switching", "deploying", "reserved",   "terminating", "departing",
-      "expected",  "preparing", "unresolved", "backing_off"};
+      "pending",     "building",    "starting",  "stopping",
+      "joining",     "switching",   "deploying", "reserved",
+      "terminating", "departing",   "expected",  "preparing",
+      "unresolved",  "backing_off", "warning",   "!"};
   const auto is_in = [&](const auto& list) {
     return std::find(std::begin(list), std::end(list), word) != std::end(list);
   };

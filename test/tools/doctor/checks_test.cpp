@@ -1,0 +1,122 @@
+#include "tools/roscell/doctor/bounded_command.hpp"
+#include "tools/roscell/doctor/checks.hpp"
+#include "tools/roscell/doctor/findings_view.hpp"
+#include "tools/roscell/doctor/host/leftovers.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <future>
+#include <stdexcept>
+
+using namespace roscell;
+using namespace roscell::cli;
+using Catch::Contains;
+
+namespace {
+
+check named(const char* name, std::function<findings()> look) {
+  return {name, "host", "something",
+          [look = std::move(look)](const examined_host&) { return look(); }};
+}
+
+findings two_findings() {
+  findings all{
+      {judgement::ok, "eth0 has 10.0.0.5"},
+      {judgement::broken, "it is full", "nothing is kept", "rm /full"}};
+  all[0].check = "interface";
+  all[0].area = "network";
+  all[1].check = "disk";
+  all[1].area = "host";
+  return all;
+}
+
+} // namespace
+
+TEST_CASE("findings come in the order of the checks, with their names",
+          "[doctor]") {
+  const auto found = run_checks(
+      {named("one",
+             [] {
+               return findings{{judgement::ok, "1"}};
+             }),
+       named("two", []() -> findings { throw std::runtime_error{"no"}; })},
+      {}, [](auto&) { FAIL("nothing takes long"); });
+  REQUIRE(found.size() == 2);
+  CHECK(found[0].check == "one");
+  CHECK(found[0].area == "host");
+  CHECK(found[1].how == judgement::skipped);
+  CHECK(found[1].seen == "it failed: no");
+}
+
+TEST_CASE("a check that hangs is told of, and is a finding", "[doctor]") {
+  auto forever = std::make_shared<std::promise<void>>();
+  std::vector<std::string> waited;
+  const auto found = run_checks(
+      {named("stuck",
+             [forever] {
+               forever->get_future().wait();
+               return findings{};
+             }),
+       named("quick",
+             [] {
+               return findings{{judgement::ok, "1"}};
+             })},
+      {}, [&](const auto& names) { waited = names; },
+      std::chrono::milliseconds{20});
+  forever->set_value();
+  CHECK(waited == std::vector<std::string>{"stuck"});
+  REQUIRE(found.size() == 2);
+  CHECK(found[0].how == judgement::broken);
+  CHECK(found[0].seen == "it did not end in time");
+  CHECK(found[1].how == judgement::ok);
+}
+
+TEST_CASE("a command that does not end is ended", "[doctor]") {
+  using namespace std::chrono_literals;
+  CHECK(run_bounded({"sh", "-c", "echo said; exit 3"}, 5s).said == "said\n");
+  CHECK(run_bounded({"sh", "-c", "exit 3"}, 5s).code == 3);
+  CHECK(run_bounded({"/nowhere/nft"}, 5s).code == command_not_found);
+  CHECK(run_bounded({"tail", "-f", "/dev/null"}, 20ms).code
+        == command_took_too_long);
+}
+
+TEST_CASE("each area is a table, and what is wrong has its command",
+          "[doctor]") {
+  CHECK(findings_view(two_findings(), {}, true)
+        == "   NETWORK    SEEN\n"
+           "✓  interface  eth0 has 10.0.0.5\n"
+           "\n"
+           "   HOST  SEEN\n"
+           "✗  disk  it is full\n"
+           "\n"
+           "✗ disk: it is full\n"
+           "    nothing is kept\n"
+           "    $ rm /full\n"
+           "\n"
+           "1 broken, 0 warnings\n");
+}
+
+TEST_CASE("where there is no UTF-8 words stand for the signs", "[doctor]") {
+  const auto text = findings_view(two_findings(), {}, false);
+  CHECK_THAT(text, Contains("broken disk: it is full"));
+  CHECK_THAT(text, !Contains("✗"));
+}
+
+TEST_CASE("findings are JSON for programs", "[doctor]") {
+  const auto list = to_json_list(two_findings());
+  CHECK(list[0].count("remedy") == 0);
+  CHECK(list[1]
+        == json({{"check", "disk"},
+                 {"area", "host"},
+                 {"verdict", "broken"},
+                 {"seen", "it is full"},
+                 {"matters", "nothing is kept"},
+                 {"remedy", "rm /full"}}));
+}
+
+TEST_CASE("what is left of nobody is no finding", "[doctor]") {
+  CHECK(judge_leftovers({}, "Fast DDS", "").how == judgement::ok);
+  CHECK(judge_leftovers({{"/dev/shm/a", "/dev/shm/b"}, 4096}, "Fast DDS", "")
+            .remedy
+        == "rm -f /dev/shm/a /dev/shm/b");
+}

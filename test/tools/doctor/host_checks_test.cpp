@@ -1,0 +1,121 @@
+#include "tools/roscell/doctor/host/clock.hpp"
+#include "tools/roscell/doctor/host/disk.hpp"
+#include "tools/roscell/doctor/host/engines.hpp"
+#include "tools/roscell/doctor/host/gpu.hpp"
+#include "tools/roscell/doctor/host/programs.hpp"
+#include "tools/roscell/doctor/host/shared_memory.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cerrno>
+
+using namespace roscell;
+using namespace roscell::cli;
+using Catch::Contains;
+
+TEST_CASE("a clock that nothing synchronises is a warning", "[doctor]") {
+  CHECK(judge_clock({true, true, 20'000}).how == judgement::ok);
+  CHECK(judge_clock({true, false, 16'000'000}).how == judgement::warning);
+  CHECK(judge_clock({true, true, 2'000'000}).how == judgement::warning);
+  CHECK(judge_clock({}).how == judgement::skipped);
+}
+
+TEST_CASE("a disk is judged by its room and by its files", "[doctor]") {
+  disk_facts disk{"/data", "/data", 0, 50ULL << 30, 1'000'000, true};
+  CHECK(judge_disk(disk).front().how == judgement::ok);
+  disk.free_files = 0;
+  CHECK(judge_disk(disk).front().remedy == "df -i /data");
+  disk.free_files = 1'000'000;
+  disk.free_bytes = 100ULL << 20;
+  CHECK(judge_disk(disk).front().how == judgement::warning);
+  disk.free_bytes = 0;
+  CHECK(judge_disk(disk).front().how == judgement::broken);
+}
+
+TEST_CASE("fsync is judged by its median", "[doctor]") {
+  CHECK(judge_fsync({0.2, 0.3, 900}).how == judgement::ok);
+  CHECK(judge_fsync({80, 90, 0.1}).how == judgement::warning);
+}
+
+TEST_CASE("an engine is broken only where it was asked for", "[doctor]") {
+  const asked_engine closed{
+      "/var/run/docker.sock", true,
+      edge_error{error_code::unauthorized, "no permission", ""}};
+  const asked_engine none{"/run/podman/podman.sock", false,
+                          edge_error{error_code::unreachable, "none", ""}};
+  const asked_engine good{
+      "/run/user/7/podman/podman.sock", true,
+      found_engine{"/run/user/7/podman/podman.sock", "podman", "", true}};
+  CHECK(judge_engines("auto", {closed, none}, true)[0].how
+        == judgement::warning);
+  CHECK(judge_engines("docker", {closed}, true)[0].how == judgement::broken);
+  CHECK(judge_engines("auto", {none}, true)[0].how == judgement::skipped);
+  CHECK(judge_engines("podman", {none}, true)[0].how == judgement::broken);
+  CHECK(judge_engines("process", {}, true)[0].how == judgement::skipped);
+  CHECK(judge_engines("auto", {closed, good}, true).size() == 1);
+  CHECK(judge_engines("auto", {good}, false)[0].how == judgement::warning);
+}
+
+TEST_CASE("what of a GPU is missing is named", "[doctor]") {
+  gpu_facts gpu;
+  CHECK(judge_gpu(gpu).how == judgement::skipped);
+  gpu.card = true;
+  CHECK_THAT(judge_gpu(gpu).remedy, Contains("modprobe nvidia"));
+  gpu.module = "535.129.03";
+  gpu.devices = {"/dev/nvidia0"};
+  CHECK_THAT(judge_gpu(gpu).seen, Contains("no libnvidia-ml.so.1"));
+  gpu.library = true;
+  gpu.library_error = "Driver/library version mismatch";
+  CHECK(judge_gpu(gpu).how == judgement::broken);
+  CHECK_THAT(judge_gpu(gpu).remedy, Contains("reboot"));
+  gpu.library_error.clear();
+  gpu.gpus = {"NVIDIA H100, 80 GiB"};
+  CHECK(judge_gpu(gpu).how == judgement::ok);
+  gpu.unusable_device = "/dev/nvidia0";
+  CHECK(judge_gpu(gpu).how == judgement::warning);
+}
+
+TEST_CASE("the real library is asked for its GPUs", "[doctor]") {
+  examined_host host;
+  host.nvml = ROSCELL_FAKE_NVML;
+  const auto gpu = look_at_gpu(host);
+  CHECK(gpu.library);
+  CHECK(gpu.library_error.empty());
+  REQUIRE_FALSE(gpu.gpus.empty());
+  CHECK_THAT(gpu.gpus.front(), Contains("Fake GPU 0"));
+}
+
+TEST_CASE("shared memory is judged by room and by who may write", "[doctor]") {
+  shared_memory_facts memory{true, true, true, 0, 8ULL << 30, 8ULL << 30};
+  const auto judge = [&] {
+    return judge_shared_memory("/dev/shm", memory).how;
+  };
+  CHECK(judge() == judgement::ok);
+  memory.all_write = false;
+  CHECK(judge() == judgement::warning);
+  memory.write_error = EACCES;
+  CHECK(judge() == judgement::broken);
+  memory = {true, true, true, 0, 64ULL << 20, 64ULL << 20};
+  CHECK(judge() == judgement::warning);
+  memory.free = 0;
+  CHECK(judge() == judgement::broken);
+  memory = {true, false, true, 0, 8ULL << 30, 8ULL << 30};
+  CHECK(judge() == judgement::warning);
+  CHECK(judge_shared_memory("/dev/shm", {}).how == judgement::broken);
+}
+
+TEST_CASE("few descriptors, another library and bad skills are told",
+          "[doctor]") {
+  CHECK(judge_descriptors(1 << 20).how == judgement::ok);
+  CHECK(judge_descriptors(1024).how == judgement::warning);
+  CHECK(judge_descriptors(64).how == judgement::broken);
+  CHECK(judge_versions("2.9.1", "/usr/lib/libfastrtps.so.2.9.1").how
+        == judgement::ok);
+  CHECK(judge_versions("2.9.1", "/opt/libfastrtps.so.2.10.0").how
+        == judgement::warning);
+  const auto bad =
+      judge_skills(3, {{"/skills/echo/skill.json", "", "no program"}});
+  REQUIRE(bad.size() == 1);
+  CHECK(bad[0].remedy == "roscell skill check /skills/echo");
+  CHECK(judge_skills(0, {})[0].how == judgement::skipped);
+}

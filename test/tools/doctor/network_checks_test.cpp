@@ -1,0 +1,108 @@
+#include "tools/roscell/doctor/network/addresses.hpp"
+#include "tools/roscell/doctor/network/buffers.hpp"
+#include "tools/roscell/doctor/network/ports.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cerrno>
+
+using namespace roscell;
+using namespace roscell::cli;
+using Catch::Contains;
+
+namespace {
+
+const interface_address eth0{"eth0", "10.0.0.5", "", false, true};
+const interface_address lo{"lo", "127.0.0.1", "", true, false};
+
+link_facts good_link() {
+  return {true, true, true, true, 1500};
+}
+
+} // namespace
+
+TEST_CASE("an interface without a carrier is broken", "[doctor]") {
+  auto link = good_link();
+  CHECK(judge_interface("", {eth0, lo}, link).how == judgement::ok);
+  link.carrier = false;
+  const auto found = judge_interface("eth0", {eth0, lo}, link);
+  CHECK(found.how == judgement::broken);
+  CHECK_THAT(found.seen, Contains("no carrier"));
+}
+
+TEST_CASE("a host with loopback only can have no other member", "[doctor]") {
+  CHECK(judge_interface("", {lo}, good_link()).how == judgement::warning);
+  CHECK(judge_interface("lo", {lo}, good_link()).how == judgement::ok);
+  CHECK(judge_interface("", {}, {}).how == judgement::broken);
+}
+
+TEST_CASE("a name that is none is told with those that there are", "[doctor]") {
+  const auto found = judge_interface("eth7", {eth0, lo}, {});
+  CHECK(found.how == judgement::broken);
+  CHECK_THAT(found.seen, Contains("eth0 10.0.0.5"));
+  CHECK(found.remedy == "roscell node --interface eth0");
+}
+
+TEST_CASE("a small MTU is told with the fragments of a datagram", "[doctor]") {
+  auto link = good_link();
+  CHECK(judge_mtu(eth0, link).how == judgement::ok);
+  link.mtu = 1280;
+  const auto found = judge_mtu(eth0, link);
+  CHECK(found.how == judgement::warning);
+  CHECK_THAT(found.matters, Contains("52 fragments instead of 45"));
+}
+
+TEST_CASE("multicast has to leave by the interface of the node", "[doctor]") {
+  auto link = good_link();
+  CHECK(judge_multicast(eth0, link, {0, "10.0.0.5"}).how == judgement::ok);
+  CHECK(judge_multicast(eth0, link, {0, "192.168.0.5"}).remedy
+        == "ip route replace 239.255.0.1/32 dev eth0");
+  CHECK(judge_multicast(eth0, link, {ENETUNREACH, ""}).how
+        == judgement::warning);
+  CHECK(judge_multicast(lo, {}, {}).how == judgement::skipped);
+  link.multicast = false;
+  CHECK(judge_multicast(eth0, link, {0, "10.0.0.5"}).remedy
+        == "ip link set dev eth0 multicast on");
+}
+
+TEST_CASE("socket buffers are judged by what skills ask for", "[doctor]") {
+  CHECK(judge_buffers({8 << 20, 8 << 20}).how == judgement::ok);
+  CHECK(judge_buffers({212992, 8 << 20}).how == judgement::warning);
+  CHECK(judge_buffers({8 << 20, 212992}).how == judgement::warning);
+  CHECK_THAT(judge_buffers({212992, 212992}).matters,
+             Contains("an image of 1280x960"));
+}
+
+TEST_CASE("a node cannot do without its HTTP port", "[doctor]") {
+  const port_facts taken{"tcp", 8420, EADDRINUSE, "pid 7 (nginx)", 7};
+  CHECK(judge_port({"tcp", 8420, 0, "", 0}, true).how == judgement::ok);
+  CHECK(judge_port(taken, true).how == judgement::broken);
+  CHECK(judge_port(taken, true).remedy == "kill 7");
+  CHECK(judge_port({"udp", 11811, EADDRINUSE, "", 0}, false).how
+        == judgement::warning);
+}
+
+TEST_CASE("ports that any program may get are reserved by the remedy",
+          "[doctor]") {
+  const ephemeral_facts usual{{32768, 60999}, {}, ""};
+  CHECK(judge_ephemeral(usual, {{8420, 8420}, {32150, 32166}}).how
+        == judgement::ok);
+  const ephemeral_facts wide{
+      {1024, 65000}, parse_port_ranges("80,8420"), "80,8420"};
+  const auto found = judge_ephemeral(wide, {{8420, 8420}, {7400, 7649}});
+  CHECK(found.how == judgement::warning);
+  CHECK(found.remedy
+        == "sysctl -w net.ipv4.ip_local_reserved_ports=80,8420,7400-7649");
+  const ephemeral_facts kept{
+      {1024, 65000}, parse_port_ranges("80,7400-7500,7501-7700"), ""};
+  CHECK(judge_ephemeral(kept, {{7400, 7649}}).how == judgement::ok);
+  CHECK(judge_ephemeral({}, {{8420, 8420}}).how == judgement::skipped);
+}
+
+TEST_CASE("a domain without free ports is broken", "[doctor]") {
+  CHECK(judge_domain(0, 12).how == judgement::ok);
+  CHECK(judge_domain(0, 240).how == judgement::warning);
+  CHECK(judge_domain(0, 250).how == judgement::broken);
+  CHECK(ports_of_domain(232).last == 65535);
+  CHECK(public_ports(99).first == 32150);
+}

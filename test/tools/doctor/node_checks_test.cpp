@@ -1,0 +1,80 @@
+#include "tools/roscell/doctor/node/node_checks.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace roscell;
+using namespace roscell::cli;
+using Catch::Contains;
+
+TEST_CASE("a node of another version is a warning", "[doctor]") {
+  node_description node;
+  node.identity.name = "arm";
+  node.version = "1.0";
+  CHECK(judge_version(node, "1.0")[0].how == judgement::ok);
+  CHECK(judge_version(node, "1.1")[0].how == judgement::warning);
+}
+
+TEST_CASE("a node that does not come into its cell says why", "[doctor]") {
+  node_description node;
+  node.identity.name = "arm";
+  CHECK(judge_joining(node)[0].how == judgement::ok);
+  node.joining.push_back(
+      {"10.0.0.1:11811", "nothing listens", "start it", 3, 0});
+  const auto found = judge_joining(node);
+  CHECK(found[0].how == judgement::broken);
+  CHECK_THAT(found[0].seen, Contains("10.0.0.1:11811: nothing listens"));
+  CHECK(found[0].matters == "start it");
+}
+
+TEST_CASE("topics of which an end is missing or does not match are told",
+          "[doctor]") {
+  const topic_end end{"camera", "best_effort", "volatile"};
+  CHECK(judge_topics({{{"/a", "t", {end}, {end}, {}}}})[0].how
+        == judgement::ok);
+  CHECK(judge_topics({{{"/rosout", "t", {end}, {}, {}}}})[0].how
+        == judgement::ok);
+  const auto found = judge_topics({{{"/a", "t", {end}, {end}, {"no match"}},
+                                    {"/b", "t", {end}, {}, {}},
+                                    {"/c", "t", {}, {end}, {}}}});
+  REQUIRE(found.size() == 3);
+  CHECK(found[0].how == judgement::broken);
+  CHECK(found[1].seen == "nobody writes /c");
+  CHECK(found[2].seen == "nobody reads /b");
+}
+
+TEST_CASE("a topic of two types has an end each", "[doctor]") {
+  const topic_end end{"camera", "reliable", "volatile"};
+  const auto found = judge_topics(
+      {{{"/a", "old", {end}, {}, {}}, {"/a", "new", {}, {end}, {}}}});
+  CHECK(found.size() == 2);
+}
+
+TEST_CASE("nodes that are away are told by name", "[doctor]") {
+  cell_description cell;
+  cell.nodes.resize(2);
+  cell.nodes[0].state = row_state::active;
+  cell.nodes[1].state = row_state::lost;
+  cell.nodes[1].identity.name = "arm";
+  const auto found = judge_cell(cell);
+  REQUIRE(found.size() == 1);
+  CHECK(found[0].seen == "arm is lost");
+  cell.nodes.pop_back();
+  CHECK(judge_cell(cell)[0].how == judgement::ok);
+}
+
+TEST_CASE("instances that fail, starve or drop frames are told", "[doctor]") {
+  instance_row row;
+  row.spec.instance = "a-1";
+  row.state = instance_state::running;
+  row.figures.frames = 1000;
+  row.figures.dropped = 3;
+  CHECK(judge_instances({row})[0].how == judgement::ok);
+  row.figures.dropped = 300;
+  CHECK_THAT(judge_instances({row})[0].seen, Contains("dropped 300 frames"));
+  row.health = instance_health::starved;
+  CHECK_THAT(judge_instances({row})[0].seen, Contains("starved"));
+  row.unknown_since_unix_ms = 1;
+  CHECK(judge_instances({row})[0].how == judgement::warning);
+  row.state = instance_state::failed;
+  CHECK(judge_instances({row})[0].how == judgement::broken);
+}

@@ -1,0 +1,139 @@
+#include "tools/roscell/doctor/checks.hpp"
+
+#include "tools/roscell/doctor/host/clock.hpp"
+#include "tools/roscell/doctor/host/disk.hpp"
+#include "tools/roscell/doctor/host/engines.hpp"
+#include "tools/roscell/doctor/host/gpu.hpp"
+#include "tools/roscell/doctor/host/programs.hpp"
+#include "tools/roscell/doctor/host/shared_memory.hpp"
+#include "tools/roscell/doctor/network/addresses.hpp"
+#include "tools/roscell/doctor/network/buffers.hpp"
+#include "tools/roscell/doctor/network/firewall.hpp"
+#include "tools/roscell/doctor/network/ports.hpp"
+#include "tools/roscell/view/format.hpp"
+
+#include <algorithm>
+#include <exception>
+#include <future>
+#include <thread>
+
+namespace roscell::cli {
+
+namespace {
+
+using look_clock = std::chrono::steady_clock;
+
+/// What takes longer than this is told about.
+constexpr std::chrono::seconds look_patience{1};
+
+/// A check that is being made, by a thread of its own, which may stay in the
+/// kernel for ever.
+class running_look {
+public:
+  running_look(const check& what, const examined_host& host) : what_{what} {
+    std::packaged_task<findings()> task{
+        [look = what.look, host] { return look(host); }};
+    result_ = task.get_future();
+    thread_ = std::thread{std::move(task)};
+  }
+
+  bool ends_until(look_clock::time_point deadline) const {
+    return result_.wait_until(deadline) == std::future_status::ready;
+  }
+
+  const check& what() const {
+    return what_;
+  }
+
+  /// To be called once.
+  findings end(look_clock::time_point deadline) {
+    findings result;
+    if (ends_until(deadline)) {
+      thread_.join();
+      result = found();
+    } else {
+      thread_.detach();
+      result = {{judgement::broken, "it did not end in time",
+                 "what it looks at does not answer: a disk, a driver or a "
+                 "container engine that hangs",
+                 "roscell doctor --only " + std::string{what_.name}}};
+    }
+    for (auto& x : result) {
+      x.check = what_.name;
+      x.area = what_.area;
+    }
+    return result;
+  }
+
+private:
+  findings found() {
+    try {
+      return result_.get();
+    } catch (const std::exception& e) {
+      return {{judgement::skipped, std::string{"it failed: "} + e.what()}};
+    }
+  }
+
+  const check& what_;
+  std::future<findings> result_;
+  std::thread thread_;
+};
+
+} // namespace
+
+const std::vector<check>& host_checks() {
+  static const std::vector<check> all{
+      {"interface", "network", "the interface is up and has an address",
+       examine_interface},
+      {"mtu", "network", "datagrams of images need few fragments", examine_mtu},
+      {"multicast", "network", "nodes without --join see each other",
+       examine_multicast},
+      {"ports", "network", "the ports of a node are free", examine_ports},
+      {"dds-ports", "network", "DDS has free ports, no program's by chance",
+       examine_dds_ports},
+      {"firewall", "network", "nftables lets a node's packets in",
+       examine_firewall},
+      {"buffers", "network", "sockets hold a whole image", examine_buffers},
+      {"shm", "host", "/dev/shm has room and may be used",
+       examine_shared_memory},
+      {"leftovers", "host", "files in /dev/shm that nobody uses",
+       examine_leftovers},
+      {"disk", "host", "the data directory may be written and has room",
+       examine_disk},
+      {"fsync", "host", "how long the disk takes to keep 4 KiB", examine_fsync},
+      {"clock", "host", "the clock is synchronised", examine_clock},
+      {"descriptors", "host", "how many files a node may open",
+       examine_descriptors},
+      {"engine", "host", "a container engine answers this user",
+       examine_engines},
+      {"gpu", "host", "NVIDIA's driver and library fit", examine_gpu},
+      {"versions", "host", "ROSCell and Fast DDS", examine_versions},
+      {"skills", "host", "skills of this host can be loaded", examine_skills},
+  };
+  return all;
+}
+
+findings run_checks(const std::vector<check>& checks, const examined_host& host,
+                    const still_looking& tell,
+                    std::chrono::milliseconds limit) {
+  const auto begin = look_clock::now();
+  const auto early =
+      begin + std::min<look_clock::duration>(look_patience, limit);
+  std::vector<running_look> looks;
+  looks.reserve(checks.size());
+  for (const auto& x : checks)
+    looks.emplace_back(x, host);
+  std::vector<std::string> waiting;
+  for (const auto& x : looks)
+    if (!x.ends_until(early))
+      waiting.emplace_back(x.what().name);
+  if (!waiting.empty())
+    tell(waiting);
+  findings result;
+  for (auto& look : looks)
+    for (auto& x : look.end(begin + limit))
+      result.push_back(std::move(x));
+  return result;
+}
+
+} // namespace roscell::cli

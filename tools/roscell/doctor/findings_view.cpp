@@ -1,0 +1,112 @@
+#include "tools/roscell/doctor/findings_view.hpp"
+
+#include "tools/roscell/view/format.hpp"
+
+#include <langinfo.h>
+
+#include <algorithm>
+#include <cctype>
+#include <clocale>
+#include <cstring>
+
+namespace roscell::cli {
+
+namespace {
+
+std::string mark_of(judgement how, bool signs) {
+  if (!signs)
+    return to_word(how);
+  switch (how) {
+  case judgement::ok:
+    return "✓";
+  case judgement::skipped:
+    return "-";
+  case judgement::warning:
+    return "!";
+  default:
+    return "✗";
+  }
+}
+
+std::string heading_of(std::string area) {
+  std::transform(area.begin(), area.end(), area.begin(), [](unsigned char c) {
+    return static_cast<char>(std::toupper(c));
+  });
+  return area;
+}
+
+std::string area_view(const std::string& area, const findings& all,
+                      const text_style& style, bool signs) {
+  table t{{{"", align::left, always_shown, true},
+           {heading_of(area), align::left, always_shown, true},
+           {"SEEN", align::left, 1}},
+          {}};
+  for (const auto& x : all)
+    if (x.area == area)
+      t.rows.push_back({mark_of(x.how, signs), x.check, x.seen});
+  return t.render(style);
+}
+
+/// What is to be done, in lines that are not cut, so that they can be pasted.
+std::string advice(const finding& x, const text_style& style, bool signs) {
+  const auto mark = mark_of(x.how, signs);
+  const auto colour = style.colour ? state_colour(mark) : "";
+  std::string text = colour + mark + (colour.empty() ? "" : "\x1b[0m") + " "
+                     + x.check + ": " + printable(x.seen) + "\n";
+  if (!x.matters.empty())
+    text += "    " + printable(x.matters) + "\n";
+  if (!x.remedy.empty())
+    text += "    $ " + printable(x.remedy) + "\n";
+  return text;
+}
+
+std::string sum_of(const findings& all) {
+  const auto count = [&](judgement how) {
+    return std::count_if(all.begin(), all.end(),
+                         [&](auto& x) { return x.how == how; });
+  };
+  const auto broken = count(judgement::broken);
+  const auto warnings = count(judgement::warning);
+  if (broken == 0 && warnings == 0)
+    return "nothing is wrong\n";
+  return std::to_string(broken) + " broken, " + std::to_string(warnings)
+         + (warnings == 1 ? " warning\n" : " warnings\n");
+}
+
+} // namespace
+
+bool locale_is_utf8() {
+  auto* locale = newlocale(LC_CTYPE_MASK, "", nullptr);
+  if (locale == nullptr)
+    return false;
+  const bool result = std::strcmp(nl_langinfo_l(CODESET, locale), "UTF-8") == 0;
+  freelocale(locale);
+  return result;
+}
+
+std::string findings_view(const findings& all, const text_style& style,
+                          bool signs) {
+  std::vector<std::string> areas;
+  for (const auto& x : all)
+    if (std::find(areas.begin(), areas.end(), x.area) == areas.end())
+      areas.push_back(x.area);
+  std::string text;
+  for (const auto& area : areas)
+    text += area_view(area, all, style, signs) + "\n";
+  for (const auto how :
+       {judgement::broken, judgement::warning, judgement::skipped})
+    for (const auto& x : all)
+      if (x.how == how && !(x.matters.empty() && x.remedy.empty()))
+        text += advice(x, style, signs) + "\n";
+  return text + sum_of(all);
+}
+
+std::string checks_view(const std::vector<check>& all,
+                        const text_style& style) {
+  table t{{{"CHECK"}, {"AREA"}, {"LOOKS WHETHER, OR AT", align::left, 1}}, {}};
+  for (const auto& x : all)
+    t.rows.push_back({x.name, x.area, x.about});
+  return t.render(style);
+}
+
+} // namespace roscell::cli

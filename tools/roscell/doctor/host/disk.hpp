@@ -1,0 +1,38 @@
+#pragma once
+
+#include "tools/roscell/doctor/examined_host.hpp"
+#include "tools/roscell/doctor/finding.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// Where a node keeps its files.
+namespace roscell::cli {
+
+struct disk_facts {
+  std::filesystem::path data_dir;
+  std::filesystem::path existing; ///< It, or the folder that it would be in.
+  int write_error = 0;            ///< 0: this user may write there.
+  uint64_t free_bytes = 0;        ///< For this user.
+  uint64_t free_files = 0;        ///< Inodes.
+  bool counts_files = false;      ///< Not all file systems have a number.
+};
+
+disk_facts look_at_disk(const std::filesystem::path& data_dir);
+
+findings judge_disk(const disk_facts& disk);
+
+/// How long it took to keep 4 KiB, each time, in ms. Takes a second at most,
+/// and leaves no file. Nothing: it cannot be written there.
+std::optional<std::vector<double>>
+measure_fsync(const std::filesystem::path& folder);
+
+finding judge_fsync(std::vector<double> took_ms);
+
+findings examine_disk(const examined_host& host);
+findings examine_fsync(const examined_host& host);
+
+} // namespace roscell::cli

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "tools/roscell/doctor/examined_host.hpp"
+#include "tools/roscell/doctor/finding.hpp"
+
+#include <string>
+#include <vector>
+
+namespace roscell::cli {
+
+/// What of NVIDIA is there. A GPU needs all of it: the card, the kernel's
+/// module, its device files, and the library of the same version.
+struct gpu_facts {
+  bool card = false;                ///< On the PCI bus.
+  std::string module;               ///< Version of the module; empty: none.
+  std::vector<std::string> devices; ///< "/dev/nvidia0", ...
+  std::string unusable_device;      ///< The first that this user cannot open.
+  bool library = false;
+  std::string library_error;     ///< Why it does not begin; empty: it does.
+  std::vector<std::string> gpus; ///< "NVIDIA H100, 80 GiB".
+};
+
+gpu_facts look_at_gpu(const examined_host& host);
+
+finding judge_gpu(const gpu_facts& gpu);
+
+findings examine_gpu(const examined_host& host);
+
+} // namespace roscell::cli

@@ -1,0 +1,191 @@
+#include "tools/roscell/doctor/host/leftovers.hpp"
+
+#include "actors/edge/io/unique_fd.hpp"
+#include "tools/roscell/view/format.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+#include <map>
+#include <optional>
+#include <set>
+#include <string_view>
+
+namespace roscell::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A fence that has passed by less may be one that is just being moved on.
+constexpr int64_t fence_grace_ms = 60'000;
+
+constexpr std::string_view dds_prefix = "fastrtps_";
+constexpr std::string_view semaphore_prefix = "sem.";
+constexpr std::string_view mutex_suffix = "_mutex";
+
+bool ends_with(std::string_view text, std::string_view end) {
+  return text.size() >= end.size()
+         && text.substr(text.size() - end.size()) == end;
+}
+
+bool begins_with(std::string_view text, std::string_view begin) {
+  return text.substr(0, begin.size()) == begin;
+}
+
+bool is_lock(std::string_view name) {
+  return ends_with(name, "_el") || ends_with(name, "_sl");
+}
+
+/// What a file belongs to: "fastrtps_port7411" of its locks and of
+/// "sem.fastrtps_port7411_mutex"; empty for a file of others.
+std::string dds_owner(std::string_view name) {
+  if (begins_with(name, semaphore_prefix))
+    name.remove_prefix(semaphore_prefix.size());
+  if (!begins_with(name, dds_prefix)
+      || name.find_first_not_of("0123456789abcdefghijklmnopqrstuvwxyz"
+                                "ABCDEFGHIJKLMNOPQRSTUVWXYZ_")
+             != name.npos)
+    return {};
+  if (is_lock(name))
+    name.remove_suffix(3);
+  else if (ends_with(name, mutex_suffix))
+    name.remove_suffix(mutex_suffix.size());
+  return std::string{name};
+}
+
+/// Whether somebody holds the lock; nothing: this user cannot know. It is given
+/// back at once.
+std::optional<bool> is_held(const fs::path& lock) {
+  const unique_fd file{open(lock.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW)};
+  if (!file)
+    return std::nullopt;
+  return flock(file.get(), LOCK_EX | LOCK_NB) != 0;
+}
+
+/// The files of a folder that processes have mapped.
+struct mapped_files {
+  std::set<std::string> names;
+  bool complete = true; ///< Every process could be looked at.
+};
+
+mapped_files find_mapped(const fs::path& folder, const fs::path& proc) {
+  mapped_files result;
+  const auto wanted = folder.string() + "/";
+  std::error_code error;
+  for (fs::directory_iterator i{proc, error}, end; !error && i != end;
+       i.increment(error)) {
+    const auto name = i->path().filename().string();
+    if (name.find_first_not_of("0123456789") != name.npos)
+      continue;
+    std::ifstream in{i->path() / "maps"};
+    std::string line;
+    // One that has ended meanwhile maps nothing.
+    result.complete = result.complete && (in || !fs::exists(i->path(), error));
+    while (std::getline(in, line))
+      if (const auto at = line.find(wanted); at != line.npos)
+        result.names.insert(line.substr(at + wanted.size()));
+  }
+  return result;
+}
+
+/// The names of files that belong together.
+using dds_group = std::vector<std::string>;
+
+bool is_left(const fs::path& folder, const dds_group& group,
+             const mapped_files& mapped) {
+  bool has_lock = false;
+  for (const auto& name : group) {
+    if (mapped.names.count(name) != 0)
+      return false;
+    if (!is_lock(name))
+      continue;
+    if (is_held(folder / name).value_or(true))
+      return false;
+    has_lock = true;
+  }
+  return has_lock || mapped.complete;
+}
+
+std::map<std::string, dds_group> dds_groups(const fs::path& folder) {
+  std::map<std::string, dds_group> result;
+  std::error_code error;
+  for (fs::directory_iterator i{folder, error}, end; !error && i != end;
+       i.increment(error)) {
+    const auto name = i->path().filename().string();
+    if (auto owner = dds_owner(name); !owner.empty())
+      result[owner].push_back(name);
+  }
+  return result;
+}
+
+void add_file(leftovers& to, const fs::path& file) {
+  struct stat info {};
+  if (lstat(file.c_str(), &info) != 0 || !S_ISREG(info.st_mode))
+    return;
+  constexpr uint64_t block = 512;
+  to.bytes += static_cast<uint64_t>(info.st_blocks) * block;
+  to.files.push_back(file);
+}
+
+/// Whether a fence has passed for good.
+bool has_passed(const fs::path& fence, int64_t now_boot_ms) {
+  int64_t moment = 0;
+  std::ifstream in{fence, std::ios::binary};
+  in.read(reinterpret_cast<char*>(&moment), sizeof moment);
+  return in.gcount() == sizeof moment && moment + fence_grace_ms < now_boot_ms;
+}
+
+} // namespace
+
+leftovers find_dds_leftovers(const fs::path& folder, const fs::path& proc) {
+  leftovers result;
+  const auto groups = dds_groups(folder);
+  if (groups.empty())
+    return result;
+  const auto mapped = find_mapped(folder, proc);
+  for (const auto& [owner, group] : groups)
+    if (is_left(folder, group, mapped))
+      for (const auto& name : group)
+        add_file(result, folder / name);
+  std::sort(result.files.begin(), result.files.end());
+  return result;
+}
+
+leftovers find_fence_leftovers(const fs::path& folder, int64_t now_boot_ms) {
+  leftovers result;
+  std::error_code error;
+  for (fs::directory_iterator i{folder, error}, end; !error && i != end;
+       i.increment(error)) {
+    if (!begins_with(i->path().filename().string(), "roscell-")
+        || !i->is_directory(error))
+      continue;
+    std::error_code closed;
+    for (fs::directory_iterator fence{i->path(), closed};
+         !closed && fence != end; fence.increment(closed))
+      if (has_passed(fence->path(), now_boot_ms))
+        add_file(result, fence->path());
+  }
+  std::sort(result.files.begin(), result.files.end());
+  return result;
+}
+
+finding judge_leftovers(const leftovers& left, const std::string& whose,
+                        const std::string& why) {
+  if (left.files.empty())
+    return {};
+  std::string command = "rm -f";
+  for (const auto& file : left.files)
+    command += " " + file.string();
+  return {judgement::warning,
+          std::to_string(left.files.size()) + " files of " + whose
+              + " that nobody uses take "
+              + format_bytes(static_cast<double>(left.bytes)),
+          why, command};
+}
+
+} // namespace roscell::cli

@@ -1,0 +1,129 @@
+#include "tools/roscell/doctor/host/shared_memory.hpp"
+
+#include "actors/edge/io/unique_fd.hpp"
+#include "tools/roscell/doctor/host/leftovers.hpp"
+#include "tools/roscell/view/format.hpp"
+
+#include <fcntl.h>
+#include <linux/magic.h>
+#include <sys/stat.h>
+#include <sys/statvfs.h>
+#include <sys/vfs.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <ctime>
+
+namespace roscell::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Fast DDS takes half a MiB for each participant, and an image more.
+constexpr uint64_t little_memory = 32ULL << 20;
+constexpr uint64_t no_memory = 1ULL << 20;
+
+/// What a container gets that was told nothing.
+constexpr uint64_t container_default = 64ULL << 20;
+
+constexpr mode_t open_to_all = 01777;
+
+int try_to_make_a_file(const fs::path& folder) {
+  const unique_fd file{
+      open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600)};
+  if (!file)
+    return errno == EOPNOTSUPP ? 0 : errno;
+  const char byte = 0;
+  return pwrite(file.get(), &byte, 1, 0) == 1 ? 0 : errno;
+}
+
+int64_t boot_clock_ms() {
+  timespec now{};
+  clock_gettime(CLOCK_BOOTTIME, &now);
+  return static_cast<int64_t>(now.tv_sec) * 1000 + now.tv_nsec / 1'000'000;
+}
+
+} // namespace
+
+shared_memory_facts look_at_shared_memory(const fs::path& folder) {
+  shared_memory_facts result;
+  struct stat info {};
+  struct statfs kind {};
+  struct statvfs room {};
+  if (stat(folder.c_str(), &info) != 0 || !S_ISDIR(info.st_mode))
+    return result;
+  result.exists = true;
+  result.all_write = (info.st_mode & 07777) == open_to_all;
+  result.in_memory =
+      statfs(folder.c_str(), &kind) == 0 && kind.f_type == TMPFS_MAGIC;
+  if (statvfs(folder.c_str(), &room) == 0) {
+    result.size = static_cast<uint64_t>(room.f_blocks) * room.f_frsize;
+    result.free = static_cast<uint64_t>(room.f_bavail) * room.f_frsize;
+  }
+  result.write_error = try_to_make_a_file(folder);
+  return result;
+}
+
+finding judge_shared_memory(const fs::path& folder,
+                            const shared_memory_facts& memory) {
+  const auto at = folder.string();
+  constexpr auto why =
+      "no fence of a movable step can be kept, and stock ROS 2 "
+      "programs of this host do not hear each other";
+  if (!memory.exists || !memory.in_memory)
+    return {memory.exists ? judgement::warning : judgement::broken,
+            at + (memory.exists ? " is no memory but a disk" : " is not there"),
+            why,
+            "sudo mkdir -p " + at
+                + " && sudo mount -t tmpfs -o mode=1777 tmpfs " + at};
+  const auto room = format_bytes(static_cast<double>(memory.free)) + " of "
+                    + format_bytes(static_cast<double>(memory.size))
+                    + " are free in " + at;
+  if (memory.free < no_memory)
+    return {judgement::broken, room, why,
+            "sudo mount -o remount,size=" + std::to_string(2 * memory.size)
+                + " " + at};
+  if (memory.write_error != 0)
+    return {judgement::broken,
+            "this user cannot write to " + at + ": "
+                + std::strerror(memory.write_error),
+            why, "sudo mount -o remount,rw,mode=1777 " + at};
+  if (!memory.all_write)
+    return {judgement::warning, at + " is not open to all users",
+            "programs of other users cannot share memory",
+            "sudo chmod 1777 " + at};
+  if (memory.free < little_memory || memory.size <= container_default)
+    return {judgement::warning, room,
+            "stock ROS 2 programs need half a MiB each and room for images; a "
+            "container gets its host's with --ipc=host",
+            "sudo mount -o remount,size=512M " + at};
+  return {judgement::ok, room};
+}
+
+findings examine_shared_memory(const examined_host& host) {
+  const auto folder = fs::path{host.dev} / "shm";
+  return {judge_shared_memory(folder, look_at_shared_memory(folder))};
+}
+
+findings examine_leftovers(const examined_host& host) {
+  const auto folder = fs::path{host.dev} / "shm";
+  findings result;
+  for (auto& x :
+       {judge_leftovers(find_dds_leftovers(folder, host.proc), "Fast DDS",
+                        "they take room until the next start of the host, and "
+                        "one of another user is in the way of a new program"),
+        judge_leftovers(find_fence_leftovers(folder, boot_clock_ms()),
+                        "ROSCell's fences",
+                        "they do no harm but take a little room")})
+    if (x.how != judgement::ok)
+      result.push_back(x);
+  if (result.empty())
+    result.push_back(
+        {judgement::ok, "nothing that nobody uses lies in " + folder.string()});
+  return result;
+}
+
+} // namespace roscell::cli

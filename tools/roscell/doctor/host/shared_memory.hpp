@@ -1,0 +1,30 @@
+#pragma once
+
+#include "tools/roscell/doctor/examined_host.hpp"
+#include "tools/roscell/doctor/finding.hpp"
+
+#include <cstdint>
+#include <filesystem>
+
+/// /dev/shm, where fences of instances lie, and the messages of stock ROS 2
+/// programs of one host.
+namespace roscell::cli {
+
+struct shared_memory_facts {
+  bool exists = false;
+  bool in_memory = false; ///< A tmpfs.
+  bool all_write = false; ///< Mode 1777.
+  int write_error = 0;    ///< Of making a file there; 0: this user may.
+  uint64_t size = 0;
+  uint64_t free = 0;
+};
+
+shared_memory_facts look_at_shared_memory(const std::filesystem::path& folder);
+
+finding judge_shared_memory(const std::filesystem::path& folder,
+                            const shared_memory_facts& memory);
+
+findings examine_shared_memory(const examined_host& host);
+findings examine_leftovers(const examined_host& host);
+
+} // namespace roscell::cli

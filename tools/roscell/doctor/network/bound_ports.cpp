@@ -1,0 +1,93 @@
+#include "tools/roscell/doctor/network/bound_ports.hpp"
+
+#include "actors/edge/disk/small_file.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <set>
+#include <sstream>
+
+namespace roscell::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A row of /proc/net/udp and its like.
+struct bound_row {
+  unsigned port = 0;
+  std::string inode;
+  std::string state;
+};
+
+constexpr auto tcp_listens = "0A";
+
+void for_each_bound(const std::string& proc, const std::string& protocol,
+                    const std::function<void(const bound_row&)>& look) {
+  for (const auto* version : {"", "6"}) {
+    std::ifstream in{proc + "/net/" + protocol + version};
+    std::string line;
+    std::getline(in, line);
+    while (std::getline(in, line)) {
+      std::istringstream words{line};
+      std::string number, local, remote, queues, timer, retries, uid, timeout;
+      bound_row row;
+      words >> number >> local >> remote >> row.state >> queues >> timer
+          >> retries >> uid >> timeout >> row.inode;
+      const auto colon = local.rfind(':');
+      if (colon == local.npos)
+        continue;
+      row.port = static_cast<unsigned>(
+          std::strtoul(local.c_str() + colon + 1, nullptr, 16));
+      look(row);
+    }
+  }
+}
+
+bool has_socket(const fs::path& process, const std::set<std::string>& links) {
+  std::error_code error;
+  for (fs::directory_iterator i{process / "fd", error}, end; !error && i != end;
+       i.increment(error)) {
+    std::error_code gone;
+    if (links.count(fs::read_symlink(i->path(), gone).string()) != 0)
+      return true;
+  }
+  return false;
+}
+
+std::string name_of_process(const fs::path& process) {
+  constexpr size_t longest_name = 64;
+  auto name = read_small_file(process / "comm", longest_name).value_or("?");
+  return name.substr(0, name.find('\n'));
+}
+
+} // namespace
+
+port_holder find_port_holder(const std::string& proc,
+                             const std::string& protocol, unsigned port) {
+  std::set<std::string> links;
+  for_each_bound(proc, protocol, [&](const bound_row& row) {
+    if (row.port == port && (protocol == "udp" || row.state == tcp_listens))
+      links.insert("socket:[" + row.inode + "]");
+  });
+  std::error_code error;
+  for (fs::directory_iterator i{proc, error}, end; !error && i != end;
+       i.increment(error)) {
+    const auto pid = std::atoll(i->path().filename().c_str());
+    if (pid > 0 && !links.empty() && has_socket(i->path(), links))
+      return {pid, name_of_process(i->path())};
+  }
+  return {};
+}
+
+size_t count_bound(const std::string& proc, unsigned first, unsigned last) {
+  std::set<unsigned> ports;
+  for_each_bound(proc, "udp", [&](const bound_row& row) {
+    if (row.port >= first && row.port <= last)
+      ports.insert(row.port);
+  });
+  return ports.size();
+}
+
+} // namespace roscell::cli

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+/// INTERNAL to ports: who has bound what.
+namespace roscell::cli {
+
+struct port_holder {
+  int64_t pid = 0; ///< 0: not known.
+  std::string program;
+};
+
+/// Which process holds a port, as far as this user may know.
+/// @param protocol "tcp" or "udp".
+port_holder find_port_holder(const std::string& proc,
+                             const std::string& protocol, unsigned port);
+
+/// How many of these UDP ports are bound.
+size_t count_bound(const std::string& proc, unsigned first, unsigned last);
+
+} // namespace roscell::cli

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "tools/roscell/doctor/bounded_command.hpp"
+#include "tools/roscell/doctor/examined_host.hpp"
+#include "tools/roscell/doctor/finding.hpp"
+#include "tools/roscell/doctor/network/ruleset.hpp"
+
+#include <string>
+#include <vector>
+
+namespace roscell::cli {
+
+/// A packet that other hosts send to a node, and what for.
+struct needed_packet {
+  arriving_packet packet;
+  std::string what; ///< "requests and sessions".
+};
+
+std::vector<needed_packet> needed_packets(const examined_host& host);
+
+/// @param listed what `nft -j list ruleset` has said.
+findings judge_firewall(const command_result& listed,
+                        const std::vector<needed_packet>& needed);
+
+findings examine_firewall(const examined_host& host);
+
+} // namespace roscell::cli

@@ -1,0 +1,56 @@
+#pragma once
+
+#include "tools/roscell/doctor/examined_host.hpp"
+#include "tools/roscell/doctor/finding.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+/// The ports that a node and its skills listen at.
+namespace roscell::cli {
+
+/// From the first to the last.
+struct port_range {
+  unsigned first;
+  unsigned last;
+};
+
+/// All ports of DDS in a domain (RTPS 2.3, 9.6.1.1).
+port_range ports_of_domain(unsigned domain);
+
+/// Those by which nodes of a site find each other.
+port_range public_ports(unsigned domain);
+
+/// A port that a node needs.
+struct port_facts {
+  std::string protocol; ///< "tcp" or "udp".
+  uint16_t port = 0;
+  int error = 0;      ///< Of binding it; 0: it is free.
+  std::string holder; ///< "pid 12 (name)"; empty: not known.
+  int64_t pid = 0;    ///< 0: not known.
+};
+
+/// @param vital a node cannot start without it.
+finding judge_port(const port_facts& facts, bool vital);
+
+/// Ports that the kernel gives to whoever asks for any.
+struct ephemeral_facts {
+  port_range range{0, 0};
+  std::vector<port_range> reserved; ///< Which are not given away.
+  std::string reserved_text;        ///< The same as the kernel tells them.
+};
+
+/// "11811,32150-32166"; what is none of it is left out.
+std::vector<port_range> parse_port_ranges(const std::string& text);
+
+finding judge_ephemeral(const ephemeral_facts& facts,
+                        const std::vector<port_range>& wanted);
+
+/// @param used how many of the domain's UDP ports are bound.
+finding judge_domain(unsigned domain, size_t used);
+
+findings examine_ports(const examined_host& host);
+findings examine_dds_ports(const examined_host& host);
+
+} // namespace roscell::cli

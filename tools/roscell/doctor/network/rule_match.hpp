@@ -1,0 +1,18 @@
+#pragma once
+
+#include "tools/roscell/doctor/network/ruleset.hpp"
+
+#include <map>
+#include <string>
+
+namespace roscell::cli {
+
+/// INTERNAL to rulesets: whether a rule is for a packet.
+enum class rule_match { no, maybe, yes };
+
+/// Of all that the expressions of a rule ask for.
+/// @param sets by their names, as nftables tells them.
+rule_match match_rule(const json& expressions, const arriving_packet& packet,
+                      const std::map<std::string, json>& sets);
+
+} // namespace roscell::cli
