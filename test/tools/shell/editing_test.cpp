@@ -109,5 +109,7 @@ TEST_CASE("names are found in the answers of a node", "[shell]") {
   const auto instances =
       json::parse(R"({"instances":[{"spec":{"instance":"t-a-1"}}]})");
   CHECK(names_in("instances", instances) == words{"t-a-1"});
+  const auto node = json::parse(R"({"actors":[{"name":"member","id":7}]})");
+  CHECK(names_in("actors", node) == words{"member"});
   CHECK(names_in("planets", tasks).empty());
 }

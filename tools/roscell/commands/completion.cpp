@@ -42,11 +42,13 @@ constexpr value_source sources[] = {
     {"CELL", "ids cells"},
     {"TRANSFER", "ids transfers"},
     {"TASK", "ids tasks"},
+    {"SUBJECT", "ids tasks"},
     {"TASK|INSTANCE", "ids instances"},
     {"INSTANCE", "ids instances"},
     {"SHELL", "words bash zsh fish"},
     {"COMMAND", "commands"},
-    // Of the shell's own words.
+    // The shell alone finds these.
+    {"ACTOR", "ids actors"},
     {"KIND", "ids kinds"},
     {"--subject", "ids subjects"},
 };
