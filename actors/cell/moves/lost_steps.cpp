@@ -185,6 +185,8 @@ void move_lost_steps(coordinator_pointer self) {
 std::string wait_of_lost(const cell_coordinator_state& st,
                          const instance_row& row) {
   const auto* x = st.losses.find(row.spec.instance);
+  if (!x && !st.deployments.find(row.spec.instance))
+    return "no longer wanted, ends once node '" + row.node + "' is back";
   if (!x)
     return "waits for node '" + row.node + "'";
   if (!x->trouble.empty())

@@ -39,6 +39,15 @@ struct lossy_cell : paper_cell {
   std::string waits() {
     return row_of_a().value("waits", "");
   }
+
+  /// What is said of the step where it was lost.
+  std::string waits_on_left() {
+    const auto cell = request({{"type", "cell_query"}});
+    for (const auto& node : cell.at("nodes"))
+      if (node.at("identity").at("name") == "left")
+        return node.at("instances").at(0).value("waits", "");
+    return "";
+  }
 };
 
 } // namespace
@@ -47,11 +56,13 @@ TEST_CASE_METHOD(lossy_cell, "A step moves once its node is lost for so long",
                  "[lost_steps]") {
   lose(left);
   CHECK(waits() == "moves unless node 'left' is back within 30 s");
+  CHECK(waits_on_left() == waits());
   time.advance(29s);
   CHECK(right.running.empty());
   time.advance(2s);
   CHECK(right.running.size() == 1);
   CHECK(node_of_a() == "right");
+  CHECK(waits_on_left() == "no longer wanted, ends once node 'left' is back");
   CHECK(disk.at("a").at("nodes") == json{"right"});
   CHECK(count("instance_out_of_reach") == 1);
   CHECK(count("instance_moved") == 1);
