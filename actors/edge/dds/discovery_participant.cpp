@@ -183,9 +183,11 @@ void rtps_participant::update_announcement(const std::string& bytes) {
 }
 
 void rtps_participant::add_remote(
-    const eprosima::fastdds::rtps::RemoteServerAttributes& x) {
+    const eprosima::fastdds::rtps::RemoteServerAttributes& x,
+    const std::string& announcement) {
   auto attributes = participant_->getRTPSParticipantAttributes();
   attributes.builtin.discovery_config.m_DiscoveryServers.push_back(x);
+  attributes.userData.assign(announcement.begin(), announcement.end());
   participant_->update_attributes(attributes);
 }
 

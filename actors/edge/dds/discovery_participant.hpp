@@ -75,8 +75,10 @@ public:
   /// Replaces the USER_DATA, and sends it to all who know us.
   void update_announcement(const std::string& bytes);
 
-  /// A server's: another one, which it registers with.
-  void add_remote(const eprosima::fastdds::rtps::RemoteServerAttributes& x);
+  /// A server's: another one, which it registers with, and its announcement,
+  /// which has to be another one than before.
+  void add_remote(const eprosima::fastdds::rtps::RemoteServerAttributes& x,
+                  const std::string& announcement);
 
   /// Sends the own data to all who know us.
   void announce();

@@ -29,6 +29,11 @@ constexpr std::int32_t serve_repeat_period_ns = 20'000'000;
 /// that has no time at all.
 constexpr std::chrono::seconds ready_limit{10};
 
+/// What a server says of itself until it is told of its remote. Fast DDS does
+/// not replace data by the same once more, but keeps both, and looks every 20
+/// ms whether the one that it dropped has been acknowledged.
+constexpr const char* unready_announcement = "-";
+
 /// A ROS 2 node may put all its endpoints into one datagram of full size.
 constexpr std::uint32_t max_server_message_bytes = 65500;
 
@@ -64,6 +69,8 @@ auto server_attributes(const cell_server_options& options, std::uint16_t port,
                        std::shared_ptr<route_gate> route) {
   auto settings = to_settings(options);
   settings.route = std::move(route);
+  if (options.remote)
+    settings.announcement = unready_announcement;
   auto result = make_attributes(settings, port);
   auto prefix = server_prefix(options.server_id);
   std::copy(prefix.begin(), prefix.end(), result.prefix.value);
@@ -136,7 +143,8 @@ private:
                          [this] { participant_->announce(); }};
     if (!own.wait(ready_limit))
       return false;
-    participant_->add_remote(to_attributes(*options.remote));
+    participant_->add_remote(to_attributes(*options.remote),
+                             options.announcement);
     return true;
   }
 

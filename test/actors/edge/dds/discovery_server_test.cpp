@@ -1,9 +1,12 @@
 #include "actors/edge/dds/announcement.hpp"
+#include "actors/edge/dds/discovery_address.hpp"
 #include "actors/house/limits.hpp"
 #include "discovery_fixture.hpp"
 
 #include <arpa/inet.h>
+#include <array>
 #include <atomic>
+#include <poll.h>
 #include <sys/socket.h>
 #include <thread>
 #include <unistd.h>
@@ -42,6 +45,40 @@ cell_server_options with_remote(std::uint16_t port, std::uint8_t id) {
   result.remote = remote_server{"127.0.0.1", port, id};
   return result;
 }
+
+/// Passes on what comes for a server.
+class relay {
+public:
+  explicit relay(std::uint16_t to)
+      : to_(*to_socket_address("127.0.0.1", to)),
+        socket_(std::get<udp_socket>(udp_socket::bind("127.0.0.1", 0))) {}
+
+  std::uint16_t port() const {
+    return ntohs(socket_.local().sin_port);
+  }
+
+  /// Until nothing has come for a while; false if that takes too long.
+  bool falls_silent() {
+    constexpr int while_ms = 400;
+    const auto end =
+        std::chrono::steady_clock::now() + std::chrono::seconds{20};
+    std::array<char, 65536> datagram{};
+    while (std::chrono::steady_clock::now() < end) {
+      pollfd waiting{socket_.fd(), POLLIN, 0};
+      if (::poll(&waiting, 1, while_ms) == 0)
+        return true;
+      const auto size = recv(socket_.fd(), datagram.data(), datagram.size(), 0);
+      if (size > 0)
+        sendto(socket_.fd(), datagram.data(), static_cast<std::size_t>(size), 0,
+               reinterpret_cast<const sockaddr*>(&to_), sizeof(to_));
+    }
+    return false;
+  }
+
+private:
+  sockaddr_in to_;
+  udp_socket socket_;
+};
 
 /// Threads that leave this process's others no time.
 class crowd {
@@ -171,6 +208,20 @@ TEST_CASE("a discovery server registers with its remote when that is there",
   auto server = must_open(with_remote(remote->port(), 1));
   CHECK(clients.entries().empty());
   server->reach_remote(true);
+  CHECK(clients.wait_for("2"));
+}
+
+TEST_CASE("a discovery server that has registered tells its remote no more",
+          "[discovery]") {
+  diary clients;
+  auto remote = must_open(local_server(1, ""), [&](const sighting& seen) {
+    if (server_id_of(seen.prefix))
+      clients.add(std::to_string(*server_id_of(seen.prefix)));
+  });
+  relay between{remote->port()};
+  auto server = must_open(with_remote(between.port(), 1));
+  server->reach_remote(true);
+  CHECK(between.falls_silent());
   CHECK(clients.wait_for("2"));
 }
 
