@@ -1,4 +1,5 @@
 #include "actors/edge/dds/rtps/discovery_filter.hpp"
+#include "actors/edge/dds/rtps/discovery_probe.hpp"
 
 #include <cstdint>
 #include <cstdlib>
@@ -26,5 +27,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
   if (check(bytes, roscell::arrival::direct)
       != check(bytes, roscell::arrival::multicast))
     std::abort();
+  roscell::is_introduction(bytes.data(), bytes.size());
   return 0;
 }
