@@ -4,6 +4,7 @@
 #include "test/site/site.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 namespace roscell::test {
@@ -117,6 +118,22 @@ void watch(site& place, site_party& x, const site_program& program) {
     });
 }
 
+/// Whether an instance was ordered while its cell still had the other node:
+/// where somebody wants a move, the new one is begun beside the old one.
+bool was_ordered_before_loss(const site& place, const site_party& me,
+                             const std::string& instance,
+                             const std::string& lost) {
+  std::optional<std::chrono::milliseconds> ordered;
+  std::optional<std::chrono::milliseconds> loss;
+  for (const auto& x : place.facts)
+    if (x.subject == lost
+        && (x.what == "node_lost" || x.what == "transfer_ended"))
+      loss = x.when;
+    else if (x.party == me.index && x.subject == instance && !ordered)
+      ordered = x.when;
+  return ordered && loss && *ordered < *loss;
+}
+
 /// What may run on a node that its cell has lost is not started elsewhere.
 void check_others(site& place, const site_party& me,
                   const start_container& wish) {
@@ -127,7 +144,8 @@ void check_others(site& place, const site_party& me,
                         && known.task == wish.labels.at("task")
                         && known.step == wish.environment.at("ROSCELL_STEP");
       if (same && known.fence && x->index != me.index && known.runs(place.now())
-          && place.has_lost(cell, x->name))
+          && place.has_lost(cell, x->name)
+          && !was_ordered_before_loss(place, me, wish.instance, x->name))
         place.report_violation("'" + wish.instance + "' is started on "
                                + me.name + " while '" + instance
                                + "' may run on " + x->name);

@@ -7,6 +7,7 @@ namespace roscell {
 
 void loss_book::lose(lost_step x, std::chrono::milliseconds after) {
   x.due = x.since + after;
+  x.ended_by = x.due;
   const auto instance = x.instance;
   steps_.emplace(instance, std::move(x));
 }
@@ -18,6 +19,14 @@ void loss_book::forget(const std::string& instance) {
 const lost_step* loss_book::find(const std::string& instance) const {
   const auto i = steps_.find(instance);
   return i == steps_.end() ? nullptr : &i->second;
+}
+
+std::vector<lost_step> loss_book::of_task(const std::string& task) const {
+  std::vector<lost_step> result;
+  for (const auto& [instance, x] : steps_)
+    if (x.task == task)
+      result.push_back(x);
+  return result;
 }
 
 bool loss_book::is_given_up(const std::string& instance) const {

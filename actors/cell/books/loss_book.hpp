@@ -18,6 +18,8 @@ struct lost_step {
   std::string uuid;                            ///< and whose name that was.
   std::chrono::steady_clock::time_point since; ///< Of the node's last word.
   std::chrono::steady_clock::time_point due;   ///< Of the next attempt.
+  /// The fence on its node has ended it by then, if the node stayed away.
+  std::chrono::steady_clock::time_point ended_by;
   backoff pause = backoff{};
   std::string trouble;   ///< Why it has no place; empty: not tried yet.
   bool given_up = false; ///< What returns of it is to end.
@@ -36,6 +38,9 @@ public:
   void forget(const std::string& instance);
 
   const lost_step* find(const std::string& instance) const;
+
+  /// Those of a task.
+  std::vector<lost_step> of_task(const std::string& task) const;
 
   /// Whether what returns of it is to end, since it is being placed elsewhere.
   bool is_given_up(const std::string& instance) const;

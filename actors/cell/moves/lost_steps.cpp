@@ -118,6 +118,27 @@ void clear_and_place(coordinator_pointer self,
   end_one(self, all);
 }
 
+/// Whether its node can be told to end it.
+bool is_back(const cell_coordinator_state& st, const lost_step& x) {
+  const auto* node = st.registry.find_name(x.node);
+  return node && node->agent && node->row.identity.uuid == x.uuid;
+}
+
+std::optional<milliseconds> fenced_for(coordinator_pointer self,
+                                       const lost_step& x) {
+  const auto left =
+      std::chrono::ceil<milliseconds>(x.ended_by - self->clock().now());
+  return left.count() > 0 ? std::optional{left} : std::nullopt;
+}
+
+failure still_there(const lost_step& x, const std::string& why,
+                    const std::string& when) {
+  return {error_code::conflict,
+          "'" + x.instance + "' of the task that had this name may still run "
+              + "on '" + x.node + "': " + why,
+          "/task", "send it again " + when + ", or choose another task id"};
+}
+
 } // namespace
 
 void lose_steps_of(coordinator_pointer self, const std::string& node,
@@ -161,6 +182,32 @@ bool is_elsewhere(const cell_coordinator_state& st, const std::string& instance,
                   const std::string& uuid) {
   const auto* lost = st.losses.find(instance);
   return lost && lost->uuid != uuid;
+}
+
+std::optional<milliseconds> may_run_on(coordinator_pointer self,
+                                       const std::string& instance) {
+  const auto& st = self->state;
+  const auto* lost = st.losses.find(instance);
+  return lost && !is_back(st, *lost) ? fenced_for(self, *lost) : std::nullopt;
+}
+
+std::optional<failure> remains_of(coordinator_pointer self,
+                                  const std::string& task) {
+  const auto& st = self->state;
+  for (const auto& x : st.losses.of_task(task)) {
+    if (is_back(st, x)) {
+      const auto* row = st.deployments.told(x.node, x.instance);
+      if (row && is_live(row->state))
+        return still_there(x, "its node was away, and is ending it",
+                           "once it has ended");
+    } else if (const auto left = fenced_for(self, x)) {
+      const auto s = std::chrono::ceil<std::chrono::seconds>(*left).count();
+      return still_there(x, "its node is away",
+                         "in " + std::to_string(s)
+                             + " s, when it has been ended there");
+    }
+  }
+  return std::nullopt;
 }
 
 void move_lost_steps(coordinator_pointer self) {

@@ -1,5 +1,6 @@
 #include "actors/cell/moves/move_stages.hpp"
 
+#include "actors/cell/moves/lost_steps.hpp"
 #include "actors/cell/state/coordinator_timer.hpp"
 #include "actors/cell/state/task_story.hpp"
 #include "actors/cell/tasks/task_changes.hpp"
@@ -142,6 +143,17 @@ void end_deployment(coordinator_pointer self, const move_ptr& move) {
     end_part(self, move, replace_old, undo_move);
 }
 
+/// Nobody can end the old one, but its fence does.
+failure still_fenced(const moved_step& x, std::chrono::milliseconds left) {
+  const auto s = std::chrono::ceil<std::chrono::seconds>(left).count();
+  return {error_code::conflict,
+          "node '" + x.from + "' is away and may still run '"
+              + x.change.old_instance + "'",
+          "/instances",
+          "it has ended there in " + std::to_string(s)
+              + " s, and moves by itself then; or say \"terminate\""};
+}
+
 void deploy_step(coordinator_pointer self, const move_ptr& move,
                  const moved_step& x) {
   const auto& node = x.change.place.node;
@@ -157,6 +169,9 @@ void deploy_step(coordinator_pointer self, const move_ptr& move,
   if (!self->state.deployments.find(x.change.spec.instance, node)
       || !(self->state.tasks.*still_of(*move))(x.task))
     return end_deployment(self, move);
+  if (const auto left = may_run_on(self, x.change.old_instance);
+      left && move->kind != move_kind::lost)
+    return end_with(still_fenced(x, *left));
   const auto* entry = self->state.registry.find_name(node);
   if (!entry || !entry->agent)
     return end_with({error_code::conflict, "the node left meanwhile"});

@@ -1,5 +1,6 @@
 #include "actors/cell/tasks/cell_tasks.hpp"
 
+#include "actors/cell/moves/lost_steps.hpp"
 #include "actors/cell/state/coordinator_store.hpp"
 #include "actors/cell/state/task_story.hpp"
 #include "actors/cell/tasks/cell_resources.hpp"
@@ -55,14 +56,19 @@ void answer_accepted(coordinator_pointer self, const std::string& task,
             });
 }
 
-/// Answers a claim whose task is known. True if that settles it.
+/// Answers a claim whose task is known, or whose name is not free yet. True if
+/// that settles it.
 bool answer_known(coordinator_pointer self, const claim_task& request,
                   claim_promise promise) {
   auto& st = self->state;
   const auto& task = request.task;
   switch (st.tasks.standing_of(task, request.request)) {
-  case claim_standing::unknown:
-    return false;
+  case claim_standing::unknown: {
+    const auto why = remains_of(self, task);
+    if (why)
+      promise.deliver(to_error(*why));
+    return why.has_value();
+  }
   case claim_standing::other_body:
     promise.deliver(fail(
         error_code::task_exists, "task '" + task + "' exists with another body",

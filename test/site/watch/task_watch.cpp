@@ -181,12 +181,28 @@ void task_watch::look_at_loss(const std::string& old, const std::string& from) {
                             + ", and elsewhere too");
 }
 
+/// A task that is asked for once more has started again what had failed, as its
+/// coordinator knew.
+bool task_watch::is_healed(const told_at& fact) const {
+  const auto* task = find_task(place_, fact.party, fact.data.at("task"));
+  const auto asked = [](const auto& x) { return !x.ends; };
+  if (!task || std::count_if(task->calls.begin(), task->calls.end(), asked) < 2)
+    return false;
+  const auto end = place_.facts.begin() + static_cast<ptrdiff_t>(facts_seen_);
+  return std::any_of(place_.facts.begin(), end, [&](const auto& x) {
+    return x.what == "instance_changed" && x.party == fact.party
+           && x.subject == fact.data.at("replaces")
+           && x.data.value("state", "") == "failed";
+  });
+}
+
 void task_watch::look_at_move(const told_at& fact) {
   const auto old = fact.data.at("replaces").get<std::string>();
   const auto* task = find_task(place_, fact.party, fact.data.at("task"));
   // One that is wanted to go runs until the new one does.
   const bool is_asked = is_wanted(instance_policy::reschedule, fact.party);
-  if (!is_asked && moves_by_itself(task, fact.data.at("step")))
+  if (!is_asked
+      && (moves_by_itself(task, fact.data.at("step")) || is_healed(fact)))
     look_at_loss(old, fact.data.at("from"));
   else if (!is_asked)
     place_.report_violation("'" + fact.subject

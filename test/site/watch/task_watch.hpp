@@ -59,6 +59,7 @@ private:
   void look_at_departure(const told_at& fact);
   void look_at_move(const told_at& fact);
   void look_at_loss(const std::string& old, const std::string& from);
+  bool is_healed(const told_at& fact) const;
   bool may_still_act(const site_request& x, size_t coordinator) const;
   bool is_wanted(instance_policy policy, size_t coordinator) const;
 

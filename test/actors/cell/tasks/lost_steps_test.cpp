@@ -196,6 +196,50 @@ TEST_CASE_METHOD(lossy_cell, "A task that is ended meanwhile moves nowhere",
   CHECK(right.running.empty());
 }
 
+TEST_CASE_METHOD(lossy_cell,
+                 "A lost step starts nowhere before its fence has ended it, "
+                 "whoever asks",
+                 "[lost_steps]") {
+  const json release{
+      {"type", "node_release"}, {"node", "left"}, {"instances", "reschedule"}};
+  lose(left);
+  time.advance(10s);
+  const auto refused = request(release);
+  REQUIRE(refused.at("type") == "error");
+  CHECK(refused.at("error").at("code") == "conflict");
+  CHECK(refused.at("error").at("hint")
+        == "it has ended there in 20 s, and moves by itself then; or say "
+           "\"terminate\"");
+  CHECK(right.running.empty());
+  CHECK(node_of_a() == "left");
+  // Nothing has changed: it moves when it is time, and the node may go.
+  time.advance(21s);
+  CHECK(right.running.size() == 1);
+  CHECK(node_of_a() == "right");
+  CHECK(request(release).at("type") == "node_released");
+}
+
+TEST_CASE_METHOD(lossy_cell,
+                 "A task is not begun anew while a lost step of its name may "
+                 "run",
+                 "[lost_steps]") {
+  const auto again = echo_task("a", {movable_step(30)});
+  lose(left);
+  CHECK(request({{"type", "task_termination"}, {"task", "a"}}).at("type")
+        == "task_terminated");
+  time.advance(20s);
+  const auto refused = request(again);
+  REQUIRE(refused.at("type") == "error");
+  CHECK(refused.at("error").at("code") == "conflict");
+  CHECK(refused.at("error").at("hint")
+        == "send it again in 10 s, when it has been ended there, or choose "
+           "another task id");
+  CHECK(right.running.empty());
+  time.advance(11s);
+  CHECK(request(again).at("type") == "task_accepted");
+  CHECK(right.running.size() == 1);
+}
+
 TEST_CASE_METHOD(lossy_cell, "A node that leaves in order is lost, too",
                  "[lost_steps]") {
   depart(left);
