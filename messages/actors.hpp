@@ -205,6 +205,21 @@ using join_scout_actor = introspected_actor::extend<
     caf::replies_to<scout_address>::with<address_scouted>,
     caf::reacts_to<scout_settled>>;
 
+/// The REACH PROBER: tries which packets reach other nodes and come back.
+using reach_prober_actor = introspected_actor::extend<
+    // Errors: conflict (no port is free), unreachable.
+    caf::replies_to<reach_opening>::with<reach_opened>,
+    // No errors: whatever the ports say is an answer.
+    caf::replies_to<reach_query>::with<reach_report>,
+    caf::reacts_to<reach_settled>,
+    // INTERNAL: the port has been open for long enough.
+    caf::reacts_to<caf::tick_atom, uint64_t>>;
+
+/// The EXAMINER: looks at the node's host once, and ends. Errors: conflict
+/// (this program cannot look).
+using examiner_actor = introspected_actor::extend<
+    caf::replies_to<examination_query>::with<examination>>;
+
 /// The MEMBERSHIP: the node's side of belonging to a cell.
 using membership_actor = introspected_actor::extend<
     caf::replies_to<membership_query>::with<membership_state>,
@@ -220,10 +235,11 @@ using membership_actor = introspected_actor::extend<
     // A request that a coordinator answers goes to this node's. It always
     // replies, as the REQUEST ROUTER does.
     caf::replies_to<route_request>::with<request_routed>,
-    caf::reacts_to<coordinator_found>, caf::reacts_to<presence_seen>,
-    caf::reacts_to<presence_gone>, caf::reacts_to<instance_changed>,
-    caf::reacts_to<frame_received>, caf::reacts_to<beat_received>,
-    caf::reacts_to<session_closed>,
+    // What the coordinator asks the node goes there.
+    caf::reacts_to<serve_members>, caf::reacts_to<coordinator_found>,
+    caf::reacts_to<presence_seen>, caf::reacts_to<presence_gone>,
+    caf::reacts_to<instance_changed>, caf::reacts_to<frame_received>,
+    caf::reacts_to<beat_received>, caf::reacts_to<session_closed>,
     // INTERNAL: a timer of attempt or lease number N.
     caf::reacts_to<caf::tick_atom, uint64_t>>;
 
@@ -233,6 +249,9 @@ using member_actor = node_agent_actor::extend<
     // Errors: those of the node; unreachable and timeout leave it open whether
     // the node has gone.
     caf::replies_to<registration_switch>::with<switch_accepted>,
+    // A request that the node answers itself. Errors: unreachable, timeout, and
+    // those of the node.
+    caf::replies_to<route_request>::with<request_routed>,
     caf::reacts_to<frame_received>, caf::reacts_to<beat_received>,
     caf::reacts_to<session_closed>,
     // Ends the session, telling the node why.
@@ -338,6 +357,9 @@ using cell_coordinator_actor = introspected_actor::extend<
     // From a member, whose user has asked it.
     caf::replies_to<route_request>::with<request_routed>,
     caf::reacts_to<serve_members>,
+    // Has a member answer. Errors: unknown_node, unreachable, timeout, and
+    // those of the member.
+    caf::replies_to<relay_request>::with<request_routed>,
     // INTERNAL: timer number N.
     caf::reacts_to<caf::tick_atom, uint64_t>>;
 

@@ -97,6 +97,10 @@ constexpr bool is_live(instance_state state) {
   return state < instance_state::stopped;
 }
 
+/// Upper bounds of the times by which a skill counts its frames.
+constexpr std::array<double, 10> latency_bounds_ms{1,  2,   5,   10,  20,
+                                                   50, 100, 200, 500, 1000};
+
 /// What an instance has done, as its skill tells in its status. Negative: not
 /// known.
 struct instance_figures {
@@ -104,16 +108,23 @@ struct instance_figures {
   double rate_hz = -1;    ///< Frames a second between its last two words.
   int64_t dropped = -1;   ///< Frames that came too fast for it.
   double latency_ms = -1; ///< Median time to process a frame.
+  /// How many frames took how long since the start: one count for each of
+  /// `latency_bounds_ms`, and one for those beyond. Empty: not known.
+  std::vector<int64_t> latency_counts;
+  double latency_sum_ms = -1; ///< Of all frames.
   /// Median time from the stamp of a frame, which its sensor gave it, to the
   /// output of what came of it; by the clocks of both hosts.
   double age_ms = -1;
 
   static constexpr auto fields() {
-    return field_list{optional("frames", &instance_figures::frames),
-                      optional("rate_hz", &instance_figures::rate_hz),
-                      optional("dropped", &instance_figures::dropped),
-                      optional("latency_ms", &instance_figures::latency_ms),
-                      optional("age_ms", &instance_figures::age_ms)};
+    return field_list{
+        optional("frames", &instance_figures::frames),
+        optional("rate_hz", &instance_figures::rate_hz),
+        optional("dropped", &instance_figures::dropped),
+        optional("latency_ms", &instance_figures::latency_ms),
+        optional("latency_counts", &instance_figures::latency_counts),
+        optional("latency_sum_ms", &instance_figures::latency_sum_ms),
+        optional("age_ms", &instance_figures::age_ms)};
   }
 };
 

@@ -18,6 +18,8 @@
 #include "messages/inside/runtime.hpp"
 #include "messages/inside/scouting.hpp"
 #include "messages/inside/storage.hpp"
+#include "messages/insight/examination.hpp"
+#include "messages/insight/reach.hpp"
 #include "messages/instance.hpp"
 #include "messages/node.hpp"
 #include "messages/peer.hpp"

@@ -77,9 +77,11 @@ struct actor_row {
 struct node_query {
   static constexpr const char* type = "node_query";
   bool actors = false; ///< Also list the node's actors with their counters.
+  std::string node;    ///< Which one; empty: the one that is asked.
 
   static constexpr auto fields() {
-    return field_list{optional("actors", &node_query::actors)};
+    return field_list{optional("actors", &node_query::actors),
+                      optional("node", &node_query::node)};
   }
 };
 

@@ -178,6 +178,14 @@
   X(route_request)                                                             \
   X(request_routed)                                                            \
   X(serve_members)                                                             \
+  X(relay_request)                                                             \
+  X(reach_opening)                                                             \
+  X(reach_opened)                                                              \
+  X(reach_query)                                                               \
+  X(reach_report)                                                              \
+  X(reach_settled)                                                             \
+  X(examination_query)                                                         \
+  X(examination)                                                               \
   X(process_request)                                                           \
   X(request_processed)                                                         \
   X(stop_node)

@@ -103,6 +103,20 @@ caf::result<request_routed> answer_member(coordinator_pointer self,
   return self->delegate(router, request);
 }
 
+/// It answers as if it had been asked itself.
+caf::result<request_routed> relay_to_member(coordinator_pointer self,
+                                            const relay_request& request) {
+  const auto* entry = self->state.registry.find_name(request.node);
+  if (!entry)
+    return fail(error_code::unknown_node,
+                "this cell has no node '" + request.node + "'", "/node",
+                "`roscell nodes` lists them");
+  if (!entry->member || !entry->agent)
+    return fail(error_code::unreachable, "node '" + request.node + "' is away",
+                "/node");
+  return self->delegate(entry->member, route_request{request.text, ""});
+}
+
 json summary(coordinator_pointer self) {
   const auto& st = self->state;
   return {{"cell", st.setup.cell},       {"incarnation", st.setup.incarnation},
@@ -208,6 +222,7 @@ cell_coordinator(coordinator_pointer self, const house& context,
       [self](const transfer_query& x) { return describe_transfers(self, x); },
       [self](const route_request& x) { return answer_member(self, x); },
       [self](const serve_members& x) { self->state.router = x.router; },
+      [self](const relay_request& x) { return relay_to_member(self, x); },
       [self](caf::tick_atom, uint64_t number) { on_tick(self, number); },
   };
 }

@@ -143,6 +143,7 @@ struct membership_status {
   /// Changes since `instances` were asked for, by instance.
   std::map<std::string, instance_changed> unsent;
 
+  request_router_actor router; ///< Of this node; invalid while it starts.
   session_actor session; ///< Valid while `asking`, and from `registering` on.
   lease life;
   session_exchange frames;

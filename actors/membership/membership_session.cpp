@@ -1,5 +1,7 @@
 #include "actors/house/limits.hpp"
+#include "actors/house/relayed_requests.hpp"
 #include "actors/membership/membership_steps.hpp"
+#include "actors/session/session_envelope.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -61,6 +63,25 @@ void on_switch(self_pointer self, const session_inquiry& x) {
   on_coordinators_switch(self, std::get<registration_switch>(order), reply);
 }
 
+/// Somebody in the cell wants to know what only this node can tell.
+void on_relayed(self_pointer self, const session_inquiry& x,
+                std::chrono::milliseconds limit) {
+  auto answer = [self, session = self->state.session.id(),
+                 id = *x.id](const json& body) {
+    if (self->state.session && self->state.session.id() == session)
+      self->state.frames.answer(id, body);
+  };
+  const auto& router = self->state.router;
+  if (!router)
+    return answer(
+        error_reply({error_code::conflict, "the node is still starting"}));
+  self->request(router, limit, route_request{x.body.dump(), x.type()})
+      .then([answer](const request_routed& reply) { answer(body_of(reply)); },
+            [answer](const caf::error& why) {
+              answer(error_reply(to_failure(why)));
+            });
+}
+
 void on_request(self_pointer self, const session_inquiry& x) {
   const auto type = x.type();
   if (type == registration_switch::type)
@@ -82,6 +103,8 @@ void on_request(self_pointer self, const session_inquiry& x) {
         self, x, limits::task::removal);
   else if (type == log_query::type)
     forward_log_query(self, x);
+  else if (const auto limit = relayed_limit(type))
+    on_relayed(self, x, *limit);
   else
     self->state.frames.answer(
         *x.id, error_reply({error_code::unknown_type,

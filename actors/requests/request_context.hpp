@@ -1,6 +1,7 @@
 #pragma once
 
 #include "actors/house/house.hpp"
+#include "actors/requests/cost/cost_meter.hpp"
 #include "actors/requests/history/request_history.hpp"
 #include "messages/failure.hpp"
 #include "messages/messages.hpp"
@@ -20,14 +21,21 @@ namespace roscell {
 /// coordinator nor a scheduler, and no handler that needs one.
 struct node_services {
   house context;
+  std::string name; ///< Of the node.
   cell_coordinator_actor coordinator;
   scheduler_actor scheduler;
   container_supervisor_actor supervisor;
   membership_actor membership;
   node_actor node;
+  reach_prober_actor prober;
+  /// Looks at the node's host, for as long as it takes; null: this program
+  /// cannot.
+  std::function<findings()> examine_host;
   /// What was asked of this node, and what was decided.
   std::shared_ptr<request_history> history =
       std::make_shared<request_history>();
+  /// What the node costs.
+  std::shared_ptr<cost_meter> costs = std::make_shared<cost_meter>();
 };
 
 /// State of a HANDLER PIPELINE.

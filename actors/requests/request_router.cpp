@@ -1,6 +1,7 @@
 #include "actors/requests/request_router.hpp"
 
 #include "actors/house/limits.hpp"
+#include "actors/house/relayed_requests.hpp"
 #include "actors/house/wall_clock.hpp"
 #include "actors/requests/handler_pipeline.hpp"
 #include "schemas/document.hpp"
@@ -199,6 +200,39 @@ caf::result<request_routed> pass_on(request_router_self self,
   return self->delegate(membership, route_request{document.dump(), ""});
 }
 
+/// Whether somebody else answers it: a named node, or whoever knows them all.
+bool is_for_others(const node_services& services, const std::string& type,
+                   const json& document) {
+  if (!relayed_limit(type))
+    return false;
+  const auto node = document.value("node", "");
+  return (!node.empty() && node != services.name)
+         || (!services.coordinator && document.value("cell", false));
+}
+
+/// By the coordinator, who has a session with each node.
+caf::result<request_routed>
+pass_to_node(request_router_self self, const std::string& type, json document) {
+  const auto& coordinator = self->state.services->coordinator;
+  if (!coordinator)
+    return pass_on(self, type, document);
+  const auto node = document.value("node", "");
+  // The node is to know that it is meant.
+  document.erase("node");
+  document.erase("request_id");
+  auto promise = self->make_response_promise<request_routed>();
+  self->request(coordinator, *relayed_limit(type) + 2 * relay_margin,
+                relay_request{node, document.dump()})
+      .then(
+          [promise](request_routed& reply) mutable {
+            promise.deliver(std::move(reply));
+          },
+          [self, promise](const caf::error& why) mutable {
+            promise.deliver(refusal(self, to_failure(why)));
+          });
+  return promise;
+}
+
 caf::result<request_routed> route(request_router_self self,
                                   const route_request& request) {
   auto& st = self->state;
@@ -218,6 +252,8 @@ caf::result<request_routed> route(request_router_self self,
     return refusal(self, {error_code::unauthorized,
                           "only a '" + request.only + "' is taken here",
                           "/type", "send it to /v1/requests"});
+  if (is_for_others(*st.services, type, document))
+    return pass_to_node(self, type, std::move(document));
   const auto* run = st.registry->find(type);
   if (!run)
     return pass_on(self, type, document);

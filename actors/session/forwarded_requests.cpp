@@ -1,6 +1,7 @@
 #include "actors/session/forwarded_requests.hpp"
 
 #include "actors/house/limits.hpp"
+#include "actors/house/relayed_requests.hpp"
 #include "messages/allocation_report.hpp"
 #include "messages/cell.hpp"
 #include "messages/formation.hpp"
@@ -49,6 +50,9 @@ std::optional<forwarding_limits> forwarding_of(const std::string& type) {
   if (holds(commands, type))
     return forwarding_limits{limits::request::forwarded,
                              limits::request::member_request};
+  if (const auto node = relayed_limit(type))
+    return forwarding_limits{*node + 2 * relay_margin,
+                             *node + 3 * relay_margin};
   return std::nullopt;
 }
 

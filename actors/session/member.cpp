@@ -1,9 +1,11 @@
 #include "actors/session/member.hpp"
 
 #include "actors/house/limits.hpp"
+#include "actors/house/relayed_requests.hpp"
 #include "actors/house/wall_clock.hpp"
 #include "actors/session/forwarded_requests.hpp"
 #include "actors/session/long_starts.hpp"
+#include "actors/session/session_envelope.hpp"
 #include "schemas/document.hpp"
 
 #include <caf/typed_response_promise.hpp>
@@ -189,16 +191,7 @@ void on_forwarded(member_self self, uint64_t id, const json& body,
   self->request(self->state.coordinator, limit, route_request{body.dump(), ""})
       .then(
           [self, id](const request_routed& reply) {
-            if (reply.text.size() > limits::session::frame_bytes)
-              return refuse_call(
-                  self, id,
-                  {error_code::conflict,
-                   "the answer is too large for a session between nodes"});
-            auto parsed = parse_document(reply.text);
-            if (const auto* why = std::get_if<failure>(&parsed))
-              refuse_call(self, id, *why);
-            else
-              self->state.frames.answer(id, std::get<json>(parsed));
+            self->state.frames.answer(id, body_of(reply));
           },
           [self, id](const caf::error& why) {
             refuse_call(self, id, to_failure(why));
@@ -317,6 +310,33 @@ caf::result<Reply> ask_node(member_self self, const Request& what,
   return promise;
 }
 
+/// Another node's user asks what only this node can answer.
+caf::result<request_routed> relay(member_self self,
+                                  const route_request& request) {
+  auto& st = self->state;
+  auto parsed = parse_document(request.text);
+  if (const auto* why = std::get_if<failure>(&parsed))
+    return to_error(*why);
+  const auto& body = std::get<json>(parsed);
+  const auto limit = relayed_limit(body.value("type", ""));
+  if (!limit)
+    return fail(error_code::unknown_type,
+                "no node answers this for another one", "/type");
+  if (st.phase != phase::active)
+    return fail(error_code::unreachable,
+                "node '" + st.peer.name + "' is not a member now");
+  auto promise = self->make_response_promise<request_routed>();
+  st.frames.call(body, now(self) + *limit + relay_margin,
+                 [promise](caf::expected<json> reply) mutable {
+                   if (reply)
+                     promise.deliver(request_routed{reply->dump(), ""});
+                   else
+                     promise.deliver(std::move(reply.error()));
+                 });
+  set_timer(self);
+  return promise;
+}
+
 actor_state describe(member_self self) {
   const auto& st = self->state;
   const auto silence = now(self) - st.life.last_heard();
@@ -390,6 +410,7 @@ member_actor::behavior_type member(member_self self, session_admitted accepted,
         return ask_node<switch_accepted>(self, x,
                                          limits::membership::switching);
       },
+      [self](const route_request& x) { return relay(self, x); },
       [self](const log_query& x) {
         const auto wait =
             std::clamp(std::chrono::milliseconds{x.wait_ms},

@@ -1,5 +1,6 @@
 #include "actors/session/session_envelope.hpp"
 
+#include "actors/house/limits.hpp"
 #include "messages/session.hpp"
 #include "schemas/document.hpp"
 #include "schemas/message_catalogue.hpp"
@@ -51,6 +52,16 @@ std::optional<session_envelope> read_envelope(std::string_view text) {
       validate_message(result.body, {message_kind::session, message_kind::reply,
                                      message_kind::request});
   return result;
+}
+
+json body_of(const request_routed& answer) {
+  if (answer.text.size() > limits::session::frame_bytes)
+    return error_reply({error_code::conflict,
+                        "the answer is too large for a session between nodes"});
+  auto parsed = parse_document(answer.text);
+  if (const auto* why = std::get_if<failure>(&parsed))
+    return error_reply(*why);
+  return std::get<json>(std::move(parsed));
 }
 
 std::string write_envelope(envelope_kind kind, uint64_t id, json body) {

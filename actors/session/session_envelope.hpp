@@ -2,6 +2,7 @@
 
 #include "messages/codec/json_codec.hpp"
 #include "messages/failure.hpp"
+#include "messages/inside/coordination.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -24,6 +25,10 @@ struct session_envelope {
 /// Reads one frame. Nothing when not even the envelope can be read, and so
 /// nobody can be told.
 std::optional<session_envelope> read_envelope(std::string_view text);
+
+/// The body of a frame that answers what the request router has answered, or
+/// says that it is too large for one.
+json body_of(const request_routed& answer);
 
 /// The text of a frame. `id` is of no interest to a notice.
 std::string write_envelope(envelope_kind kind, uint64_t id, json body);

@@ -81,6 +81,7 @@ void send_out(session_self self, const send_beat& beat) {
       st.beats_sent.pop_front();
   }
   st.wire->beats->send(beat.kind, number);
+  st.context.count(metric::session_sent_bytes, {st.peer}, beat_packet::size);
 }
 
 /// Finds the beat that an ack answers. Those before it are lost: what comes of
@@ -101,6 +102,8 @@ void settle_beats(session_self self, beat_received& ack) {
 
 void hand_over(session_self self, beat_received beat) {
   auto& st = self->state;
+  st.context.count(metric::session_received_bytes, {st.peer},
+                   beat_packet::size);
   if (beat.kind == beat_kind::ack)
     settle_beats(self, beat);
   if (st.owner)

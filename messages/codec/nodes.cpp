@@ -1,6 +1,9 @@
 #include "messages/codec/instantiate.hpp"
 #include "messages/event.hpp"
 #include "messages/failure.hpp"
+#include "messages/insight/examination.hpp"
+#include "messages/insight/node_cost.hpp"
+#include "messages/insight/reach.hpp"
 #include "messages/instance.hpp"
 #include "messages/node.hpp"
 #include "messages/resources.hpp"
@@ -56,5 +59,19 @@ ROSCELL_CODEC(instance_deployed)
 ROSCELL_CODEC(instance_removal)
 ROSCELL_CODEC(instances_removed)
 ROSCELL_CODEC(instance_changed)
+ROSCELL_CODEC(cost_query)
+ROSCELL_CODEC(peer_traffic)
+ROSCELL_CODEC(cost_window)
+ROSCELL_CODEC(node_cost)
+ROSCELL_CODEC(cost_report)
+ROSCELL_CODEC(reach_opening)
+ROSCELL_CODEC(reach_opened)
+ROSCELL_CODEC(reach_goal)
+ROSCELL_CODEC(reach_query)
+ROSCELL_CODEC(reach_row)
+ROSCELL_CODEC(reach_report)
+ROSCELL_CODEC(examination_query)
+ROSCELL_CODEC(finding)
+ROSCELL_CODEC(examination)
 
 } // namespace roscell

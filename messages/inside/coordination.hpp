@@ -387,7 +387,19 @@ struct request_routed {
   }
 };
 
-/// Whom the COORDINATOR gives what its members ask on behalf of their users.
+/// A request that a member of the cell is to answer itself.
+struct relay_request {
+  std::string node;
+  std::string text; ///< JSON of the request, checked.
+
+  static constexpr auto fields() {
+    return field_list{required("node", &relay_request::node),
+                      required("text", &relay_request::text)};
+  }
+};
+
+/// Who answers what comes over a session: to the COORDINATOR, what its members
+/// ask on behalf of their users; to the MEMBERSHIP, what its coordinator asks.
 struct serve_members {
   request_router_actor router;
 

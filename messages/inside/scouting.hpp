@@ -1,6 +1,7 @@
 #pragma once
 
 #include "messages/failure.hpp"
+#include "messages/insight/reach.hpp"
 #include "messages/node.hpp"
 
 #include <cstdint>
@@ -36,15 +37,6 @@ struct scout_address {
     return field_list{required("address", &scout_address::address),
                       required("port", &scout_address::port)};
   }
-};
-
-/// How one port answers.
-enum class port_answer {
-  silent,      ///< Not at all, in time.
-  closed,      ///< The host says that nothing listens there.
-  unreachable, ///< The network says that there is no way to the host.
-  stranger,    ///< Something else than what was looked for.
-  found,       ///< As it should.
 };
 
 /// A TCP port, and who is behind it.

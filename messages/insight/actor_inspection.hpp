@@ -7,13 +7,15 @@
 
 namespace roscell {
 
-/// Asks actors of this node what they know.
+/// Asks actors of a node what they know.
 struct actor_query {
   static constexpr const char* type = "actor_query";
   std::string actor; ///< A name, which several may have, or an id.
+  std::string node;  ///< Whose; empty: the one that is asked.
 
   static constexpr auto fields() {
-    return field_list{required("actor", &actor_query::actor)};
+    return field_list{required("actor", &actor_query::actor),
+                      optional("node", &actor_query::node)};
   }
 };
 

@@ -47,6 +47,7 @@ constexpr std::pair<std::string_view, std::string_view> forms[] = {
     {"task_history.events", R"({"level":N})"},
     {"end", "input:N"},
     {".state", R"({"level":N})"},
+    {"window", "minute"},
     {"task_placement.plan",
      R"({"allocations":[],"optimal":true,"rejected":[],)"
      R"("score":{"alpha":0.1,"balance":0.5,"gap":0.0,"load":0.5,)"

@@ -92,11 +92,16 @@ private:
       x = {{"key_1", "value 1"}, {"key_2", ""}};
   }
 
+  /// One verdict has one specification; both forms of streams are tried; a
+  /// histogram has all its buckets.
+  static size_t length_of(std::string_view field) {
+    return field == "output" ? 2 : field == "latency_counts" ? 11 : 1;
+  }
+
   template <class T>
   void fill(std::vector<T>& x) {
-    // One verdict has one specification; both forms of streams are tried.
     const auto context = context_;
-    const size_t n = context.second == "output" ? 2 : 1;
+    const size_t n = length_of(context.second);
     for (size_t i = 0; extent_ == extent::full && i < n; ++i) {
       context_ = context;
       fill(x.emplace_back());

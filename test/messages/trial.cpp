@@ -5,7 +5,10 @@
 #include "messages/cell.hpp"
 #include "messages/event.hpp"
 #include "messages/insight/actor_inspection.hpp"
+#include "messages/insight/examination.hpp"
 #include "messages/insight/fresh_cell_query.hpp"
+#include "messages/insight/node_cost.hpp"
+#include "messages/insight/reach.hpp"
 #include "messages/insight/request_trace.hpp"
 #include "messages/insight/task_placement.hpp"
 #include "messages/rebalance.hpp"
@@ -91,6 +94,9 @@ std::vector<trial> message_trials() {
                cell_rebalance, cell_rebalanced, node_transfer, node_transferred,
                transfer_query, transfer_description, registration_query,
                registration_challenge, registration_switch, switch_accepted>(
+      result);
+  try_messages<cost_query, cost_report, reach_opening, reach_opened,
+               reach_query, reach_report, examination_query, examination>(
       result);
   try_messages<cell_standing, cell_changed, place_request, place_granted,
                place_reservation, place_reserved, member_surrender,

@@ -242,12 +242,16 @@ test_a_shell_does_a_line_and_ends_with_its_code() {
     | jq -e '.cells[0].cell == "line"' > /dev/null || fail "no JSON reply"
   to head shell -c 'tasks nope' 2> "$scratch/said" || code=$?
   expect "code of what is refused" "$code" 1
-  for line in taks node "tasks 'x" 'follow' 'tree nope'; do
+  for line in taks node "tasks 'x" 'follow'; do
     code=0
     to head shell -c "$line" 2> "$scratch/said" || code=$?
     expect "code of '$line'" "$code" 2
     has_line '^hint: \|quote' "$scratch/said" || fail "$(cat "$scratch/said")"
   done
+  code=0
+  to head shell -c 'tree nope' 2> "$scratch/said" || code=$?
+  expect "code of a node that is not there" "$code" 1
+  has_line "no node 'nope'" "$scratch/said" || fail "$(cat "$scratch/said")"
   code=0
   "$ROSCELL" shell --to "$scratch/gone.sock" -c "nodes --to $sock" \
     > /dev/null || fail "a line may name another node"
@@ -276,18 +280,16 @@ test_a_script_of_the_shell_stops_at_its_first_error() {
   has_line '^head ' "$scratch/out" || fail "it did not go on"
 }
 
-test_a_member_shows_its_actors_to_who_has_its_token() {
-  local code=0
+test_the_actors_of_any_node_are_shown_by_any_node() {
   start_node head --coordinator --cell line --interface lo
   start_node arm --interface lo --join "$(discovery_of head)"
   await_joined head arm
-  to head shell -c "tree arm --token-file $scratch/arm/token" \
-    | has_line '^arm, .* in cell line$' || fail "the actors of arm are not told"
-  to head shell -c "tree arm --token-file $scratch/head/token" \
-    2> "$scratch/said" || code=$?
-  expect "code with another token" "$code" 1
-  has_line 'hint: copy `token` of its data directory' "$scratch/said" \
-    || fail "$(cat "$scratch/said")"
+  to head shell -c "tree arm" | has_line '^arm, .* in cell line$' \
+    || fail "head does not tell the actors of arm"
+  to arm shell -c "tree head" | has_line '^cell-coordinator ' \
+    || fail "arm does not tell the actors of head"
+  to head inspect membership --node arm | has_line 'joined' \
+    || fail "head does not tell what arm's membership knows"
 }
 
 test_a_shell_at_a_terminal_completes_follows_and_asks() {

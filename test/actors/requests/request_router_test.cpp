@@ -88,12 +88,15 @@ struct router_fixture {
         }});
   }
 
-  /// With a membership this is a member's router.
-  void start(const membership_actor& membership = {}) {
+  /// With a membership this is the router of a member, "arm".
+  void start(const membership_actor& membership = {},
+             const cell_coordinator_actor& coordinator = {}) {
     auto services = std::make_shared<node_services>();
     history = services->history;
     services->context = time.context;
+    services->name = "arm";
     services->membership = membership;
+    services->coordinator = coordinator;
     router = spawn(time.system, time.context, request_router,
                    std::make_shared<const request_registry>(registry),
                    std::shared_ptr<const node_services>(services));
@@ -236,6 +239,57 @@ TEST_CASE_METHOD(router_fixture,
   // What it has a handler for is its own.
   CHECK(ask(list_query("a")).at("type") == "cell_list");
   CHECK(passed_on.size() == 1);
+  time.kill(membership);
+}
+
+TEST_CASE_METHOD(router_fixture,
+                 "What asks about a node is answered by that node",
+                 "[router]") {
+  std::vector<relay_request> relayed;
+  const auto coordinator = time.system.spawn([&](caf::event_based_actor*)
+                                                 -> caf::behavior {
+    return {[&](const relay_request& x) -> caf::result<request_routed> {
+      relayed.push_back(x);
+      if (x.node == "leg")
+        return fail(error_code::unreachable, "node 'leg' is away");
+      return request_routed{R"({"type":"actor_inspection","actors":[]})", ""};
+    }};
+  });
+  start({}, caf::actor_cast<cell_coordinator_actor>(coordinator));
+  const auto text = [](const std::string& node) {
+    return R"({"type":"actor_query","actor":"node","node":")" + node
+           + R"(","request_id":"a"})";
+  };
+  CHECK(ask(text("hand")).at("type") == "actor_inspection");
+  REQUIRE(relayed.size() == 1);
+  CHECK(relayed[0].node == "hand");
+  // There it is an ordinary question.
+  CHECK(json::parse(relayed[0].text)
+        == json({{"type", "actor_query"}, {"actor", "node"}}));
+  CHECK(error_of(ask(text("leg"))) == "unreachable");
+  // This node would answer itself, if it had a handler in this test.
+  CHECK(error_of(ask(text("arm"))) == "unknown_type");
+  CHECK(relayed.size() == 2);
+  time.kill(coordinator);
+}
+
+TEST_CASE_METHOD(router_fixture,
+                 "A member asks its coordinator about others, and about all",
+                 "[router]") {
+  std::vector<std::string> passed_on;
+  const auto membership =
+      time.system.spawn([&](caf::event_based_actor*) -> caf::behavior {
+        return {[&](const route_request& x) {
+          passed_on.push_back(x.text);
+          return request_routed{R"({"type":"cost_report","nodes":[]})", ""};
+        }};
+      });
+  start(caf::actor_cast<membership_actor>(membership));
+  const std::string about_leg = R"({"node":"leg","type":"cost_query"})";
+  const std::string about_all = R"({"cell":true,"type":"cost_query"})";
+  CHECK(ask(about_leg).at("type") == "cost_report");
+  CHECK(ask(about_all).at("type") == "cost_report");
+  CHECK(passed_on == std::vector<std::string>{about_leg, about_all});
   time.kill(membership);
 }
 

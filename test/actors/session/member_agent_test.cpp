@@ -50,6 +50,35 @@ TEST_CASE_METHOD(cell_fixture, "a member is a node agent") {
     site.pass(1s);
     CHECK((*reply)->value().text == "a line\n");
   }
+  SECTION("for what only it can tell") {
+    std::vector<std::string> asked;
+    const auto router =
+        time.system.spawn([&](caf::event_based_actor*) -> caf::behavior {
+          return {[&](const route_request& x) {
+            asked.push_back(x.text + " of " + x.only);
+            return request_routed{R"({"type":"cost_report","nodes":[]})", ""};
+          }};
+        });
+    const auto ask = [&](const std::string& text) {
+      auto reply = time.ask<request_routed>(member(), route_request{text, ""});
+      site.pass(1s);
+      return reply;
+    };
+    const std::string question = R"({"type":"cost_query"})";
+    CHECK(to_failure((*ask(question))->error()).message
+          == "the node is still starting");
+    caf::anon_send(
+        caf::actor_cast<membership_actor>(node.membership),
+        serve_members{caf::actor_cast<request_router_actor>(router)});
+    CHECK((*ask(question))->value().text
+          == R"({"nodes":[],"type":"cost_report"})");
+    CHECK(asked == std::vector<std::string>{question + " of cost_query"});
+    // What changes something is nobody's to ask of another's node.
+    const auto refused = ask(R"({"type":"node_release","node":"arm-1"})");
+    CHECK(to_failure((*refused)->error()).code == error_code::unknown_type);
+    CHECK(asked.size() == 1);
+    time.kill(router);
+  }
   SECTION("for errors") {
     auto reply = time.ask<log_excerpt>(member(), log_query{"unknown"});
     site.pass(1s);

@@ -20,6 +20,7 @@ struct inspect_options {
   connection_options connection;
   std::string output = "table";
   std::string actor;
+  std::string node; ///< Empty: the one that is asked.
 };
 
 /// A blocked actor is waited for by the node, not longer than this.
@@ -46,7 +47,8 @@ int inspect(const inspect_options& options) {
   const bool as_json = options.output == "json";
   const auto reply = unless_refused(
       node_client{options.connection}.post(
-          "/v1/requests", message_json(actor_query{options.actor}).dump(),
+          "/v1/requests",
+          message_json(actor_query{options.actor, options.node}).dump(),
           inspect_limit),
       as_json);
   if (as_json) {
@@ -71,13 +73,17 @@ void add_inspect_command(CLI::App& app, action& chosen) {
       "shown, 64 at most.\n`roscell status --actors` lists them. An actor that "
       "gives no answer within 10 s is shown\nwith its counters alone.\n\n"
       "Examples:\n  roscell inspect cell-coordinator\n"
-      "  roscell inspect member --to 192.168.1.10 --token-file token\n"
+      "  roscell inspect membership --node arm-1\n"
       "  roscell inspect 22 -o json | jq .actors[0].state");
   add_connection_options(*command, options->connection);
   add_output_option(*command, options->output);
   command->add_option("ACTOR", options->actor, "Its name or id")
       ->required()
       ->option_text(" ");
+  command
+      ->add_option("--node", options->node,
+                   "Of this node of the cell, asked by its coordinator")
+      ->option_text("NODE [the one that is asked]");
   command->callback(
       [&chosen, options] { chosen = [options] { return inspect(*options); }; });
 }

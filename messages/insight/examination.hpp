@@ -1,0 +1,71 @@
+#pragma once
+
+#include "messages/codec/described.hpp"
+#include "messages/codec/enum_words.hpp"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace roscell {
+
+/// Has a node look at its host, as `roscell doctor` does there.
+struct examination_query {
+  static constexpr const char* type = "examination_query";
+  std::string node; ///< Which one; empty: the one that is asked.
+
+  static constexpr auto fields() {
+    return field_list{optional("node", &examination_query::node)};
+  }
+};
+
+/// How a check ended, the better ones first.
+enum class judgement { ok, skipped, warning, broken };
+
+constexpr auto enum_words(judgement) {
+  return std::array<std::string_view, 4>{"ok", "skipped", "warning", "broken"};
+}
+
+/// What one look at a host or a node has found.
+struct finding {
+  finding() = default;
+
+  finding(judgement how_is_it, std::string what, std::string why = {},
+          std::string mend = {})
+      : how{how_is_it}, seen{std::move(what)}, matters{std::move(why)},
+        remedy{std::move(mend)} {}
+
+  judgement how = judgement::ok;
+  std::string seen;    ///< One sentence without its full stop.
+  std::string matters; ///< What comes of it; empty if nothing is wrong.
+  std::string remedy;  ///< A command that can be pasted; may be empty.
+  std::string check;   ///< Name of the check, filled in by who runs it.
+  std::string area;    ///< Likewise: "network", "host", "node" or "cell".
+  std::string node;    ///< Whose host it is; empty: this one's.
+
+  static constexpr auto fields() {
+    return field_list{required("check", &finding::check),
+                      required("area", &finding::area),
+                      optional("node", &finding::node),
+                      required("verdict", &finding::how),
+                      required("seen", &finding::seen),
+                      optional("matters", &finding::matters),
+                      optional("remedy", &finding::remedy)};
+  }
+};
+
+using findings = std::vector<finding>;
+
+/// Reply to `examination_query`.
+struct examination {
+  static constexpr const char* type = "examination";
+  std::string node;
+  findings found;
+
+  static constexpr auto fields() {
+    return field_list{required("node", &examination::node),
+                      required("findings", &examination::found)};
+  }
+};
+
+} // namespace roscell
