@@ -2,6 +2,7 @@
 
 #include "actors/house/limits.hpp"
 #include "actors/house/wall_clock.hpp"
+#include "actors/node/program_version.hpp"
 #include "messages/failure.hpp"
 
 #include <caf/typed_response_promise.hpp>
@@ -12,8 +13,6 @@
 namespace roscell {
 
 namespace {
-
-constexpr const char* version = "0.1.0";
 
 /// A description whose parts come from several actors.
 struct description_draft {
@@ -33,7 +32,7 @@ node_description first_draft(node_pointer self, const node_query& query) {
   const auto& parts = self->state.parts;
   node_description result;
   result.identity = parts.identity;
-  result.version = version;
+  result.version = program_version;
   result.runtime = parts.config.runtime;
   result.started_unix_ms = self->state.started_unix_ms;
   result.skills = parts.skills;
@@ -98,7 +97,7 @@ node_hello first_hello(node_pointer self) {
   const auto& parts = self->state.parts;
   node_hello result;
   result.node = parts.identity.name;
-  result.version = version;
+  result.version = program_version;
   result.domain_id = parts.config.ros_domain_id;
   result.public_domain = parts.config.public_domain_id;
   if (parts.config.coordinator) {

@@ -12,12 +12,15 @@
 #include "actors/node/node.hpp"
 #include "actors/node/node_agent.hpp"
 #include "actors/node/node_runtime.hpp"
+#include "actors/node/reach/reach_prober.hpp"
 #include "actors/node/resource_probe.hpp"
 #include "actors/node/start/config_checks.hpp"
 #include "actors/node/start/offered_skills.hpp"
 #include "actors/node/state_store.hpp"
 #include "actors/placement/scheduler.hpp"
 #include "actors/placement/searcher.hpp"
+#include "actors/requests/cost/cost_sampler.hpp"
+#include "actors/requests/handlers/examining.hpp"
 #include "actors/requests/handlers/registry.hpp"
 #include "actors/requests/request_router.hpp"
 #include "actors/requests/rest.hpp"
@@ -52,6 +55,8 @@ public:
     parts_.database = data_.database;
     parts_.services = std::make_shared<node_services>();
     parts_.services->context = parts_.context;
+    parts_.services->name = parts_.config.name;
+    parts_.services->examine_host = one_at_a_time(additions_.examine_host);
     parts_.identity = data_.identity;
     parts_.identity.name = parts_.config.name;
     parts_.identity.address = parts_.edges->http_address;
@@ -65,6 +70,8 @@ public:
       start_coordination();
     else
       start_membership();
+    start_measuring();
+    start_prober();
     start_requests();
     result.actor = parts_.services->node;
     result.router = parts_.router;
@@ -233,6 +240,27 @@ private:
       caf::anon_send(member, join_cell{config.join});
   }
 
+  void start_measuring() {
+    auto& costs = parts_.services->costs;
+    costs = std::make_shared<cost_meter>(
+        [book = parts_.context.metrics] { return read_cost(book); });
+    start(cost_sampler, costs);
+  }
+
+  void start_prober() {
+    const auto& config = parts_.config;
+    reach_prober_config with;
+    with.io = parts_.edges->io.get();
+    with.node = config.name;
+    with.address = config.address;
+    with.http_address = parts_.edges->http_address;
+    with.discovery_server = parts_.edges->discovery_server;
+    with.membership = parts_.services->membership;
+    with.domain_id = config.ros_domain_id;
+    with.key = reach_key(data_.site_token);
+    parts_.services->prober = start(reach_prober, with);
+  }
+
   void start_requests() {
     const auto registry = std::make_shared<const request_registry>(
         make_registry(parts_.config.coordinator));
@@ -241,6 +269,8 @@ private:
               std::shared_ptr<const node_services>(parts_.services));
     if (const auto& coordinator = parts_.services->coordinator)
       caf::anon_send(coordinator, serve_members{parts_.router});
+    if (const auto& membership = parts_.services->membership)
+      caf::anon_send(membership, serve_members{parts_.router});
     parts_.services->node = spawn(system_, parts_.context, node, parts_);
     parts_.edges->handler->set(make_rest_handler(
         system_, {parts_.context, parts_.router, parts_.services, pages()}));

@@ -32,6 +32,9 @@ struct node_additions {
   /// Spawns what runs them; called again when it has died.
   std::function<runtime_actor(const house&, const container_listener_actor&)>
       make_actor_runtime;
+  /// Looks at the node's host, on a thread of its own; null: it cannot be
+  /// looked at from elsewhere.
+  std::function<findings()> examine_host;
 };
 
 /// Starts a node inside `system`, which the caller owns and has configured with

@@ -35,7 +35,10 @@ caf::error open_http(const node_config& config, const node_data& data,
                                               const responder& answer) {
     (*handler)(std::move(request), answer);
   };
-  auto opened = open_node_sockets(*edges.io, std::move(options));
+  beat_socket_options beats;
+  beats.reach_key = reach_key(data.site_token);
+  auto opened =
+      open_node_sockets(*edges.io, std::move(options), std::move(beats));
   if (auto* why = std::get_if<edge_error>(&opened))
     return to_caf(*why);
   edges.sockets = std::get<node_sockets>(std::move(opened));

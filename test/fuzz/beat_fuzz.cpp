@@ -1,14 +1,17 @@
+#include "actors/edge/reach/reach_packet.hpp"
 #include "actors/edge/session/beat_packet.hpp"
 
 #include <cstdlib>
 #include <string_view>
 
 /// A packet of a stranger is never authentic, and reading it back gives the
-/// bytes that were read.
+/// bytes that were read. Nor is a stranger answered who wants to be reached.
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, size_t size) {
   using namespace roscell;
   static const auto key = hmac_sha256("key", "of the fuzzer");
   const std::string_view bytes{reinterpret_cast<const char*>(data), size};
+  if (reach_answer(bytes, key))
+    std::abort();
   const auto packet = read_beat(bytes);
   if (!packet)
     return 0;

@@ -40,3 +40,85 @@ test_a_host_that_is_cut_off_is_lost_and_comes_back_as_the_same_member() {
   await_joined head arm "$(jq .sequence "$scratch/lost.json")"
   expect "the row" "$(row_state head arm)" active
 }
+
+# cell_doctor [CHECK]: what the doctor finds, asked on the coordinator's host; its
+# exit code.
+cell_doctor() {
+  ip netns exec "${hosts[0]}" "$ROSCELL" doctor --cell -o json \
+    --to "$scratch/head/node.sock" ${1:+--only "$1"} \
+    > "$scratch/found" 2> "$scratch/doctor.err"
+}
+
+# has_found VERDICT TEXT
+has_found() {
+  jq -e --arg how "$1" --arg seen "$2" \
+    'any(.[]; .verdict == $how and (.seen | contains($seen)))' \
+    "$scratch/found" > /dev/null \
+    || fail "no '$2' is $1: $(cat "$scratch/found" "$scratch/doctor.err")"
+}
+
+# in_the_way HOST_NUMBER RULE...: these packets do not come through.
+in_the_way() {
+  ip netns exec "${hosts[$(($1 - 1))]}" nft -f - << RULES
+table inet wall {
+  chain door {
+    type filter hook prerouting priority -450
+    ${*:2}
+  }
+}
+RULES
+}
+
+test_doctor_says_of_each_pair_of_nodes_that_they_reach_each_other() {
+  start_hosts
+  cell_doctor reach,cell-clocks,cell-versions
+  has_found ok "head reaches arm, belt"
+  has_found ok "arm reaches belt, head"
+  has_found ok "belt reaches arm, head"
+  has_found ok "clocks differ by"
+  has_found ok "3 nodes of version"
+  expect "pairs that are not well" "$(jq '[.[] | select(.area == "cell"
+    and .verdict != "ok")] | length' "$scratch/found")" 0
+  expect "hosts" "$(cell_doctor; jq -r '[.[].node // empty] | unique | join(" ")' \
+    "$scratch/found")" "arm belt"
+}
+
+test_doctor_names_each_thing_that_keeps_nodes_apart() {
+  start_hosts
+  in_the_way 1 ip saddr 10.231.7.2 udp dport "${server#*:}" drop
+  in_the_way 2 "ip saddr 10.231.7.1 ip frag-off & 0x1fff != 0 drop"
+  in_the_way 3 "ip saddr 10.231.7.2 udp dport 7400-7649 drop
+    ip saddr 10.231.7.1 ip daddr 239.255.0.1 drop"
+  ip -n "${hosts[2]}" link set eth0 mtu 1280
+  cell_doctor && fail "it is content: $(cat "$scratch/found")"
+  has_found broken \
+    "arm -> head: discovery by udp port ${server#*:}: nothing comes back"
+  has_found broken "head -> arm: large data by udp port"
+  has_found broken "arm -> belt: data by udp port"
+  has_found warning "head -> belt: multicast by udp port"
+  jq -e 'any(.[]; .node == "belt" and .check == "mtu" and .verdict == "warning")' \
+    "$scratch/found" > /dev/null || fail "belt's MTU: $(cat "$scratch/found")"
+  # What is larger than belt takes at once does not come.
+  has_found broken "head -> belt: large data by udp port"
+  has_found ok "belt reaches arm, head"
+  ip -n "${hosts[2]}" link set eth0 mtu 1500
+  local host
+  for host in "${hosts[@]}"; do
+    ip netns exec "$host" nft delete table inet wall
+  done
+  cell_doctor reach
+  has_found ok "arm reaches belt, head"
+  has_found ok "head reaches arm, belt"
+}
+
+test_a_node_that_is_away_or_unknown_is_no_riddle() {
+  start_hosts
+  local text
+  text=$("$ROSCELL" request --to "$scratch/arm/node.sock" \
+    <<< '{"type":"actor_query","actor":"membership","node":"belt"}') \
+    || fail "$text"
+  jq -e '.actors[0].state.cell == "line"' <<< "$text" > /dev/null || fail "$text"
+  text=$("$ROSCELL" request --to "$scratch/arm/node.sock" \
+    <<< '{"type":"node_query","node":"nobody"}' 2>&1) && fail "$text"
+  has_line "no node 'nobody'" <<< "$text"
+}

@@ -10,9 +10,11 @@ namespace {
 
 edge_result<node_sockets> try_once(io_thread& io,
                                    const http_server_options& http,
-                                   const beat_filter& filter) {
+                                   beat_socket_options beat_options) {
   node_sockets result;
-  auto beat = beat_socket::open(io, {http.address, http.port, filter});
+  beat_options.address = http.address;
+  beat_options.port = http.port;
+  auto beat = beat_socket::open(io, std::move(beat_options));
   if (auto* why = std::get_if<edge_error>(&beat))
     return *why;
   result.beat = std::get<std::unique_ptr<beat_socket>>(std::move(beat));
@@ -27,14 +29,15 @@ edge_result<node_sockets> try_once(io_thread& io,
 
 } // namespace
 
-edge_result<node_sockets>
-open_node_sockets(io_thread& io, http_server_options http, beat_filter filter) {
-  auto result = try_once(io, http, filter);
+edge_result<node_sockets> open_node_sockets(io_thread& io,
+                                            http_server_options http,
+                                            beat_socket_options beat) {
+  auto result = try_once(io, http, beat);
   for (int i = 1; i < limits::http::port_attempts && http.port == 0; ++i) {
     const auto* why = std::get_if<edge_error>(&result);
     if (why == nullptr || why->code != error_code::conflict)
       break;
-    result = try_once(io, http, filter);
+    result = try_once(io, http, beat);
   }
   return result;
 }

@@ -14,9 +14,10 @@ struct node_sockets {
 };
 
 /// Opens both, on the address and port of `http`. If that port is 0, one is
-/// found that is free for both. Errors: those of the two classes.
+/// found that is free for both. The beat socket's address and port are of no
+/// interest. Errors: those of the two classes.
 edge_result<node_sockets> open_node_sockets(io_thread& io,
                                             http_server_options http,
-                                            beat_filter filter = {});
+                                            beat_socket_options beat = {});
 
 } // namespace roscell

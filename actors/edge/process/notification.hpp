@@ -24,8 +24,9 @@ struct notification {
 /// Longest datagram that is read; longer ones are ignored whole.
 constexpr size_t max_notification_bytes = 4096;
 
-/// Longest status that is kept, in bytes.
-constexpr size_t max_status_bytes = 256;
+/// Longest status that is kept, in bytes: all figures of a skill, however
+/// large.
+constexpr size_t max_status_bytes = 512;
 
 /// A line that tells of more streams is ignored: a step has at most 16 inputs
 /// and as many outputs.

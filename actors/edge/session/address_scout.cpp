@@ -68,21 +68,20 @@ scouted_port to_port(uint16_t port, const http_outcome& outcome) {
   return result;
 }
 
+} // namespace
+
 void ask_for_hello(const std::shared_ptr<io_core>& core,
-                   const std::shared_ptr<scouting>& all,
-                   const std::string& address, uint16_t port, size_t place) {
+                   const socket_address& node,
+                   std::function<void(scouted_port)> done) {
   http_call what;
-  what.to.address = address;
-  what.to.port = port;
+  what.to.address = node.address;
+  what.to.port = node.port;
   what.target = hello_path;
   what.timeout = limits::membership::scouted_port;
-  call_http(core, what, [all, port, place](const http_outcome& outcome) {
-    all->result.tcp[place] = to_port(port, outcome);
-    all->finish_one();
-  });
+  call_http(core, what,
+            [port = node.port, done = std::move(done)](
+                const http_outcome& outcome) { done(to_port(port, outcome)); });
 }
-
-} // namespace
 
 void scout(const std::shared_ptr<io_core>& core,
            const std::string& local_address, const socket_address& server,
@@ -95,10 +94,14 @@ void scout(const std::shared_ptr<io_core>& core,
   all->result.tcp.resize(ports.size());
   all->open = ports.size() + 1;
   for (size_t i = 0; i < ports.size(); ++i)
-    ask_for_hello(core, all, server.address, ports[i], i);
+    ask_for_hello(core, {server.address, ports[i]}, [all, i](scouted_port x) {
+      all->result.tcp[i] = std::move(x);
+      all->finish_one();
+    });
   ask_discovery_port(core, local_address, server,
-                     limits::membership::scouted_port, [all](port_answer x) {
-                       all->result.discovery = x;
+                     limits::membership::scouted_port,
+                     [all](const udp_answer& x) {
+                       all->result.discovery = x.answer;
                        all->finish_one();
                      });
 }

@@ -18,4 +18,10 @@ void scout(const std::shared_ptr<io_core>& core,
            const std::string& local_address, const socket_address& server,
            std::function<void(address_scouted)> done);
 
+/// Asks the HTTP server of a node who it is. `done` is called once, on the io
+/// thread, within `limits::membership::scouted_port`.
+void ask_for_hello(const std::shared_ptr<io_core>& core,
+                   const socket_address& node,
+                   std::function<void(scouted_port)> done);
+
 } // namespace roscell

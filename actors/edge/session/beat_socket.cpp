@@ -70,9 +70,10 @@ struct beat_session {
 class beat_core : public io_component,
                   public std::enable_shared_from_this<beat_core> {
 public:
-  beat_core(std::shared_ptr<io_core> core, int fd, beat_filter filter)
+  beat_core(std::shared_ptr<io_core> core, int fd, beat_filter filter,
+            std::optional<digest> reach_key)
       : core_(std::move(core)), socket_(core_->context(), fd),
-        filter_(std::move(filter)) {
+        filter_(std::move(filter)), reach_key_(reach_key) {
     // nop
   }
 
@@ -156,8 +157,9 @@ private:
 
   /// False if there is nothing more.
   bool receive_one() {
-    // One byte more than a packet has, so that a longer one can be told.
-    std::array<char, beat_packet::size + 1> buffer{};
+    // More than a packet has, so that a longer one can be told.
+    static_assert(beat_packet::size < reach_packet_size);
+    std::array<char, reach_packet_size> buffer{};
     sockaddr_in from{};
     socklen_t from_size = sizeof from;
     const auto size = ::recvfrom(
@@ -172,7 +174,7 @@ private:
   void on_packet(std::string_view bytes, const sockaddr_in& from) {
     const auto packet = read_beat(bytes);
     if (!packet) {
-      ++malformed_;
+      on_other_packet(bytes, from);
       return;
     }
     const auto [begin, end] = sessions_.equal_range(packet->tag);
@@ -186,6 +188,18 @@ private:
                             i->second->registration.agreement.keys.receive))
         return on_authentic(i->second, *packet, from);
     ++forged_;
+  }
+
+  void on_other_packet(std::string_view bytes, const sockaddr_in& from) {
+    const auto answer = reach_key_ ? reach_answer(bytes, *reach_key_)
+                                   : std::optional<reach_bytes>{};
+    if (!answer) {
+      ++malformed_;
+      return;
+    }
+    ::sendto(socket_.native_handle(), answer->data(), answer->size(),
+             MSG_DONTWAIT | MSG_NOSIGNAL,
+             reinterpret_cast<const sockaddr*>(&from), sizeof from);
   }
 
   void on_authentic(std::shared_ptr<beat_session> session,
@@ -236,6 +250,7 @@ private:
   std::shared_ptr<io_core> core_;
   boost::asio::posix::stream_descriptor socket_;
   beat_filter filter_;
+  std::optional<digest> reach_key_;
   std::function<void()> on_any_beat_;
   std::unordered_multimap<uint32_t, std::shared_ptr<beat_session>> sessions_;
   std::atomic<uint64_t> accepted_{0};
@@ -319,8 +334,8 @@ beat_socket::open(io_thread& io, beat_socket_options options) {
   if (auto* why = std::get_if<edge_error>(&bound))
     return *why;
   const auto udp = std::get<bound_port>(bound);
-  auto core =
-      std::make_shared<beat_core>(io.core(), udp.fd, std::move(options.filter));
+  auto core = std::make_shared<beat_core>(
+      io.core(), udp.fd, std::move(options.filter), options.reach_key);
   return std::make_unique<socket_handle>(std::move(core), udp.port);
 }
 

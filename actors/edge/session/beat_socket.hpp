@@ -2,6 +2,7 @@
 
 #include "actors/edge/io/edge_error.hpp"
 #include "actors/edge/io/io_thread.hpp"
+#include "actors/edge/reach/reach_packet.hpp"
 #include "actors/edge/session/beat_packet.hpp"
 #include "actors/edge/session/fault_seam.hpp"
 #include "actors/edge/session/session_handshake.hpp"
@@ -9,6 +10,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace roscell {
@@ -21,6 +23,8 @@ struct beat_socket_options {
   std::string address = "127.0.0.1"; ///< IPv4 address of this host.
   uint16_t port = 8420;              ///< The same as of HTTP; 0: a free one.
   beat_filter filter;                ///< Faults for tests.
+  /// Under which it answers who wants to know whether he reaches it.
+  std::optional<digest> reach_key = std::nullopt;
 };
 
 /// What became of the packets that came in.

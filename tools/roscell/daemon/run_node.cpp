@@ -10,6 +10,7 @@
 #include "tools/roscell/daemon/readiness.hpp"
 #include "tools/roscell/daemon/stop_signals.hpp"
 #include "tools/roscell/dashboard/pages.hpp"
+#include "tools/roscell/doctor/checks.hpp"
 #include "tools/roscell/exit_code.hpp"
 #include "tools/roscell/view/format.hpp"
 #include "tools/roscell/view/terminal.hpp"
@@ -71,7 +72,9 @@ exit_code exit_code_of(error_code code) {
 
 running_node start(caf::actor_system& system, node_config config) {
   config.pages = dashboard_pages();
-  auto node = spawn_node(system, config);
+  node_additions additions;
+  additions.examine_host = [config] { return examine_own_host(config); };
+  auto node = spawn_node(system, config, additions);
   if (node)
     return std::move(*node);
   const auto why = to_failure(node.error());

@@ -136,4 +136,12 @@ findings run_checks(const std::vector<check>& checks, const examined_host& host,
   return result;
 }
 
+findings examine_own_host(const node_config& config) {
+  examined_host host;
+  host.config = config;
+  host.interface = config.address;
+  host.node_runs = true;
+  return run_checks(host_checks(), host, [](const auto&) {});
+}
+
 } // namespace roscell::cli

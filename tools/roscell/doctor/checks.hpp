@@ -35,4 +35,8 @@ findings run_checks(const std::vector<check>& checks, const examined_host& host,
                     const still_looking& tell,
                     std::chrono::milliseconds limit = longest_look);
 
+/// What a node that runs here finds on its host.
+/// @param config as the node was started with, its address included.
+findings examine_own_host(const node_config& config);
+
 } // namespace roscell::cli

@@ -4,6 +4,7 @@
 #include "tools/roscell/common_options.hpp"
 #include "tools/roscell/daemon/config_file.hpp"
 #include "tools/roscell/daemon/node_options.hpp"
+#include "tools/roscell/doctor/cell/cell_examination.hpp"
 #include "tools/roscell/doctor/checks.hpp"
 #include "tools/roscell/doctor/findings_view.hpp"
 #include "tools/roscell/doctor/node/node_checks.hpp"
@@ -32,6 +33,7 @@ struct doctor_options {
   fs::path data_dir;
   std::vector<std::string> only;
   bool list = false;
+  bool cell = false;
 };
 
 /// What is looked at, and by what.
@@ -39,6 +41,8 @@ struct examination {
   examined_host host;
   std::vector<check> checks;
   findings known; ///< Found while it was prepared.
+  std::shared_ptr<const node_client> node;
+  std::string own; ///< Name of the node that runs here; empty: none does.
 };
 
 /// The host of a node that is started with these options.
@@ -121,6 +125,7 @@ examination prepare(const doctor_options& options) {
   result.host = host_of(options);
   auto node = std::make_shared<const node_client>(
       connection_to(options, result.host.config));
+  result.node = node;
   const bool here = is_here(node->where());
   if (here)
     result.checks = host_checks();
@@ -131,8 +136,10 @@ examination prepare(const doctor_options& options) {
                        "ssh " + node->where().host + " roscell doctor"}));
   try {
     const auto told = node->get("/v1/node").get<node_description>();
-    if (here)
+    if (here) {
       follow_node(result.host, *node, told);
+      result.own = told.identity.name;
+    }
     for (auto& x : node_checks(node))
       result.checks.push_back(std::move(x));
   } catch (const command_error& e) {
@@ -147,9 +154,17 @@ examination prepare(const doctor_options& options) {
   return result;
 }
 
+/// Why a check that was asked for by name is not made.
+std::string unmade(const std::string& name) {
+  return is_cell_check(name)
+             ? "it looks at a whole cell: add --cell"
+             : "there is no node that can be asked, or it runs on another host";
+}
+
 /// Leaves out what was not asked for. A node that was named and does not answer
 /// stays.
-void keep_only(const std::vector<std::string>& names, examination& what) {
+void keep_only(const std::vector<std::string>& names, bool cell,
+               examination& what) {
   if (names.empty())
     return;
   auto& checks = what.checks;
@@ -166,18 +181,24 @@ void keep_only(const std::vector<std::string>& names, examination& what) {
   if (!is_broken(what.known))
     what.known.clear();
   for (const auto& name : names)
-    if (!has(checks, [&](auto& x) { return x.name == name; }))
-      what.known.push_back(named_finding(name, "node",
-                                         {judgement::skipped,
-                                          "there is no node that can be asked, "
-                                          "or it runs on another host"}));
+    if (!(cell && is_cell_check(name))
+        && !has(checks, [&](auto& x) { return x.name == name; }))
+      what.known.push_back(
+          named_finding(name, "node", {judgement::skipped, unmade(name)}));
 }
 
 std::vector<check> every_check() {
   auto result = host_checks();
   for (auto& x : node_checks(nullptr))
     result.push_back(std::move(x));
+  for (const auto& x : cell_checks())
+    result.push_back(x);
   return result;
+}
+
+void tell_step(const std::string& step) {
+  if (stderr_is_terminal())
+    print_note(step + " ...");
 }
 
 void tell_who_looks(const std::vector<std::string>& names) {
@@ -191,8 +212,11 @@ int examine(const doctor_options& options) {
     return exit_done;
   }
   auto what = prepare(options);
-  keep_only(options.only, what);
+  keep_only(options.only, options.cell, what);
   auto found = run_checks(what.checks, what.host, tell_who_looks);
+  if (options.cell)
+    for (auto& x : examine_cell(*what.node, what.own, options.only, tell_step))
+      found.push_back(std::move(x));
   found.insert(found.end(), what.known.begin(), what.known.end());
   print(options.output == "json"
             ? pretty(to_json_list(found))
@@ -205,9 +229,13 @@ constexpr auto doctor_footer =
     "It changes\nnothing. What is not as it should be is told with why it "
     "matters and the command that\nmends it; exit code 1 if something is "
     "broken. Root sees more.\n\n"
+    "With --cell every node of the cell looks at its host, and tries to reach "
+    "every other\none: TCP and UDP of its port, its discovery server, DDS's "
+    "data in one piece and in\nfragments, and multicast. For a minute each "
+    "opens one UDP port for that.\n\n"
     "Examples:\n  roscell doctor\n  roscell doctor --interface eth0\n"
     "  roscell doctor --config /etc/roscell/node.conf --only ports,firewall\n"
-    "  roscell doctor -o json";
+    "  roscell doctor --cell\n  roscell doctor -o json";
 
 } // namespace
 
@@ -240,6 +268,8 @@ void add_doctor_command(CLI::App& app, action& chosen) {
       ->delimiter(',')
       ->check(CLI::IsMember(names))
       ->option_text("CHECK...");
+  command->add_flag("--cell", options->cell,
+                    "Also look at all nodes of the cell, and at each pair");
   command->add_flag("--list", options->list, "List the checks, and end");
   command->callback(
       [&chosen, options] { chosen = [options] { return examine(*options); }; });

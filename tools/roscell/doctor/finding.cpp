@@ -5,16 +5,7 @@
 namespace roscell::cli {
 
 const char* to_word(judgement how) {
-  switch (how) {
-  case judgement::ok:
-    return "ok";
-  case judgement::skipped:
-    return "skipped";
-  case judgement::warning:
-    return "warning";
-  default:
-    return "broken";
-  }
+  return enum_words(how)[static_cast<size_t>(how)].data();
 }
 
 bool is_broken(const findings& all) {
@@ -24,17 +15,8 @@ bool is_broken(const findings& all) {
 
 json to_json_list(const findings& all) {
   auto result = json::array();
-  for (const auto& x : all) {
-    json one{{"check", x.check},
-             {"area", x.area},
-             {"verdict", to_word(x.how)},
-             {"seen", x.seen}};
-    if (!x.matters.empty())
-      one["matters"] = x.matters;
-    if (!x.remedy.empty())
-      one["remedy"] = x.remedy;
-    result.push_back(std::move(one));
-  }
+  for (const auto& x : all)
+    result.push_back(x);
   return result;
 }
 

@@ -42,7 +42,7 @@ std::string area_view(const std::string& area, const findings& all,
            {"SEEN", align::left, 1}},
           {}};
   for (const auto& x : all)
-    if (x.area == area)
+    if (x.area == area && x.node.empty())
       t.rows.push_back({mark_of(x.how, signs), x.check, x.seen});
   return t.render(style);
 }
@@ -52,6 +52,7 @@ std::string advice(const finding& x, const text_style& style, bool signs) {
   const auto mark = mark_of(x.how, signs);
   const auto colour = style.colour ? state_colour(mark) : "";
   std::string text = colour + mark + (colour.empty() ? "" : "\x1b[0m") + " "
+                     + (x.node.empty() ? "" : printable(x.node) + ": ")
                      + x.check + ": " + printable(x.seen) + "\n";
   if (!x.matters.empty())
     text += "    " + printable(x.matters) + "\n";
@@ -60,13 +61,40 @@ std::string advice(const finding& x, const text_style& style, bool signs) {
   return text;
 }
 
+using found_count = findings::difference_type;
+
+found_count count_of(const findings& all, judgement how,
+                     const std::string* node = nullptr) {
+  return std::count_if(all.begin(), all.end(), [&](auto& x) {
+    return x.how == how && (node == nullptr || x.node == *node);
+  });
+}
+
+/// What other nodes have found on their hosts, in numbers: there are many.
+std::string hosts_view(const findings& all, const text_style& style) {
+  table t{{{"HOST"},
+           {"BROKEN", align::right},
+           {"WARNINGS", align::right},
+           {"SKIPPED", align::right},
+           {"OK", align::right}},
+          {}};
+  std::vector<std::string> nodes;
+  for (const auto& x : all)
+    if (!x.node.empty()
+        && std::find(nodes.begin(), nodes.end(), x.node) == nodes.end())
+      nodes.push_back(x.node);
+  for (const auto& node : nodes) {
+    t.rows.push_back({node});
+    for (const auto how : {judgement::broken, judgement::warning,
+                           judgement::skipped, judgement::ok})
+      t.rows.back().push_back(std::to_string(count_of(all, how, &node)));
+  }
+  return nodes.empty() ? "" : t.render(style) + "\n";
+}
+
 std::string sum_of(const findings& all) {
-  const auto count = [&](judgement how) {
-    return std::count_if(all.begin(), all.end(),
-                         [&](auto& x) { return x.how == how; });
-  };
-  const auto broken = count(judgement::broken);
-  const auto warnings = count(judgement::warning);
+  const auto broken = count_of(all, judgement::broken);
+  const auto warnings = count_of(all, judgement::warning);
   if (broken == 0 && warnings == 0)
     return "nothing is wrong\n";
   return std::to_string(broken) + " broken, " + std::to_string(warnings)
@@ -88,11 +116,13 @@ std::string findings_view(const findings& all, const text_style& style,
                           bool signs) {
   std::vector<std::string> areas;
   for (const auto& x : all)
-    if (std::find(areas.begin(), areas.end(), x.area) == areas.end())
+    if (x.node.empty()
+        && std::find(areas.begin(), areas.end(), x.area) == areas.end())
       areas.push_back(x.area);
   std::string text;
   for (const auto& area : areas)
     text += area_view(area, all, style, signs) + "\n";
+  text += hosts_view(all, style);
   for (const auto how :
        {judgement::broken, judgement::warning, judgement::skipped})
     for (const auto& x : all)

@@ -2,7 +2,7 @@
 
 #include "actors/edge/io/io_thread.hpp"
 #include "actors/edge/io/socket_address.hpp"
-#include "messages/inside/scouting.hpp"
+#include "actors/edge/reach/udp_question.hpp"
 
 #include <chrono>
 #include <functional>
@@ -19,6 +19,6 @@ void ask_discovery_port(const std::shared_ptr<io_core>& core,
                         const std::string& local_address,
                         const socket_address& server,
                         std::chrono::milliseconds limit,
-                        std::function<void(port_answer)> done);
+                        std::function<void(udp_answer)> done);
 
 } // namespace roscell

@@ -30,7 +30,7 @@ TEST_CASE("a status is one line of valid UTF-8 of bounded length") {
   CHECK(parse_notification("STATUS=\xFF").status == "\xEF\xBF\xBD");
   const auto ascii = parse_notification("STATUS=" + std::string(3000, 'x'));
   CHECK(ascii.status.size() == max_status_bytes);
-  const auto broken = parse_notification("STATUS=" + std::string(300, '\xFF'));
+  const auto broken = parse_notification("STATUS=" + std::string(600, '\xFF'));
   CHECK(broken.status.size() == max_status_bytes / 3 * 3);
 }
 

@@ -1,0 +1,107 @@
+#include "actors/edge/http/http_paths.hpp"
+#include "actors/edge/http/node_sockets.hpp"
+#include "actors/edge/reach/reach_port.hpp"
+#include "actors/edge/reach/reach_tries.hpp"
+#include "test/actors/edge/io/edge_fixture.hpp"
+
+#include <map>
+
+using namespace roscell;
+using namespace roscell::test::wire;
+
+namespace {
+
+constexpr auto loopback = "127.0.0.1";
+
+constexpr auto hello = R"({"type":"node_hello","node":"arm",
+  "role":"primary","state":"independent","version":"0.1.0","domain_id":0,
+  "public_domain":99})";
+
+/// A node's sockets, under a site token of its own.
+struct reachable_node {
+  node_sockets sockets;
+  std::unique_ptr<reach_port> port;
+
+  reachable_node(io_thread& io, const std::string& token) {
+    http_server_options options;
+    options.address = loopback;
+    options.port = 0;
+    options.public_paths = {hello_path};
+    options.handler = [](const http_request&, const responder& answer) {
+      answer.reply(200, json_content, hello);
+    };
+    beat_socket_options beats;
+    beats.reach_key = reach_key(token);
+    sockets = expect(open_node_sockets(io, options, beats));
+    port = expect(reach_port::open(io, {loopback, 71, reach_key(token)}));
+  }
+
+  reach_goal goal(const std::string& name) const {
+    return {name,
+            std::string{loopback} + ":" + std::to_string(sockets.http->port()),
+            "", port->port()};
+  }
+};
+
+/// By the words of the enums, which a failed check shows.
+using answers = std::map<std::string_view, std::string_view>;
+
+answers try_goal(io_thread& io, const reach_goal& goal) {
+  inbox<std::vector<reach_row>> told;
+  try_to_reach({io.core(), loopback, reach_key("token")}, {goal},
+               [&](std::vector<reach_row> rows) { told.put(std::move(rows)); });
+  answers result;
+  for (const auto& row : told.take()) {
+    CHECK(row.node == goal.node);
+    CHECK((row.round_trip_ms >= 0) == (row.answer == port_answer::found));
+    result[enum_words(row.way)[static_cast<size_t>(row.way)]] =
+        enum_words(row.answer)[static_cast<size_t>(row.answer)];
+  }
+  return result;
+}
+
+} // namespace
+
+TEST_CASE("a node is reached by its port, its beats and its data", "[reach]") {
+  io_thread io{[](const std::string&) {}};
+  {
+    const reachable_node arm{io, "token"};
+    // Multicast on the loopback interface is the kernel's own matter.
+    const auto found = try_goal(io, arm.goal("arm"));
+    for (const auto* way : {"session", "beat", "data", "large"}) {
+      INFO(way);
+      CHECK(found.at(way) == "found");
+    }
+    CHECK(found.count("discovery") == 0);
+    CHECK(arm.sockets.beat->counters().malformed == 0);
+  }
+  io.stop();
+}
+
+TEST_CASE("where nobody listens, that is told, and why", "[reach]") {
+  io_thread io{[](const std::string&) {}};
+  reach_goal goal;
+  {
+    const reachable_node arm{io, "token"};
+    goal = arm.goal("arm");
+    goal.discovery_server = "127.0.0.1:1";
+  }
+  const auto found = try_goal(io, goal);
+  for (const auto* way : {"session", "beat", "discovery", "data", "large"}) {
+    INFO(way);
+    CHECK(found.at(way) == "closed");
+  }
+  io.stop();
+}
+
+TEST_CASE("a node of another site does not answer", "[reach]") {
+  io_thread io{[](const std::string&) {}};
+  {
+    const reachable_node arm{io, "another token"};
+    const auto found = try_goal(io, arm.goal("arm"));
+    CHECK(found.at("beat") == "silent");
+    CHECK(found.at("data") == "silent");
+    CHECK(arm.sockets.beat->counters().malformed > 0);
+  }
+  io.stop();
+}

@@ -1,0 +1,245 @@
+#include "tools/roscell/doctor/cell/cell_examination.hpp"
+
+#include "messages/cell.hpp"
+#include "messages/failure.hpp"
+#include "tools/roscell/doctor/cell/reach_findings.hpp"
+#include "tools/roscell/exit_code.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <future>
+#include <utility>
+#include <vector>
+
+namespace roscell::cli {
+
+namespace {
+
+using std::chrono::system_clock;
+
+/// Longer than a coordinator waits for a node that has to look.
+constexpr std::chrono::seconds answer_limit{30};
+
+/// Nodes that are asked at a time: a coordinator serves others, too.
+constexpr size_t most_asked = 8;
+
+/// As many goals as a question may have.
+constexpr size_t most_goals = 64;
+
+finding cell_finding(const char* check, finding x) {
+  x.check = check;
+  x.area = "cell";
+  return x;
+}
+
+/// What a node has answered, or why it has not.
+template <class Reply>
+struct answer_of {
+  std::string node;
+  Reply reply;
+  finding trouble; ///< Its `seen` is empty if there is a reply.
+};
+
+template <class Reply>
+answer_of<Reply> ask_node(const node_client& to, const std::string& name,
+                          json request) {
+  answer_of<Reply> result;
+  result.node = name;
+  request["node"] = name;
+  try {
+    result.reply = to.ask(request, answer_limit).template get<Reply>();
+  } catch (const refused& e) {
+    const auto why = failure_from(e.reply);
+    // A node of an older program, or one that embeds it, cannot look.
+    const bool cannot = why.code == error_code::unknown_type
+                        || why.code == error_code::conflict;
+    result.trouble = {cannot ? judgement::skipped : judgement::broken,
+                      name + ": " + why.message, why.hint};
+  } catch (const command_error& e) {
+    result.trouble = {judgement::broken, name + ": " + e.what(), e.hint};
+  }
+  return result;
+}
+
+/// Asks all of them, some at a time, and gives the answers in their order.
+template <class Ask>
+auto ask_all(const std::vector<std::string>& names, Ask ask) {
+  using answer = decltype(ask(names.front()));
+  std::vector<answer> result(names.size());
+  for (size_t begin = 0; begin < names.size(); begin += most_asked) {
+    std::vector<std::future<answer>> asked;
+    for (size_t i = begin; i < std::min(begin + most_asked, names.size()); ++i)
+      asked.push_back(std::async(std::launch::async, ask, names[i]));
+    for (size_t i = 0; i < asked.size(); ++i)
+      result[begin + i] = asked[i].get();
+  }
+  return result;
+}
+
+/// The look at one cell, in the order in which it is done.
+class cell_look {
+public:
+  cell_look(const node_client& node, const examination_progress& tell)
+      : node_(node), tell_(tell) {}
+
+  findings all(const std::string& own) {
+    find_nodes();
+    if (names_.empty())
+      return std::move(found_);
+    open_ports();
+    add(judge_versions(cell_));
+    add(judge_clocks(clocks_, cell_));
+    try_pairs();
+    look_at_hosts(own);
+    return std::move(found_);
+  }
+
+private:
+  void add(findings more) {
+    for (auto& x : more)
+      found_.push_back(std::move(x));
+  }
+
+  void find_nodes() {
+    try {
+      const auto told = node_.ask({{"type", "cell_query"}}, answer_limit)
+                            .get<cell_description>();
+      cell_.coordinator = told.coordinator;
+      for (const auto& x : told.nodes)
+        if (x.state == row_state::active)
+          names_.push_back(x.identity.name);
+    } catch (const refused& e) {
+      const auto why = failure_from(e.reply);
+      add({cell_finding("reach", {judgement::broken, why.message, why.hint})});
+    }
+  }
+
+  void open_ports() {
+    tell_("asking " + std::to_string(names_.size()) + " nodes");
+    // One after the other: the time of each answer tells of its clock.
+    for (const auto& name : names_) {
+      const auto sent = system_clock::now();
+      const auto x =
+          ask_node<reach_opened>(node_, name, {{"type", reach_opening::type}});
+      const auto came = system_clock::now();
+      if (!x.trouble.seen.empty()) {
+        add({cell_finding("reach", x.trouble)});
+        continue;
+      }
+      cell_.nodes[name] = x.reply;
+      note_clock(x.reply, sent, came);
+    }
+  }
+
+  void note_clock(const reach_opened& x, system_clock::time_point sent,
+                  system_clock::time_point came) {
+    using milliseconds = std::chrono::duration<double, std::milli>;
+    const auto half = milliseconds{came - sent}.count() / 2;
+    const auto middle = milliseconds{sent.time_since_epoch()}.count() + half;
+    clocks_.push_back(
+        {x.node, static_cast<double>(x.clock_unix_us) / 1000 - middle, half});
+  }
+
+  /// What a node is to reach: all the others.
+  std::vector<json> questions_of(const std::string& name) const {
+    std::vector<json> result;
+    for (const auto& [other, x] : cell_.nodes) {
+      if (other == name)
+        continue;
+      if (result.empty() || result.back().at("goals").size() == most_goals)
+        result.push_back(
+            {{"type", reach_query::type}, {"goals", json::array()}});
+      result.back()["goals"].push_back(
+          reach_goal{other, x.address, x.discovery_server, x.data_port});
+    }
+    return result;
+  }
+
+  std::vector<std::string> answering() const {
+    std::vector<std::string> result;
+    for (const auto& [name, x] : cell_.nodes)
+      result.push_back(name);
+    return result;
+  }
+
+  void try_pairs() {
+    const auto names = answering();
+    if (names.size() < 2)
+      return;
+    tell_("trying each way between "
+          + std::to_string(names.size() * (names.size() - 1)) + " pairs");
+    const auto told = ask_all(names, [this](const std::string& name) {
+      answer_of<reach_report> all;
+      all.node = all.reply.node = name;
+      for (const auto& question : questions_of(name)) {
+        auto x = ask_node<reach_report>(node_, name, question);
+        if (!x.trouble.seen.empty())
+          return x;
+        for (auto& row : x.reply.rows)
+          all.reply.rows.push_back(std::move(row));
+      }
+      return all;
+    });
+    for (const auto& x : told)
+      add(x.trouble.seen.empty() ? judge_reach(x.reply, cell_)
+                                 : findings{cell_finding("reach", x.trouble)});
+  }
+
+  void look_at_hosts(const std::string& own) {
+    auto names = answering();
+    names.erase(std::remove(names.begin(), names.end(), own), names.end());
+    if (names.empty())
+      return;
+    tell_("looking at " + std::to_string(names.size()) + " hosts");
+    for (auto& x : ask_all(names, [this](const std::string& name) {
+           return ask_node<examination>(node_, name,
+                                        {{"type", examination_query::type}});
+         })) {
+      if (!x.trouble.seen.empty())
+        x.reply.found = {cell_finding("host", x.trouble)};
+      for (auto& one : x.reply.found) {
+        one.node = x.node;
+        found_.push_back(std::move(one));
+      }
+    }
+  }
+
+  const node_client& node_;
+  const examination_progress& tell_;
+  std::vector<std::string> names_; ///< Of all that are there.
+  reached_cell cell_;
+  std::vector<clock_reading> clocks_;
+  findings found_;
+};
+
+} // namespace
+
+const std::vector<check>& cell_checks() {
+  static const std::vector<check> all{
+      {"reach", "cell", "each node reaches each other by all its ports", {}},
+      {"cell-clocks", "cell", "how far the nodes' clocks differ", {}},
+      {"cell-versions", "cell", "all nodes are of one version", {}},
+  };
+  return all;
+}
+
+bool is_cell_check(const std::string& name) {
+  const auto& all = cell_checks();
+  return std::any_of(all.begin(), all.end(),
+                     [&](auto& x) { return name == x.name; });
+}
+
+findings examine_cell(const node_client& node, const std::string& own,
+                      const std::vector<std::string>& only,
+                      const examination_progress& tell) {
+  auto found = cell_look{node, tell}.all(own);
+  const auto is_unwanted = [&](const finding& x) {
+    return !only.empty() && x.how != judgement::broken
+           && std::find(only.begin(), only.end(), x.check) == only.end();
+  };
+  found.erase(std::remove_if(found.begin(), found.end(), is_unwanted),
+              found.end());
+  return found;
+}
+
+} // namespace roscell::cli

@@ -1,0 +1,228 @@
+#include "tools/roscell/doctor/cell/reach_findings.hpp"
+
+#include "actors/edge/io/socket_address.hpp"
+#include "tools/roscell/doctor/network/ports.hpp"
+#include "tools/roscell/view/format.hpp"
+
+#include <algorithm>
+
+namespace roscell::cli {
+
+namespace {
+
+/// What a way is for.
+struct way_words {
+  const char* protocol;
+  const char* name;
+  const char* matters;
+};
+
+/// In the order of `reach_way`.
+constexpr way_words words[] = {
+    {"tcp", "sessions",
+     "a node cannot join, or its coordinator cannot call it"},
+    {"udp", "beats", "a node is taken for lost again and again"},
+    {"udp", "discovery", "skills and ROS 2 programs do not find each other"},
+    {"udp", "data", "no topic that both nodes share brings any data"},
+    {"udp", "large data",
+     "images do not arrive: fragments of datagrams are lost on the way"},
+    {"udp", "multicast",
+     "nodes that are started without --join do not find this one"}};
+
+const way_words& words_of(reach_way way) {
+  return words[static_cast<size_t>(way)];
+}
+
+std::string host_of(const reach_opened& x) {
+  const auto at = parse_socket_address(x.address);
+  return at ? at->address : x.address;
+}
+
+/// The ports that a firewall has to let through for a row.
+std::string ports_of(const reach_row& x) {
+  if (x.way < reach_way::data)
+    return std::to_string(x.port);
+  const auto domain = (x.port - ports_of_domain(0).first)
+                      / (ports_of_domain(1).first - ports_of_domain(0).first);
+  const auto range = ports_of_domain(domain);
+  return std::to_string(range.first) + "-" + std::to_string(range.last);
+}
+
+std::string remedy_of(const reach_row& x, const std::string& from,
+                      const std::string& to) {
+  switch (x.answer) {
+  case port_answer::unreachable:
+    return "ssh " + from + " ip route get " + to;
+  case port_answer::closed:
+  case port_answer::stranger:
+    return "ssh " + to + " roscell doctor --only ports";
+  default:
+    break;
+  }
+  if (x.way == reach_way::large)
+    return "ssh " + from + " tracepath -n " + to;
+  if (x.way == reach_way::multicast)
+    return "roscell doctor --only multicast,firewall";
+  return "ssh " + to + " sudo nft insert rule inet filter input ip saddr "
+         + from + " " + words_of(x.way).protocol + " dport " + ports_of(x)
+         + " accept";
+}
+
+std::string meaning_of(const reach_row& x) {
+  switch (x.answer) {
+  case port_answer::silent:
+    return "nothing comes back";
+  case port_answer::closed:
+    return "nobody listens, or a firewall refuses";
+  case port_answer::unreachable:
+    return "there is no way to the host";
+  default:
+    return "something else answers";
+  }
+}
+
+/// Members use nothing of each other but data; each may be asked to coordinate.
+bool is_used(const reach_row& x, const std::string& from,
+             const std::string& coordinator) {
+  return x.way == reach_way::data || x.way == reach_way::large
+         || (x.way != reach_way::multicast
+             && (from == coordinator || x.node == coordinator));
+}
+
+finding judge_row(const reach_row& x, const std::string& from,
+                  const reached_cell& cell) {
+  const auto& way = words_of(x.way);
+  const bool used = is_used(x, from, cell.coordinator);
+  std::string matters = way.matters;
+  if (!used && x.way != reach_way::multicast)
+    matters = "nothing needs it now; it will when one of the two coordinates "
+              "the other";
+  return {used ? judgement::broken : judgement::warning,
+          from + " -> " + x.node + ": " + way.name + " by " + way.protocol
+              + " port " + std::to_string(x.port) + ": " + meaning_of(x),
+          matters,
+          remedy_of(x, host_of(cell.nodes.at(from)),
+                    host_of(cell.nodes.at(x.node)))};
+}
+
+bool is_loopback(const reached_cell& cell, const std::string& node) {
+  return host_of(cell.nodes.at(node)).rfind("127.", 0) == 0;
+}
+
+/// What comes of another trouble that is told is not told as well.
+bool is_consequence(const reach_row& x, const std::vector<reach_row>& all) {
+  return (x.way == reach_way::large || x.way == reach_way::multicast)
+         && std::any_of(all.begin(), all.end(), [&](const auto& other) {
+              return other.node == x.node && other.way == reach_way::data
+                     && other.answer != port_answer::found;
+            });
+}
+
+/// "arm reaches base, leg (0.2 to 0.9 ms)"
+finding all_reached(const reach_report& told,
+                    const std::vector<std::string>& names) {
+  double least = -1;
+  double most = -1;
+  for (const auto& x : told.rows)
+    if (x.round_trip_ms >= 0) {
+      least = least < 0 ? x.round_trip_ms : std::min(least, x.round_trip_ms);
+      most = std::max(most, x.round_trip_ms);
+    }
+  return {judgement::ok, told.node + " reaches " + joined(names, ", ") + " ("
+                             + format_number(least) + " to "
+                             + format_number(most) + " ms)"};
+}
+
+finding named(finding x, const char* check) {
+  x.check = check;
+  x.area = "cell";
+  return x;
+}
+
+} // namespace
+
+findings judge_reach(const reach_report& told, const reached_cell& cell) {
+  findings result;
+  std::map<std::string, bool> all_ways;
+  if (cell.nodes.count(told.node) == 0)
+    return result;
+  for (const auto& x : told.rows) {
+    if (cell.nodes.count(x.node) == 0
+        || (x.way == reach_way::multicast && is_loopback(cell, x.node)))
+      continue;
+    auto& reached = all_ways.emplace(x.node, true).first->second;
+    if (x.answer == port_answer::found || is_consequence(x, told.rows))
+      continue;
+    reached = false;
+    result.push_back(named(judge_row(x, told.node, cell), "reach"));
+  }
+  std::vector<std::string> names;
+  for (const auto& [name, reached] : all_ways)
+    if (reached)
+      names.push_back(name);
+  if (!names.empty())
+    result.push_back(named(all_reached(told, names), "reach"));
+  return result;
+}
+
+findings judge_versions(const reached_cell& cell) {
+  findings result;
+  const auto base = cell.nodes.find(cell.coordinator);
+  if (base == cell.nodes.end())
+    return result;
+  const auto& version = base->second.version;
+  for (const auto& [name, x] : cell.nodes)
+    if (x.version != version)
+      result.push_back(named({judgement::warning,
+                              name + " is of version " + x.version
+                                  + ", its coordinator of " + version,
+                              "what only one of them knows cannot be used",
+                              "ssh " + host_of(x) + " roscell --version"},
+                             "cell-versions"));
+  if (result.empty())
+    result.push_back(
+        named({judgement::ok, std::to_string(cell.nodes.size())
+                                  + " nodes of version " + version},
+              "cell-versions"));
+  return result;
+}
+
+findings judge_clocks(const std::vector<clock_reading>& all,
+                      const reached_cell& cell) {
+  // A frame of a camera; what is more makes ages wrong, and transforms fail.
+  constexpr double tolerable_ms = 33;
+  constexpr double hopeless_ms = 1000;
+  findings result;
+  const auto base = std::find_if(all.begin(), all.end(), [&](auto& x) {
+    return x.node == cell.coordinator;
+  });
+  if (base == all.end())
+    return result;
+  double most = 0;
+  for (const auto& x : all) {
+    const auto offset = x.offset_ms - base->offset_ms;
+    const auto sure =
+        std::abs(offset) - x.uncertainty_ms - base->uncertainty_ms;
+    most = std::max(most, std::abs(offset));
+    const auto host = cell.nodes.find(x.node);
+    if (sure <= tolerable_ms || host == cell.nodes.end())
+      continue;
+    result.push_back(named(
+        {sure > hopeless_ms ? judgement::broken : judgement::warning,
+         x.node + "'s clock is " + format_number(std::abs(offset) / 1000)
+             + " s " + (offset > 0 ? "ahead of" : "behind")
+             + " the coordinator's",
+         "ages of data are wrong, and programs drop transforms and messages as "
+         "too old or from the future",
+         "ssh " + host_of(host->second) + " sudo chronyc makestep"},
+        "cell-clocks"));
+  }
+  if (result.empty())
+    result.push_back(
+        named({judgement::ok, "clocks differ by " + format_number(most)
+                                  + " ms at most, as far as can be told"},
+              "cell-clocks"));
+  return result;
+}
+
+} // namespace roscell::cli

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "messages/insight/reach.hpp"
+#include "tools/roscell/doctor/finding.hpp"
+
+#include <map>
+#include <string>
+#include <vector>
+
+/// What each node of a cell reaches of the others.
+namespace roscell::cli {
+
+/// The nodes of a cell that answer.
+struct reached_cell {
+  std::string coordinator;
+  std::map<std::string, reach_opened> nodes; ///< By name.
+};
+
+/// What one node has tried. What its way back needs, too, is tried by the other
+/// one.
+findings judge_reach(const reach_report& told, const reached_cell& cell);
+
+/// Nodes of other versions than the coordinator's.
+findings judge_versions(const reached_cell& cell);
+
+/// When a node's clock was read.
+struct clock_reading {
+  std::string node;
+  double offset_ms = 0;      ///< To the clock of who has asked.
+  double uncertainty_ms = 0; ///< Half the round trip.
+};
+
+/// How far the clocks are from the coordinator's.
+findings judge_clocks(const std::vector<clock_reading>& all,
+                      const reached_cell& cell);
+
+} // namespace roscell::cli
