@@ -33,7 +33,7 @@ failure not_found(const http_request& request) {
       error_code::unknown_type,
       request.method + " " + request.path + " is not known here", "",
       "the paths are /v1/requests (GET and POST), /v1/registration (the same), "
-      "/v1/hello, /v1/node, /v1/cell, /v1/cells, "
+      "/v1/hello, /v1/node, /v1/cost, /v1/cell, /v1/cells, "
       "/v1/tasks, /v1/instances, /v1/instances/{id}/logs, /v1/skills, "
       "/v1/events, /metrics and /healthz"};
 }
@@ -116,6 +116,8 @@ rest_route query_route(const http_request& request,
   if (parts.size() == 2) {
     if (what == "node")
       return ask({{"type", "node_query"}, {"actors", flag(request, "actors")}});
+    if (what == "cost")
+      return ask({{"type", "cost_query"}, {"cell", flag(request, "cell")}});
     if (what == "hello")
       return ask({{"type", "hello_query"}});
     if (what == "cell")

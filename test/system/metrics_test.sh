@@ -39,10 +39,37 @@ test_what_a_scraper_gets_is_as_prometheus_wants_it() {
   expect "the last line" "$(tail -n 1 "$scratch/open.txt")" "# EOF"
 }
 
+# give_frames NUMBER: gives them to the skill of task t, and waits until it has
+# told of them, which it does in its own time. The metrics are in head.txt.
+give_frames() {
+  local end=$((SECONDS + deadline_s))
+  seq "$1" >> "$scratch/data/t.in"
+  until metrics head > "$scratch/head.txt" \
+    && has_line "^roscell_instance_frames_total{.*} $1\$" "$scratch/head.txt"; do
+    ((SECONDS < end)) || fail "$(grep instance "$scratch/head.txt")"
+    sleep 0.5
+  done
+}
+
+test_the_times_of_a_skill_are_a_histogram_of_all_its_frames() {
+  need_prometheus
+  local family=roscell_instance_latency_seconds of='{instance_id="t-say-.*",task="t",step="say",node="'
+  start_line
+  give_frames 7
+  has_line "^${family}_count$of.*\"} 7\$" "$scratch/head.txt" \
+    && has_line "^${family}_bucket$of.*\",le=\"+Inf\"} 7\$" "$scratch/head.txt" \
+    && has_line "^${family}_sum$of.*\"} [0-9]" "$scratch/head.txt" \
+    || fail "$(grep latency "$scratch/head.txt")"
+  expect "buckets" "$(grep -c "^${family}_bucket" "$scratch/head.txt")" 11
+  promtool check metrics < "$scratch/head.txt" > "$scratch/said" 2>&1 \
+    || fail "$(cat "$scratch/said")"
+}
+
 test_a_real_prometheus_scrapes_a_node_over_tcp() {
   need_prometheus
   start_line
-  local address port query='roscell_tasks{state="running"}' end
+  local address port
+  give_frames 5
   address=$(get head /v1/cell | jq -r .address)
   port=$((20000 + BASHPID % 10000))
   cat > "$scratch/prometheus.yml" << CONFIG
@@ -56,11 +83,23 @@ CONFIG
     --storage.tsdb.path="$scratch/tsdb" \
     --web.listen-address="127.0.0.1:$port" 2> "$scratch/prometheus.log" &
   echo $! >> "$scratch/pids"
-  # Prometheus tells nobody when it has scraped.
-  end=$((SECONDS + deadline_s))
-  until promtool query instant "http://127.0.0.1:$port" "$query" 2> /dev/null \
-    | has_line '=> 1 @'; do
-    ((SECONDS < end)) || fail "$(tail -n 5 "$scratch/prometheus.log")"
+  await_value "$port" 'roscell_tasks{state="running"}' '1'
+  # It asks for OpenMetrics, where a whole bound is written with its point.
+  await_value "$port" 'roscell_instance_latency_seconds_count
+    == on(task) roscell_instance_latency_seconds_bucket{le="1.0"}' '5'
+  await_value "$port" 'histogram_quantile(0.95, sum by (le, task, step)
+    (roscell_instance_latency_seconds_bucket))' '0\.[0-9]*'
+}
+
+# await_value PORT QUERY PATTERN: what that Prometheus answers. It tells nobody
+# when it has scraped.
+await_value() {
+  local end=$((SECONDS + deadline_s))
+  until promtool query instant "http://127.0.0.1:$1" "$2" \
+    2> "$scratch/query.err" > "$scratch/value" \
+    && has_line "=> $3 @" "$scratch/value"; do
+    ((SECONDS < end)) || fail "$2: $(cat "$scratch/value" "$scratch/query.err" \
+      <(tail -n 5 "$scratch/prometheus.log"))"
     sleep 0.5
   done
 }
@@ -84,4 +123,43 @@ test_a_coordinator_asks_its_nodes_what_is_in_use_when_that_is_wanted() {
   [[ $(memory_of '/v1/cell?resources=now') -gt $((before + 500)) ]] \
     || fail "$before MiB before, $(memory_of '/v1/cell?resources=now') with 1024 more"
   echo >&"${holder[1]}"
+}
+
+# costs NAME: what the nodes of its cell cost, as that node's user is told.
+costs() {
+  to "$1" status --cost -o json > "$scratch/costs.json" || fail "$1 tells nothing"
+}
+
+# has_cost FILTER: whether it holds of what was told last.
+has_cost() {
+  jq -e "$1" "$scratch/costs.json" > /dev/null \
+    || fail "$1: $(cat "$scratch/costs.json")"
+}
+
+test_a_cell_tells_what_each_of_its_nodes_costs() {
+  local node
+  start_node head --coordinator --cell line --interface lo
+  start_node arm --join "$(discovery_of head)" --interface lo
+  await_joined head arm
+  for node in head arm; do
+    costs $node
+    has_cost '[.nodes[].node] | sort == ["arm", "head"]'
+    has_cost 'all(.nodes[]; [.windows[].window] == ["minute", "hour", "day"])'
+    has_cost 'all(.nodes[].windows[]; .cpu_s >= 0 and .span_s > 0
+                  and .pss_bytes > 1048576)'
+    has_cost '.nodes[] | select(.node == "arm") | .windows[0].peers
+              | .[0].peer == "head" and .[0].sent_bytes > 0
+                and .[0].received_bytes > 0'
+    has_cost '.nodes[] | select(.node == "head") | .windows[0].peers
+              | .[0].peer == "arm" and .[0].sent_bytes > 0'
+  done
+  to arm status --cost > "$scratch/table" || fail "no table"
+  has_line '^head  *minute .*  arm [0-9.]*/[0-9.]*$' "$scratch/table" \
+    || fail "$(cat "$scratch/table")"
+  stop_node arm KILL
+  await head '.event == "node_lost" and .subject == "arm"' > /dev/null
+  costs head
+  has_cost '.nodes[] | select(.node == "arm")
+            | .windows == [] and .trouble == "node '\''arm'\'' is away"'
+  has_cost '.nodes[] | select(.node == "head") | .windows | length == 3'
 }

@@ -103,6 +103,7 @@ TEST_CASE("completion offers every command", "[tools]") {
 
 TEST_CASE("completion offers a command's options", "[tools]") {
   CHECK(offered("roscell status --a") == "--actors\n");
+  CHECK(offered("roscell status --c") == "--cost\n");
   CHECK(offered("roscell node --da") == "--data-dir\n");
   CHECK(offered("roscell node --conf") == "--config\n");
 }

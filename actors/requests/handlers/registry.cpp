@@ -2,6 +2,8 @@
 
 #include "actors/house/limits.hpp"
 #include "actors/requests/handlers/actor_inspecting.hpp"
+#include "actors/requests/handlers/cost_telling.hpp"
+#include "actors/requests/handlers/examining.hpp"
 #include "actors/requests/handlers/forwarding.hpp"
 #include "actors/requests/handlers/insight.hpp"
 #include "actors/requests/handlers/local_skills.hpp"
@@ -25,6 +27,12 @@ void add_node_requests(request_registry& registry) {
       forward_within<node_query, node_description>(soon, &services::node));
   registry.add(forward_within<hello_query, node_hello>(soon, &services::node));
   registry.add(inspect_actors);
+  registry.add(tell_cost);
+  registry.add(
+      forward_within<reach_opening, reach_opened>(soon, &services::prober));
+  registry.add(
+      forward_within<reach_query, reach_report>(soon, &services::prober));
+  registry.add(examine_host);
 }
 
 void add_primary_requests(request_registry& registry) {

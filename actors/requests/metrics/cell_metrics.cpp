@@ -43,17 +43,35 @@ void write_resources(const std::vector<resource_line>& lines, exposition& to) {
     to.sample({{"node", x.node}, {"resource", x.resource}}, x.used);
 }
 
+exposition::labels labels_of(const instance_row& x) {
+  return {{"instance_id", x.spec.instance},
+          {"task", x.spec.task},
+          {"step", x.spec.step},
+          {"node", x.node}};
+}
+
 /// One gauge of all instances; a negative value is not known.
 template <class Value>
 void write_each(const std::vector<instance_row>& rows, exposition& to,
                 Value&& value_of) {
   for (const auto& x : rows)
     if (const double value = value_of(x); value >= 0)
-      to.sample({{"instance_id", x.spec.instance},
-                 {"task", x.spec.task},
-                 {"step", x.spec.step},
-                 {"node", x.node}},
-                value);
+      to.sample(labels_of(x), value);
+}
+
+void write_latencies(const std::vector<instance_row>& rows, exposition& to) {
+  std::vector<double> bounds_s;
+  for (const auto bound_ms : latency_bounds_ms)
+    bounds_s.push_back(bound_ms / ms_in_s);
+  to.histogram("roscell_instance_latency_seconds",
+               "Time in which its skill processes a frame.");
+  for (const auto& x : rows) {
+    const auto& counts = x.figures.latency_counts;
+    const auto sum_ms = x.figures.latency_sum_ms;
+    if (counts.size() == bounds_s.size() + 1 && sum_ms >= 0)
+      to.buckets(labels_of(x), bounds_s, {counts.begin(), counts.end()},
+                 sum_ms / ms_in_s);
+  }
 }
 
 } // namespace
@@ -129,6 +147,7 @@ void write_instances(const std::vector<instance_row>& instances,
            "Median time in which its skill processes a frame.");
   write_each(instances, to,
              [](const auto& x) { return x.figures.latency_ms / ms_in_s; });
+  write_latencies(instances, to);
   to.gauge(
       "roscell_instance_median_age_seconds",
       "Median time from a frame's stamp to the output of what came of it.");

@@ -17,6 +17,19 @@ std::string number(double value) {
   return {text.data(), end.ptr};
 }
 
+/// A bucket's bound. A label is text, so that all who expose a number have to
+/// write it alike; OpenMetrics wants the point in whole ones, too.
+std::string bound_text(double bound, exposition_format format) {
+  std::array<char, 32> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), bound,
+                                 std::chars_format::general);
+  std::string result{text.data(), end.ptr};
+  if (format == exposition_format::open_metrics
+      && result.find_first_of(".e") == std::string::npos)
+    result += ".0";
+  return result;
+}
+
 void append_escaped(std::string& to, std::string_view value) {
   for (const char c : value) {
     if (c == '\\' || c == '"')
@@ -63,6 +76,11 @@ void exposition::counter(std::string_view name, std::string_view help) {
   begin(name, help, "counter");
 }
 
+void exposition::histogram(std::string_view name, std::string_view help) {
+  ending_ = "";
+  begin(name, help, "histogram");
+}
+
 void exposition::sample(const labels& of, double value) {
   line(ending_, of, value);
 }
@@ -81,43 +99,38 @@ void exposition::line(std::string_view ending, const labels& of, double value) {
   text_.append(number(value)).append("\n");
 }
 
-void exposition::write(metric which, const metric_book& book) {
-  const auto& family = metric_families()[static_cast<size_t>(which)];
-  if (family.buckets.empty()) {
-    counter(family.name, family.help);
-  } else {
-    ending_ = "";
-    begin(family.name, family.help, "histogram");
-  }
-  for (const auto& x : book.samples(which)) {
-    if (!family.buckets.empty()) {
-      histogram(family, x);
-      continue;
-    }
-    labels of;
-    for (size_t i = 0; i < x.labels.size(); ++i)
-      of.emplace_back(family.labels[i], x.labels[i]);
-    sample(of, x.sum);
-  }
-}
-
-/// The count of a bucket includes those of the smaller ones.
-void exposition::histogram(const metric_family& family,
-                           const metric_sample& sample) {
-  labels of;
-  for (size_t i = 0; i < sample.labels.size(); ++i)
-    of.emplace_back(family.labels[i], sample.labels[i]);
+/// The count that is written for a bucket includes those of the smaller ones.
+void exposition::buckets(const labels& of, const std::vector<double>& bounds,
+                         const std::vector<uint64_t>& counts, double sum) {
   uint64_t count = 0;
-  for (size_t i = 0; i < sample.counts.size(); ++i) {
-    count += sample.counts[i];
-    const auto bound = i < family.buckets.size() ? number(family.buckets[i])
-                                                 : std::string{"+Inf"};
+  for (size_t i = 0; i < counts.size(); ++i) {
+    count += counts[i];
+    const auto bound = i < bounds.size() ? bound_text(bounds[i], format_)
+                                         : std::string{"+Inf"};
     auto with_bound = of;
     with_bound.emplace_back("le", bound);
     line("_bucket", with_bound, static_cast<double>(count));
   }
   line("_count", of, static_cast<double>(count));
-  line("_sum", of, sample.sum);
+  line("_sum", of, sum);
+}
+
+void exposition::write(metric which, const metric_book& book) {
+  const auto& family = metric_families()[static_cast<size_t>(which)];
+  const bool is_counter = family.buckets.empty();
+  if (is_counter)
+    counter(family.name, family.help);
+  else
+    histogram(family.name, family.help);
+  for (const auto& x : book.samples(which)) {
+    labels of;
+    for (size_t i = 0; i < x.labels.size(); ++i)
+      of.emplace_back(family.labels[i], x.labels[i]);
+    if (is_counter)
+      sample(of, x.sum);
+    else
+      buckets(of, family.buckets, x.counts, x.sum);
+  }
 }
 
 std::string exposition::finish() {

@@ -29,9 +29,16 @@ public:
   /// Begins a family. A counter's name has no ending.
   void gauge(std::string_view name, std::string_view help);
   void counter(std::string_view name, std::string_view help);
+  void histogram(std::string_view name, std::string_view help);
 
-  /// One sample of the family that was begun last.
+  /// One sample of the gauge or counter that was begun last.
   void sample(const labels& of, double value);
+
+  /// All samples of one set of labels of the histogram that was begun last.
+  /// `counts` has one number more than `bounds`, of what lies beyond, and none
+  /// includes another.
+  void buckets(const labels& of, const std::vector<double>& bounds,
+               const std::vector<uint64_t>& counts, double sum);
 
   /// All of what a book has of a family.
   void write(metric which, const metric_book& book);
@@ -42,7 +49,6 @@ public:
 private:
   void begin(std::string_view name, std::string_view help, const char* type);
   void line(std::string_view ending, const labels& of, double value);
-  void histogram(const metric_family& family, const metric_sample& sample);
 
   exposition_format format_;
   std::string name_;        ///< Of the family that was begun.

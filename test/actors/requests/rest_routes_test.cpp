@@ -76,6 +76,14 @@ TEST_CASE("An actor is looked into by name or id", "[rest_routes]") {
   CHECK(refused(get("/v1/actors")) == error_code::unknown_type);
 }
 
+TEST_CASE("What a node costs is asked of it, or of its whole cell",
+          "[rest_routes]") {
+  CHECK(asked(get("/v1/cost"))
+        == json{{"type", "cost_query"}, {"cell", false}});
+  CHECK(asked(get("/v1/cost", {{"cell", "true"}}))
+        == json{{"type", "cost_query"}, {"cell", true}});
+}
+
 TEST_CASE("The node's actors are listed when asked for", "[rest_routes]") {
   CHECK(asked(get("/v1/node")).at("actors") == false);
   CHECK(asked(get("/v1/node", {{"actors", "1"}})).at("actors") == true);

@@ -1,15 +1,13 @@
+#include "tools/roscell/commands/show.hpp"
+
 #include "actors/edge/http/http_target.hpp"
-#include "tools/roscell/client/node_client.hpp"
-#include "tools/roscell/commands.hpp"
 #include "tools/roscell/commands/watch.hpp"
 #include "tools/roscell/common_options.hpp"
 #include "tools/roscell/exit_code.hpp"
 #include "tools/roscell/ros2/topics_view.hpp"
 #include "tools/roscell/tasks/history.hpp"
 #include "tools/roscell/view/formation_view.hpp"
-#include "tools/roscell/view/shape/shape.hpp"
 #include "tools/roscell/view/terminal.hpp"
-#include "tools/roscell/view/views.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -96,58 +94,14 @@ const subject subjects[] = {
      view_of<skill_list, skills_view>},
 };
 
-struct show_options {
-  connection_options connection;
-  std::string output = "table";
-  std::string argument;
-  table_options tables;
-  bool watch = false;
-  bool actors = false;
-  bool history = false;
-
-  bool as_json() const {
-    return output == "json" || output == "jsonl";
-  }
-
-  std::string json_text(const json& things) const {
-    if (output == "json")
-      return pretty(things);
-    std::string lines;
-    for (const auto& x : things)
-      lines += compact(x);
-    return lines;
-  }
-
-  /// How a table looks now.
-  view_style style() const {
-    auto result = view_style_now();
-    result.text.tables = tables;
-    result.text.tables.wide = output == "wide";
-    return result;
-  }
-};
-
-using options_ptr = std::shared_ptr<show_options>;
-
-/// Shows what `fetch` gets, once or at every change; programs get the things in
-/// these parts of it.
-int show(const show_options& options, const node_client& node,
-         const std::function<json()>& fetch,
-         const std::function<std::string(const json&)>& view,
-         const reply_parts& parts) {
-  const auto fetch_things = [&] { return shaped_list(fetch(), parts); };
-  try {
-    if (options.watch && options.as_json())
-      return watch(node, true, fetch_things, view);
-    if (options.watch)
-      return watch(node, false, fetch, view);
-    print(options.as_json() ? options.json_text(fetch_things())
-                            : view(fetch()));
-    return exit_done;
-  } catch (refused& e) {
-    e.as_json = options.as_json();
-    throw;
-  }
+/// The things as a program gets them: one document, or one in each line.
+std::string json_text(const show_options& options, const json& things) {
+  if (options.output == "json")
+    return pretty(things);
+  std::string lines;
+  for (const auto& x : things)
+    lines += compact(x);
+  return lines;
 }
 
 /// A task as it is asked for by name: with what its instances say now, which
@@ -189,20 +143,6 @@ int show_subject(const subject& what, const show_options& options) {
       what.parts);
 }
 
-int show_status(const show_options& options) {
-  const node_client node{options.connection};
-  const auto view = [&](const json& reply) {
-    const auto style = options.style();
-    const auto description = reply.get<node_description>();
-    auto text = node_view(description, style);
-    if (description.role == node_role::coordinator)
-      text += cell_summary(node.get("/v1/cell").get<cell_description>(), style);
-    return text;
-  };
-  const auto* path = options.actors ? "/v1/node?actors=1" : "/v1/node";
-  return show(options, node, [&] { return node.get(path); }, view, {});
-}
-
 int show_transfers(const show_options& options) {
   const node_client node{options.connection};
   const auto query = message_json(transfer_query{options.argument});
@@ -213,18 +153,6 @@ int show_transfers(const show_options& options) {
                               options.style());
       },
       {"transfers"});
-}
-
-CLI::App* add_show_command(CLI::App& app, const char* name,
-                           const char* description, const char* footer,
-                           const options_ptr& options) {
-  auto* command = app.add_subcommand(name, description);
-  command->footer(footer);
-  add_connection_options(*command, options->connection);
-  command->add_flag("-w,--watch", options->watch,
-                    "Show it again whenever something happens; with -o json "
-                    "one document per change and line. Ctrl-C ends");
-  return command;
 }
 
 void add_transfers_command(CLI::App& app, action& chosen) {
@@ -245,19 +173,46 @@ void add_transfers_command(CLI::App& app, action& chosen) {
 
 } // namespace
 
+view_style show_options::style() const {
+  auto result = view_style_now();
+  result.text.tables = tables;
+  result.text.tables.wide = output == "wide";
+  return result;
+}
+
+int show(const show_options& options, const node_client& node,
+         const std::function<json()>& fetch,
+         const std::function<std::string(const json&)>& view,
+         const reply_parts& parts) {
+  const auto fetch_things = [&] { return shaped_list(fetch(), parts); };
+  try {
+    if (options.watch && options.as_json())
+      return watch(node, true, fetch_things, view);
+    if (options.watch)
+      return watch(node, false, fetch, view);
+    print(options.as_json() ? json_text(options, fetch_things())
+                            : view(fetch()));
+    return exit_done;
+  } catch (refused& e) {
+    e.as_json = options.as_json();
+    throw;
+  }
+}
+
+CLI::App* add_show_command(CLI::App& app, const char* name,
+                           const char* description, const char* footer,
+                           const options_ptr& options) {
+  auto* command = app.add_subcommand(name, description);
+  command->footer(footer);
+  add_connection_options(*command, options->connection);
+  command->add_flag("-w,--watch", options->watch,
+                    "Show it again whenever something happens; with -o json "
+                    "one document per change and line. Ctrl-C ends");
+  return command;
+}
+
 void add_show_commands(CLI::App& app, action& chosen) {
-  auto status_options = std::make_shared<show_options>();
-  auto* status = add_show_command(
-      app, "status", "Show one node: its cell, resources and instances.",
-      "Examples:\n  roscell status\n  roscell status --watch\n"
-      "  roscell status --actors --to 192.168.1.10",
-      status_options);
-  add_output_option(*status, status_options->output);
-  status->add_flag("--actors", status_options->actors,
-                   "Also list the node's actors with their counters");
-  status->callback([&chosen, status_options] {
-    chosen = [status_options] { return show_status(*status_options); };
-  });
+  add_status_command(app, chosen);
   for (const auto& what : subjects) {
     auto options = std::make_shared<show_options>();
     auto* command = add_show_command(app, what.name, what.description,

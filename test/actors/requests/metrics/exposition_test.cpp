@@ -50,6 +50,56 @@ TEST_CASE("a histogram's buckets include the smaller ones", "[metrics]") {
   CHECK(has(whole, "roscell_allocation_states_count 4\n"));
 }
 
+TEST_CASE("a bound is written as all who expose one write it", "[metrics]") {
+  const std::vector<double> bounds{0.0001, 0.5, 1, 100'000, 1'000'000};
+  const auto written = [&](exposition_format format) {
+    exposition text{format};
+    text.histogram("roscell_x_seconds", "Times.");
+    text.buckets({{"a", "b"}}, bounds, {1, 1, 1, 1, 1, 1}, 2.5);
+    return text.finish();
+  };
+  const auto older = written(exposition_format::text);
+  CHECK(has(older, "# TYPE roscell_x_seconds histogram\n"));
+  for (const auto* bound : {"0.0001", "0.5", "1", "100000", "1e+06", "+Inf"})
+    CHECK(has(older, ",le=\"" + std::string{bound} + "\"} "));
+  CHECK(has(older, "roscell_x_seconds_sum{a=\"b\"} 2.5\n"));
+  const auto open = written(exposition_format::open_metrics);
+  for (const auto* bound :
+       {"0.0001", "0.5", "1.0", "100000.0", "1e+06", "+Inf"})
+    CHECK(has(open, ",le=\"" + std::string{bound} + "\"} "));
+}
+
+TEST_CASE("an instance's times are a histogram in seconds", "[metrics]") {
+  instance_row row;
+  row.spec.instance = "t-a-1";
+  row.spec.task = "t";
+  row.spec.step = "a";
+  row.node = "arm";
+  row.figures.latency_counts = {1, 2, 0, 4, 0, 0, 3, 0, 0, 1, 1};
+  row.figures.latency_sum_ms = 2500;
+  auto silent = row;
+  silent.spec.instance = "t-a-2";
+  silent.figures = {};
+  auto half = row;
+  half.spec.instance = "t-a-3";
+  half.figures.latency_sum_ms = -1;
+  exposition text{exposition_format::text};
+  write_instances({row, silent, half}, text);
+  const auto whole = text.finish();
+  const std::string family = "roscell_instance_latency_seconds";
+  const std::string of = R"({instance_id="t-a-1",task="t",step="a",node="arm")";
+  CHECK(has(whole, "# TYPE " + family + " histogram\n"));
+  for (const auto* end :
+       {R"(0.001"} 1)", R"(0.002"} 3)", R"(0.005"} 3)", R"(0.01"} 7)",
+        R"(0.02"} 7)", R"(0.05"} 7)", R"(0.1"} 10)", R"(0.2"} 10)",
+        R"(0.5"} 10)", R"(1"} 11)", R"(+Inf"} 12)"})
+    CHECK(has(whole, family + "_bucket" + of + ",le=\"" + end + "\n"));
+  CHECK(has(whole, family + "_count" + of + "} 12\n"));
+  CHECK(has(whole, family + "_sum" + of + "} 2.5\n"));
+  for (const auto* other : {"t-a-2", "t-a-3"})
+    CHECK_FALSE(has(whole, family + "_count{instance_id=\"" + other));
+}
+
 TEST_CASE("what nobody knows of an instance is left out", "[metrics]") {
   instance_row row;
   row.spec.instance = "t-a-1";
