@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <string>
+#include <vector>
 
 namespace roscell {
 
@@ -31,12 +32,33 @@ double milliseconds_of(int64_t us) {
   return std::min(static_cast<double>(us) / 1000, most_figure);
 }
 
+/// One count for each bucket of times; none for any other text.
+std::vector<int64_t> counts_in(std::string_view text) {
+  constexpr size_t buckets = latency_bounds_ms.size() + 1;
+  std::vector<int64_t> result;
+  while (result.size() < buckets) {
+    const auto end = std::min(text.find(','), text.size());
+    const auto count = whole_number(text.substr(0, end));
+    const bool is_last = result.size() + 1 == buckets;
+    if (!count || is_last != (end == text.size()))
+      return {};
+    result.push_back(*count);
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return result;
+}
+
 void take_word(std::string_view word, instance_figures& to) {
   const auto equals = word.find('=');
   if (equals == std::string_view::npos)
     return;
   const auto name = word.substr(0, equals);
-  const auto value = whole_number(word.substr(equals + 1));
+  const auto text = word.substr(equals + 1);
+  if (name == "times") {
+    to.latency_counts = counts_in(text);
+    return;
+  }
+  const auto value = whole_number(text);
   if (!value)
     return;
   if (name == "frames")
@@ -45,6 +67,8 @@ void take_word(std::string_view word, instance_figures& to) {
     to.dropped = *value;
   else if (name == "median_us")
     to.latency_ms = milliseconds_of(*value);
+  else if (name == "times_us")
+    to.latency_sum_ms = static_cast<double>(*value) / 1000;
   else if (name == "age_us")
     to.age_ms = milliseconds_of(*value);
 }
@@ -61,6 +85,11 @@ instance_figures figures_in(std::string_view status) {
   // A median of no frames is none.
   if (result.frames == 0)
     result.latency_ms = -1;
+  // Counts without their sum are no histogram, nor is a sum alone.
+  if (result.latency_counts.empty() || result.latency_sum_ms < 0) {
+    result.latency_counts.clear();
+    result.latency_sum_ms = -1;
+  }
   return result;
 }
 

@@ -2,6 +2,7 @@
 
 #include "actors/house/limits.hpp"
 #include "roscell/skill/errors.hpp"
+#include "skills/engine/life/frame_words.hpp"
 #include "skills/engine/life/heartbeat.hpp"
 
 #include <caf/exit_reason.hpp>
@@ -59,18 +60,6 @@ void begin(self_pointer self) {
   make_skill(self);
 }
 
-std::string status_of(const skill_keeper_state& st) {
-  const auto us = [&](double q) {
-    using namespace std::chrono;
-    return std::to_string(
-        duration_cast<microseconds>(st.times->quantile(q)).count());
-  };
-  return "frames=" + std::to_string(st.times->count())
-         + " dropped=" + std::to_string(st.config.side->inbox().dropped())
-         + " failed=" + std::to_string(st.failed) + " median_us=" + us(0.5)
-         + " p99_us=" + us(0.99);
-}
-
 void expect_life(self_pointer self) {
   self->state.timer.set(self, self->clock().now()
                                   + limits::instance::told_watchdog / 2);
@@ -86,7 +75,9 @@ void ask_life(self_pointer self) {
             instance_notified fact;
             fact.instance = self->state.config.instance;
             fact.alive = true;
-            fact.status = status_of(self->state);
+            fact.status = engine::frame_words(
+                *self->state.times, self->state.config.side->inbox().dropped(),
+                self->state.failed);
             self->state.config.reports.notified(fact);
             expect_life(self);
           },

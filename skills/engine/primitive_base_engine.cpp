@@ -1,5 +1,7 @@
 #include "skills/engine/primitive_base_engine.hpp"
 
+#include "skills/engine/life/frame_words.hpp"
+
 #include <chrono>
 #include <cstring>
 #include <utility>
@@ -92,18 +94,13 @@ void primitive_base_engine::request_stop() {
 }
 
 std::string primitive_base_engine::status() const {
-  auto us = [](const processing_times& times, double q) {
-    using namespace std::chrono;
-    return std::to_string(
-        duration_cast<microseconds>(times.quantile(q)).count());
-  };
-  const auto age = outputs_.ages().count() > 0
-                       ? " age_us=" + us(outputs_.ages(), 0.5)
-                       : std::string{};
-  return "frames=" + std::to_string(times_.count())
-         + " dropped=" + std::to_string(queue_.dropped()) + " failed="
-         + std::to_string(failed_.load()) + " median_us=" + us(times_, 0.5)
-         + " p99_us=" + us(times_, 0.99) + age;
+  using namespace std::chrono;
+  auto result = frame_words(times_, queue_.dropped(), failed_.load());
+  if (const auto& ages = outputs_.ages(); ages.count() > 0) {
+    const auto median = duration_cast<microseconds>(ages.quantile(0.5));
+    result += " age_us=" + std::to_string(median.count());
+  }
+  return result;
 }
 
 void primitive_base_engine::make_parts() {

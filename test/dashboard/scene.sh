@@ -40,18 +40,18 @@ for number, line in enumerate(tail.stdout, 1):
     say(f'STATUS=frames={number} dropped=0 median_us=100')
 PROGRAM
   chmod +x "$skills/talk/bin/talk"
-  jq -n '{operation: "talk", engine: "primitive", entry_point: ["bin/talk"],
-    input: {data_types: ["text/plain"], protocols: ["file"]},
-    output: {data_types: ["text/plain"], protocols: ["file"]},
-    models: [{name: "plain", parameters: {
+  jq -n '
+    def model($name; $memory_mib): {name: $name, parameters: {
         greeting: {type: "string", default: "hello", description: "Said at the start."},
         loud: {type: "boolean", default: false, description: "In capital letters."},
         patience_s: {type: "number", default: 1, minimum: 0, maximum: 60, unit: "s",
                      description: "Has no effect."}},
-      deployments: [{name: "small", base_image: "debian:bookworm-slim", architectures: ["amd64", "arm64"],
-        resources: {cpu: 0, memory_mib: 8, disk_mib: 1}}]}, {name: "large",
-      deployments: [{name: "huge", base_image: "debian:bookworm-slim", architectures: ["amd64", "arm64"],
-        resources: {cpu: 0, memory_mib: 500000, disk_mib: 1}}]}]}' \
+      deployments: [{name: "only", base_image: "debian:bookworm-slim", architectures: ["amd64", "arm64"],
+        resources: {cpu: 0, memory_mib: $memory_mib, disk_mib: 1}}]};
+    {operation: "talk", engine: "primitive", entry_point: ["bin/talk"],
+    input: {data_types: ["text/plain"], protocols: ["file"]},
+    output: {data_types: ["text/plain"], protocols: ["file"]},
+    models: [model("plain"; 8), model("wide"; 1500), model("large"; 500000)]}' \
     > "$skills/talk/skill.json"
 }
 

@@ -1,9 +1,12 @@
+#include "messages/instance.hpp"
 #include "skills/engine/file/line_splitter.hpp"
+#include "skills/engine/life/frame_words.hpp"
 #include "skills/engine/life/liveness.hpp"
 #include "skills/engine/life/processing_times.hpp"
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <chrono>
 
 using namespace roscell::engine;
@@ -46,6 +49,38 @@ TEST_CASE("a rare slow call shows in the percentile, not in the median") {
   times.add(1s);
   CHECK(times.quantile(0.5) < 11us);
   CHECK(times.quantile(0.99) > 900ms);
+}
+
+TEST_CASE("a skill counts its frames by the bounds that a node knows") {
+  const auto& own = processing_times::bounds_ms;
+  CHECK(std::equal(own.begin(), own.end(), roscell::latency_bounds_ms.begin(),
+                   roscell::latency_bounds_ms.end(), [](auto a, double b) {
+                     return static_cast<double>(a) == b;
+                   }));
+}
+
+TEST_CASE("a time that is as long as a bound lies within it") {
+  processing_times times;
+  for (const auto time : {0us, 1000us, 1001us, 2000us, 1'000'000us})
+    times.add(time);
+  times.add(1s + 1ns);
+  const auto all = times.tallied();
+  CHECK(all.count == 6);
+  CHECK(all.sum_ns == 2'004'001'001);
+  CHECK(all.counts == decltype(all.counts){2, 2, 0, 0, 0, 0, 0, 0, 0, 1, 1});
+}
+
+TEST_CASE("what a status says of frames is one line of figures") {
+  processing_times times;
+  CHECK(frame_words(times, 0, 0)
+        == "frames=0 dropped=0 failed=0 median_us=0 p99_us=0 times_us=0 "
+           "times=0,0,0,0,0,0,0,0,0,0,0");
+  times.add(15ns);
+  times.add(3ms);
+  const auto words = frame_words(times, 7, 1);
+  CHECK(words.find("frames=2 dropped=7 failed=1 median_us=0 p99_us=") == 0);
+  CHECK(words.find(" times_us=3000 times=1,0,1,0,0,0,0,0,0,0,0")
+        != std::string::npos);
 }
 
 TEST_CASE("a skill that waits for frames is alive") {

@@ -169,6 +169,7 @@ TEST_CASE_METHOD(fixture,
   CHECK(log.text == "open 1 2 3 release close");
   CHECK(log.said.empty());
   CHECK_THAT(status, Contains("frames=3 dropped=0 failed=0 median_us="));
+  CHECK_THAT(status, Contains(" times_us="));
 }
 
 TEST_CASE_METHOD(fixture,

@@ -37,6 +37,19 @@ cell_description make_cell(const bench_options& options) {
   return result;
 }
 
+instance_figures make_figures() {
+  instance_figures result;
+  result.frames = 100'000;
+  result.rate_hz = 30;
+  result.dropped = 12;
+  result.latency_ms = 4.5;
+  result.latency_counts = {900, 8000, 60'000, 25'000, 5000, 900,
+                           100, 50,   30,     15,     5};
+  result.latency_sum_ms = 512'345.5;
+  result.age_ms = 33;
+  return result;
+}
+
 std::vector<instance_row> make_instances(const bench_options& options) {
   std::vector<instance_row> result;
   for (int i = 0; i < options.instances; ++i) {
@@ -46,7 +59,7 @@ std::vector<instance_row> make_instances(const bench_options& options) {
     row.spec.instance = row.spec.task + "-" + row.spec.step + "-0123abcd";
     row.node = "node-" + std::to_string(i % options.nodes);
     row.state = instance_state::running;
-    row.figures = {100000, 30.0, 12, 4.5, 33.0};
+    row.figures = make_figures();
     result.push_back(row);
   }
   return result;

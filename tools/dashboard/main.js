@@ -47,7 +47,8 @@ async function onOpen(again) {
   doubtful.filter((x) => x.event === 'task_terminated').forEach((x) => store.ended.add(x.subject));
   doubtful.forEach((x) => applyEvent(store, x, questions.ask));
   figures.lookSoon();
-  document.documentElement.dataset.ready = 'yes';
+  // The rooms show it with the next frame.
+  requestAnimationFrame(() => { document.documentElement.dataset.ready = 'yes'; });
 }
 
 function onEvents(events) {

@@ -4,6 +4,9 @@
 
 #include <catch2/catch.hpp>
 
+#include <string>
+#include <vector>
+
 namespace roscell::test {
 
 using namespace std::chrono_literals;
@@ -25,6 +28,32 @@ TEST_CASE("What is no figure of a status is passed over", "[status_figures]") {
         "frames=9007199254740992", "xframes=3"})
     CHECK(figures_in(text) == instance_figures{});
   CHECK(figures_in("waiting  frames=7").frames == 7);
+}
+
+TEST_CASE("How many frames took how long is found in a status",
+          "[status_figures]") {
+  const auto x = figures_in(
+      "frames=12 times_us=250500 times=1,2,0,4,0,0,3,0,0,1,1 age_us=9");
+  CHECK(x.latency_counts
+        == std::vector<int64_t>{1, 2, 0, 4, 0, 0, 3, 0, 0, 1, 1});
+  CHECK(x.latency_sum_ms == Approx(250.5));
+  CHECK(x.age_ms == Approx(0.009));
+}
+
+TEST_CASE("Times that are no histogram are passed over", "[status_figures]") {
+  const std::string ten = "1,2,3,4,5,6,7,8,9,10";
+  for (const auto& times : std::vector<std::string>{
+           std::string{}, std::string{"1"}, std::string(10, ','),
+           std::string(100'000, ','), ten, ten + ",", ten + ",11,",
+           ten + ",11,12", "," + ten, ten + ",-1", ten + ",1.5", ten + ",x",
+           ten + ",+1", ten + ",9007199254740992", "1,,2,3,4,5,6,7,8,9,10"}) {
+    INFO(times.substr(0, 60));
+    CHECK(figures_in("times_us=5 times=" + times) == instance_figures{});
+  }
+  const auto eleven = ten + ",11";
+  CHECK(figures_in("times=" + eleven) == instance_figures{});
+  CHECK(figures_in("times_us=x times=" + eleven) == instance_figures{});
+  CHECK(figures_in("times_us=5 times=" + eleven).latency_counts.size() == 11);
 }
 
 TEST_CASE("A median of no frames is none", "[status_figures]") {
@@ -57,10 +86,16 @@ TEST_CASE("A word that follows at once makes no rate of its own",
 TEST_CASE("Figures stay within what a message may hold", "[status_figures]") {
   figures_book book;
   book.hear("frames=0", time_zero);
-  book.hear("frames=9007199254740991 median_us=9007199254740991",
-            time_zero + 1s);
+  const std::string most = "9007199254740991";
+  auto times = " times_us=" + most + " times=" + most;
+  for (int i = 0; i < 10; ++i)
+    times += "," + most;
+  book.hear("frames=" + most + " median_us=" + most + times, time_zero + 1s);
   CHECK(book.known().rate_hz == 1e9);
   CHECK(book.known().latency_ms == 1e9);
+  CHECK(book.known().latency_counts
+        == std::vector<int64_t>(11, 9'007'199'254'740'991));
+  CHECK(book.known().latency_sum_ms == Approx(9'007'199'254'740.991));
 }
 
 TEST_CASE("A program that begins anew has no rate at first",

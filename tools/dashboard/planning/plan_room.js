@@ -8,6 +8,7 @@ import { count } from '../page/words.js';
 import { refusalView } from '../requests/refusal_view.js';
 import { Sender } from '../requests/sender.js';
 import { keepDraft, keptDraft } from './drafts.js';
+import { preemptedList } from './plan_tables.js';
 import { planView } from './plan_view.js';
 import { emptyTask, planQuery } from './task_document.js';
 import { TaskForm } from './task_form.js';
@@ -79,6 +80,7 @@ export class PlanRoom {
   started(reply) {
     return el('div', {}, el('p', { class: 'state good', role: 'status' }, shape('good'), el('span', {},
       el('b', {}, `Task ${reply.task} runs`), ` with ${count(reply.instances.length, 'instance')}. `, el('a', { href: address('tasks', reply.task) }, 'Look at it'))),
+    reply.preempted?.length ? [el('h3', {}, 'What has made way for it'), preemptedList(reply.preempted)] : null,
     (reply.warnings ?? []).map((x) => el('p', { class: 'state warn' }, shape('warn'), x)),
     (reply.refused ?? []).map((x) => el('p', { class: 'state warn' }, shape('warn'), `${x.step} not on ${x.node}: ${x.reason}`)));
   }

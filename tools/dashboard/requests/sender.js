@@ -56,6 +56,8 @@ function summary(reply) {
     return `${reply.waiting.length} instances are waited for until they are safe`;
   if (reply.type === 'node_drained')
     return reply.left.length ? `${reply.left.length} instances are still there. ${reply.trouble ?? ''}` : 'it is empty';
+  if (reply.type === 'cell_rebalanced')
+    return reply.moves.map((x) => `${x.task} / ${x.step} from ${x.from} to ${x.to}: ${spoken(x.state ?? 'planned')}`).join(', ') || 'no move is worth it';
   if (reply.type === 'cell_formed')
     return reply.outcomes.map((x) => `${x.node}: ${spoken(x.result)}${x.message ? ` (${x.message})` : ''}`).join(', ');
   return '';
