@@ -112,7 +112,7 @@ void begin_try(const reach_try& x, reach_way way) {
 
 /// Where a goal is reached by a way; none where it cannot be.
 std::optional<socket_address> place_of(const reach_goal& goal, reach_way way) {
-  const auto at = parse_socket_address(goal.address);
+  auto at = parse_socket_address(goal.address);
   if (way == reach_way::discovery)
     return parse_socket_address(goal.discovery_server);
   if (!at || way == reach_way::session || way == reach_way::beat)

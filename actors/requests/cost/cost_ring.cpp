@@ -85,6 +85,7 @@ size_t cost_ring::place_of(const std::string& peer) {
 std::vector<peer_traffic>
 cost_ring::by_place(const std::vector<peer_traffic>& told) {
   std::vector<size_t> places;
+  places.reserve(told.size());
   for (const auto& x : told)
     places.push_back(place_of(x.peer));
   std::vector<peer_traffic> result;

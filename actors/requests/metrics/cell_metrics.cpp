@@ -61,6 +61,7 @@ void write_each(const std::vector<instance_row>& rows, exposition& to,
 
 void write_latencies(const std::vector<instance_row>& rows, exposition& to) {
   std::vector<double> bounds_s;
+  bounds_s.reserve(latency_bounds_ms.size());
   for (const auto bound_ms : latency_bounds_ms)
     bounds_s.push_back(bound_ms / ms_in_s);
   to.histogram("roscell_instance_latency_seconds",

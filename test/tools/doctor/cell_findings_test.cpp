@@ -147,3 +147,14 @@ TEST_CASE("what other hosts have found is told in numbers, and what is wrong "
   CHECK_THAT(text, Contains("leg: mtu: eth0 has an MTU of 1280"));
   CHECK_THAT(text, !Contains("NETWORK"));
 }
+
+TEST_CASE("a command of many files is had from the doctor again", "[doctor]") {
+  finding many{judgement::warning, "900 files", "room", "rm -f "};
+  many.check = "leftovers";
+  many.area = "host";
+  for (int i = 0; i < 900; ++i)
+    many.remedy += "/dev/shm/x" + std::to_string(i) + " ";
+  const auto text = findings_view({many}, {}, false);
+  CHECK_THAT(text, Contains("roscell doctor -o json --only leftovers | jq"));
+  CHECK(text.size() < 1000);
+}

@@ -47,6 +47,15 @@ std::string area_view(const std::string& area, const findings& all,
   return t.render(style);
 }
 
+/// A command of many files fills screens: it is had from the doctor again.
+std::string remedy_of(const finding& x) {
+  constexpr size_t longest_remedy = 400;
+  if (x.remedy.size() <= longest_remedy)
+    return printable(x.remedy);
+  return "roscell doctor -o json --only " + printable(x.check)
+         + " | jq -r '.[].remedy // empty' | sh";
+}
+
 /// What is to be done, in lines that are not cut, so that they can be pasted.
 std::string advice(const finding& x, const text_style& style, bool signs) {
   const auto mark = mark_of(x.how, signs);
@@ -57,7 +66,7 @@ std::string advice(const finding& x, const text_style& style, bool signs) {
   if (!x.matters.empty())
     text += "    " + printable(x.matters) + "\n";
   if (!x.remedy.empty())
-    text += "    $ " + printable(x.remedy) + "\n";
+    text += "    $ " + remedy_of(x) + "\n";
   return text;
 }
 
