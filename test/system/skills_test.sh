@@ -149,6 +149,41 @@ test_a_camera_may_send_its_pictures_compressed() {
   run_bent_scene
 }
 
+# camera_task PARAMETERS: a camera that shows photos without a calibration file.
+camera_task() {
+  jq -n --arg photos "$PWD/test/data/apriltag_photos" --argjson how "$1" '
+    def ros2($topic; $type):
+      {protocol: "ros2", endpoint: "/cam/\($topic)",
+       data_type: "sensor_msgs/msg/\($type)"};
+    {type: "task_request", task: "cam", pipeline: [
+      {id: "camera", operation: "image_source", model: "folder",
+       parameters: $how,
+       input: {protocol: "file", endpoint: $photos, data_type: "image/jpeg"},
+       output: [ros2("image"; "Image"), ros2("camera_info"; "CameraInfo")]}]}'
+}
+
+# camera_is VERDICT TEXT: what the doctor finds of it.
+camera_is() {
+  "$ROSCELL" doctor --only cameras -o json --to "$scratch/head/node.sock" \
+    --data-dir "$scratch/head" > "$scratch/found" 2>&1
+  expect "of the camera" "$(jq -r '.[] | .verdict + " " + .seen' \
+    "$scratch/found")" "$1 /cam/camera_info $2"
+}
+
+test_doctor_tells_of_a_camera_that_is_not_calibrated() {
+  rm -r "$skills"
+  use_skills image_source
+  start_node head --coordinator --interface lo
+  camera_task '{}' | to head request > "$scratch/reply.json" \
+    || fail "refused: $(cat "$scratch/reply.json")"
+  camera_is warning "is all zero: its camera is not calibrated"
+  to head stop cam > /dev/null
+  camera_task '{"fx": 600, "fy": 600, "cx": 320, "cy": 240}' \
+    | to head request > "$scratch/reply.json" \
+    || fail "refused: $(cat "$scratch/reply.json")"
+  camera_is ok "tells a calibration"
+}
+
 test_an_installed_node_finds_its_shim() {
   cmake --install "$ROSCELL_BUILD" --prefix "$scratch/usr" > "$scratch/out" 2>&1 \
     || fail "$(cat "$scratch/out")"

@@ -1,3 +1,4 @@
+#include "tools/roscell/doctor/node/camera_checks.hpp"
 #include "tools/roscell/doctor/node/node_checks.hpp"
 
 #include <catch2/catch.hpp>
@@ -77,4 +78,22 @@ TEST_CASE("instances that fail, starve or drop frames are told", "[doctor]") {
   CHECK(judge_instances({row})[0].how == judgement::warning);
   row.state = instance_state::failed;
   CHECK(judge_instances({row})[0].how == judgement::broken);
+}
+
+TEST_CASE("a camera that is not calibrated is broken for who reads it",
+          "[doctor]") {
+  const topic_end end{"camera", "reliable", "volatile"};
+  topic_row topic{
+      "/cam/camera_info", "sensor_msgs/msg/CameraInfo", {end}, {}, {}};
+  const std::vector<double> zero(9);
+  std::vector<double> some(9);
+  some[0] = 615.5;
+  CHECK(judge_camera(topic, some).how == judgement::ok);
+  CHECK(judge_camera(topic, std::nullopt).how == judgement::skipped);
+  CHECK(judge_camera(topic, zero).how == judgement::warning);
+  topic.readers.push_back(end);
+  const auto found = judge_camera(topic, zero);
+  CHECK(found.how == judgement::broken);
+  CHECK_THAT(found.seen, Contains("/cam/camera_info is all zero"));
+  CHECK_THAT(found.remedy, Contains("image:=/cam/image"));
 }

@@ -53,7 +53,10 @@ void add_topic_choice(CLI::App& command, topic_choice& choice) {
 }
 
 found_topic find_topic(const topic_choice& choice) {
-  const node_client node{choice.connection};
+  return find_topic(node_client{choice.connection}, choice.topic);
+}
+
+found_topic find_topic(const node_client& node, const std::string& topic) {
   const auto environment =
       node.get("/v1/node").get<node_description>().environment;
   if (environment.empty())
@@ -65,7 +68,7 @@ found_topic find_topic(const topic_choice& choice) {
     const auto i = environment.find(name);
     return i == environment.end() ? nullptr : i->second.c_str();
   };
-  auto row = row_of(node, choice.topic);
+  auto row = row_of(node, topic);
   const auto qos = qos_for(row);
   return {std::move(row),
           ros2::read_participant_config(lookup, engine::parameters{}), qos};

@@ -33,6 +33,7 @@ struct found_topic {
 /// Throws command_error when the node is in no cell, or nobody writes the
 /// topic.
 found_topic find_topic(const topic_choice& choice);
+found_topic find_topic(const node_client& node, const std::string& topic);
 
 /// Runs what listens to a topic; what DDS refuses is a command_error.
 int listen(const std::function<int()>& command);

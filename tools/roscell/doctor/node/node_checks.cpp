@@ -2,6 +2,7 @@
 
 #include "messages/failure.hpp"
 #include "tools/roscell/doctor/host/programs.hpp"
+#include "tools/roscell/doctor/node/camera_checks.hpp"
 #include "tools/roscell/view/format.hpp"
 
 #include <set>
@@ -113,6 +114,10 @@ std::vector<check> node_checks(std::shared_ptr<const node_client> node) {
         {x.name, "node", x.about, [node, &x](const examined_host& /*host*/) {
            return ask_and_judge(*node, x);
          }});
+  result.push_back({"cameras", "node", "cameras tell how they are calibrated",
+                    [node](const examined_host& /*host*/) {
+                      return examine_cameras(*node);
+                    }});
   return result;
 }
 
