@@ -10,7 +10,7 @@
 #include "actors/cell/tasks/cell_instances.hpp"
 #include "actors/cell/tasks/task_removals.hpp"
 #include "actors/house/limits.hpp"
-#include "actors/session/member.hpp"
+#include "actors/session/member/member.hpp"
 #include "messages/failure.hpp"
 
 #include <algorithm>

@@ -31,5 +31,5 @@ build=(cmake --build "$folder" --target "${targets[@]}")
 figure from_nothing "${build[@]}"
 touch messages/task.hpp
 figure after_messages_task "${build[@]}"
-touch actors/session/member.cpp
+touch actors/session/member/member.cpp
 figure after_one_actor "${build[@]}"

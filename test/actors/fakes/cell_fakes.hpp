@@ -1,7 +1,7 @@
 #pragma once
 
 #include "actors/membership/membership.hpp"
-#include "actors/session/member.hpp"
+#include "actors/session/member/member.hpp"
 #include "test/lossy_link.hpp"
 
 #include <caf/actor_cast.hpp>

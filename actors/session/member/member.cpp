@@ -1,0 +1,259 @@
+#include "actors/session/member/member.hpp"
+
+#include "actors/house/limits.hpp"
+#include "actors/house/relayed_requests.hpp"
+#include "actors/session/member/member_steps.hpp"
+#include "schemas/document.hpp"
+
+#include <caf/typed_response_promise.hpp>
+
+#include <algorithm>
+#include <utility>
+
+namespace roscell {
+
+namespace member_steps {
+
+namespace {
+
+/// Since the node's last word.
+std::chrono::milliseconds silence_of(self_pointer self) {
+  return std::chrono::duration_cast<std::chrono::milliseconds>(
+      self->clock().now() - self->state.life.last_heard());
+}
+
+} // namespace
+
+void set_timer(self_pointer self) {
+  auto& st = self->state;
+  if (st.ended)
+    return;
+  auto when = std::min(st.life.next(), st.frames.calls().next_deadline());
+  if (st.phase == member_phase::awaiting)
+    when = std::min(when, st.registration_deadline);
+  st.timer.set(self, when);
+}
+
+void end_member(self_pointer self, const std::string& reason) {
+  auto& st = self->state;
+  if (std::exchange(st.ended, true))
+    return;
+  st.frames.calls().fail_all("node '" + st.peer.name
+                             + "' is out of reach: " + reason);
+  if (st.announced && st.phase != member_phase::departed)
+    self->send(st.coordinator,
+               member_lost{st.peer.uuid, caf::actor_cast<member_actor>(self),
+                           reason, silence_of(self).count()});
+  self->send(st.session, close_session{reason});
+  self->quit();
+}
+
+} // namespace member_steps
+
+namespace {
+
+using namespace member_steps;
+
+using phase = member_phase;
+
+auto now(self_pointer self) {
+  return self->clock().now();
+}
+
+// -- what the session brings -------------------------------------------------
+
+bool is_from_session(self_pointer self) {
+  const auto& sender = self->current_sender();
+  return sender && sender->id() == self->state.session.id();
+}
+
+void on_frame(self_pointer self, const frame_received& frame) {
+  auto& st = self->state;
+  if (st.ended || !is_from_session(self))
+    return;
+  st.life.heard(now(self));
+  if (auto x = st.frames.receive(frame.text)) {
+    if (x->id)
+      on_request(self, *x->id, *x);
+    else
+      on_notice(self, x->body);
+  }
+  if (st.frames.hopeless())
+    end_member(self, "it sent frames that make no sense");
+  set_timer(self);
+}
+
+void on_beat(self_pointer self, const beat_received& beat) {
+  auto& st = self->state;
+  if (st.ended || !is_from_session(self))
+    return;
+  if (auto answer = st.life.heard_beat(beat.kind, now(self)))
+    self->send(st.session, send_beat{*answer, beat.sequence});
+}
+
+void on_tick(self_pointer self, uint64_t number) {
+  auto& st = self->state;
+  if (st.ended || !st.timer.rings(number))
+    return;
+  const auto time = now(self);
+  if (st.phase == phase::awaiting && time >= st.registration_deadline)
+    return end_member(self, "it did not register in time");
+  st.frames.calls().expire(time);
+  if (time >= st.life.next()) {
+    const auto next = st.life.due(time);
+    if (next.over)
+      return end_member(self, silence_of_a_lease());
+    if (next.send)
+      self->send(st.session, send_beat{*next.send, 0});
+  }
+  set_timer(self);
+}
+
+// -- what the coordinator asks -----------------------------------------------
+
+/// A check of what the node answered, or a correction of it.
+template <class Reply>
+using review = std::function<void(Reply&)>;
+
+template <class Reply, class Request>
+caf::result<Reply> ask_node(self_pointer self, const Request& what,
+                            std::chrono::milliseconds timeout,
+                            const review<Reply>& look = nullptr) {
+  auto& st = self->state;
+  if (st.phase != phase::active)
+    return fail(error_code::unreachable,
+                "node '" + st.peer.name + "' is not a member now");
+  auto promise = self->make_response_promise<Reply>();
+  auto on_result = [promise, look](caf::expected<json> body) mutable {
+    auto reply = body ? reply_as<Reply>(*body) : body.error();
+    if (reply && look)
+      look(*reply);
+    if (reply)
+      promise.deliver(std::move(*reply));
+    else
+      promise.deliver(std::move(reply.error()));
+  };
+  st.frames.call(message_json(what), now(self) + timeout, std::move(on_result));
+  set_timer(self);
+  return promise;
+}
+
+/// Another node's user asks what only this node can answer.
+caf::result<request_routed> relay(self_pointer self,
+                                  const route_request& request) {
+  auto& st = self->state;
+  auto parsed = parse_document(request.text);
+  if (const auto* why = std::get_if<failure>(&parsed))
+    return to_error(*why);
+  const auto& body = std::get<json>(parsed);
+  const auto limit = relayed_limit(body.value("type", ""));
+  if (!limit)
+    return fail(error_code::unknown_type,
+                "no node answers this for another one", "/type");
+  if (st.phase != phase::active)
+    return fail(error_code::unreachable,
+                "node '" + st.peer.name + "' is not a member now");
+  auto promise = self->make_response_promise<request_routed>();
+  st.frames.call(body, now(self) + *limit + relay_margin,
+                 [promise](caf::expected<json> reply) mutable {
+                   if (reply)
+                     promise.deliver(request_routed{reply->dump(), ""});
+                   else
+                     promise.deliver(std::move(reply.error()));
+                 });
+  set_timer(self);
+  return promise;
+}
+
+actor_state describe(self_pointer self) {
+  const auto& st = self->state;
+  const auto silence = now(self) - st.life.last_heard();
+  return state_of(
+      {{"node", st.peer.name},
+       {"uuid", st.peer.uuid},
+       {"epoch", st.peer.epoch},
+       {"phase", st.phase},
+       {"pending_calls", st.frames.calls().pending()},
+       {"silent_ms",
+        std::chrono::duration_cast<std::chrono::milliseconds>(silence)
+            .count()}});
+}
+
+void take_over(self_pointer self, session_admitted accepted,
+               cell_coordinator_actor coordinator) {
+  auto& st = self->state;
+  st.session = std::move(accepted.session);
+  st.peer = std::move(accepted.peer);
+  st.coordinator = std::move(coordinator);
+  st.life = lease{lease_side::coordinator, now(self)};
+  st.registration_deadline =
+      now(self) + limits::membership::registration_arrival;
+  st.frames = session_exchange{[self](std::string text) {
+    self->send(self->state.session, send_frame{std::move(text)});
+  }};
+  self->monitor(st.session);
+  self->monitor(st.coordinator);
+  self->set_down_handler([self](const caf::down_msg& down) {
+    end_member(self, down.source == self->state.session
+                         ? "its session has failed"
+                         : "the coordinator has stopped");
+  });
+  self->send(st.session,
+             own_session{caf::actor_cast<session_owner_actor>(self)});
+  set_timer(self);
+}
+
+} // namespace
+
+member_actor::behavior_type member(self_pointer self, session_admitted accepted,
+                                   cell_coordinator_actor coordinator) {
+  take_over(self, std::move(accepted), std::move(coordinator));
+  return {
+      [self](const state_query&) { return describe(self); },
+      [self](const resource_query& x) {
+        return ask_node<resource_report>(
+            self, x, limits::session::resource_query,
+            [self](resource_report& report) {
+              report.resources.name = self->state.peer.name;
+            });
+      },
+      [self](const figures_query& x) {
+        return ask_node<figures_report>(self, x, limits::session::figures);
+      },
+      [self](const instance_reservation& x) {
+        return ask_node<instances_reserved>(self, x,
+                                            limits::session::resource_query);
+      },
+      [self](const instance_deployment& x) {
+        return ask_node<instance_deployed>(self, x, limits::task::deployment,
+                                           [self](instance_deployed& reply) {
+                                             reply.instance.node =
+                                                 self->state.peer.name;
+                                           });
+      },
+      [self](const instance_removal& x) {
+        return ask_node<instances_removed>(self, x, limits::task::removal);
+      },
+      [self](const registration_switch& x) {
+        return ask_node<switch_accepted>(self, x,
+                                         limits::membership::switching);
+      },
+      [self](const route_request& x) { return relay(self, x); },
+      [self](const log_query& x) {
+        const auto wait =
+            std::clamp(std::chrono::milliseconds{x.wait_ms},
+                       std::chrono::milliseconds{0}, limits::log::wait);
+        return ask_node<log_excerpt>(self, x, wait + limits::log::session);
+      },
+      [self](const frame_received& frame) { on_frame(self, frame); },
+      [self](const beat_received& beat) { on_beat(self, beat); },
+      [self](const session_closed& fact) {
+        if (is_from_session(self))
+          end_member(self, fact.reason);
+      },
+      [self](const close_session& wish) { end_member(self, wish.reason); },
+      [self](caf::tick_atom, uint64_t number) { on_tick(self, number); },
+  };
+}
+
+} // namespace roscell
