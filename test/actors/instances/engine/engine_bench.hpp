@@ -39,6 +39,8 @@ public:
     {
       const std::lock_guard guard{mutex_};
       calls_.put(call);
+      listed_ = listed_ || call.rfind("GET /containers/json", 0) == 0;
+      listening_.notify_all();
       // The longest that fits.
       for (const auto& [begin, x] : answers_)
         if (call.rfind(begin, 0) == 0)
@@ -67,6 +69,13 @@ public:
     events_->chunk(event.dump() + "\n");
   }
 
+  /// Until the runtime hears events and has asked what runs: it compares that
+  /// with what it has started before.
+  void await_listing() {
+    std::unique_lock lock{mutex_};
+    listening_.wait_for(lock, patience, [this] { return listed_; });
+  }
+
   /// What was asked, one by one.
   facts& calls() {
     return calls_;
@@ -84,6 +93,7 @@ private:
   std::map<std::string, answer> answers_;
   std::condition_variable listening_;
   engine_caller* events_ = nullptr;
+  bool listed_ = false;
   facts calls_;
 };
 
@@ -113,6 +123,7 @@ struct engine_bench {
     folder.write("skill/bin/run", "#!/bin/sh\n", true);
     begin_engine();
     begin_runtime();
+    script.await_listing();
   }
 
   ~engine_bench() {
