@@ -79,10 +79,12 @@ std::vector<topic_row> cameras_in(const topic_list& topics) {
 findings listen_to(const node_client& node,
                    const std::vector<topic_row>& cameras) {
   std::vector<std::unique_ptr<heard_camera>> heard;
+  heard.reserve(cameras.size());
   for (const auto& x : cameras)
     heard.push_back(std::make_unique<heard_camera>(node, x));
   const auto deadline = std::chrono::steady_clock::now() + camera_patience;
   findings result;
+  result.reserve(heard.size());
   for (const auto& x : heard)
     result.push_back(x->judge(deadline));
   return result;
