@@ -31,7 +31,7 @@ play() {
     --replace "/tmp/=$scratch/" --replace "/home/you/roscell=${tree:-}" "$@") 2> "$scratch/played" &
   played=$!
   echo "$played" >> "$scratch/pids"
-  wait "$played" || fail "$(cat "$scratch/played")"
+  wait "$played" || fail "$(cat "$scratch/played" "$scratch/busy" 2> /dev/null)"
 }
 
 root=$PWD
