@@ -224,9 +224,12 @@ sees() {
   for text in "$@"; do
     shown=
     until [[ $shown == *"$text" ]]; do
-      IFS= read -r -N 1 -t $((end - SECONDS)) x <&"$screen" \
-        || fail "the shell does not show '$text' but: $shown"
-      shown+=$x
+      # A signal, such as that of a child's end, may cut it short, too.
+      if IFS= read -r -N 1 -t $((end - SECONDS)) x <&"$screen"; then
+        shown+=$x
+      elif ((SECONDS >= end)); then
+        fail "the shell does not show '$text' but: $shown"
+      fi
     done
   done
 }
