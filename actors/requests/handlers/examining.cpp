@@ -58,9 +58,11 @@ std::function<findings()> one_at_a_time(std::function<findings()> look) {
           busy = std::make_shared<std::atomic<bool>>(false)] {
     if (busy->exchange(true))
       return findings{};
-    auto result = look();
-    *busy = false;
-    return result;
+    // Also when it throws: a look that fails once must not be the last one.
+    const auto done = [](std::atomic<bool>* x) { *x = false; };
+    const std::unique_ptr<std::atomic<bool>, decltype(done)> end{busy.get(),
+                                                                 done};
+    return look();
   };
 }
 

@@ -71,9 +71,9 @@ exit_code exit_code_of(error_code code) {
 }
 
 running_node start(caf::actor_system& system, node_config config) {
-  config.pages = dashboard_pages();
   node_additions additions;
   additions.examine_host = [config] { return examine_own_host(config); };
+  config.pages = dashboard_pages();
   auto node = spawn_node(system, config, additions);
   if (node)
     return std::move(*node);
