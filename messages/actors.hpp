@@ -315,6 +315,9 @@ using cell_coordinator_actor = introspected_actor::extend<
     // until all of it runs or the sender ends. Errors: task_exists, conflict.
     caf::replies_to<claim_task>::with<task_claimed>,
     caf::replies_to<collect_resources>::with<cell_resources>,
+    // Replies once each node has told, or is not waited for any longer.
+    caf::replies_to<collect_figures>::with<figures_collected>,
+    caf::replies_to<measure_cell>::with<cell_measured>,
     // Replies once the store has kept it. Errors: conflict (a member has gone
     // meanwhile), internal (the store cannot keep it).
     caf::replies_to<record_intent>::with<intent_recorded>,

@@ -14,6 +14,7 @@
 #include "messages/inside/engine.hpp"
 #include "messages/inside/introspection.hpp"
 #include "messages/inside/link.hpp"
+#include "messages/inside/measures.hpp"
 #include "messages/inside/membership.hpp"
 #include "messages/inside/runtime.hpp"
 #include "messages/inside/scouting.hpp"

@@ -163,6 +163,10 @@
   X(peer_changed)                                                              \
   X(collect_resources)                                                         \
   X(cell_resources)                                                            \
+  X(collect_figures)                                                           \
+  X(figures_collected)                                                         \
+  X(measure_cell)                                                              \
+  X(cell_measured)                                                             \
   X(allocate_task)                                                             \
   X(plan_moves)                                                                \
   X(moves_planned)                                                             \

@@ -5,7 +5,7 @@
 
 #include <caf/typed_response_promise.hpp>
 
-#include <map>
+#include <functional>
 #include <memory>
 #include <set>
 #include <string>
@@ -15,60 +15,43 @@ namespace roscell {
 
 namespace {
 
-using words_by_instance = std::map<std::string, instance_word>;
+/// A question to several nodes, until all have answered.
+struct figures_tally {
+  size_t open = 1; ///< The asker itself, until it has asked all.
+  std::function<void()> on_all;
 
-/// The words of several nodes, as the answers come in.
-struct word_tally {
-  size_t open = 0;
-  instance_query query;
-  std::map<std::string, words_by_instance> nodes;
-  caf::typed_response_promise<instance_description> promise;
+  void finish_one() {
+    if (--open == 0)
+      on_all();
+  }
 };
 
-/// What was told of a live instance earlier is outdated, what is told of one
-/// that has ended is final.
-void add_word(instance_row& row, const word_tally& tally) {
-  if (!is_live(row.state))
-    return;
-  row.figures = {};
-  const auto node = tally.nodes.find(row.node);
-  if (node == tally.nodes.end())
-    return;
-  const auto word = node->second.find(row.spec.instance);
-  if (word == node->second.end())
-    return;
-  row.figures = word->second.figures;
-  // While an image is built, the coordinator has been told the step of it.
-  if (!word->second.status.empty())
-    row.status = word->second.status;
-}
-
-void complete_tally(coordinator_pointer self, word_tally& tally) {
-  if (--tally.open > 0)
-    return;
-  auto result = describe_instances(self->state, tally.query);
-  if (!result) {
-    tally.promise.deliver(std::move(result.error()));
-    return;
-  }
-  for (auto& row : result->instances)
-    add_word(row, tally);
-  tally.promise.deliver(std::move(*result));
-}
-
-void ask_node(coordinator_pointer self, const std::string& node,
-              const std::shared_ptr<word_tally>& tally) {
-  const auto* entry = self->state.registry.find_name(node);
-  if (!entry || !entry->agent)
-    return complete_tally(self, *tally);
-  self->request(entry->agent, limits::resource::collection, figures_query{})
+void ask_node(coordinator_pointer self, const registry_entry& entry,
+              const std::shared_ptr<figures_tally>& tally) {
+  const auto node = entry.row.identity.name;
+  ++tally->open;
+  self->request(entry.agent, limits::resource::collection, figures_query{})
       .then(
-          [=](figures_report& report) {
-            for (auto& x : report.instances)
-              tally->nodes[node].emplace(x.instance, std::move(x));
-            complete_tally(self, *tally);
+          [=](const figures_report& report) {
+            self->state.deployments.tell_words(node, report.instances);
+            tally->finish_one();
           },
-          [=](const caf::error&) { complete_tally(self, *tally); });
+          [=](const caf::error&) {
+            self->state.deployments.tell_words(node, {});
+            tally->finish_one();
+          });
+}
+
+void ask_nodes(coordinator_pointer self, const std::set<std::string>& nodes,
+               std::function<void()> on_all) {
+  auto tally = std::make_shared<figures_tally>();
+  tally->on_all = std::move(on_all);
+  for (const auto& node : nodes) {
+    const auto* entry = self->state.registry.find_name(node);
+    if (entry && entry->agent)
+      ask_node(self, *entry, tally);
+  }
+  tally->finish_one();
 }
 
 } // namespace
@@ -82,15 +65,39 @@ describe_instances_now(coordinator_pointer self, const instance_query& query) {
   for (const auto& row : known->instances)
     if (is_live(row.state))
       nodes.insert(row.node);
-  auto tally = std::make_shared<word_tally>();
-  tally->query = query;
-  tally->promise = self->make_response_promise<instance_description>();
-  tally->open = nodes.size() + 1;
-  for (const auto& node : nodes)
-    ask_node(self, node, tally);
-  auto promise = tally->promise;
-  complete_tally(self, *tally);
+  auto promise = self->make_response_promise<instance_description>();
+  ask_nodes(self, nodes, [=]() mutable {
+    auto result = describe_instances(self->state, query);
+    if (result)
+      promise.deliver(std::move(*result));
+    else
+      promise.deliver(std::move(result.error()));
+  });
   return promise;
+}
+
+caf::result<figures_collected> collect_all_figures(coordinator_pointer self) {
+  auto promise = self->make_response_promise<figures_collected>();
+  ask_nodes(self, self->state.deployments.nodes_with_live(),
+            [=]() mutable { promise.deliver(figures_collected{}); });
+  return promise;
+}
+
+cell_measured measured(const cell_coordinator_state& st) {
+  cell_measured result;
+  for (auto& node : st.registry.rows()) {
+    const auto& name = node.identity.name;
+    const bool away = !is_present(st, name);
+    for (auto& x : st.deployments.measures_on(name, away)) {
+      if (away && is_live(x.state))
+        x.figures = {};
+      result.instances.push_back(std::move(x));
+    }
+    node.resources.name = name;
+    result.nodes.push_back({node.state, std::move(node.resources)});
+  }
+  result.tasks = count_tasks(st);
+  return result;
 }
 
 } // namespace roscell

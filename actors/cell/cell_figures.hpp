@@ -7,9 +7,16 @@
 namespace roscell {
 
 /// The instances of the cell with what their skills have last said. Of a node
-/// that is away, or does not answer in time, figures are left out. Errors:
+/// that is away, or does not answer in time, figures are left out. What comes
+/// after the asker has given up is kept for who asks next. Errors:
 /// unknown_task.
 caf::result<instance_description>
 describe_instances_now(coordinator_pointer self, const instance_query& query);
+
+/// The same for all instances, without telling it.
+caf::result<figures_collected> collect_all_figures(coordinator_pointer self);
+
+/// What is known of the cell, as numbers.
+cell_measured measured(const cell_coordinator_state& st);
 
 } // namespace roscell

@@ -79,6 +79,9 @@ namespace resource {
 /// What a coordinator waits for its members' figures: those that come later
 /// are missing, since one silent node must not hold up a task.
 constexpr seconds collection{3};
+/// What a scraper of metrics waits for them: those that come later are in its
+/// next scrape.
+constexpr milliseconds scrape_collection{5};
 /// How often a node is asked in one collection, at most.
 constexpr int rounds = 3;
 /// CPU use is a rate over at least the first and at most the second.
@@ -95,6 +98,7 @@ constexpr milliseconds mark_distance{3500};
 static_assert(mark_distance < lease::beat_period);
 static_assert(sample_distance * samples > least_sample_age);
 static_assert(collection < local::answer);
+static_assert(scrape_collection < collection);
 
 } // namespace resource
 

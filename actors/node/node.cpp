@@ -2,7 +2,7 @@
 
 #include "actors/house/limits.hpp"
 #include "actors/house/wall_clock.hpp"
-#include "actors/node/program_version.hpp"
+#include "actors/house/program_version.hpp"
 #include "messages/failure.hpp"
 
 #include <caf/typed_response_promise.hpp>

@@ -4,6 +4,7 @@
 #include "messages/inside/engine.hpp"
 #include "messages/inside/introspection.hpp"
 #include "messages/inside/link.hpp"
+#include "messages/inside/measures.hpp"
 #include "messages/inside/runtime.hpp"
 #include "messages/inside/scouting.hpp"
 #include "messages/inside/storage.hpp"
@@ -23,6 +24,13 @@ ROSCELL_DESCRIBED(peer_changed)
 ROSCELL_DESCRIBED(collect_resources)
 ROSCELL_DESCRIBED(cell_resources)
 ROSCELL_DESCRIBED(evictable_instance)
+ROSCELL_DESCRIBED(collect_figures)
+ROSCELL_DESCRIBED(figures_collected)
+ROSCELL_DESCRIBED(measure_cell)
+ROSCELL_DESCRIBED(node_measures)
+ROSCELL_DESCRIBED(instance_measures)
+ROSCELL_DESCRIBED(task_count)
+ROSCELL_DESCRIBED(cell_measured)
 ROSCELL_DESCRIBED(running_step)
 ROSCELL_DESCRIBED(plan_moves)
 ROSCELL_DESCRIBED(moves_planned)

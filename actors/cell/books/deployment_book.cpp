@@ -4,6 +4,7 @@
 #include "messages/codec/instantiate.hpp"
 
 #include <algorithm>
+#include <string_view>
 #include <utility>
 
 namespace roscell {
@@ -97,6 +98,26 @@ void deployment_book::tell_all(const std::string& node,
     tell(node, row);
 }
 
+void deployment_book::tell_words(const std::string& node,
+                                 const std::vector<instance_word>& words) {
+  const auto known = told_.find(node);
+  if (known == told_.end())
+    return;
+  auto& rows = known->second;
+  for (auto& [id, row] : rows)
+    if (is_live(row.state))
+      row.figures = {};
+  for (const auto& word : words) {
+    const auto row = rows.find(word.instance);
+    if (row == rows.end() || !is_live(row->second.state))
+      continue;
+    row->second.figures = word.figures;
+    // While an image is built, the node has told the step of it.
+    if (!word.status.empty())
+      row->second.status = word.status;
+  }
+}
+
 void deployment_book::forget_told(const std::string& node,
                                   const std::string& instance) {
   const auto rows = told_.find(node);
@@ -120,6 +141,15 @@ const instance_row* deployment_book::told(const std::string& node,
   return row == rows->second.end() ? nullptr : &row->second;
 }
 
+std::set<std::string> deployment_book::nodes_with_live() const {
+  std::set<std::string> result;
+  for (const auto& [node, rows] : told_)
+    if (std::any_of(rows.begin(), rows.end(),
+                    [](const auto& x) { return is_live(x.second.state); }))
+      result.insert(node);
+  return result;
+}
+
 std::vector<instance_row>
 deployment_book::rows_on(const std::string& node) const {
   std::vector<instance_row> result;
@@ -129,16 +159,45 @@ deployment_book::rows_on(const std::string& node) const {
   return result;
 }
 
+template <class OnPlaced, class OnStray>
+void deployment_book::visit(const std::string& node, bool untold,
+                            OnPlaced&& on_placed, OnStray&& on_stray) const {
+  std::set<std::string_view> placed;
+  for (const auto& [task, steps] : by_task_)
+    for (const auto& x : steps)
+      if (x.node == node && (untold || x.end || told(node, x.spec.instance))) {
+        on_placed(x);
+        placed.insert(x.spec.instance);
+      }
+  if (const auto rows = told_.find(node); rows != told_.end())
+    for (const auto& [id, row] : rows->second)
+      if (placed.count(id) == 0)
+        on_stray(row);
+}
+
 std::vector<instance_row> deployment_book::known_on(const std::string& node,
                                                     bool untold) const {
   std::vector<instance_row> result;
-  for (const auto& [task, steps] : by_task_)
-    for (const auto& x : steps)
-      if (x.node == node && (untold || x.end || told(node, x.spec.instance)))
-        result.push_back(row_of(x));
-  for (auto& row : rows_on(node))
-    if (!find(row.spec.instance, node))
-      result.push_back(std::move(row));
+  visit(
+      node, untold, [&](const auto& x) { result.push_back(row_of(x)); },
+      [&](const auto& row) { result.push_back(row); });
+  return result;
+}
+
+std::vector<instance_measures>
+deployment_book::measures_on(const std::string& node, bool untold) const {
+  static const instance_row unknown;
+  std::vector<instance_measures> result;
+  visit(
+      node, untold,
+      [&](const auto& x) {
+        const auto* known = told(node, x.spec.instance);
+        const auto& row = known ? *known : unknown;
+        result.push_back({x.spec.instance, x.spec.task, x.spec.step, node,
+                          x.end ? x.end->state : row.state, row.restarts,
+                          row.figures});
+      },
+      [&](const auto& row) { result.push_back(measures_of(row)); });
   return result;
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 
+#include "messages/inside/measures.hpp"
 #include "messages/instance.hpp"
+#include "messages/session.hpp"
 
 #include <map>
 #include <optional>
@@ -76,6 +78,12 @@ public:
   /// A node has told of all of its instances.
   void tell_all(const std::string& node, const std::vector<instance_row>& rows);
 
+  /// A node was asked what its skills say of themselves: what it has not told
+  /// of a live instance is not known any more. What was told of one that has
+  /// ended is final.
+  void tell_words(const std::string& node,
+                  const std::vector<instance_word>& words);
+
   /// An instance that no task has placed is gone.
   void forget_told(const std::string& node, const std::string& instance);
 
@@ -85,6 +93,9 @@ public:
   const instance_row* told(const std::string& node,
                            const std::string& instance) const;
 
+  /// Names of the nodes that have told of live instances.
+  std::set<std::string> nodes_with_live() const;
+
   /// The rows of a node as it has told them, in the order of their ids.
   std::vector<instance_row> rows_on(const std::string& node) const;
 
@@ -92,6 +103,10 @@ public:
   /// have ended there, and, if `untold`, those that it has not told of yet.
   std::vector<instance_row> known_on(const std::string& node,
                                      bool untold) const;
+
+  /// The same, without what only people read.
+  std::vector<instance_measures> measures_on(const std::string& node,
+                                             bool untold) const;
 
   /// What is known of an instance that a task has placed.
   instance_row row_of(const deployment& x) const;
@@ -110,6 +125,12 @@ public:
   std::optional<instance_row> find_row(const std::string& instance) const;
 
 private:
+  /// All that is known on a node: what tasks have placed there, and what it has
+  /// told of besides.
+  template <class OnPlaced, class OnStray>
+  void visit(const std::string& node, bool untold, OnPlaced&& on_placed,
+             OnStray&& on_stray) const;
+
   std::map<std::string, std::vector<deployment>> by_task_;
   /// By node and instance.
   std::map<std::string, std::map<std::string, instance_row>> told_;

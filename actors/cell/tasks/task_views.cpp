@@ -4,6 +4,7 @@
 
 #include "messages/failure.hpp"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -14,10 +15,12 @@ namespace {
 /// What a node that is away runs is not known: it runs on as it was, it has
 /// ended, or the machine is off.
 instance_row shown(const cell_coordinator_state& st, instance_row row) {
-  const auto* node = st.registry.find_name(row.node);
-  if (is_live(row.state) && (!node || !node->agent))
+  if (is_live(row.state) && !is_present(st, row.node)) {
+    const auto* node = st.registry.find_name(row.node);
     row.unknown_since_unix_ms =
         node ? node->row.since_unix_ms : row.since_unix_ms;
+    row.figures = {};
+  }
   if (row.unknown_since_unix_ms > 0)
     row.waits = wait_of_lost(st, row);
   return row;
@@ -25,25 +28,39 @@ instance_row shown(const cell_coordinator_state& st, instance_row row) {
 
 /// What of a running task is to be worried about: all but what runs, and what
 /// has done its work.
-bool is_healthy(const instance_row& row) {
-  return (row.state == instance_state::running && row.unknown_since_unix_ms == 0
-          && row.health == instance_health::good)
-         || (row.state == instance_state::stopped && row.exit_code == 0);
+bool is_healthy(const cell_coordinator_state& st, const deployment& x) {
+  if (x.end)
+    return x.end->state == instance_state::stopped && x.end->exit_code == 0;
+  const auto* row = st.deployments.told(x.node, x.spec.instance);
+  if (!row)
+    return false;
+  if (row->state == instance_state::stopped)
+    return row->exit_code == 0;
+  return row->state == instance_state::running
+         && row->health == instance_health::good && is_present(st, x.node);
+}
+
+task_state state_now(const cell_coordinator_state& st, const std::string& task,
+                     const task_entry& entry) {
+  if (entry.ending)
+    return task_state::terminating;
+  const auto& steps = st.deployments.of_task(task);
+  const bool is_well =
+      std::all_of(steps.begin(), steps.end(),
+                  [&](const auto& x) { return is_healthy(st, x); });
+  return entry.state == task_state::running && !is_well ? task_state::degraded
+                                                        : entry.state;
 }
 
 task_row describe_task(const cell_coordinator_state& st,
                        const std::string& task, const task_entry& entry) {
   task_row result{task,
-                  entry.ending ? task_state::terminating : entry.state,
+                  state_now(st, task, entry),
                   entry.submitted_unix_ms,
                   entry.ended_unix_ms,
                   {}};
-  for (const auto& x : st.deployments.of_task(task)) {
-    auto row = shown(st, st.deployments.row_of(x));
-    if (result.state == task_state::running && !is_healthy(row))
-      result.state = task_state::degraded;
-    result.instances.push_back(std::move(row));
-  }
+  for (const auto& x : st.deployments.of_task(task))
+    result.instances.push_back(shown(st, st.deployments.row_of(x)));
   return result;
 }
 
@@ -53,6 +70,11 @@ bool is_shown(const task_entry& entry) {
 }
 
 } // namespace
+
+bool is_present(const cell_coordinator_state& st, const std::string& node) {
+  const auto* entry = st.registry.find_name(node);
+  return entry && entry->agent;
+}
 
 caf::error unknown_thing(const std::string& what, const std::string& id) {
   return fail(error_code::unknown_task, "no " + what + " '" + id + "' is known",
@@ -64,6 +86,16 @@ std::vector<task_row> describe_all_tasks(const cell_coordinator_state& st) {
   for (const auto& [task, entry] : st.tasks.entries())
     if (is_shown(entry))
       result.push_back(describe_task(st, task, entry));
+  return result;
+}
+
+std::vector<task_count> count_tasks(const cell_coordinator_state& st) {
+  std::vector<task_count> result(enum_words(task_state{}).size());
+  for (size_t i = 0; i < result.size(); ++i)
+    result[i].state = static_cast<task_state>(i);
+  for (const auto& [task, entry] : st.tasks.entries())
+    if (is_shown(entry))
+      ++result[static_cast<size_t>(state_now(st, task, entry))].tasks;
   return result;
 }
 
@@ -81,8 +113,7 @@ std::vector<registry_row> describe_nodes(const cell_coordinator_state& st) {
   auto result = st.registry.rows();
   for (auto& node : result) {
     const auto& name = node.identity.name;
-    const auto* entry = st.registry.find_name(name);
-    const bool away = !entry || !entry->agent;
+    const bool away = !is_present(st, name);
     if (const auto* drain = st.drains.find(node.identity.uuid))
       node.draining_since_unix_ms = drain->record.since_unix_ms;
     for (auto& row : st.deployments.known_on(name, away))

@@ -20,8 +20,14 @@ caf::expected<instance_description>
 describe_instances(const cell_coordinator_state& st,
                    const instance_query& query);
 
+/// How many tasks are in each state.
+std::vector<task_count> count_tasks(const cell_coordinator_state& st);
+
 /// The registry's rows, each with what its node has told of instances.
 std::vector<registry_row> describe_nodes(const cell_coordinator_state& st);
+
+/// Whether that node of the cell can be asked now.
+bool is_present(const cell_coordinator_state& st, const std::string& node);
 
 caf::error unknown_thing(const std::string& what, const std::string& id);
 

@@ -33,20 +33,27 @@ double value_of(const std::string& text, const std::string& key) {
   return in ? result : 0;
 }
 
-/// User and system time: fields 14 and 15 of proc_pid_stat(5). The name of the
-/// program, field 2, may have blanks and brackets in it.
-double cpu_seconds(const std::string& stat) {
+/// Times in the fields of proc_pid_stat(5), from its third one on. The name of
+/// the program, field 2, may have blanks and brackets in it.
+void take_times(const std::string& stat, own_cost& to) {
+  constexpr int user_field = 14;
+  constexpr int start_field = 22;
+  const auto ticks_per_s = static_cast<double>(sysconf(_SC_CLK_TCK));
   const auto name_end = stat.rfind(')');
   if (name_end == std::string::npos)
-    return 0;
+    return;
   std::istringstream in{stat.substr(name_end + 1)};
   std::string skipped;
-  for (int field = 3; field < 14; ++field)
+  for (int field = 3; field < user_field; ++field)
     in >> skipped;
   double user = 0;
   double system = 0;
-  in >> user >> system;
-  return in ? (user + system) / static_cast<double>(sysconf(_SC_CLK_TCK)) : 0;
+  if (in >> user >> system)
+    to.cpu_seconds = (user + system) / ticks_per_s;
+  for (int field = user_field + 2; field < start_field; ++field)
+    in >> skipped;
+  if (double start = 0; in >> start)
+    to.started_s = start / ticks_per_s;
 }
 
 double entries(const fs::path& folder) {
@@ -62,7 +69,7 @@ double entries(const fs::path& folder) {
 
 own_cost read_own_cost(const fs::path& process) {
   own_cost result;
-  result.cpu_seconds = cpu_seconds(text_of(process / "stat"));
+  take_times(text_of(process / "stat"), result);
   const auto memory = text_of(process / "smaps_rollup");
   result.resident_bytes = value_of(memory, "Rss") * kib;
   result.pss_bytes = value_of(memory, "Pss") * kib;

@@ -12,6 +12,7 @@ struct own_cost {
   double pss_bytes = 0;     ///< The same, shared pages divided among users.
   double written_bytes = 0; ///< To disks.
   double open_files = 0;
+  double started_s = 0; ///< When it was, after the host's boot.
 };
 
 /// @param process the process's folder in /proc; tests have their own.

@@ -3,7 +3,7 @@
 #include "actors/edge/reach/reach_tries.hpp"
 #include "actors/house/edge_failure.hpp"
 #include "actors/house/limits.hpp"
-#include "actors/node/program_version.hpp"
+#include "actors/house/program_version.hpp"
 
 #include <caf/send.hpp>
 

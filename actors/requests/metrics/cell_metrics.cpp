@@ -1,7 +1,9 @@
 #include "actors/requests/metrics/cell_metrics.hpp"
 
-#include <map>
+#include "actors/house/program_version.hpp"
+
 #include <string>
+#include <string_view>
 
 namespace roscell {
 
@@ -17,6 +19,11 @@ struct resource_line {
   double capacity = 0;
   double used = 0;
 };
+
+template <class Enum>
+std::string_view word_of(Enum value) {
+  return enum_words(value)[static_cast<size_t>(value)];
+}
 
 std::vector<resource_line> lines_of(const std::string& node,
                                     const node_resources& x) {
@@ -43,44 +50,64 @@ void write_resources(const std::vector<resource_line>& lines, exposition& to) {
     to.sample({{"node", x.node}, {"resource", x.resource}}, x.used);
 }
 
-exposition::labels labels_of(const instance_row& x) {
-  return {{"instance_id", x.spec.instance},
-          {"task", x.spec.task},
-          {"step", x.spec.step},
-          {"node", x.node}};
+/// An instance and its labels, which every family has.
+struct labelled_instance {
+  const instance_measures* row;
+  sample_labels labels;
+};
+
+std::vector<labelled_instance>
+labelled(const std::vector<instance_measures>& rows) {
+  std::vector<labelled_instance> result;
+  result.reserve(rows.size());
+  for (const auto& x : rows)
+    result.push_back({&x,
+                      {{"instance_id", x.instance},
+                       {"task", x.task},
+                       {"step", x.step},
+                       {"node", x.node}}});
+  return result;
 }
 
-/// One gauge of all instances; a negative value is not known.
+/// One gauge or counter of all instances; a negative value is not known.
 template <class Value>
-void write_each(const std::vector<instance_row>& rows, exposition& to,
+void write_each(const std::vector<labelled_instance>& rows, exposition& to,
                 Value&& value_of) {
   for (const auto& x : rows)
-    if (const double value = value_of(x); value >= 0)
-      to.sample(labels_of(x), value);
+    if (const double value = value_of(*x.row); value >= 0)
+      to.sample(x.labels, value);
 }
 
-void write_latencies(const std::vector<instance_row>& rows, exposition& to) {
+void write_states(const std::vector<labelled_instance>& rows, exposition& to) {
+  to.gauge("roscell_instance_state", "1 for the state an instance is in.");
+  for (const auto& x : rows) {
+    auto labels = x.labels;
+    labels.add("state", word_of(x.row->state));
+    to.sample(labels, 1);
+  }
+}
+
+void write_latencies(const std::vector<labelled_instance>& rows,
+                     exposition& to) {
   std::vector<double> bounds_s;
   bounds_s.reserve(latency_bounds_ms.size());
   for (const auto bound_ms : latency_bounds_ms)
     bounds_s.push_back(bound_ms / ms_in_s);
   to.histogram("roscell_instance_latency_seconds",
-               "Time in which its skill processes a frame.");
+               "Time in which its skill processes a frame.", bounds_s);
   for (const auto& x : rows) {
-    const auto& counts = x.figures.latency_counts;
-    const auto sum_ms = x.figures.latency_sum_ms;
+    const auto& counts = x.row->figures.latency_counts;
+    const auto sum_ms = x.row->figures.latency_sum_ms;
     if (counts.size() == bounds_s.size() + 1 && sum_ms >= 0)
-      to.buckets(labels_of(x), bounds_s, {counts.begin(), counts.end()},
-                 sum_ms / ms_in_s);
+      to.buckets(x.labels, {counts.begin(), counts.end()}, sum_ms / ms_in_s);
   }
 }
 
 } // namespace
 
-void write_cost(const own_cost& cost, const node_description& node,
-                exposition& to) {
+void write_cost(const own_cost& cost, double booted_unix_s, exposition& to) {
   to.gauge("roscell_build_info", "The version of the program.");
-  to.sample({{"version", node.version}}, 1);
+  to.sample({{"version", program_version}}, 1);
   to.counter("process_cpu_seconds", "CPU time of the node's own process.");
   to.sample({}, cost.cpu_seconds);
   to.gauge("process_resident_memory_bytes", "Resident memory of it.");
@@ -91,68 +118,55 @@ void write_cost(const own_cost& cost, const node_description& node,
   to.gauge("process_open_fds", "Its open files.");
   to.sample({}, cost.open_files);
   to.gauge("process_start_time_seconds", "When it was started, in Unix time.");
-  to.sample({}, static_cast<double>(node.started_unix_ms) / ms_in_s);
+  to.sample({}, booted_unix_s + cost.started_s);
   to.counter("roscell_process_written_bytes", "What it has written to disks.");
   to.sample({}, cost.written_bytes);
 }
 
-void write_cell(const cell_description& cell, exposition& to) {
+void write_cell(const cell_measured& cell, exposition& to) {
   std::vector<resource_line> lines;
   to.gauge("roscell_node_state", "1 for the state in which a node is.");
   for (const auto& x : cell.nodes) {
-    to.sample({{"node", x.identity.name},
-               {"state", enum_words(x.state)[static_cast<size_t>(x.state)]}},
-              1);
-    for (auto& line : lines_of(x.identity.name, x.resources))
+    to.sample({{"node", x.resources.name}, {"state", word_of(x.state)}}, 1);
+    for (auto& line : lines_of(x.resources.name, x.resources))
       lines.push_back(std::move(line));
   }
   write_resources(lines, to);
-  std::map<std::string_view, double> tasks;
-  for (const auto word : enum_words(task_state{}))
-    tasks[word] = 0;
-  for (const auto& x : cell.tasks)
-    ++tasks[enum_words(x.state)[static_cast<size_t>(x.state)]];
   to.gauge("roscell_tasks", "Tasks of the cell, by their state.");
-  for (const auto& [word, count] : tasks)
-    to.sample({{"state", word}}, count);
+  for (const auto& x : cell.tasks)
+    to.sample({{"state", word_of(x.state)}}, static_cast<double>(x.tasks));
 }
 
-void write_node(const node_description& node, exposition& to) {
-  write_resources(lines_of(node.identity.name, node.resources), to);
+void write_node(const node_resources& node, exposition& to) {
+  write_resources(lines_of(node.name, node), to);
 }
 
-void write_instances(const std::vector<instance_row>& instances,
+void write_instances(const std::vector<instance_measures>& instances,
                      exposition& to) {
-  to.gauge("roscell_instance_state", "1 for the state an instance is in.");
-  for (const auto& x : instances)
-    to.sample({{"instance_id", x.spec.instance},
-               {"task", x.spec.task},
-               {"step", x.spec.step},
-               {"node", x.node},
-               {"state", enum_words(x.state)[static_cast<size_t>(x.state)]}},
-              1);
+  const auto rows = labelled(instances);
+  write_states(rows, to);
   to.counter("roscell_instance_restarts",
              "How often its node has started it again.");
-  write_each(instances, to,
+  write_each(rows, to,
              [](const auto& x) { return static_cast<double>(x.restarts); });
   to.counter("roscell_instance_frames", "Frames that its skill has processed.");
-  write_each(instances, to, [](const auto& x) {
+  write_each(rows, to, [](const auto& x) {
     return static_cast<double>(x.figures.frames);
   });
   to.counter("roscell_instance_dropped_frames",
              "Frames that came too fast for it.");
-  write_each(instances, to, [](const auto& x) {
+  write_each(rows, to, [](const auto& x) {
     return static_cast<double>(x.figures.dropped);
   });
   to.gauge("roscell_instance_median_latency_seconds",
            "Median time in which its skill processes a frame.");
-  write_each(instances, to,
+  write_each(rows, to,
              [](const auto& x) { return x.figures.latency_ms / ms_in_s; });
-  write_latencies(instances, to);
+  write_latencies(rows, to);
   to.gauge(
       "roscell_instance_median_age_seconds",
       "Median time from a frame's stamp to the output of what came of it.");
-  write_each(instances, to,
+  write_each(rows, to,
              [](const auto& x) { return x.figures.age_ms / ms_in_s; });
 }
 

@@ -31,6 +31,10 @@ std::string bound_text(double bound, exposition_format format) {
 }
 
 void append_escaped(std::string& to, std::string_view value) {
+  if (value.find_first_of("\\\"\n") == std::string_view::npos) {
+    to += value;
+    return;
+  }
   for (const char c : value) {
     if (c == '\\' || c == '"')
       to += '\\';
@@ -55,6 +59,19 @@ const char* content_type_of(exposition_format format) {
              : "text/plain; version=0.0.4; charset=utf-8";
 }
 
+sample_labels::sample_labels(std::initializer_list<label> all) {
+  for (const auto& [name, value] : all)
+    add(name, value);
+}
+
+void sample_labels::add(std::string_view name, std::string_view value) {
+  if (!text_.empty())
+    text_ += ',';
+  text_.append(name).append("=\"");
+  append_escaped(text_, value);
+  text_ += '"';
+}
+
 /// OpenMetrics names a counter's family without the ending of its samples.
 void exposition::begin(std::string_view name, std::string_view help,
                        const char* type) {
@@ -76,43 +93,43 @@ void exposition::counter(std::string_view name, std::string_view help) {
   begin(name, help, "counter");
 }
 
-void exposition::histogram(std::string_view name, std::string_view help) {
+void exposition::histogram(std::string_view name, std::string_view help,
+                           const std::vector<double>& bounds) {
   ending_ = "";
   begin(name, help, "histogram");
+  bounds_.clear();
+  bounds_.reserve(bounds.size() + 1);
+  for (const auto bound : bounds)
+    bounds_.push_back("le=\"" + bound_text(bound, format_) + '"');
+  bounds_.emplace_back("le=\"+Inf\"");
 }
 
-void exposition::sample(const labels& of, double value) {
-  line(ending_, of, value);
+void exposition::sample(const sample_labels& of, double value) {
+  line(ending_, of.text(), value);
 }
 
-void exposition::line(std::string_view ending, const labels& of, double value) {
+void exposition::line(std::string_view ending, std::string_view labels,
+                      double value) {
   text_.append(name_).append(ending);
-  char before = '{';
-  for (const auto& [key, text] : of) {
-    text_ += before;
-    text_.append(key).append("=\"");
-    append_escaped(text_, text);
-    text_ += '"';
-    before = ',';
-  }
-  text_ += of.empty() ? " " : "} ";
-  text_.append(number(value)).append("\n");
+  if (!labels.empty())
+    text_.append("{").append(labels).append("}");
+  text_.append(" ").append(number(value)).append("\n");
 }
 
 /// The count that is written for a bucket includes those of the smaller ones.
-void exposition::buckets(const labels& of, const std::vector<double>& bounds,
+void exposition::buckets(const sample_labels& of,
                          const std::vector<uint64_t>& counts, double sum) {
+  const auto& shared = of.text();
+  std::string labels = shared.empty() ? "" : shared + ',';
+  const auto prefix = labels.size();
   uint64_t count = 0;
   for (size_t i = 0; i < counts.size(); ++i) {
     count += counts[i];
-    const auto bound = i < bounds.size() ? bound_text(bounds[i], format_)
-                                         : std::string{"+Inf"};
-    auto with_bound = of;
-    with_bound.emplace_back("le", bound);
-    line("_bucket", with_bound, static_cast<double>(count));
+    labels.replace(prefix, std::string::npos, bounds_[i]);
+    line("_bucket", labels, static_cast<double>(count));
   }
-  line("_count", of, static_cast<double>(count));
-  line("_sum", of, sum);
+  line("_count", shared, static_cast<double>(count));
+  line("_sum", shared, sum);
 }
 
 void exposition::write(metric which, const metric_book& book) {
@@ -121,15 +138,15 @@ void exposition::write(metric which, const metric_book& book) {
   if (is_counter)
     counter(family.name, family.help);
   else
-    histogram(family.name, family.help);
+    histogram(family.name, family.help, family.buckets);
   for (const auto& x : book.samples(which)) {
-    labels of;
+    sample_labels of;
     for (size_t i = 0; i < x.labels.size(); ++i)
-      of.emplace_back(family.labels[i], x.labels[i]);
+      of.add(family.labels[i], x.labels[i]);
     if (is_counter)
       sample(of, x.sum);
     else
-      buckets(of, family.buckets, x.counts, x.sum);
+      buckets(of, x.counts, x.sum);
   }
 }
 

@@ -3,6 +3,7 @@
 #include "actors/house/metric_book.hpp"
 
 #include <cstdint>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -19,26 +20,43 @@ exposition_format format_for(std::string_view accept);
 
 const char* content_type_of(exposition_format format);
 
+/// What tells the samples of a family apart, as it is written between braces.
+class sample_labels {
+public:
+  using label = std::pair<std::string_view, std::string_view>;
+
+  sample_labels() = default;
+  sample_labels(std::initializer_list<label> all);
+
+  void add(std::string_view name, std::string_view value);
+
+  const std::string& text() const {
+    return text_;
+  }
+
+private:
+  std::string text_;
+};
+
 /// Writes families of samples, one after the other.
 class exposition {
 public:
-  using labels = std::vector<std::pair<std::string_view, std::string_view>>;
-
   explicit exposition(exposition_format format) : format_(format) {}
 
   /// Begins a family. A counter's name has no ending.
   void gauge(std::string_view name, std::string_view help);
   void counter(std::string_view name, std::string_view help);
-  void histogram(std::string_view name, std::string_view help);
+  void histogram(std::string_view name, std::string_view help,
+                 const std::vector<double>& bounds);
 
   /// One sample of the gauge or counter that was begun last.
-  void sample(const labels& of, double value);
+  void sample(const sample_labels& of, double value);
 
   /// All samples of one set of labels of the histogram that was begun last.
-  /// `counts` has one number more than `bounds`, of what lies beyond, and none
+  /// `counts` has one number more than its bounds, of what lies beyond, and none
   /// includes another.
-  void buckets(const labels& of, const std::vector<double>& bounds,
-               const std::vector<uint64_t>& counts, double sum);
+  void buckets(const sample_labels& of, const std::vector<uint64_t>& counts,
+               double sum);
 
   /// All of what a book has of a family.
   void write(metric which, const metric_book& book);
@@ -48,11 +66,13 @@ public:
 
 private:
   void begin(std::string_view name, std::string_view help, const char* type);
-  void line(std::string_view ending, const labels& of, double value);
+  void line(std::string_view ending, std::string_view labels, double value);
 
   exposition_format format_;
   std::string name_;        ///< Of the family that was begun.
   const char* ending_ = ""; ///< Of its samples.
+  /// The labels of its buckets, the last of which has no bound.
+  std::vector<std::string> bounds_;
   std::string text_;
 };
 

@@ -1,10 +1,14 @@
 #include "actors/requests/metrics/scrape.hpp"
 
+#include "actors/house/boot_clock.hpp"
 #include "actors/house/limits.hpp"
+#include "actors/house/wall_clock.hpp"
 #include "actors/requests/metrics/cell_metrics.hpp"
 
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace roscell {
 
@@ -18,22 +22,38 @@ struct scrape_state {
   exposition_format format = exposition_format::text;
   size_t open = 0;
   std::optional<node_description> node;
-  std::optional<cell_description> cell;
-  std::optional<instance_description> instances;
+  std::optional<cell_measured> cell;
+  std::optional<std::vector<instance_row>> instances;
 };
 
 using scrape_pointer = introspected_actor::stateful_pointer<scrape_state>;
 
-std::string text_of(const scrape_state& st) {
+/// When the host was booted, in seconds since 1970.
+double booted_unix_s(caf::actor_system& system) {
+  constexpr double ms_in_s = 1000;
+  return static_cast<double>(unix_now_ms() - boot_now_ms(system)) / ms_in_s;
+}
+
+std::vector<instance_measures> measures_of(const std::vector<instance_row>& rows) {
+  std::vector<instance_measures> result;
+  result.reserve(rows.size());
+  for (const auto& row : rows)
+    result.push_back(measures_of(row));
+  return result;
+}
+
+std::string text_of(scrape_pointer self) {
+  const auto& st = self->state;
   exposition result{st.format};
-  if (st.node)
-    write_cost(read_own_cost(), *st.node, result);
-  if (st.cell)
+  write_cost(read_own_cost(), booted_unix_s(self->system()), result);
+  if (st.cell) {
     write_cell(*st.cell, result);
-  else if (st.node)
-    write_node(*st.node, result);
+    write_instances(st.cell->instances, result);
+  }
+  if (st.node)
+    write_node(st.node->resources, result);
   if (st.instances)
-    write_instances(st.instances->instances, result);
+    write_instances(measures_of(*st.instances), result);
   if (const auto& book = st.services->context.metrics)
     for (size_t i = 0; i < metric_count; ++i)
       result.write(static_cast<metric>(i), *book);
@@ -44,23 +64,46 @@ void finish_one(scrape_pointer self, const responder& answer) {
   auto& st = self->state;
   if (--st.open > 0)
     return;
-  answer.reply(200, content_type_of(st.format), text_of(st));
+  answer.reply(200, content_type_of(st.format), text_of(self));
   self->quit();
 }
 
-template <class Reply, class Handle, class Query>
+template <class Reply, class Handle, class Query, class Take>
 void ask(scrape_pointer self, const responder& answer, const Handle& whom,
-         Query query, std::optional<Reply> scrape_state::*where) {
-  if (!whom)
-    return;
-  ++self->state.open;
+         Query query, Take take) {
   self->request(whom, limits::local::answer, std::move(query))
       .then(
-          [self, answer, where](Reply& reply) {
-            self->state.*where = std::move(reply);
+          [self, answer, take](Reply& reply) {
+            take(reply);
             finish_one(self, answer);
           },
           [self, answer](const caf::error&) { finish_one(self, answer); });
+}
+
+void ask_node(scrape_pointer self, const responder& answer) {
+  auto& st = self->state;
+  st.open = 2;
+  ask<node_description>(self, answer, st.services->node, node_query{},
+                        [&st](auto& x) { st.node = std::move(x); });
+  ask<instance_description>(
+      self, answer, st.services->supervisor, instance_query{},
+      [&st](auto& x) { st.instances = std::move(x.instances); });
+}
+
+/// A scraper comes often and wants its answer soon: what nodes have told by
+/// then is in it, and what they told before of those that take longer.
+void ask_cell(scrape_pointer self, const responder& answer) {
+  auto& st = self->state;
+  st.open = 1;
+  const auto measure = [self, answer] {
+    auto& st = self->state;
+    ask<cell_measured>(self, answer, st.services->coordinator, measure_cell{},
+                       [&st](auto& x) { st.cell = std::move(x); });
+  };
+  self->request(st.services->coordinator, limits::resource::scrape_collection,
+                collect_figures{})
+      .then([measure](const figures_collected&) { measure(); },
+            [measure](const caf::error&) { measure(); });
 }
 
 introspected_actor::behavior_type
@@ -70,16 +113,10 @@ scrape(scrape_pointer self,
   auto& st = self->state;
   st.services = services;
   st.format = format;
-  st.open = 1;
-  ask(self, answer, services->node, node_query{}, &scrape_state::node);
-  ask(self, answer, services->coordinator, cell_query{}, &scrape_state::cell);
   if (services->coordinator)
-    ask(self, answer, services->coordinator, instance_query{},
-        &scrape_state::instances);
+    ask_cell(self, answer);
   else
-    ask(self, answer, services->supervisor, instance_query{},
-        &scrape_state::instances);
-  finish_one(self, answer);
+    ask_node(self, answer);
   return {
       [self](const state_query&) {
         return state_of({{"open", self->state.open}});

@@ -1,5 +1,7 @@
 #include "tools/roscell/commands.hpp"
 
+#include "actors/house/program_version.hpp"
+
 #include <CLI/CLI.hpp>
 
 namespace roscell::cli {
@@ -31,7 +33,7 @@ void set_up(CLI::App& app, action& chosen) {
   app.name("roscell");
   app.description("Cells of robots, edge boxes and cloud hosts.");
   app.footer(exit_codes_and_examples);
-  app.set_version_flag("--version", "roscell " ROSCELL_VERSION,
+  app.set_version_flag("--version", std::string{"roscell "} + program_version,
                        "Print the version and exit");
   app.set_help_flag("-h,--help", "Print this help and exit");
   app.require_subcommand(1);

@@ -54,8 +54,8 @@ TEST_CASE("a bound is written as all who expose one write it", "[metrics]") {
   const std::vector<double> bounds{0.0001, 0.5, 1, 100'000, 1'000'000};
   const auto written = [&](exposition_format format) {
     exposition text{format};
-    text.histogram("roscell_x_seconds", "Times.");
-    text.buckets({{"a", "b"}}, bounds, {1, 1, 1, 1, 1, 1}, 2.5);
+    text.histogram("roscell_x_seconds", "Times.", bounds);
+    text.buckets({{"a", "b"}}, {1, 1, 1, 1, 1, 1}, 2.5);
     return text.finish();
   };
   const auto older = written(exposition_format::text);
@@ -70,18 +70,18 @@ TEST_CASE("a bound is written as all who expose one write it", "[metrics]") {
 }
 
 TEST_CASE("an instance's times are a histogram in seconds", "[metrics]") {
-  instance_row row;
-  row.spec.instance = "t-a-1";
-  row.spec.task = "t";
-  row.spec.step = "a";
+  instance_measures row;
+  row.instance = "t-a-1";
+  row.task = "t";
+  row.step = "a";
   row.node = "arm";
   row.figures.latency_counts = {1, 2, 0, 4, 0, 0, 3, 0, 0, 1, 1};
   row.figures.latency_sum_ms = 2500;
   auto silent = row;
-  silent.spec.instance = "t-a-2";
+  silent.instance = "t-a-2";
   silent.figures = {};
   auto half = row;
-  half.spec.instance = "t-a-3";
+  half.instance = "t-a-3";
   half.figures.latency_sum_ms = -1;
   exposition text{exposition_format::text};
   write_instances({row, silent, half}, text);
@@ -101,8 +101,8 @@ TEST_CASE("an instance's times are a histogram in seconds", "[metrics]") {
 }
 
 TEST_CASE("what nobody knows of an instance is left out", "[metrics]") {
-  instance_row row;
-  row.spec.instance = "t-a-1";
+  instance_measures row;
+  row.instance = "t-a-1";
   row.state = instance_state::running;
   row.restarts = 3;
   exposition text{exposition_format::text};
@@ -114,9 +114,10 @@ TEST_CASE("what nobody knows of an instance is left out", "[metrics]") {
 }
 
 TEST_CASE("a node's resources are told in base units", "[metrics]") {
-  cell_description cell;
+  cell_measured cell;
+  cell.tasks = {{task_state::running, 2}, {task_state::failed, 0}};
   cell.nodes.emplace_back();
-  cell.nodes[0].identity.name = "arm";
+  cell.nodes[0].resources.name = "arm";
   cell.nodes[0].state = row_state::active;
   cell.nodes[0].resources.memory_mib = {2, 1};
   exposition text{exposition_format::text};
@@ -125,7 +126,8 @@ TEST_CASE("a node's resources are told in base units", "[metrics]") {
   CHECK(has(whole, "roscell_node_resource_capacity{node=\"arm\","
                    "resource=\"memory_bytes\"} 2097152\n"));
   CHECK(has(whole, "roscell_node_state{node=\"arm\",state=\"active\"} 1\n"));
-  CHECK(has(whole, "roscell_tasks{state=\"running\"} 0\n"));
+  CHECK(has(whole, "roscell_tasks{state=\"running\"} 2\n"));
+  CHECK(has(whole, "roscell_tasks{state=\"failed\"} 0\n"));
 }
 
 } // namespace roscell::test

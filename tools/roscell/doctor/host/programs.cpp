@@ -1,6 +1,7 @@
 #include "tools/roscell/doctor/host/programs.hpp"
 
 #include "actors/edge/host/installed_files.hpp"
+#include "actors/house/program_version.hpp"
 #include "actors/instances/skill_catalogue.hpp"
 
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
@@ -47,7 +48,7 @@ finding judge_descriptors(uint64_t most) {
 }
 
 finding judge_versions(const std::string& built, const std::string& loaded) {
-  const auto seen = "roscell " ROSCELL_VERSION ", Fast DDS " + built
+  const auto seen = std::string{"roscell "} + program_version + ", Fast DDS " + built
                     + (loaded.empty() ? "" : " (" + loaded + ")");
   const auto file = fs::path{loaded}.filename().string();
   const auto number = file.find(".so.");

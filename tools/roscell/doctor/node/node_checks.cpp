@@ -1,5 +1,6 @@
 #include "tools/roscell/doctor/node/node_checks.hpp"
 
+#include "actors/house/program_version.hpp"
 #include "messages/failure.hpp"
 #include "tools/roscell/doctor/host/programs.hpp"
 #include "tools/roscell/doctor/node/camera_checks.hpp"
@@ -26,7 +27,7 @@ findings judge_answer_of(const json& answer) {
 }
 
 findings judge_this_version(const node_description& node) {
-  return judge_version(node, ROSCELL_VERSION);
+  return judge_version(node, program_version);
 }
 
 findings judge_described(const instance_description& answer) {

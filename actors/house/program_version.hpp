@@ -3,6 +3,6 @@
 namespace roscell {
 
 /// Of this program, as other nodes and people are told.
-constexpr const char* program_version = "0.1.0";
+extern const char* const program_version;
 
 } // namespace roscell
