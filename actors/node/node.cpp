@@ -1,8 +1,8 @@
 #include "actors/node/node.hpp"
 
 #include "actors/house/limits.hpp"
-#include "actors/house/wall_clock.hpp"
 #include "actors/house/program_version.hpp"
+#include "actors/house/wall_clock.hpp"
 #include "messages/failure.hpp"
 
 #include <caf/typed_response_promise.hpp>

@@ -111,6 +111,52 @@ test_doctor_names_each_thing_that_keeps_nodes_apart() {
   has_found ok "head reaches arm, belt"
 }
 
+# with_clock_off SECONDS COMMAND...: nodes that it starts have a clock that is so
+# much ahead.
+with_clock_off() {
+  local -x CLOCK_OFFSET_S=$1 LD_PRELOAD=$ROSCELL_BUILD/bin/libshifted_clock.so
+  # A sanitizer wants to be the first library.
+  local -x ASAN_OPTIONS=${ASAN_OPTIONS:-}:verify_asan_link_order=0
+  "${@:2}"
+}
+
+test_doctor_says_whose_clock_is_off_by_how_much() {
+  bridge_hosts 3
+  make_site_token
+  start_on 1 head --coordinator --cell line
+  server=$(discovery_of head)
+  with_clock_off -7 start_on 2 arm --join "$server"
+  start_on 3 belt --join "$server"
+  await_joined head arm
+  await_joined head belt
+  cell_doctor cell-clocks && fail "it is content: $(cat "$scratch/found")"
+  # Beats go between hosts with little delay, and not without any.
+  jq -e 'length == 1 and .[0].verdict == "broken" and (.[0].seen
+      | test("^arm.s clock is (6[.]9[0-9]*|7|7[.]0[0-9]*) s behind the coord"))
+    and (.[0].remedy | startswith("ssh 10.231.7.2 sudo chronyc"))' \
+    "$scratch/found" > /dev/null || fail "$(cat "$scratch/found")"
+  # What it says of itself, by its clock, is not what others go by.
+  expect "its row" "$(row_state head arm)" active
+}
+
+test_doctor_says_which_node_is_of_another_version() {
+  local version other
+  version=$("$ROSCELL" --version | cut -d' ' -f2)
+  other=${version%?}x
+  mkdir "$scratch/other"
+  ln -s "$ROSCELL_BUILD/bin/roscell-instance-shim" "$scratch/other"
+  LC_ALL=C sed "s/${version//./[.]}/$other/g" "$ROSCELL" > "$scratch/other/roscell"
+  chmod +x "$scratch/other/roscell"
+  bridge_hosts 2
+  make_site_token
+  start_on 1 head --coordinator --cell line
+  ROSCELL=$scratch/other/roscell start_on 2 arm --join "$(discovery_of head)"
+  await_joined head arm
+  cell_doctor cell-versions || fail "$(cat "$scratch/found" "$scratch/doctor.err")"
+  has_found warning "arm is of version $other, its coordinator of $version"
+  expect "findings" "$(jq length "$scratch/found")" 1
+}
+
 test_a_node_that_is_away_or_unknown_is_no_riddle() {
   start_hosts
   local text

@@ -53,8 +53,8 @@ public:
   void sample(const sample_labels& of, double value);
 
   /// All samples of one set of labels of the histogram that was begun last.
-  /// `counts` has one number more than its bounds, of what lies beyond, and none
-  /// includes another.
+  /// `counts` has one number more than its bounds, of what lies beyond, and
+  /// none includes another.
   void buckets(const sample_labels& of, const std::vector<uint64_t>& counts,
                double sum);
 

@@ -34,7 +34,8 @@ double booted_unix_s(caf::actor_system& system) {
   return static_cast<double>(unix_now_ms() - boot_now_ms(system)) / ms_in_s;
 }
 
-std::vector<instance_measures> measures_of(const std::vector<instance_row>& rows) {
+std::vector<instance_measures>
+measures_of(const std::vector<instance_row>& rows) {
   std::vector<instance_measures> result;
   result.reserve(rows.size());
   for (const auto& row : rows)
@@ -93,14 +94,13 @@ void ask_node(scrape_pointer self, const responder& answer) {
 /// A scraper comes often and wants its answer soon: what nodes have told by
 /// then is in it, and what they told before of those that take longer.
 void ask_cell(scrape_pointer self, const responder& answer) {
-  auto& st = self->state;
-  st.open = 1;
-  const auto measure = [self, answer] {
-    auto& st = self->state;
-    ask<cell_measured>(self, answer, st.services->coordinator, measure_cell{},
-                       [&st](auto& x) { st.cell = std::move(x); });
+  self->state.open = 1;
+  const auto coordinator = self->state.services->coordinator;
+  const auto measure = [self, answer, coordinator] {
+    ask<cell_measured>(self, answer, coordinator, measure_cell{},
+                       [self](auto& x) { self->state.cell = std::move(x); });
   };
-  self->request(st.services->coordinator, limits::resource::scrape_collection,
+  self->request(coordinator, limits::resource::scrape_collection,
                 collect_figures{})
       .then([measure](const figures_collected&) { measure(); },
             [measure](const caf::error&) { measure(); });

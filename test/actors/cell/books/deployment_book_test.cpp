@@ -124,6 +124,52 @@ TEST_CASE("Rows of what no task has placed are known too",
   CHECK(book.find_row("stray"));
 }
 
+TEST_CASE("A node's words replace those that it told before",
+          "[deployment_book]") {
+  deployment_book book;
+  auto building = told("x", "t");
+  building.status = "step 3 of 7";
+  building.figures.frames = 1;
+  auto ended = told("y", "t", instance_state::stopped);
+  ended.figures.frames = 9;
+  book.tell_all("a", {building, ended, told("z", "t")});
+  instance_figures figures;
+  figures.frames = 5;
+  book.tell_words("a", {{"y", "", figures},
+                        {"z", "frames=5", figures},
+                        {"unknown", "", figures}});
+  book.tell_words("nobody", {{"z", "", {}}});
+  CHECK(book.told("a", "x")->figures == instance_figures{});
+  CHECK(book.told("a", "x")->status == "step 3 of 7");
+  CHECK(book.told("a", "y")->figures.frames == 9);
+  CHECK(book.told("a", "z")->figures.frames == 5);
+  CHECK(book.told("a", "z")->status == "frames=5");
+  CHECK_FALSE(book.told("a", "unknown"));
+  CHECK_FALSE(book.told("nobody", "z"));
+}
+
+TEST_CASE("Measures are those of the rows that are known",
+          "[deployment_book]") {
+  deployment_book book;
+  book.place("t", {on("a", "t-0", "t"), on("a", "t-1", "t"),
+                   ended_on("a", "t-2", "t"), on("b", "t-3", "t")});
+  auto row = told("t-0", "t");
+  row.restarts = 2;
+  row.figures.frames = 7;
+  book.tell("a", row);
+  book.tell("a", told("stray", "nobody's", instance_state::stopped));
+  for (const bool untold : {false, true}) {
+    const auto rows = book.known_on("a", untold);
+    const auto measures = book.measures_on("a", untold);
+    REQUIRE(measures.size() == rows.size());
+    for (size_t i = 0; i < rows.size(); ++i)
+      CHECK(measures[i] == measures_of(rows[i]));
+  }
+  CHECK(book.nodes_with_live() == std::set<std::string>{"a"});
+  book.forget_node("a");
+  CHECK(book.nodes_with_live().empty());
+}
+
 TEST_CASE("A task that is forgotten takes along what was told of it",
           "[deployment_book]") {
   deployment_book book;

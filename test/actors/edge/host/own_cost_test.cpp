@@ -11,9 +11,8 @@ namespace roscell::test {
 TEST_CASE("a process's cost is read from the kernel's files", "[own_cost]") {
   fixture_root folder;
   const auto ticks = std::to_string(3 * sysconf(_SC_CLK_TCK));
-  folder.write("/stat",
-               "7 (a (b) c) S 1 2 3 4 5 6 7 8 9 10 " + ticks + " 0 0 0 20 0 1 0 "
-                   + ticks + "00 4096\n");
+  folder.write("/stat", "7 (a (b) c) S 1 2 3 4 5 6 7 8 9 10 " + ticks
+                            + " 0 0 0 20 0 1 0 " + ticks + "00 4096\n");
   folder.write("/smaps_rollup", "0-1 ---p\nRss: 20 kB\nPss: 10 kB\n");
   folder.write("/io",
                "read_bytes: 1\nwrite_bytes: 4096\ncancelled_write_bytes: 0\n");

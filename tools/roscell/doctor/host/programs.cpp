@@ -48,8 +48,8 @@ finding judge_descriptors(uint64_t most) {
 }
 
 finding judge_versions(const std::string& built, const std::string& loaded) {
-  const auto seen = std::string{"roscell "} + program_version + ", Fast DDS " + built
-                    + (loaded.empty() ? "" : " (" + loaded + ")");
+  const auto seen = std::string{"roscell "} + program_version + ", Fast DDS "
+                    + built + (loaded.empty() ? "" : " (" + loaded + ")");
   const auto file = fs::path{loaded}.filename().string();
   const auto number = file.find(".so.");
   if (number == file.npos || file.substr(number + 4) == built)
