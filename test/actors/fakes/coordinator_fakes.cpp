@@ -10,6 +10,13 @@ namespace roscell::test {
 
 namespace {
 
+figures_report figures_of(const fake_agent& x) {
+  figures_report result;
+  for (const auto& [id, row] : x.running)
+    result.instances.push_back({id, row.status, row.figures});
+  return result;
+}
+
 resource_report report_of(const fake_agent& x) {
   auto result = x.has;
   for (const auto& [id, row] : x.running)
@@ -83,14 +90,10 @@ caf::behavior agent(caf::event_based_actor* self, fake_agent* x) {
         return result;
       },
       [=](const figures_query&) -> caf::result<figures_report> {
-        if (x->mute) {
-          x->unanswered.push_back(self->make_response_promise());
-          return caf::delegated<figures_report>{};
-        }
-        figures_report result;
-        for (const auto& [id, row] : x->running)
-          result.instances.push_back({id, row.status, row.figures});
-        return result;
+        if (!x->mute)
+          return figures_of(*x);
+        x->unanswered.push_back(self->make_response_promise());
+        return caf::delegated<figures_report>{};
       },
       [=](const log_query& query) {
         return log_excerpt{query.instance, "hello from " + x->identity.name, 5,
@@ -226,6 +229,13 @@ void fake_agent::fail_starting(const std::string& reason) {
       running.erase(spec.instance);
       promise.deliver(fail(error_code::engine_failed, reason));
     }
+  });
+}
+
+void fake_agent::tell_figures() {
+  inside(*this, [this] {
+    for (auto& promise : std::exchange(unanswered, {}))
+      promise.deliver(figures_of(*this));
   });
 }
 

@@ -68,6 +68,7 @@ struct fake_agent {
   /// only be kept by its actor.
   void finish_starting();
   void fail_starting(const std::string& reason);
+  void tell_figures(); ///< Of what it was asked while it was mute.
   void finish_reports();
   void finish_removals();
 };

@@ -82,8 +82,7 @@ TEST_CASE_METHOD(scraped_cell,
   scrape();
   row.figures.frames = 150;
   CHECK(has_frames(scrape_muted(), 120));
-  arm.unanswered.back().deliver(
-      figures_report{{{row.spec.instance, "", row.figures}}});
+  arm.tell_figures();
   time.settle();
   CHECK(has_frames(scrape_muted(), 150));
 }
