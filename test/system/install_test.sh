@@ -333,6 +333,25 @@ test_doctor_tells_of_a_data_directory_that_is_full_closed_or_read_only() {
   found disk broken "this user cannot write to $folder: Permission denied"
 }
 
+test_doctor_tells_of_a_disk_that_is_slow_to_keep_what_is_written() {
+  mkdir "$scratch/data"
+  doctor --only fsync || fail "$(cat "$scratch/found")"
+  found fsync ok "4 KiB are kept in"
+  with_bent_host FSYNC_MS=80 doctor --only fsync \
+    || fail "$(cat "$scratch/found" "$scratch/doctor.err")"
+  found fsync warning "4 KiB are kept in"
+}
+
+test_doctor_tells_of_a_clock_that_nothing_synchronises_or_that_may_be_wrong() {
+  mkdir "$scratch/data"
+  with_bent_host CLOCK_ERROR_US=-1 doctor --only clock
+  found clock warning "nothing synchronises the clock"
+  with_bent_host CLOCK_ERROR_US=2000000 doctor --only clock
+  found clock warning "is synchronised, and wrong by 2000 ms at most"
+  with_bent_host CLOCK_ERROR_US=3000 doctor --only clock
+  found clock ok "is synchronised, and wrong by 3 ms at most"
+}
+
 test_doctor_tells_of_few_file_descriptors() {
   inside=(prlimit --nofile=100:100)
   doctor --only descriptors && fail "it is content"

@@ -272,6 +272,15 @@ start_on() {
   inside=()
 }
 
+# with_bent_host SETTING=VALUE COMMAND...: what it starts finds its host as the
+# setting of test/system/hosts/bent_host.cpp says.
+with_bent_host() {
+  local -x "$1" LD_PRELOAD=$ROSCELL_BUILD/bin/libbent_host.so
+  # A sanitizer wants to be the first library.
+  local -x ASAN_OPTIONS=${ASAN_OPTIONS:-}:verify_asan_link_order=0
+  "${@:2}"
+}
+
 make_site_token() {
   head -c 32 /dev/urandom | od -An -tx1 | tr -d ' \n' > "$scratch/site.token"
 }

@@ -111,21 +111,12 @@ test_doctor_names_each_thing_that_keeps_nodes_apart() {
   has_found ok "head reaches arm, belt"
 }
 
-# with_clock_off SECONDS COMMAND...: nodes that it starts have a clock that is so
-# much ahead.
-with_clock_off() {
-  local -x CLOCK_OFFSET_S=$1 LD_PRELOAD=$ROSCELL_BUILD/bin/libshifted_clock.so
-  # A sanitizer wants to be the first library.
-  local -x ASAN_OPTIONS=${ASAN_OPTIONS:-}:verify_asan_link_order=0
-  "${@:2}"
-}
-
 test_doctor_says_whose_clock_is_off_by_how_much() {
   bridge_hosts 3
   make_site_token
   start_on 1 head --coordinator --cell line
   server=$(discovery_of head)
-  with_clock_off -7 start_on 2 arm --join "$server"
+  with_bent_host CLOCK_OFFSET_S=-7 start_on 2 arm --join "$server"
   start_on 3 belt --join "$server"
   await_joined head arm
   await_joined head belt

@@ -21,6 +21,41 @@ test_a_stock_program_exchanges_images_with_skills_by_roscell_env_alone() {
   stop_guest
 }
 
+# start_relay FROM TO [OPTION...]: a stock program between topics of head's cell.
+start_relay() {
+  (
+    eval "$(to head env)"
+    exec "$ROSCELL_BUILD/bin/stock_program" std_msgs/msg/String --ros-args \
+      -r in:="$1" -r out:="$2" "${@:3}"
+  ) > "$scratch/relay.log" 2>&1 &
+  echo $! >> "$scratch/pids"
+}
+
+# await_finding VERDICT TEXT: until the doctor finds that of the topics, for
+# nobody tells when a program has been discovered.
+await_finding() {
+  local end=$((SECONDS + deadline_s))
+  until "$ROSCELL" doctor --only topics -o json --data-dir "$scratch/head" \
+    --to "$scratch/head/node.sock" > "$scratch/found" 2> "$scratch/doctor.err" \
+    ; jq -e --arg how "$1" --arg seen "$2" 'any(.[]; .verdict == $how
+      and (.seen | test($seen)))' "$scratch/found" > /dev/null; do
+    ((SECONDS < end)) || fail "no '$2': $(cat "$scratch/found" \
+      "$scratch/doctor.err" "$scratch/relay.log")"
+    sleep 0.5
+  done
+}
+
+test_doctor_tells_of_topics_whose_ends_are_alone_or_do_not_match() {
+  start_node head --coordinator --cell line --interface lo
+  start_relay /a /b -p qos_overrides./b.publisher.reliability:=best_effort
+  await_finding warning "^nobody reads /b$"
+  await_finding warning "^nobody writes /a$"
+  start_relay /b /a
+  await_finding ok "topics have ends that match"
+  start_relay /b /a -p qos_overrides./b.subscription.reliability:=reliable
+  await_finding broken "^/b: .* wants reliable, but .* offers best_effort"
+}
+
 test_a_stock_program_runs_as_a_step_and_is_told_to_end_as_ros_2_does() {
   make_workspace
   mkdir "$skills/relay"

@@ -25,7 +25,8 @@
 /// endpoints and QoS are set up in the same way, by the environment alone, and
 /// it takes `--ros-args`. It passes messages of any type from the topic `in` on
 /// to the topic `out`, best effort to reliable, until SIGINT.
-/// Usage: stock_program TYPE [--ros-args -r in:=/a -r out:=/b --enclave E ...]
+/// Usage: stock_program TYPE [--ros-args -r in:=/a -r out:=/b --enclave E
+/// -p qos_overrides./a.subscription.reliability:=reliable ...]
 namespace {
 
 namespace fdds = eprosima::fastdds::dds;
@@ -35,6 +36,7 @@ struct arguments {
   std::string type;
   std::string enclave = "/";
   std::map<std::string, std::string> names{{"in", "/in"}, {"out", "/out"}};
+  std::map<std::string, std::string> parameters;
 };
 
 /// Takes what it knows of `--ros-args`, as rcl does.
@@ -47,10 +49,24 @@ arguments read_arguments(int argc, char** argv) {
     const auto sign = value.find(":=");
     if (word == "-r" && sign != std::string::npos)
       result.names[value.substr(0, sign)] = value.substr(sign + 2);
+    else if (word == "-p" && sign != std::string::npos)
+      result.parameters[value.substr(0, sign)] = value.substr(sign + 2);
     else if (word == "--enclave")
       result.enclave = value;
   }
   return result;
+}
+
+/// Whether an end is reliable: as the program has it, or as its user does by
+/// the parameter that rclcpp has for it.
+/// @param end "in" or "out".
+bool is_reliable(const arguments& args, const std::string& end) {
+  const auto is_writer = end == "out";
+  const auto found = args.parameters.find(
+      "qos_overrides." + args.names.at(end)
+      + (is_writer ? ".publisher.reliability" : ".subscription.reliability"));
+  return found == args.parameters.end() ? is_writer
+                                        : found->second == "reliable";
 }
 
 template <class Qos>
@@ -121,11 +137,13 @@ int main(int argc, char** argv) {
         roscell::ros2::dds_topic_name(args.names.at(name)), type,
         fdds::TOPIC_QOS_DEFAULT);
   };
-  relay passes{
-      participant->create_publisher(fdds::PUBLISHER_QOS_DEFAULT)
-          ->create_datawriter(topic("out"), qos_of<fdds::DataWriterQos>(true))};
+  relay passes{participant->create_publisher(fdds::PUBLISHER_QOS_DEFAULT)
+                   ->create_datawriter(
+                       topic("out"),
+                       qos_of<fdds::DataWriterQos>(is_reliable(args, "out")))};
   participant->create_subscriber(fdds::SUBSCRIBER_QOS_DEFAULT)
-      ->create_datareader(topic("in"), qos_of<fdds::DataReaderQos>(false),
+      ->create_datareader(topic("in"),
+                          qos_of<fdds::DataReaderQos>(is_reliable(args, "in")),
                           &passes);
   std::cout << "relays from " << args.names.at("in") << " to "
             << args.names.at("out") << std::endl;
