@@ -166,6 +166,15 @@ std::string old_registrations(const site& place) {
   return result;
 }
 
+/// A step that waits for its node is no complaint, until it is moved: then it
+/// is one while it starts.
+bool stays_calm(site& place) {
+  if (!complaint(place).empty())
+    return false;
+  place.pass(10s);
+  return complaint(place).empty();
+}
+
 std::string calm_down(site& place) {
   place.faults = {};
   place.lose_call = 0;
@@ -185,12 +194,11 @@ std::string calm_down(site& place) {
   place.pass(10s);
   // A place is kept for two minutes; whatever waits for an answer that got lost
   // inside a session that lives has a quarter of an hour.
-  for (auto left = 18 * 60s; left > 0s && !complaint(place).empty();) {
+  for (auto left = 18 * 60s; left > 0s && !stays_calm(place);) {
     const auto step = left > 14 * 60s ? 2s : 30s;
     place.pass(step);
     left -= step;
   }
-  place.pass(10s);
   return complaint(place);
 }
 
