@@ -59,6 +59,8 @@ struct discovery_place {
 struct actor_row {
   std::string name;
   uint64_t id = 0;
+  /// Id of the actor that spawned it, which may have ended; 0: the node itself.
+  uint64_t parent = 0;
   uint64_t messages = 0;   ///< Handled so far.
   uint64_t mailbox = 0;    ///< Waiting now.
   uint64_t busy_us = 0;    ///< Sum of the handling times.
@@ -67,6 +69,7 @@ struct actor_row {
   static constexpr auto fields() {
     return field_list{required("name", &actor_row::name),
                       required("id", &actor_row::id),
+                      optional("parent", &actor_row::parent),
                       required("messages", &actor_row::messages),
                       required("mailbox", &actor_row::mailbox),
                       required("busy_us", &actor_row::busy_us),

@@ -28,10 +28,14 @@ caf::actor actor_counters::handle() const {
 
 namespace {
 
+/// Whose work this thread does; 0: no actor's.
+thread_local uint64_t at_work = 0;
+
 actor_row row_of(const actor_counters& x) {
   actor_row result;
   result.name = x.name;
   result.id = x.id;
+  result.parent = x.parent;
   result.messages = x.handled;
   result.mailbox = x.received - std::min<uint64_t>(x.received, result.messages);
   result.busy_us = x.busy_us;
@@ -41,10 +45,18 @@ actor_row row_of(const actor_counters& x) {
 
 } // namespace
 
+working_as::working_as(uint64_t actor_id)
+    : before_(std::exchange(at_work, actor_id)) {}
+
+working_as::~working_as() {
+  at_work = before_;
+}
+
 std::shared_ptr<actor_counters>
 actor_directory::enter(const std::string& name) {
   auto result = std::make_shared<actor_counters>();
   result->name = name;
+  result->parent = at_work;
   std::lock_guard guard{mutex_};
   entries_.erase(std::remove_if(entries_.begin(), entries_.end(),
                                 [](const auto& x) { return x.expired(); }),

@@ -17,6 +17,7 @@ namespace roscell {
 /// What one actor has done; written by it, read by anyone.
 struct actor_counters {
   std::string name;
+  uint64_t parent = 0; ///< Id of the actor that spawned it; 0: none did.
   std::atomic<uint64_t> id{0};
   std::atomic<uint64_t> received{0};
   std::atomic<uint64_t> handled{0};
@@ -37,9 +38,24 @@ private:
   caf::actor_addr address_; // Weak: it keeps no actor alive.
 };
 
+/// While it lives, this thread does the work of that actor: what it spawns is
+/// the actor's child.
+class working_as {
+public:
+  explicit working_as(uint64_t actor_id);
+  ~working_as();
+
+  working_as(const working_as&) = delete;
+  working_as& operator=(const working_as&) = delete;
+
+private:
+  uint64_t before_;
+};
+
 /// Every live actor that the house function has spawned on one node.
 class actor_directory {
 public:
+  /// A child of the actor whose work this thread does.
   std::shared_ptr<actor_counters> enter(const std::string& name);
 
   /// The live actors, oldest first.

@@ -67,11 +67,13 @@ protected:
   behavior_type make_behavior() override {
     // Dropped after use: handles kept in an actor's members never die.
     auto init = std::exchange(init_, nullptr);
+    const working_as scope{this->id()};
     return init(this);
   }
 
   caf::invoke_message_result consume(caf::mailbox_element& what) override {
     using namespace std::chrono;
+    const working_as scope{this->id()};
     const auto begin = steady_clock::now();
     const auto result = super::consume(what);
     if (result != caf::invoke_message_result::skipped) {

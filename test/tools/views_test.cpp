@@ -2,6 +2,9 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+#include <sstream>
+
 using namespace roscell;
 using namespace roscell::cli;
 
@@ -406,9 +409,36 @@ TEST_CASE("a status leaves unified GPU memory to the node", "[tools]") {
 
 TEST_CASE("a status counts the actors on request", "[tools]") {
   node_description node;
-  node.actors = {{"node", 3, 10, 0, 1500, 750}};
+  node.actors = {{"node", 3, 0, 10, 0, 1500, 750}};
   CHECK(has(node_view(node, at(0)),
             "node    3        10        0        1.5          0.75\n"));
+}
+
+TEST_CASE("actors stand below those that spawned them", "[tools]") {
+  const std::vector<actor_row> actors{{"supervisor", 3}, {"log", 4},
+                                      {"runtime", 5, 3}, {"instance", 7, 3},
+                                      {"packer", 8, 5},  {"left", 9, 6}};
+  std::vector<std::string> names;
+  std::istringstream lines{actors_view(actors, at(0))};
+  for (std::string line; std::getline(lines, line);)
+    names.push_back(line.substr(0, line.find("  ")));
+  CHECK(names
+        == std::vector<std::string>{"ACTOR", "supervisor", "├ runtime",
+                                    "│ └ packer", "└ instance", "log", "left"});
+}
+
+TEST_CASE("actors that make circles, or are too many deep, are shown once",
+          "[tools]") {
+  std::vector<actor_row> actors{{"self", 1, 1},
+                                {"late", 2, 3},
+                                {"late", 3, 2},
+                                {"twice", 4, 1},
+                                {"twice", 4, 1}};
+  for (uint64_t id = 5; id < 200; ++id)
+    actors.push_back({"deep", id, id - 1});
+  const auto text = actors_view(actors, at(0));
+  CHECK(std::count(text.begin(), text.end(), '\n')
+        == static_cast<int>(actors.size()) + 1);
 }
 
 TEST_CASE("a coordinator's status counts its cell", "[tools]") {

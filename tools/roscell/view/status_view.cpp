@@ -89,23 +89,6 @@ std::string join_line(const join_trouble& x, int64_t now_unix_ms) {
 
 } // namespace
 
-std::string actors_view(const std::vector<actor_row>& actors,
-                        const view_style& style) {
-  table t{{{"ACTOR"},
-           {"ID", align::right},
-           {"MESSAGES", align::right},
-           {"WAITING", align::right},
-           {"BUSY (ms)", align::right},
-           {"LONGEST (ms)", align::right}},
-          {}};
-  for (const auto& a : actors)
-    t.rows.push_back({a.name, std::to_string(a.id), std::to_string(a.messages),
-                      std::to_string(a.mailbox),
-                      format_number(static_cast<double>(a.busy_us) / 1000),
-                      format_number(static_cast<double>(a.longest_us) / 1000)});
-  return t.render(style.text);
-}
-
 std::string node_view(const node_description& node, const view_style& style) {
   fact_list facts{style};
   facts.add("name", node.identity.name);

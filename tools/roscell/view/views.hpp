@@ -25,7 +25,7 @@ std::string node_view(const node_description& node, const view_style& style);
 /// The part of a status that only a coordinator can tell.
 std::string cell_summary(const cell_description& cell, const view_style& style);
 
-/// The actors of a node with their counters.
+/// The actors of a node with their counters, as a tree of who spawned whom.
 std::string actors_view(const std::vector<actor_row>& actors,
                         const view_style& style);
 

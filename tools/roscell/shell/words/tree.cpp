@@ -46,7 +46,8 @@ void add_tree_word(CLI::App& app, action& chosen) {
   auto options = std::make_shared<tree_options>();
   auto* word = app.add_subcommand(
       "tree",
-      "Show the actors of a node: what waits for them, and their time.");
+      "Show the tree of actors of a node: what waits for them, and their "
+      "time.");
   word->group(own_words);
   word->footer("Another node of the cell is asked by its coordinator.\n\n"
                "Examples:\n  tree\n  tree arm-1\n  tree -o json");
