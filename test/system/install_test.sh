@@ -299,6 +299,46 @@ rm -f /dev/shm/roscell-0/past"
   found leftovers ok "nothing that nobody uses"
 }
 
+# share_memory [COMMAND...]: the doctor looks at a host where a ROS 2 program runs
+# as root, and another one is begun by the command.
+share_memory() {
+  local run="'$ROSCELL_BUILD/bin/stock_program' std_msgs/msg/String"
+  inside=(unshare --net --mount --pid --fork --kill-child --mount-proc bash -ec "
+    mount -t tmpfs -o mode=1777 tmpfs /dev/shm
+    ip link set lo up
+    exec 7< <(exec $run) 8< <(exec $* $run)
+    read -r said <&7; read -r said <&8
+    exec \"\$@\"" -)
+  doctor --only shm-sharing
+}
+
+test_doctor_tells_of_ros_2_programs_that_cannot_share_memory() {
+  [[ $(id -u) -eq 0 ]] || skip "mount namespaces need root"
+  # As a container without --ipc=host has it.
+  printf '%s\n' '#!/bin/sh' 'mount -t tmpfs -o mode=1777 tmpfs /dev/shm' \
+    'exec "$@"' > "$scratch/apart"
+  chmod +x "$scratch/apart"
+  share_memory || fail "$(cat "$scratch/found")"
+  found shm-sharing ok "programs: 2"
+  share_memory unshare --mount "$scratch/apart" && fail "it is content"
+  found shm-sharing broken "domain 0: stock_program (pid "
+  found shm-sharing broken ", user 0) has another /dev/shm than stock_program"
+  remedies | has_line '^docker run .*--ipc=host' || fail "$(remedies)"
+  share_memory setpriv --reuid 65534 --regid 65534 --clear-groups \
+    && fail "it is content"
+  found shm-sharing broken "may not share memory with stock_program"
+  # These do not see each other.
+  share_memory env ROS_DOMAIN_ID=7 unshare --mount "$scratch/apart" \
+    || fail "$(cat "$scratch/found")"
+  found shm-sharing ok "programs: 2"
+  share_memory unshare --net --mount "$scratch/apart" \
+    || fail "$(cat "$scratch/found")"
+  found shm-sharing ok "programs: 2"
+  inside+=(setpriv --reuid=65534 --clear-groups)
+  doctor --only shm-sharing || fail "$(cat "$scratch/found")"
+  found shm-sharing skipped "processes that this user may not look at: "
+}
+
 test_doctor_finds_what_a_killed_ros_2_program_leaves_in_shared_memory() {
   with_shm mode=1777 "exec 7< <(exec '$ROSCELL_BUILD/bin/stock_program' std_msgs/msg/String)
     read -r said <&7

@@ -83,3 +83,48 @@ test_a_stock_program_beside_containers_exchanges_images_with_skills_in_them() {
   poses_come
   stop_guest
 }
+
+# start_contained_relay [OPTION...]: a stock program in a container, on the
+# interfaces of its host.
+start_contained_relay() {
+  local run=/opt/ros/test/lib/stock_demo/relay
+  engine ps -q | xargs -r docker -H "unix://$engine_socket" rm -f > /dev/null
+  engine run -d --network=host -e ROS_DOMAIN_ID=41 --ulimit nofile=1024 \
+    --ulimit nproc=4096 "$@" test/ros2:stock bash -c ". /opt/ros/test/setup.bash; exec $run std_msgs/msg/String" \
+    > "$scratch/container" || fail "the container does not run"
+  exec 7< <(engine logs -f "$(< "$scratch/container")" 2>&1)
+  read -r -t "$deadline_s" said <&7 || fail "the container says nothing"
+  [[ $said == relays* ]] || fail "$said"
+}
+
+# doctor_says VERDICTS WORDS: of the shared memory of this host's programs.
+doctor_says() {
+  ROSCELL_TO=unix:$scratch/none.sock "$ROSCELL" doctor -o json \
+    --only shm-sharing --data-dir "$scratch/none" > "$scratch/found" 2>&1
+  jq -e --arg verdict "$1" --arg words "$2" 'any(.[]; (.verdict | test($verdict))
+    and (.seen | contains($words)))' "$scratch/found" > /dev/null \
+    || fail "no '$2': $(cat "$scratch/found")"
+}
+
+# start_relay_as COMMAND...: a stock program on the host, begun by the command.
+start_relay_as() {
+  exec 8< <(exec env ROS_DOMAIN_ID=41 "$@" "$ROSCELL_BUILD/bin/stock_program" \
+    std_msgs/msg/String)
+  echo $! >> "$scratch/pids"
+  read -r said <&8
+}
+
+test_doctor_names_a_container_that_does_not_share_its_hosts_memory() {
+  local same=(env)
+  use_engine
+  [[ $variant != rootless ]] || same=("${as_rootless_user[@]}")
+  start_relay_as "${same[@]}"
+  start_contained_relay
+  doctor_says broken "has another /dev/shm than "
+  start_contained_relay --ipc=host
+  # Not all hosts show root the processes of a first one that watches them.
+  doctor_says 'ok|skipped' "programs: 2"
+  start_relay_as setpriv --reuid 7 --regid 7 --clear-groups
+  doctor_says broken "domain 41: stock_program (pid "
+  doctor_says broken ", user 7) may not share memory with "
+}

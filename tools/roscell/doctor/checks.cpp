@@ -4,6 +4,7 @@
 #include "tools/roscell/doctor/host/disk.hpp"
 #include "tools/roscell/doctor/host/engines.hpp"
 #include "tools/roscell/doctor/host/gpu.hpp"
+#include "tools/roscell/doctor/host/memory_sharing.hpp"
 #include "tools/roscell/doctor/host/programs.hpp"
 #include "tools/roscell/doctor/host/shared_memory.hpp"
 #include "tools/roscell/doctor/network/addresses.hpp"
@@ -96,6 +97,9 @@ const std::vector<check>& host_checks() {
       {"buffers", "network", "sockets hold a whole image", examine_buffers},
       {"shm", "host", "/dev/shm has room and may be used",
        examine_shared_memory},
+      {"shm-sharing", "host",
+       "programs of Fast DDS can open each other's memory",
+       examine_memory_sharing},
       {"leftovers", "host", "files in /dev/shm that nobody uses",
        examine_leftovers},
       {"disk", "host", "the data directory may be written and has room",

@@ -1,6 +1,7 @@
 #include "tools/roscell/doctor/host/leftovers.hpp"
 
 #include "actors/edge/io/unique_fd.hpp"
+#include "tools/roscell/doctor/host/process_maps.hpp"
 #include "tools/roscell/view/format.hpp"
 
 #include <fcntl.h>
@@ -24,7 +25,6 @@ namespace {
 /// A fence that has passed by less may be one that is just being moved on.
 constexpr int64_t fence_grace_ms = 60'000;
 
-constexpr std::string_view dds_prefix = "fastrtps_";
 constexpr std::string_view semaphore_prefix = "sem.";
 constexpr std::string_view mutex_suffix = "_mutex";
 
@@ -46,7 +46,7 @@ bool is_lock(std::string_view name) {
 std::string dds_owner(std::string_view name) {
   if (begins_with(name, semaphore_prefix))
     name.remove_prefix(semaphore_prefix.size());
-  if (!begins_with(name, dds_prefix)
+  if (!is_dds_file(std::string{name})
       || name.find_first_not_of("0123456789abcdefghijklmnopqrstuvwxyz"
                                 "ABCDEFGHIJKLMNOPQRSTUVWXYZ_")
              != name.npos)
@@ -75,21 +75,11 @@ struct mapped_files {
 
 mapped_files find_mapped(const fs::path& folder, const fs::path& proc) {
   mapped_files result;
-  const auto wanted = folder.string() + "/";
-  std::error_code error;
-  for (fs::directory_iterator i{proc, error}, end; !error && i != end;
-       i.increment(error)) {
-    const auto name = i->path().filename().string();
-    if (name.find_first_not_of("0123456789") != name.npos)
-      continue;
-    std::ifstream in{i->path() / "maps"};
-    std::string line;
-    // One that has ended meanwhile maps nothing.
-    result.complete = result.complete && (in || !fs::exists(i->path(), error));
-    while (std::getline(in, line))
-      if (const auto at = line.find(wanted); at != line.npos)
-        result.names.insert(line.substr(at + wanted.size()));
-  }
+  const auto closed =
+      visit_mapped_files(proc, folder, [&result](const mapped_file& x) {
+        result.names.insert(x.name);
+      });
+  result.complete = closed == 0;
   return result;
 }
 
