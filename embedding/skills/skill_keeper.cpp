@@ -119,6 +119,8 @@ void on_ready(self_pointer self) {
   instance_notified fact;
   fact.instance = st.config.instance;
   fact.ready = true;
+  // Who hears that it runs knows whether it may be ended.
+  fact.safe = st.config.side->take_safety();
   st.config.reports.notified(fact);
   st.config.side->start_inputs();
   expect_life(self);

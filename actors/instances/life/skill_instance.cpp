@@ -129,13 +129,13 @@ void on_notified(skill_instance_pointer self, const instance_notified& x) {
   auto& st = self->state;
   if (st.concluding)
     return;
+  on_safety(self, x.safe);
   if (x.ready && st.row.state == instance_state::starting) {
     st.ready = true;
     // Else the runtime's answer is still on its way.
     if (!st.row.container.empty())
       return on_running(self);
   }
-  on_safety(self, x.safe);
   if (x.alive && st.row.state == instance_state::running)
     on_sign_of_life(self);
   on_streams(self, x.streams);

@@ -107,6 +107,18 @@ TEST_CASE("a skill that is safe, or does not run, is not waited for") {
   CHECK(b.runtime->asked_for_safety.empty());
 }
 
+TEST_CASE("what a skill says with its first word is known once it runs") {
+  safe_bench b;
+  b.start();
+  instance_notified first{"i"};
+  first.ready = true;
+  first.safe = safe_word::unsafe;
+  caf::anon_send(b.instance, first);
+  b.settle();
+  CHECK(b.state() == instance_state::running);
+  CHECK(b.row().safe == safe_word::unsafe);
+}
+
 TEST_CASE("what was safe in the run before counts for nothing") {
   safe_bench b;
   b.config.row.spec.life.restart.policy = restart_when::on_failure;
