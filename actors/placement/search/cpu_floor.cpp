@@ -9,9 +9,17 @@ namespace roscell::allocation {
 
 namespace {
 
+bool is_strict(const exclusion& x) {
+  return !x.cpu_floor;
+}
+
+/// Whether a floored reading may find more than the strict one. A node that has
+/// refused in the strict one was busy then, whatever it says now.
 bool is_compressible(const problem& asked) {
   return std::any_of(asked.nodes.begin(), asked.nodes.end(),
-                     [](const auto& x) { return x.cpu_compressible > 0; });
+                     [](const auto& x) { return x.cpu_compressible > 0; })
+         || std::any_of(asked.excluded.begin(), asked.excluded.end(),
+                        is_strict);
 }
 
 } // namespace
@@ -21,9 +29,7 @@ problem read_with_floor(problem asked) {
     host.cpu.used =
         std::max(0.0, host.cpu.used - std::exchange(host.cpu_compressible, 0));
   auto& xs = asked.excluded;
-  xs.erase(std::remove_if(xs.begin(), xs.end(),
-                          [](const auto& x) { return !x.cpu_floor; }),
-           xs.end());
+  xs.erase(std::remove_if(xs.begin(), xs.end(), is_strict), xs.end());
   return asked;
 }
 

@@ -108,10 +108,21 @@ TEST_CASE_METHOD(reluctant_cell,
 }
 
 TEST_CASE_METHOD(reluctant_cell,
-                 "Where nothing is left after a refusal, the answer explains "
-                 "both",
+                 "The only node is asked once more, for it may have been busy "
+                 "for a moment",
                  "[placement]") {
   left.reluctance = 1;
+  const auto reply = request(echo_task("t", {echo_step("s0", 2, "left")}));
+  REQUIRE(reply.at("type") == "task_accepted");
+  CHECK(reply.at("refused").size() == 1);
+  CHECK(left.reservations.size() == 2);
+}
+
+TEST_CASE_METHOD(reluctant_cell,
+                 "Where nothing is left after refusals, the answer explains "
+                 "both",
+                 "[placement]") {
+  left.reluctance = 2;
   const auto error =
       error_in(request(echo_task("t", {echo_step("s0", 2, "left")})));
   CHECK(error.at("code") == "no_feasible_allocation");

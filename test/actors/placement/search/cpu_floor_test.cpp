@@ -79,6 +79,17 @@ TEST_CASE("a refusal in the strict reading does not bind the floored one") {
   CHECK(allocate_with_floor(asked).found.what == outcome::infeasible);
 }
 
+TEST_CASE(
+    "a node that was busy when it refused is asked again when it is not") {
+  problem asked;
+  asked.nodes.push_back(make_node("n", 2, 100, 100));
+  add_step(asked, "s", {make_cpu(0.5, 1, 1)});
+  asked.excluded.push_back({0, 0, 0, -1, "refused by the node", false});
+  const auto made = allocate_with_floor(asked);
+  REQUIRE(made.found.optimal());
+  CHECK(made.cpu_floor);
+}
+
 TEST_CASE("cores that others would share may not be below zero") {
   auto asked = busy_node();
   asked.nodes[0].cpu_compressible = -1;
