@@ -44,18 +44,22 @@ check() {
 # tests, which mostly wait; `finish NAME` waits for it.
 declare -A begun
 begin() {
+  rm -f "$log/$1.status"
   set -m # A process group of its own, which can be ended as a whole.
   {
     renice -n 19 -p "$BASHPID"
     "${@:2}"
+    echo $? > "$log/$1.status"
   } > "$log/$1.log" 2>&1 &
   begun[$1]=$!
   set +m
 }
 
+# The status is in a file, for the shell forgets one whose process id it has seen
+# again, as it does after 32768 processes.
 finish() {
-  wait "${begun[$1]}"
-  report "$1" $?
+  wait "${begun[$1]}" 2> /dev/null
+  report "$1" "$(cat "$log/$1.status" 2> /dev/null || echo 1)"
   unset "begun[$1]"
 }
 
