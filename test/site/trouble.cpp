@@ -126,7 +126,7 @@ void trouble::disturb_party() {
       return place_.start(x);
     // What waits for room on its disk would be lost: it would come back as a
     // node that was never in a cell.
-    if (x.disk_full)
+    if (x.disk_full || !x.waiting.empty())
       return;
     return pick(3) == 0 ? place_.crash(x) : place_.kill(x);
   }
