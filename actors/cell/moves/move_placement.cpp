@@ -2,6 +2,7 @@
 
 #include "actors/cell/tasks/cell_resources.hpp"
 #include "actors/cell/tasks/cell_tasks.hpp"
+#include "actors/cell/tasks/task_removals.hpp"
 #include "actors/cell/tasks/task_turns.hpp"
 #include "actors/house/limits.hpp"
 #include "actors/placement/instance_specs.hpp"
@@ -194,6 +195,7 @@ std::optional<failure> add_moved_step(coordinator_pointer self, task_move& move,
   moved_step moved;
   moved.task = request.task;
   moved.from = old.node;
+  moved.was_there = !is_away(self->state, old.node);
   moved.change.old_instance = old.spec.instance;
   moved.step = std::move(std::get<0>(resolved).front());
   if (!only_on.empty())

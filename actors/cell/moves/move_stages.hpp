@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -18,8 +19,9 @@ struct moved_step {
   std::string task;
   resolved_step step;
   replacement change;
-  std::string from;   ///< Node of the old one.
-  bool is_up = false; ///< The new one runs.
+  std::string from;       ///< Node of the old one.
+  bool was_there = false; ///< That node was no lost one when this began.
+  bool is_up = false;     ///< The new one runs.
 };
 
 /// What the replaced instances do.
@@ -47,6 +49,9 @@ using move_ptr = std::shared_ptr<task_move>;
 using move_stage = void (*)(coordinator_pointer, const move_ptr&);
 
 using task_question = bool (task_book::*)(const std::string&) const;
+
+/// What takes which places, by task.
+std::map<std::string, std::vector<replacement>> by_task(const task_move& move);
 
 /// What a task must still be for the move to go on.
 task_question still_of(const task_move& move);
@@ -91,7 +96,16 @@ std::optional<task_request> request_of(const task_entry& entry);
 /// instead of the old ones, and ends these.
 void hold_steps(coordinator_pointer self, const move_ptr& move);
 
-/// Takes all of it back.
+/// Where a new one has taken the old one's place the old one goes, else the new
+/// one: its task was terminated, or the old one has done its work.
+void complete_move(coordinator_pointer self, const move_ptr& move);
+
+/// The same of a lost node: the new ones are in the books, whatever becomes of
+/// them.
+void complete_lost(coordinator_pointer self, const move_ptr& move);
+
+/// Takes all of it back, for a move that has a problem: nothing has changed,
+/// but that room may have been kept for nothing.
 void undo_move(coordinator_pointer self, const move_ptr& move);
 
 } // namespace roscell

@@ -35,11 +35,6 @@ void remember_overdue(coordinator_pointer self, const std::string& task,
   set_timer(self);
 }
 
-bool is_away(const cell_coordinator_state& st, const std::string& node) {
-  const auto* entry = st.registry.find_name(node);
-  return !entry || !entry->agent;
-}
-
 /// The instance ends by itself; it is asked for again when it has.
 void await_safety(coordinator_pointer self, const safety_wait& wait,
                   const std::function<void()>& done) {
@@ -117,6 +112,11 @@ std::vector<awaited_safety> take_waits(coordinator_pointer self,
 }
 
 } // namespace
+
+bool is_away(const cell_coordinator_state& st, const std::string& node) {
+  const auto* entry = st.registry.find_name(node);
+  return !entry || !entry->agent;
+}
 
 void remove_everywhere(coordinator_pointer self, const task_removal& wish) {
   auto tally = std::make_shared<removal_tally>();

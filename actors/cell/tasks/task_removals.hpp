@@ -30,6 +30,9 @@ void remove_everywhere(coordinator_pointer self, const task_removal& wish);
 void remove_instance(coordinator_pointer self, const overdue_removal& what,
                      const std::function<void()>& done, bool force = false);
 
+/// Whether a node cannot be asked for anything: it is lost, or gone.
+bool is_away(const cell_coordinator_state& st, const std::string& node);
+
 /// Whether a node has told that an instance on it has ended, which it does not
 /// start again by itself, or is there and knows none. Whoever was to remove it
 /// may have given up.

@@ -71,6 +71,23 @@ TEST_CASE_METHOD(crowded_cell,
 }
 
 TEST_CASE_METHOD(crowded_cell,
+                 "A node that falls silent while it is drained keeps its work",
+                 "[drain]") {
+  right.mood = temper::slow;
+  request(drain("left"));
+  REQUIRE(right.starting.size() == 2);
+  lose(left);
+  right.mood = temper::happy;
+  right.finish_starting();
+  time.advance(5min);
+  CHECK(right.running.empty());
+  REQUIRE(enter(left));
+  time.advance(limits::retry::longest + 1s);
+  CHECK(left.running.empty());
+  CHECK(right.running.size() == 2);
+}
+
+TEST_CASE_METHOD(crowded_cell,
                  "A node is drained when what it waits for is safe",
                  "[drain]") {
   const auto instance = left.running.begin()->first;

@@ -75,6 +75,35 @@ TEST_CASE_METHOD(moving_cell,
   CHECK(disk.at("b").at("nodes") == json{"left"});
 }
 
+TEST_CASE_METHOD(moving_cell,
+                 "A move whose node falls silent on the way is undone",
+                 "[task_move]") {
+  right.mood = temper::slow;
+  const auto reply = post(release());
+  REQUIRE(right.starting.size() == 2);
+  lose(left);
+  right.finish_starting();
+  time.settle();
+  CHECK(error_of(reply_of(reply)) == "unreachable");
+  CHECK(right.running.empty());
+  CHECK(node_of("a") == "left");
+  CHECK(disk.at("b").at("nodes") == json{"left"});
+  CHECK(count("instance_moved") == 0);
+  // What it ran on with is still wanted there.
+  const auto back = enter(left);
+  REQUIRE(back);
+  REQUIRE(back->verdicts.size() == 2);
+  CHECK(back->verdicts[0].what == verdict::keep);
+}
+
+TEST_CASE_METHOD(moving_cell,
+                 "What a node runs that is lost goes elsewhere on one's word",
+                 "[task_move]") {
+  lose(left);
+  CHECK(request(release()).at("type") == "node_released");
+  CHECK(right.running.size() == 2);
+}
+
 TEST_CASE_METHOD(moving_cell, "A task waits until a move holds its room",
                  "[task_move]") {
   right.slow_reports = true;
