@@ -15,9 +15,7 @@ using phase = membership_phase;
 
 void set_timer(self_pointer self) {
   auto& st = self->state;
-  auto when = st.frames.calls().next_deadline();
-  if (st.session)
-    when = std::min(when, st.life.next());
+  auto when = st.next();
   if (st.phase == phase::waiting || st.phase == phase::searching)
     when = std::min(when, st.deadline);
   if (is_looking(st))
@@ -153,7 +151,8 @@ void on_tick(self_pointer self, uint64_t number) {
   else if (is_looking(st) && now >= st.look_due)
     look_around(self);
   st.frames.calls().expire(now);
-  keep_lease(self);
+  if (!keep_lease(self))
+    on_session_lost(self, silence_of_a_lease());
   set_timer(self);
 }
 

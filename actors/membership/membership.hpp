@@ -6,8 +6,7 @@
 #include "actors/house/house.hpp"
 #include "actors/membership/coordinators_seen.hpp"
 #include "actors/membership/join_report.hpp"
-#include "actors/session/lease.hpp"
-#include "actors/session/session_exchange.hpp"
+#include "actors/session/held_session.hpp"
 #include "messages/messages.hpp"
 
 #include <caf/typed_response_promise.hpp>
@@ -83,8 +82,9 @@ struct program_service {
   std::string address;   ///< "ip:port"; empty: it does not run.
 };
 
-/// Owns the node's belonging to a cell.
-struct membership_status {
+/// Owns the node's belonging to a cell. It holds a session while `asking`, and
+/// from `registering` on.
+struct membership_status : held_session {
   static constexpr const char* name = "membership";
 
   using time_point = std::chrono::steady_clock::time_point;
@@ -144,9 +144,6 @@ struct membership_status {
   std::map<std::string, instance_changed> unsent;
 
   request_router_actor router; ///< Of this node; invalid while it starts.
-  session_actor session; ///< Valid while `asking`, and from `registering` on.
-  lease life;
-  session_exchange frames;
   alarm timer;
 
   std::vector<caf::typed_response_promise<node_departed>> leavers;

@@ -12,15 +12,21 @@ namespace {
 
 using phase = membership_phase;
 
+/// How a request of the coordinator is answered, as long as its session is
+/// there.
+std::function<void(const json&)> answer_to(self_pointer self, uint64_t id) {
+  return [self, session = self->state.session.id(), id](const json& body) {
+    if (self->state.session && self->state.session.id() == session)
+      self->state.frames.answer(id, body);
+  };
+}
+
 /// Gives a request of the coordinator to the node agent and its answer, or
 /// why there is none, back.
 template <class Reply, class Request>
 void forward(self_pointer self, uint64_t id, const Request& what,
              std::chrono::milliseconds timeout) {
-  auto answer = [self, session = self->state.session.id(), id](json body) {
-    if (self->state.session && self->state.session.id() == session)
-      self->state.frames.answer(id, body);
-  };
+  const auto answer = answer_to(self, id);
   self->request(self->state.parts.agent, timeout - limits::session::margin,
                 what)
       .then([answer](const Reply& reply) { answer(message_json(reply)); },
@@ -52,13 +58,10 @@ void on_switch(self_pointer self, const session_inquiry& x) {
   auto order = decode<registration_switch>(x.body);
   if (auto* why = std::get_if<failure>(&order))
     return self->state.frames.answer(*x.id, error_reply(*why));
-  auto reply = [self, session = self->state.session.id(),
-                id = *x.id](const caf::expected<switch_accepted>& outcome) {
-    auto& st = self->state;
-    if (!st.session || st.session.id() != session)
-      return;
-    st.frames.answer(id, outcome ? message_json(*outcome)
-                                 : error_reply(to_failure(outcome.error())));
+  auto reply = [answer = answer_to(self, *x.id)](
+                   const caf::expected<switch_accepted>& outcome) {
+    answer(outcome ? message_json(*outcome)
+                   : error_reply(to_failure(outcome.error())));
   };
   on_coordinators_switch(self, std::get<registration_switch>(order), reply);
 }
@@ -66,11 +69,7 @@ void on_switch(self_pointer self, const session_inquiry& x) {
 /// Somebody in the cell wants to know what only this node can tell.
 void on_relayed(self_pointer self, const session_inquiry& x,
                 std::chrono::milliseconds limit) {
-  auto answer = [self, session = self->state.session.id(),
-                 id = *x.id](const json& body) {
-    if (self->state.session && self->state.session.id() == session)
-      self->state.frames.answer(id, body);
-  };
+  const auto answer = answer_to(self, *x.id);
   const auto& router = self->state.router;
   if (!router)
     return answer(
@@ -114,14 +113,7 @@ void on_request(self_pointer self, const session_inquiry& x) {
 } // namespace
 
 void take_session(self_pointer self, const session_actor& session) {
-  auto& st = self->state;
-  st.session = session;
-  st.life = lease{lease_side::member, self->clock().now()};
-  st.frames = session_exchange{[self](std::string text) {
-    self->send(self->state.session, send_frame{std::move(text)});
-  }};
-  self->monitor(session);
-  self->send(session, own_session{caf::actor_cast<session_owner_actor>(self)});
+  hold_session(self, session, lease_side::member);
   set_timer(self);
 }
 
@@ -138,28 +130,19 @@ void drop_session(self_pointer self, const std::string& reason) {
   frames.calls().fail_all(reason);
 }
 
-bool is_from_session(self_pointer self) {
-  const auto& sender = self->current_sender();
-  const auto& session = self->state.session;
-  return sender && session && sender->id() == session.id();
-}
-
 void on_frame(self_pointer self, const frame_received& frame) {
-  auto& st = self->state;
-  st.life.heard(self->clock().now());
-  auto x = st.frames.receive(frame.text);
+  const auto x = hear_frame(self, frame);
   // A notice of the coordinator has no meaning yet; a later version's may.
   if (x && x->id)
     on_request(self, *x);
-  if (st.frames.hopeless())
+  if (self->state.frames.hopeless())
     on_session_lost(self, "the coordinator sent frames that make no sense");
   set_timer(self);
 }
 
 void on_beat(self_pointer self, const beat_received& beat) {
-  auto& st = self->state;
-  if (auto answer = st.life.heard_beat(beat.kind, self->clock().now()))
-    self->send(st.session, send_beat{*answer, beat.sequence});
+  hear_beat(self, beat);
+  const auto& st = self->state;
   if (beat.sent_boot_ms > 0 && st.phase == phase::joined)
     self->send(st.parts.supervisor, contact_proven{beat.sent_boot_ms, {}});
 }
@@ -188,18 +171,6 @@ void on_session_lost(self_pointer self, const std::string& reason) {
     st.hurried.reset();
   }
   attempt_failed(self, reason);
-}
-
-void keep_lease(self_pointer self) {
-  auto& st = self->state;
-  const auto now = self->clock().now();
-  if (!st.session || now < st.life.next())
-    return;
-  const auto next = st.life.due(now);
-  if (next.over)
-    on_session_lost(self, silence_of_a_lease());
-  else if (next.send)
-    self->send(self->state.session, send_beat{*next.send, 0});
 }
 
 void notify(self_pointer self, const instance_changed& fact) {

@@ -14,15 +14,10 @@ namespace {
 
 using peer_self = peer_actor::stateful_pointer<peer_state>;
 
-auto now(peer_self self) {
-  return self->clock().now();
-}
-
 void set_timer(peer_self self) {
   auto& st = self->state;
   if (!st.ended)
-    st.timer.set(self,
-                 std::min(st.life.next(), st.frames.calls().next_deadline()));
+    st.timer.set(self, st.next());
 }
 
 /// Closes the session and ends the actor.
@@ -34,7 +29,7 @@ void end_peer(peer_self self, const std::string& reason) {
                              + "' is out of reach: " + reason);
   self->send(st.setup.coordinator,
              peer_lost{peer_actor{self}, st.setup.uuid, reason});
-  self->send(st.setup.session, close_session{reason});
+  self->send(st.session, close_session{reason});
   self->quit();
 }
 
@@ -98,20 +93,13 @@ void on_notice(peer_self self, const json& body) {
   }
 }
 
-// -- what the session brings
-// ---------------------------------------------------
-
-bool is_from_session(peer_self self) {
-  const auto& sender = self->current_sender();
-  return sender && sender->id() == self->state.setup.session.id();
-}
+// -- what the session brings --------------------------------------------------
 
 void on_frame(peer_self self, const frame_received& frame) {
   auto& st = self->state;
   if (st.ended || !is_from_session(self))
     return;
-  st.life.heard(now(self));
-  if (auto x = st.frames.receive(frame.text)) {
+  if (auto x = hear_frame(self, frame)) {
     if (x->id)
       on_question(self, *x);
     else
@@ -123,26 +111,17 @@ void on_frame(peer_self self, const frame_received& frame) {
 }
 
 void on_beat(peer_self self, const beat_received& beat) {
-  auto& st = self->state;
-  if (st.ended || !is_from_session(self))
-    return;
-  if (auto answer = st.life.heard_beat(beat.kind, now(self)))
-    self->send(st.setup.session, send_beat{*answer, beat.sequence});
+  if (!self->state.ended && is_from_session(self))
+    hear_beat(self, beat);
 }
 
 void on_tick(peer_self self, uint64_t number) {
   auto& st = self->state;
   if (st.ended || !st.timer.rings(number))
     return;
-  const auto time = now(self);
-  st.frames.calls().expire(time);
-  if (time >= st.life.next()) {
-    const auto next = st.life.due(time);
-    if (next.over)
-      return end_peer(self, silence_of_a_lease());
-    if (next.send)
-      self->send(st.setup.session, send_beat{*next.send, 0});
-  }
+  st.frames.calls().expire(self->clock().now());
+  if (!keep_lease(self))
+    return end_peer(self, silence_of_a_lease());
   set_timer(self);
 }
 
@@ -152,18 +131,9 @@ void on_tick(peer_self self, uint64_t number) {
 template <class Reply, class Request>
 caf::result<Reply> ask(peer_self self, const Request& what,
                        std::chrono::milliseconds timeout) {
-  auto promise = self->make_response_promise<Reply>();
-  self->state.frames.call(message_json(what), now(self) + timeout,
-                          [promise](const caf::expected<json>& body) mutable {
-                            auto reply =
-                                body ? reply_as<Reply>(*body) : body.error();
-                            if (reply)
-                              promise.deliver(std::move(*reply));
-                            else
-                              promise.deliver(std::move(reply.error()));
-                          });
+  auto reply = ask_other_side<Reply>(self, what, timeout);
   set_timer(self);
-  return promise;
+  return reply;
 }
 
 template <class Fact>
@@ -183,21 +153,15 @@ actor_state describe(peer_self self) {
 void take_over(peer_self self, const peer_setup& setup) {
   auto& st = self->state;
   st.setup = setup;
-  st.life =
-      lease{setup.opened_here ? lease_side::member : lease_side::coordinator,
-            now(self)};
-  st.frames = session_exchange{[self](std::string text) {
-    self->send(self->state.setup.session, send_frame{std::move(text)});
-  }};
-  self->monitor(setup.session);
+  hold_session(self, setup.session,
+               setup.opened_here ? lease_side::member
+                                 : lease_side::coordinator);
   self->monitor(setup.coordinator);
   self->set_down_handler([self](const caf::down_msg& down) {
-    end_peer(self, down.source == self->state.setup.session
+    end_peer(self, down.source == self->state.session
                        ? "its session has failed"
                        : "the coordinator has stopped");
   });
-  self->send(setup.session,
-             own_session{caf::actor_cast<session_owner_actor>(self)});
   self->send(setup.coordinator,
              peer_opened{peer_actor{self}, setup.uuid, setup.opened_here});
   set_timer(self);

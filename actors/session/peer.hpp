@@ -2,8 +2,7 @@
 
 #include "actors/house/alarm.hpp"
 #include "actors/house/house.hpp"
-#include "actors/session/lease.hpp"
-#include "actors/session/session_exchange.hpp"
+#include "actors/session/held_session.hpp"
 #include "messages/messages.hpp"
 
 #include <string>
@@ -18,13 +17,11 @@ struct peer_setup {
 };
 
 /// Owns one session with another coordinator.
-struct peer_state {
+struct peer_state : held_session {
   static constexpr const char* name = "peer";
 
   peer_setup setup;
   std::string cell; ///< The other one's, once it has told.
-  lease life;
-  session_exchange frames;
   alarm timer;
   bool ended = false;
 };

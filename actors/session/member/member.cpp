@@ -28,7 +28,7 @@ void set_timer(self_pointer self) {
   auto& st = self->state;
   if (st.ended)
     return;
-  auto when = std::min(st.life.next(), st.frames.calls().next_deadline());
+  auto when = st.next();
   if (st.phase == member_phase::awaiting)
     when = std::min(when, st.registration_deadline);
   st.timer.set(self, when);
@@ -62,17 +62,11 @@ auto now(self_pointer self) {
 
 // -- what the session brings -------------------------------------------------
 
-bool is_from_session(self_pointer self) {
-  const auto& sender = self->current_sender();
-  return sender && sender->id() == self->state.session.id();
-}
-
 void on_frame(self_pointer self, const frame_received& frame) {
   auto& st = self->state;
   if (st.ended || !is_from_session(self))
     return;
-  st.life.heard(now(self));
-  if (auto x = st.frames.receive(frame.text)) {
+  if (auto x = hear_frame(self, frame)) {
     if (x->id)
       on_request(self, *x->id, *x);
     else
@@ -84,11 +78,8 @@ void on_frame(self_pointer self, const frame_received& frame) {
 }
 
 void on_beat(self_pointer self, const beat_received& beat) {
-  auto& st = self->state;
-  if (st.ended || !is_from_session(self))
-    return;
-  if (auto answer = st.life.heard_beat(beat.kind, now(self)))
-    self->send(st.session, send_beat{*answer, beat.sequence});
+  if (!self->state.ended && is_from_session(self))
+    hear_beat(self, beat);
 }
 
 void on_tick(self_pointer self, uint64_t number) {
@@ -99,43 +90,27 @@ void on_tick(self_pointer self, uint64_t number) {
   if (st.phase == phase::awaiting && time >= st.registration_deadline)
     return end_member(self, "it did not register in time");
   st.frames.calls().expire(time);
-  if (time >= st.life.next()) {
-    const auto next = st.life.due(time);
-    if (next.over)
-      return end_member(self, silence_of_a_lease());
-    if (next.send)
-      self->send(st.session, send_beat{*next.send, 0});
-  }
+  if (!keep_lease(self))
+    return end_member(self, silence_of_a_lease());
   set_timer(self);
 }
 
 // -- what the coordinator asks -----------------------------------------------
 
-/// A check of what the node answered, or a correction of it.
-template <class Reply>
-using review = std::function<void(Reply&)>;
+caf::error not_a_member(self_pointer self) {
+  return fail(error_code::unreachable,
+              "node '" + self->state.peer.name + "' is not a member now");
+}
 
 template <class Reply, class Request>
 caf::result<Reply> ask_node(self_pointer self, const Request& what,
                             std::chrono::milliseconds timeout,
-                            const review<Reply>& look = nullptr) {
-  auto& st = self->state;
-  if (st.phase != phase::active)
-    return fail(error_code::unreachable,
-                "node '" + st.peer.name + "' is not a member now");
-  auto promise = self->make_response_promise<Reply>();
-  auto on_result = [promise, look](caf::expected<json> body) mutable {
-    auto reply = body ? reply_as<Reply>(*body) : body.error();
-    if (reply && look)
-      look(*reply);
-    if (reply)
-      promise.deliver(std::move(*reply));
-    else
-      promise.deliver(std::move(reply.error()));
-  };
-  st.frames.call(message_json(what), now(self) + timeout, std::move(on_result));
+                            const reply_review<Reply>& look = nullptr) {
+  if (self->state.phase != phase::active)
+    return not_a_member(self);
+  auto reply = ask_other_side<Reply>(self, what, timeout, look);
   set_timer(self);
-  return promise;
+  return reply;
 }
 
 /// Another node's user asks what only this node can answer.
@@ -151,8 +126,7 @@ caf::result<request_routed> relay(self_pointer self,
     return fail(error_code::unknown_type,
                 "no node answers this for another one", "/type");
   if (st.phase != phase::active)
-    return fail(error_code::unreachable,
-                "node '" + st.peer.name + "' is not a member now");
+    return not_a_member(self);
   auto promise = self->make_response_promise<request_routed>();
   st.frames.call(body, now(self) + *limit + relay_margin,
                  [promise](caf::expected<json> reply) mutable {
@@ -182,24 +156,17 @@ actor_state describe(self_pointer self) {
 void take_over(self_pointer self, session_admitted accepted,
                cell_coordinator_actor coordinator) {
   auto& st = self->state;
-  st.session = std::move(accepted.session);
   st.peer = std::move(accepted.peer);
   st.coordinator = std::move(coordinator);
-  st.life = lease{lease_side::coordinator, now(self)};
   st.registration_deadline =
       now(self) + limits::membership::registration_arrival;
-  st.frames = session_exchange{[self](std::string text) {
-    self->send(self->state.session, send_frame{std::move(text)});
-  }};
-  self->monitor(st.session);
+  hold_session(self, std::move(accepted.session), lease_side::coordinator);
   self->monitor(st.coordinator);
   self->set_down_handler([self](const caf::down_msg& down) {
     end_member(self, down.source == self->state.session
                          ? "its session has failed"
                          : "the coordinator has stopped");
   });
-  self->send(st.session,
-             own_session{caf::actor_cast<session_owner_actor>(self)});
   set_timer(self);
 }
 

@@ -2,8 +2,7 @@
 
 #include "actors/house/alarm.hpp"
 #include "actors/house/house.hpp"
-#include "actors/session/lease.hpp"
-#include "actors/session/session_exchange.hpp"
+#include "actors/session/held_session.hpp"
 #include "messages/messages.hpp"
 
 #include <array>
@@ -23,16 +22,13 @@ constexpr auto enum_words(member_phase) {
 }
 
 /// Owns one node's session, as its coordinator sees it.
-struct member_state {
+struct member_state : held_session {
   static constexpr const char* name = "member";
 
-  session_actor session;
   node_identity peer; ///< As the handshake has proved it.
   cell_coordinator_actor coordinator;
 
   member_phase phase = member_phase::awaiting;
-  lease life;
-  session_exchange frames;
   alarm timer;
   std::chrono::steady_clock::time_point registration_deadline;
   bool announced = false; ///< The coordinator has been told of this member.
