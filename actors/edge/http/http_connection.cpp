@@ -4,18 +4,16 @@
 #include "actors/edge/http/http_paths.hpp"
 #include "actors/edge/http/http_sink.hpp"
 #include "actors/edge/http/http_target.hpp"
-#include "actors/edge/io/crypto.hpp"
 #include "actors/house/limits.hpp"
 
 #include <boost/asio/buffer.hpp>
 #include <boost/asio/write.hpp>
 #include <boost/beast/http/error.hpp>
 #include <boost/beast/http/rfc7230.hpp>
-#include <boost/beast/websocket/rfc6455.hpp>
 
-#include <algorithm>
 #include <limits>
 #include <utility>
+#include <variant>
 
 namespace roscell {
 
@@ -169,25 +167,20 @@ bool http_connection::on_header() {
     begin_session();
     return false;
   }
-  if (!local_ && !names_host()) {
-    refuse_request(403, error_code::unauthorized,
-                   "this server is not called by that name");
+  if (local_)
+    return check_body(shared_->limits.body_bytes);
+  const auto caller = find_caller(shared_->access, request, target->path);
+  if (const auto* why = std::get_if<http_refusal>(&caller)) {
+    refuse_request(why->status, why->code, why->message, why->hint);
     return false;
   }
-  const bool trusted = local_ || has_token() || has_secret(target->path);
-  if (!trusted && !is_public(target->path)) {
-    refuse_request(
-        401, error_code::unauthorized, "the bearer token is missing or wrong",
-        "the node wrote it to its data directory; on the node's own host "
-        "the Unix socket needs none");
-    return false;
-  }
-  if (trusted && !local_ && !shared_->table.trust(this)) {
+  if (std::get<http_caller>(caller) == http_caller::stranger)
+    return check_body(shared_->limits.public_body_bytes);
+  if (!shared_->table.trust(this)) {
     refuse_crowd();
     return false;
   }
-  return check_body(trusted ? shared_->limits.body_bytes
-                            : shared_->limits.public_body_bytes);
+  return check_body(shared_->limits.body_bytes);
 }
 
 /// The reply has the form of one to a request, but none need have been read.
@@ -196,36 +189,6 @@ void http_connection::refuse_crowd() {
     parser_.emplace();
   const auto words = crowd_words();
   refuse_request(503, words.code, words.message, words.hint);
-}
-
-bool http_connection::has_token() const {
-  constexpr std::string_view scheme = "Bearer ";
-  const auto value = to_view(parser_->get()[http::field::authorization]);
-  return !shared_->token.empty() && value.substr(0, scheme.size()) == scheme
-         && equal_in_constant_time(value.substr(scheme.size()), shared_->token);
-}
-
-bool http_connection::has_secret(const std::string& path) const {
-  const auto& secret = shared_->path_secret;
-  return !secret.empty() && path.size() > secret.size() + 1
-         && path[secret.size() + 1] == '/'
-         && equal_in_constant_time(
-             std::string_view{path}.substr(1, secret.size()), secret);
-}
-
-/// Whether the server is called as it may be, whatever the port.
-bool http_connection::names_host() const {
-  const auto& names = shared_->hosts;
-  const auto value = to_view(parser_->get()[http::field::host]);
-  return names.empty()
-         || std::find(names.begin(), names.end(),
-                      value.substr(0, value.find(':')))
-                != names.end();
-}
-
-bool http_connection::is_public(const std::string& path) const {
-  const auto& open = shared_->public_paths;
-  return std::find(open.begin(), open.end(), path) != open.end();
 }
 
 bool http_connection::check_body(size_t most_bytes) {
@@ -261,9 +224,8 @@ void http_connection::dispatch() {
   auto target = parse_target(to_view(message.target()));
   http_request request;
   request.method = std::string{to_view(message.method_string())};
-  request.path = std::move(target->path);
-  if (!local_ && has_secret(request.path))
-    request.path.erase(0, shared_->path_secret.size() + 1);
+  request.path = local_ ? std::move(target->path)
+                        : shared_->access.without_secret(target->path);
   request.query = std::move(target->query);
   request.body = std::move(message.body());
   request.accept = std::string{to_view(message[http::field::accept])};
@@ -271,47 +233,6 @@ void http_connection::dispatch() {
   responder answer{make_sink(shared_, weak_from_this())};
   shared_->core->guarded(
       [&] { shared_->handler(std::move(request), std::move(answer)); });
-}
-
-void http_connection::begin_session() {
-  const auto& acceptor = shared_->sessions;
-  const auto& request = parser_->get();
-  if (!acceptor)
-    return refuse_request(
-        404, error_code::conflict,
-        "this node takes no sessions, it coordinates no cell");
-  if (!boost::beast::websocket::is_upgrade(request) || !parser_->is_done()
-      || incoming_.size() > 0)
-    return refuse_request(400, error_code::schema_violation,
-                          "a session begins with a request for a WebSocket");
-  // Only browsers send this field. A page that someone looks at on this host
-  // must not become a member of the cell.
-  if (request.count(http::field::origin) != 0)
-    return refuse_request(403, error_code::unauthorized,
-                          "a session cannot be opened by a web page");
-  if (shared_->open_sessions >= shared_->limits.sessions)
-    return refuse_request(
-        503, error_code::conflict, "too many sessions are open",
-        "one node coordinates " + std::to_string(shared_->limits.sessions)
-            + " sessions; use another coordinator");
-  start_session(acceptor);
-}
-
-void http_connection::start_session(
-    const std::shared_ptr<const session_acceptor>& acceptor) {
-  phase_ = phase::handed_over;
-  timer_.cancel();
-  session_accept::hooks hooks;
-  hooks.on_decided = [self = shared_from_this()](bool accepted) {
-    if (accepted)
-      ++self->shared_->open_sessions;
-    self->abort();
-  };
-  hooks.on_gone = [shared = shared_] { --shared->open_sessions; };
-  auto session = std::make_shared<session_accept>(
-      shared_->core, std::move(socket_), acceptor, std::move(hooks));
-  session_ = session;
-  session->run(parser_->release());
 }
 
 void http_connection::hand_over(

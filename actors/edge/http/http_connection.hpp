@@ -71,15 +71,10 @@ private:
   bool parse_some();
   bool on_header();
   void on_bad_request(error ec);
-  bool has_token() const;
-  bool has_secret(const std::string& path) const;
-  bool names_host() const;
-  bool is_public(const std::string& path) const;
   bool check_body(size_t most_bytes);
   void dispatch();
   void begin_session();
   void start_session(const std::shared_ptr<const session_acceptor>& acceptor);
-  void write(std::string text);
   void on_written(error ec);
   void linger();
   void refuse_crowd();

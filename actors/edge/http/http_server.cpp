@@ -159,10 +159,8 @@ http_server::start(io_thread& io, http_server_options options) {
     local = std::get<listening_unix>(made);
   }
   auto shared = std::make_shared<http_shared>(io.core(), options.limits);
-  shared->token = std::move(options.token);
-  shared->path_secret = std::move(options.path_secret);
-  shared->hosts = std::move(options.hosts);
-  shared->public_paths = std::move(options.public_paths);
+  shared->access = {std::move(options.token), std::move(options.path_secret),
+                    std::move(options.hosts), std::move(options.public_paths)};
   shared->handler = std::move(options.handler);
   return std::make_unique<server_handle>(
       std::move(shared), std::move(options.socket_path), listening, local);

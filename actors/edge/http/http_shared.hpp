@@ -1,5 +1,6 @@
 #pragma once
 
+#include "actors/edge/http/http_access.hpp"
 #include "actors/edge/http/http_types.hpp"
 #include "actors/edge/io/io_core.hpp"
 #include "actors/edge/session/session_link.hpp"
@@ -84,10 +85,7 @@ struct http_shared {
 
   const std::shared_ptr<io_core> core;
   const http_limits limits;
-  std::string token;
-  std::string path_secret;
-  std::vector<std::string> hosts;
-  std::vector<std::string> public_paths;
+  http_access access;
   http_handler handler;
   std::shared_ptr<const session_acceptor> sessions; ///< Null: none are taken.
   size_t open_sessions = 0;

@@ -1,0 +1,68 @@
+#include "actors/edge/http/http_access.hpp"
+
+#include "actors/edge/io/crypto.hpp"
+
+#include <algorithm>
+#include <string_view>
+
+namespace roscell {
+
+namespace {
+
+namespace http = boost::beast::http;
+
+std::string_view value_of(const http::request_header<>& x, http::field name) {
+  const auto text = x[name];
+  return {text.data(), text.size()};
+}
+
+bool contains(const std::vector<std::string>& all, std::string_view wanted) {
+  return std::find(all.begin(), all.end(), wanted) != all.end();
+}
+
+bool has_token(const http_access& access, const http::request_header<>& x) {
+  constexpr std::string_view scheme = "Bearer ";
+  const auto value = value_of(x, http::field::authorization);
+  return !access.token.empty() && value.substr(0, scheme.size()) == scheme
+         && equal_in_constant_time(value.substr(scheme.size()), access.token);
+}
+
+/// Whether the server is called as it may be, whatever the port.
+bool names_host(const http_access& access, const http::request_header<>& x) {
+  const auto value = value_of(x, http::field::host);
+  return access.hosts.empty()
+         || contains(access.hosts, value.substr(0, value.find(':')));
+}
+
+} // namespace
+
+bool http_access::has_secret(const std::string& path) const {
+  const auto size = path_secret.size();
+  return size > 0 && path.size() > size + 1 && path[size + 1] == '/'
+         && equal_in_constant_time(std::string_view{path}.substr(1, size),
+                                   path_secret);
+}
+
+std::string http_access::without_secret(std::string path) const {
+  if (has_secret(path))
+    path.erase(0, path_secret.size() + 1);
+  return path;
+}
+
+std::variant<http_caller, http_refusal>
+find_caller(const http_access& access, const http::request_header<>& x,
+            const std::string& path) {
+  if (!names_host(access, x))
+    return http_refusal{403, error_code::unauthorized,
+                        "this server is not called by that name", ""};
+  if (has_token(access, x) || access.has_secret(path))
+    return http_caller::trusted;
+  if (contains(access.public_paths, path))
+    return http_caller::stranger;
+  return http_refusal{
+      401, error_code::unauthorized, "the bearer token is missing or wrong",
+      "the node wrote it to its data directory; on the node's own host "
+      "the Unix socket needs none"};
+}
+
+} // namespace roscell

@@ -1,0 +1,49 @@
+#pragma once
+
+#include "messages/error_code.hpp"
+
+#include <boost/beast/http/fields.hpp>
+#include <boost/beast/http/message.hpp>
+
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace roscell {
+
+/// INTERNAL to this folder: who may ask a server for what by TCP. The Unix
+/// socket's clients may ask for all.
+struct http_access {
+  std::string token;       ///< The bearer token; empty: nobody has it.
+  std::string path_secret; ///< Begins a path in its stead; empty: none does.
+  std::vector<std::string> hosts;        ///< The server's names; empty: any.
+  std::vector<std::string> public_paths; ///< For everybody.
+
+  /// Whether a path begins with the secret.
+  bool has_secret(const std::string& path) const;
+
+  /// Without the secret that it begins with, if it does.
+  std::string without_secret(std::string path) const;
+};
+
+/// Why a request is not answered.
+struct http_refusal {
+  int status = 400;
+  error_code code = error_code::schema_violation;
+  std::string message;
+  std::string hint;
+};
+
+/// Whom a request comes from that is not refused.
+enum class http_caller {
+  stranger, ///< Who asks for a public path.
+  trusted,  ///< Who has shown the token or the secret.
+};
+
+/// What the header of a request for `path` tells of who asks.
+std::variant<http_caller, http_refusal>
+find_caller(const http_access& access,
+            const boost::beast::http::request_header<>& header,
+            const std::string& path);
+
+} // namespace roscell
