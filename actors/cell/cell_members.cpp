@@ -224,19 +224,18 @@ void on_member_lost(coordinator_pointer self, const member_lost& fact) {
   if (!entry)
     return;
   const auto name = entry->row.identity.name;
-  if (entry->row.state == row_state::departing) {
-    on_departing_node_lost(self, *entry, fact.reason);
+  const bool departing = entry->row.state == row_state::departing;
+  if (departing && !lose_departing_node(self, *entry, fact.reason)) {
     give_up_waits_on(self, name);
     lose_steps_of(self, name, fact.uuid, self->clock().now());
     return set_timer(self);
   }
-  st.registry.deactivate(*entry, row_state::lost, fact.reason, now_of(self));
+  if (!departing)
+    st.registry.deactivate(*entry, row_state::lost, fact.reason, now_of(self));
   lose_node(self, *entry, std::chrono::milliseconds{fact.silent_ms});
   publish(self, {fact.uuid});
   stop_searches_on(st, name);
-  st.context.tell(
-      "node_lost", name,
-      {{"reason", fact.reason}, {"size", st.registry.active_count()}});
+  tell_node_lost(self, *entry);
   // It may have said publicly that it is in no cell before that was known.
   set_timer(self);
 }

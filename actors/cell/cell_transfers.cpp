@@ -3,6 +3,7 @@
 #include "actors/cell/state/coordinator_publish.hpp"
 #include "actors/cell/state/coordinator_store.hpp"
 #include "actors/cell/state/coordinator_timer.hpp"
+#include "actors/cell/state/node_whereabouts.hpp"
 #include "actors/cell/state/transfer_end.hpp"
 #include "actors/cell/transfers/named_node.hpp"
 #include "actors/cell/transfers/transfer_start.hpp"
@@ -80,6 +81,7 @@ void lose_departed(coordinator_pointer self, const transfer_row& row) {
           + " and has not been heard of since",
       now_of(self));
   publish(self, {row.uuid});
+  tell_node_lost(self, *entry);
   arm_balance(self);
 }
 

@@ -73,6 +73,7 @@ TEST_CASE(
   CHECK(x.node.status().cell == x.to.cell);
   x.place.pass(10s);
   CHECK(x.code(request) == error_code::unresolved);
+  CHECK(x.count("node_lost", x.from) == 1);
   x.place.heal_all();
   x.place.pass(60s);
   CHECK(x.count("transfer_ended", x.from) == 1);

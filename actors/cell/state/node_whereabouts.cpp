@@ -54,8 +54,8 @@ void on_node_returned(coordinator_pointer self, const std::string& uuid) {
   end_transfer(self, id, transfer_state::returned, why.message, &why);
 }
 
-void on_departing_node_lost(coordinator_pointer self, registry_entry& entry,
-                            const std::string& reason) {
+bool lose_departing_node(coordinator_pointer self, registry_entry& entry,
+                         const std::string& reason) {
   auto& st = self->state;
   const auto& who = entry.row.identity;
   entry.agent = nullptr;
@@ -63,14 +63,23 @@ void on_departing_node_lost(coordinator_pointer self, registry_entry& entry,
   const auto* x = st.transfers.find_open_of(who.uuid);
   // Where it turns up tells the rest, if it has been told to go.
   if (x && x->row.state == transfer_state::switching)
-    return;
+    return false;
   if (x && x->row.state == transfer_state::preparing)
-    return call_off_transfer(self, x->row.transfer,
-                             {error_code::unreachable,
-                              "node '" + who.name + "' fell silent", "/node"});
-  st.registry.deactivate(entry, row_state::lost, reason, now_of(self));
-  publish(self, {who.uuid});
+    call_off_transfer(self, x->row.transfer,
+                      {error_code::unreachable,
+                       "node '" + who.name + "' fell silent", "/node",
+                       "it stays in the cell; send the request again when it "
+                       "is back"});
+  else
+    st.registry.deactivate(entry, row_state::lost, reason, now_of(self));
   arm_balance(self);
+  return true;
+}
+
+void tell_node_lost(coordinator_pointer self, const registry_entry& entry) {
+  self->state.context.tell("node_lost", entry.row.identity.name,
+                           {{"reason", entry.row.reason},
+                            {"size", self->state.registry.active_count()}});
 }
 
 } // namespace roscell

@@ -89,6 +89,8 @@ TEST_CASE_METHOD(moving_cell,
   CHECK(node_of("a") == "left");
   CHECK(disk.at("b").at("nodes") == json{"left"});
   CHECK(count("instance_moved") == 0);
+  CHECK(count("node_lost") == 1);
+  CHECK(count("instance_out_of_reach") == 2);
   // What it ran on with is still wanted there.
   const auto back = enter(left);
   REQUIRE(back);
