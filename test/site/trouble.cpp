@@ -49,7 +49,9 @@ void trouble::run() {
   const auto steps = 3 + pick(15);
   for (size_t i = 0; i < steps; ++i) {
     disturb();
-    watch_.live(duration{pick(3) == 0 ? pick(12'000) : pick(900)});
+    const duration span{pick(3) == 0 ? pick(12'000) : pick(900)};
+    // Nothing happens to a party that has been started until it has begun.
+    watch_.live(std::max(span, duration{1}));
   }
   if (pick(6) == 0)
     some_node().retired = true;
