@@ -159,6 +159,16 @@ deployment_book::rows_on(const std::string& node) const {
   return result;
 }
 
+std::vector<instance_row>
+deployment_book::rows_of(const std::string& task) const {
+  std::vector<instance_row> result;
+  for (const auto& [node, rows] : told_)
+    for (const auto& [id, row] : rows)
+      if (row.spec.task == task)
+        result.push_back(row);
+  return result;
+}
+
 template <class OnPlaced, class OnStray>
 void deployment_book::visit(const std::string& node, bool untold,
                             OnPlaced&& on_placed, OnStray&& on_stray) const {

@@ -99,6 +99,9 @@ public:
   /// The rows of a node as it has told them, in the order of their ids.
   std::vector<instance_row> rows_on(const std::string& node) const;
 
+  /// What nodes have told of a task's instances, wanted or not.
+  std::vector<instance_row> rows_of(const std::string& task) const;
+
   /// What is known of a node's instances: those that it has told of, those that
   /// have ended there, and, if `untold`, those that it has not told of yet.
   std::vector<instance_row> known_on(const std::string& node,

@@ -3,6 +3,7 @@
 #include "actors/cell/moves/move_stages.hpp"
 #include "actors/cell/state/coordinator_timer.hpp"
 #include "actors/cell/state/task_story.hpp"
+#include "actors/cell/tasks/task_removals.hpp"
 #include "actors/cell/tasks/task_turns.hpp"
 #include "actors/house/limits.hpp"
 #include "messages/failure.hpp"
@@ -118,6 +119,12 @@ void clear_and_place(coordinator_pointer self,
   end_one(self, all);
 }
 
+/// Whether it is there and no task wants it, where a fence ends it.
+bool is_left_over(const cell_coordinator_state& st, const instance_row& row) {
+  return is_live(row.state) && !st.deployments.find(row.spec.instance)
+         && row.spec.life.on_node_loss.policy == loss_action::move;
+}
+
 /// Whether its node can be told to end it.
 bool is_back(const cell_coordinator_state& st, const lost_step& x) {
   const auto* node = st.registry.find_name(x.node);
@@ -131,11 +138,11 @@ std::optional<milliseconds> fenced_for(coordinator_pointer self,
   return left.count() > 0 ? std::optional{left} : std::nullopt;
 }
 
-failure still_there(const lost_step& x, const std::string& why,
-                    const std::string& when) {
+failure still_there(const std::string& instance, const std::string& node,
+                    const std::string& why, const std::string& when) {
   return {error_code::conflict,
-          "'" + x.instance + "' of the task that had this name may still run "
-              + "on '" + x.node + "': " + why,
+          "'" + instance + "' of the task that had this name may still run "
+              + "on '" + node + "': " + why,
           "/task", "send it again " + when + ", or choose another task id"};
 }
 
@@ -150,6 +157,14 @@ void lose_steps_of(coordinator_pointer self, const std::string& node,
       if (x.node == node && moves(x))
         st.losses.lose({task, x.spec.instance, node, uuid, since},
                        patience_of(x.spec));
+  // What nobody wants any more may run on there for as long, from now on.
+  for (const auto& x : st.deployments.rows_on(node)) {
+    if (!is_left_over(st, x))
+      continue;
+    st.losses.forget(x.spec.instance);
+    st.losses.lose({x.spec.task, x.spec.instance, node, uuid, since},
+                   patience_of(x.spec));
+  }
   set_timer(self);
 }
 
@@ -195,18 +210,19 @@ std::optional<failure> remains_of(coordinator_pointer self,
                                   const std::string& task) {
   const auto& st = self->state;
   for (const auto& x : st.losses.of_task(task)) {
-    if (is_back(st, x)) {
-      const auto* row = st.deployments.told(x.node, x.instance);
-      if (row && is_live(row->state))
-        return still_there(x, "its node was away, and is ending it",
-                           "once it has ended");
-    } else if (const auto left = fenced_for(self, x)) {
-      const auto s = std::chrono::ceil<std::chrono::seconds>(*left).count();
-      return still_there(x, "its node is away",
-                         "in " + std::to_string(s)
-                             + " s, when it has been ended there");
-    }
+    const auto left = is_back(st, x) ? std::nullopt : fenced_for(self, x);
+    if (!left)
+      continue;
+    const auto s = std::chrono::ceil<std::chrono::seconds>(*left).count();
+    return still_there(x.instance, x.node, "its node is away",
+                       "in " + std::to_string(s)
+                           + " s, when it has been ended there");
   }
+  for (const auto& row : st.deployments.rows_of(task))
+    if (is_left_over(st, row) && !is_away(st, row.node))
+      return still_there(row.spec.instance, row.node,
+                         "its node was away, and is ending it",
+                         "once it has ended");
   return std::nullopt;
 }
 

@@ -149,8 +149,12 @@ std::vector<instance_verdict> take_up_instances(coordinator_pointer self,
   st.deployments.forget_node(name);
   std::set<std::string> tasks;
   for (auto x : node.instances) {
-    if (!is_wanted(st, x.spec.instance, name))
+    if (!is_wanted(st, x.spec.instance, name)) {
+      // It is there until the node has ended it.
+      if (is_live(x.state))
+        st.deployments.tell(name, std::move(x));
       continue;
+    }
     // A node that registers says less of an instance than the task knows.
     x.spec = st.deployments.find(x.spec.instance, name)->spec;
     tasks.insert(x.spec.task);

@@ -183,6 +183,12 @@ TEST_CASE_METHOD(two_nodes,
   CHECK(registered->verdicts[0].instance
         == accepted.at("instances")[1].at("instance"));
   CHECK(registered->verdicts[0].what == verdict::stop);
+  // It is there until the node has ended it.
+  REQUIRE(row("right").instances.size() == 1);
+  auto ended = row("right").instances[0];
+  ended.state = instance_state::stopped;
+  right.tell(ended);
+  time.settle();
   CHECK(row("right").instances.empty());
 }
 

@@ -240,6 +240,37 @@ TEST_CASE_METHOD(lossy_cell,
   CHECK(right.running.size() == 1);
 }
 
+TEST_CASE_METHOD(lossy_cell,
+                 "What a node comes back with is there until it has ended",
+                 "[lost_steps]") {
+  const auto again = echo_task("a", {movable_step(30)});
+  auto row = left.running.begin()->second;
+  lose(left);
+  request({{"type", "task_termination"}, {"task", "a"}});
+  const auto back = enter(left);
+  REQUIRE(back);
+  REQUIRE(back->verdicts.at(0).what == verdict::stop);
+  time.advance(40s);
+  const auto refused = request(again);
+  REQUIRE(refused.at("type") == "error");
+  CHECK(refused.at("error").at("hint")
+        == "send it again once it has ended, or choose another task id");
+  SECTION("it ends") {
+    row.state = instance_state::stopped;
+    left.tell(row);
+    time.settle();
+  }
+  SECTION("its node is lost once more") {
+    lose(left);
+    time.advance(20s);
+    CHECK(request(again).at("error").at("hint")
+          == "send it again in 10 s, when it has been ended there, or choose "
+             "another task id");
+    time.advance(11s);
+  }
+  CHECK(request(again).at("type") == "task_accepted");
+}
+
 TEST_CASE_METHOD(lossy_cell, "A node that leaves in order is lost, too",
                  "[lost_steps]") {
   depart(left);
