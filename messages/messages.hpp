@@ -16,6 +16,8 @@
 #include "messages/inside/link.hpp"
 #include "messages/inside/measures.hpp"
 #include "messages/inside/membership.hpp"
+#include "messages/inside/placement.hpp"
+#include "messages/inside/requests.hpp"
 #include "messages/inside/runtime.hpp"
 #include "messages/inside/scouting.hpp"
 #include "messages/inside/storage.hpp"

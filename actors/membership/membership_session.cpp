@@ -4,6 +4,7 @@
 #include "actors/session/session_envelope.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 namespace roscell::membership_steps {

@@ -95,11 +95,9 @@ void store_membership(self_pointer self);
 void take_session(self_pointer self, const session_actor& session);
 /// Closes the session if there is one; its pending calls fail.
 void drop_session(self_pointer self, const std::string& reason);
-/// Whether the present message comes from the present session.
 void on_frame(self_pointer self, const frame_received& frame);
 void on_beat(self_pointer self, const beat_received& beat);
 void on_session_lost(self_pointer self, const std::string& reason);
-/// Does what the lease wants.
 void notify(self_pointer self, const instance_changed& fact);
 
 // -- membership_programs.cpp: the node's own discovery server -----------------

@@ -41,7 +41,7 @@ struct node_state_data {
 
 using node_pointer = node_actor::stateful_pointer<node_state_data>;
 
-/// The NODE. Messages: messages/inside/coordination.hpp. It ends after its
+/// The NODE. Messages: messages/inside/requests.hpp. It ends after its
 /// children, which use its sockets. A child that dies takes the node with it:
 /// whoever runs it starts it again, and it finds its instances.
 node_actor::behavior_type node(node_pointer self, const node_parts& parts);

@@ -31,7 +31,7 @@ struct scheduler_state {
   uint64_t trials = 0;
 };
 
-/// The SCHEDULER. Messages: messages/inside/coordination.hpp.
+/// The SCHEDULER. Messages: messages/inside/placement.hpp.
 scheduler_actor::behavior_type
 scheduler(scheduler_actor::stateful_pointer<scheduler_state> self,
           const scheduler_config& config);

@@ -22,7 +22,7 @@ struct searcher_state {
 };
 
 /// The SEARCHER, behind the SCHEDULER and with its handle. Messages:
-/// messages/inside/coordination.hpp. `guard` tells it of nodes that leave. Ends
+/// messages/inside/placement.hpp. `guard` tells it of nodes that leave. Ends
 /// with its owner.
 scheduler_actor::behavior_type
 searcher(scheduler_actor::stateful_pointer<searcher_state> self,

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "messages/failure.hpp"
-#include "messages/inside/coordination.hpp"
+#include "messages/inside/placement.hpp"
 
 #include <variant>
 #include <vector>

@@ -8,7 +8,7 @@ namespace roscell {
 /// handlers and ends with it, so that whatever kills it fails that request
 /// only: the next one gets a new actor. `ticket` is the request's in the
 /// node's history, which the handlers go on to write. Messages:
-/// messages/inside/coordination.hpp.
+/// messages/inside/requests.hpp.
 handler_pipeline_actor::behavior_type
 handler_pipeline(pipeline_pointer self, const request_runner& run,
                  const std::shared_ptr<const node_services>& services,

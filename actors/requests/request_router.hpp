@@ -46,7 +46,7 @@ struct request_router_state {
   uint64_t refused = 0;
 };
 
-/// The REQUEST ROUTER. Messages: messages/inside/coordination.hpp.
+/// The REQUEST ROUTER. Messages: messages/inside/requests.hpp.
 request_router_actor::behavior_type request_router(
     request_router_actor::stateful_pointer<request_router_state> self,
     const std::shared_ptr<const request_registry>& registry,

@@ -2,10 +2,6 @@
 
 #include "actors/house/limits.hpp"
 
-#include <caf/actor_cast.hpp>
-#include <caf/typed_response_promise.hpp>
-
-#include <algorithm>
 #include <utility>
 
 namespace roscell {

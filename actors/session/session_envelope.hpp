@@ -2,7 +2,7 @@
 
 #include "messages/codec/json_codec.hpp"
 #include "messages/failure.hpp"
-#include "messages/inside/coordination.hpp"
+#include "messages/inside/requests.hpp"
 
 #include <cstdint>
 #include <optional>

@@ -5,6 +5,8 @@
 #include "messages/inside/introspection.hpp"
 #include "messages/inside/link.hpp"
 #include "messages/inside/measures.hpp"
+#include "messages/inside/placement.hpp"
+#include "messages/inside/requests.hpp"
 #include "messages/inside/runtime.hpp"
 #include "messages/inside/scouting.hpp"
 #include "messages/inside/storage.hpp"

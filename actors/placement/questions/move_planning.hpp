@@ -2,7 +2,7 @@
 
 #include "actors/house/limits.hpp"
 #include "messages/failure.hpp"
-#include "messages/inside/coordination.hpp"
+#include "messages/inside/placement.hpp"
 
 #include <chrono>
 #include <functional>

@@ -2,7 +2,7 @@
 
 #include "actors/placement/questions/step_ways.hpp"
 #include "actors/placement/search/problem.hpp"
-#include "messages/inside/coordination.hpp"
+#include "messages/inside/placement.hpp"
 
 #include <string>
 #include <vector>

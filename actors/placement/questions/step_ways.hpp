@@ -1,7 +1,7 @@
 #pragma once
 
 #include "actors/placement/search/problem.hpp"
-#include "messages/inside/coordination.hpp"
+#include "messages/inside/placement.hpp"
 
 #include <map>
 #include <string>

@@ -2,7 +2,7 @@
 
 #include "actors/placement/reading/short_forms.hpp"
 #include "messages/failure.hpp"
-#include "messages/inside/coordination.hpp"
+#include "messages/inside/placement.hpp"
 
 #include <optional>
 #include <string>

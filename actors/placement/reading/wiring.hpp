@@ -1,7 +1,7 @@
 #pragma once
 
 #include "actors/placement/reading/short_forms.hpp"
-#include "messages/inside/coordination.hpp"
+#include "messages/inside/placement.hpp"
 
 #include <cstdint>
 #include <optional>

@@ -57,20 +57,31 @@ TEST_CASE_METHOD(crowded_cell,
   CHECK(count("node_drained") == 1);
 }
 
-TEST_CASE_METHOD(crowded_cell,
+namespace {
+
+/// A drained node is away for a while, and comes back.
+struct absent_node : crowded_cell {
+  void check_that_it_waits() {
+    time.advance(5min);
+    CHECK(right.running.empty());
+    REQUIRE(enter(left));
+    time.advance(limits::retry::longest + 1s);
+    CHECK(left.running.empty());
+    CHECK(right.running.size() == 2);
+  }
+};
+
+} // namespace
+
+TEST_CASE_METHOD(absent_node,
                  "What a node runs that is away is not started elsewhere",
                  "[drain]") {
   lose(left);
   request(drain("left"));
-  time.advance(5min);
-  CHECK(right.running.empty());
-  REQUIRE(enter(left));
-  time.advance(limits::retry::longest + 1s);
-  CHECK(left.running.empty());
-  CHECK(right.running.size() == 2);
+  check_that_it_waits();
 }
 
-TEST_CASE_METHOD(crowded_cell,
+TEST_CASE_METHOD(absent_node,
                  "A node that falls silent while it is drained keeps its work",
                  "[drain]") {
   right.mood = temper::slow;
@@ -79,12 +90,7 @@ TEST_CASE_METHOD(crowded_cell,
   lose(left);
   right.mood = temper::happy;
   right.finish_starting();
-  time.advance(5min);
-  CHECK(right.running.empty());
-  REQUIRE(enter(left));
-  time.advance(limits::retry::longest + 1s);
-  CHECK(left.running.empty());
-  CHECK(right.running.size() == 2);
+  check_that_it_waits();
 }
 
 TEST_CASE_METHOD(crowded_cell,

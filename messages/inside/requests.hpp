@@ -1,0 +1,77 @@
+#pragma once
+
+#include "messages/actors.hpp"
+
+#include <string>
+
+/// What requests from outside become inside a node: the ROUTER and its
+/// pipelines are told these, and who relays requests, and the NODE.
+namespace roscell {
+
+/// A request as it came in at an edge.
+struct route_request {
+  std::string text; ///< Bytes from outside, not checked yet.
+  std::string only; ///< The one type that is allowed; empty: any.
+
+  static constexpr auto fields() {
+    return field_list{required("text", &route_request::text),
+                      required("only", &route_request::only)};
+  }
+};
+
+/// The answer: a reply or an error, as JSON text.
+struct request_routed {
+  std::string text;
+  /// Code of a refusal; empty when the request was done.
+  std::string refusal;
+
+  static constexpr auto fields() {
+    return field_list{required("text", &request_routed::text),
+                      required("refusal", &request_routed::refusal)};
+  }
+};
+
+/// A request that a member of the cell is to answer itself.
+struct relay_request {
+  std::string node;
+  std::string text; ///< JSON of the request, checked.
+
+  static constexpr auto fields() {
+    return field_list{required("node", &relay_request::node),
+                      required("text", &relay_request::text)};
+  }
+};
+
+/// Who answers what comes over a session: to the COORDINATOR, what its members
+/// ask on behalf of their users; to the MEMBERSHIP, what its coordinator asks.
+struct serve_members {
+  request_router_actor router;
+
+  static constexpr auto fields() {
+    return field_list{required("router", &serve_members::router)};
+  }
+};
+
+/// Begins the work on the request that the pipeline was made for.
+struct process_request {
+  static constexpr auto fields() {
+    return field_list{};
+  }
+};
+
+struct request_processed {
+  std::string text; ///< JSON of the reply.
+
+  static constexpr auto fields() {
+    return field_list{required("text", &request_processed::text)};
+  }
+};
+
+/// Ends the node in order: leaves the cell, closes the edges, keeps instances.
+struct stop_node {
+  static constexpr auto fields() {
+    return field_list{};
+  }
+};
+
+} // namespace roscell
