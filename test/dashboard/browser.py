@@ -55,6 +55,20 @@ class Browser:
                 .map((x) => [x.name.slice(-24), Math.round(x.startTime), Math.round(x.duration), x.responseStatus])""")
             raise AssertionError(f"{room} does not open: {self.text('body')[:300]} {asked} {self.complaints()}") from trouble
 
+    def quicken(self):
+        """From the next `open` on the page can be hidden, and what it does after seconds
+        or a minute it does ten times as soon, or `pace` times as soon."""
+        self.driver.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", {"source": """
+            const plan = window.setTimeout.bind(window);
+            window.pace = 10;
+            window.setTimeout = (work, ms, ...parts) => plan(work, ms > 1000 ? ms / window.pace : ms, ...parts);
+            window.unseen = false;
+            Object.defineProperty(document, 'hidden', {get: () => window.unseen});
+            window.hide = (whether) => {
+              window.unseen = whether;
+              document.dispatchEvent(new Event('visibilitychange'));
+            };"""})
+
     def go(self, room):
         self.js("location.hash = arguments[0]", room)
         time.sleep(0.1)

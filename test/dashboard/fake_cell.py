@@ -31,6 +31,8 @@ class FakeCell:
         self.numbers = itertools.count(1)
         self.started = now()
         self.listeners = set()
+        self.log_readers = set()
+        self.requests = []
         self.away = threading.Event()
         self.nodes = [f"node-{n:02}" for n in range(1, nodes + 1)]
         self.tasks = {f"task-{t:02}": [self.instance(f"task-{t:02}", s) for s in range(steps)]
@@ -90,11 +92,14 @@ class FakeCell:
         row = self.random.choice(self.rows())
         row["state"] = "backing_off" if row["state"] == "running" else "running"
         row["since_unix_ms"] = now()
-        event = {"type": "event", "sequence": next(self.numbers), "time_unix_ms": now(), "event": "instance_changed",
-                 "subject": row["spec"]["instance"],
-                 "data": {"task": row["spec"]["task"], "step": row["spec"]["step"], "node": row["node"], "state": row["state"]}}
+        self.say("instance_changed", row["spec"]["instance"], {
+            "task": row["spec"]["task"], "step": row["spec"]["step"], "node": row["node"], "state": row["state"]})
+
+    def say(self, event, subject, data=None):
+        fact = {"type": "event", "sequence": next(self.numbers), "time_unix_ms": now(), "event": event,
+                "subject": subject, "data": data or {}}
         for listener in list(self.listeners):
-            listener.put(event)
+            listener.put(fact)
 
     def run(self, rate_hz):
         due = time.monotonic()
@@ -119,6 +124,8 @@ class Handler(http.server.BaseHTTPRequestHandler):
             return self.fall_silent()
         if path == "/v1/events":
             return self.events()
+        if path.endswith("/logs"):
+            return self.log()
         self.reply(self.fake.answer(path.removeprefix("/v1/"), {}))
 
     def do_POST(self):
@@ -133,6 +140,7 @@ class Handler(http.server.BaseHTTPRequestHandler):
         if self.fake.away.is_set():
             return self.fall_silent()
         query = json.loads(body)
+        self.fake.requests.append(query)
         self.reply(self.fake.figures(query) if query["type"] == "instance_query"
                    else {"type": "task_history", "task": query.get("task", ""), "events": []})
 
@@ -157,32 +165,58 @@ class Handler(http.server.BaseHTTPRequestHandler):
         self.wfile.write(data)
 
     def events(self):
-        self.close_connection = True
-        self.send_response(200)
-        self.send_header("Content-Type", "text/event-stream")
-        self.send_header("Connection", "close")
-        self.end_headers()
+        self.begin_stream("text/event-stream")
         mine = queue.Queue()
         self.fake.listeners.add(mine)
         try:
             self.wfile.write(b": events of this load\n\n")
-            while event := mine.get():
+            while event := self.next_of(mine):
                 self.wfile.write(f"id: {event['sequence']}\nevent: {event['event']}\ndata: {json.dumps(event)}\n\n".encode())
         except OSError:
             pass
         self.fake.listeners.discard(mine)
+
+    def next_of(self, mine):
+        """Whether the browser is still there is known only to who writes."""
+        while True:
+            try:
+                return mine.get(timeout=0.5)
+            except queue.Empty:
+                self.wfile.write(b": still here\n\n")
+
+    def log(self):
+        """Ten lines a second, until the browser or the test ends it."""
+        self.begin_stream("text/plain")
+        ended = threading.Event()
+        self.fake.log_readers.add(ended)
+        try:
+            for number in itertools.count(1):
+                self.wfile.write(f"- line {number} of reading {id(ended)}\n".encode())
+                if ended.wait(0.1):
+                    break
+        except OSError:
+            pass
+        self.fake.log_readers.discard(ended)
+
+    def begin_stream(self, kind):
+        self.close_connection = True
+        self.send_response(200)
+        self.send_header("Content-Type", kind)
+        self.send_header("Connection", "close")
+        self.end_headers()
 
 
 class Server(http.server.ThreadingHTTPServer):
     request_queue_size = 64  # A browser opens several connections at once.
 
 
-def serve(rate_hz=10):
+def serve(rate_hz=10, **size):
     """Starts the load on a port of its own. Gives the page's address."""
-    Handler.fake = FakeCell()
+    Handler.fake = FakeCell(**size)
     server = Server(("127.0.0.1", 0), Handler)
     threading.Thread(target=server.serve_forever, daemon=True).start()
-    threading.Thread(target=Handler.fake.run, args=(rate_hz,), daemon=True).start()
+    if rate_hz:
+        threading.Thread(target=Handler.fake.run, args=(rate_hz,), daemon=True).start()
     return f"http://127.0.0.1:{server.server_port}/dashboard/"
 
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Tries the dashboard in a headless browser, with a real cell and then with a
+# Tries the dashboard in a headless browser: with a real cell, with faults, with a
 # load. Usage: test/dashboard/run.sh BUILD_DIR [OPTION-OF-dashboard_test.py...]
 # $ROSCELL_DASHBOARD is the command that serves the page: it is told the node in
 # $ROSCELL_TO and prints a line with the page's address.
@@ -28,6 +28,8 @@ done
 [[ -n $url ]] || fail "the dashboard did not tell its address"
 "$python" test/dashboard/dashboard_test.py --url "$url" --scene "$scratch/scene.json" "$@"
 behaves=$?
+"$python" test/dashboard/fault_test.py
+mends=$?
 "$python" test/dashboard/load_test.py
 flows=$?
-[[ $behaves -eq 0 && $flows -eq 0 ]]
+[[ $behaves -eq 0 && $mends -eq 0 && $flows -eq 0 ]]

@@ -86,31 +86,32 @@ store.subscribe((kinds) => {
   document.title = `${trouble ? `(${count(trouble, 'node')} lost) ` : ''}${store.cell?.cell ?? 'ROSCell'} · ROSCell`;
 });
 
+/** A room that has paused goes on once the link is live. */
+function letGo() {
+  stream.halt();
+  room?.pause?.();
+  store.setLink('paused');
+}
+
 let hiding;
-document.addEventListener('visibilitychange', () => {
+function onVisibility() {
   clearTimeout(hiding);
   if (document.hidden)
-    hiding = setTimeout(() => { stream.halt(); store.setLink('paused'); }, HIDDEN_MS);
+    hiding = setTimeout(letGo, HIDDEN_MS);
   else if (stream.halted)
     stream.resume();
-});
+}
+document.addEventListener('visibilitychange', onVisibility);
 
 // A browser keeps pages that somebody may come back to, and with them their
 // connections, of which it has six for one node.
-window.addEventListener('pagehide', () => {
-  stream.halt();
-  room?.close?.();
-});
-window.addEventListener('pageshow', (event) => {
-  if (!event.persisted)
-    return;
-  stream.resume();
-  openRoom();
-});
+window.addEventListener('pagehide', letGo);
+window.addEventListener('pageshow', (event) => event.persisted && onVisibility());
 
 window.addEventListener('hashchange', openRoom);
 window.addEventListener('online', () => stream.lookNow());
 setText(document.getElementById('loading'), '');
 setAttribute(document.body, 'data-open', 'yes');
 openRoom();
+onVisibility();
 stream.run();

@@ -17,7 +17,7 @@ export class InstanceRoom {
     this.actions = el('p', { class: 'actions' });
     this.facts = el('div', {});
     this.ends = el('div', {});
-    this.log = new LogView(this.name);
+    this.log = new LogView(this.name, () => this.lives());
     this.root = el('div', { class: 'room' },
       el('p', { class: 'way' }, el('a', { href: address('instances') }, 'Instances')),
       el('h1', {}, this.title, ' ', this.state), this.reason, this.figures, this.actions,
@@ -27,10 +27,26 @@ export class InstanceRoom {
   }
 
   close() {
-    this.log.close();
+    this.pause();
+  }
+
+  /** Lets the node go until the link is live again. */
+  pause() {
+    this.log.stop();
+  }
+
+  /** Until the cell is known nobody can say that it has ended. */
+  lives() {
+    const { store } = this.app;
+    const row = store.instances.get(this.name);
+    return row ? !['stopped', 'failed'].includes(row.state) : !store.cell;
   }
 
   update(kinds) {
+    const linked = this.app.store.link.state;
+    if (linked === 'live' && this.linked !== 'live')
+      this.log.again();
+    this.linked = linked;
     const row = this.app.store.instances.get(this.name);
     if (!row)
       return this.app.store.cell && setText(this.reason, 'The cell has no instance of that name now; its log may still be there.');

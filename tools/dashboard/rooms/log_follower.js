@@ -1,5 +1,6 @@
 // The text of a log as it grows: asked for once, and again only when the node or
-// the instance was away.
+// the instance was away. That the text has come to its end does not say that the
+// instance has: a node between it and this page may have gone.
 import { follow, Refusal } from '../cell/api.js';
 
 const TAIL = 500;
@@ -8,43 +9,60 @@ const LONGEST_PAUSE_MS = 15000;
 /** Control sequences would colour a terminal; here they would be noise. */
 const CONTROL = /\u001b\[[0-9;?]*[ -/]*[@-~]|[\u0000-\u0008\u000b-\u001a\u001c-\u001f]/g;
 
-/** hooks: onBegin() a log begins anew, onLines(lines), onState(words). */
+/** A connection that has lasted so long was no failure. */
+const STEADY_MS = 10000;
+
+/**
+ * hooks: onBegin() a log begins anew, onLines(lines), onState(words), and lives(),
+ * whether more is to be expected of the instance.
+ */
 export class LogFollower {
   constructor(instance, hooks) {
     this.instance = instance;
     this.hooks = hooks;
-    this.cutter = new AbortController();
+    this.cutter = null;
     this.pause = FIRST_PAUSE_MS;
-    this.following = false;
   }
 
-  close() {
-    this.cutter.abort();
+  /** Lets the node go; `start` begins anew. */
+  stop() {
     clearTimeout(this.timer);
+    this.cutter?.abort();
+    this.cutter = null;
   }
 
   /** Does nothing while the log is followed already. */
-  async start() {
-    if (this.following)
+  start() {
+    if (this.cutter)
       return;
-    this.following = true;
     clearTimeout(this.timer);
+    this.pause = FIRST_PAUSE_MS;
+    this.followOnce();
+  }
+
+  async followOnce() {
+    const cutter = new AbortController();
+    this.cutter = cutter;
     this.rest = '';
+    this.opened = Infinity;
+    let trouble = null;
     try {
       await follow(`instances/${encodeURIComponent(this.instance)}/logs?tail=${TAIL}&times=1&follow=1`, {
-        signal: this.cutter.signal,
+        signal: cutter.signal,
         onOpen: () => this.onOpen(),
         onText: (text) => this.onText(text),
       });
-      this.hooks.onState('The log has ended.');
-    } catch (trouble) {
-      this.onTrouble(trouble);
+    } catch (caught) {
+      trouble = caught;
     }
-    this.following = false;
+    if (cutter.signal.aborted)
+      return;
+    this.cutter = null;
+    this.onEnd(trouble);
   }
 
   onOpen() {
-    this.pause = FIRST_PAUSE_MS;
+    this.opened = Date.now();
     this.hooks.onBegin();
     this.hooks.onState('Following.');
   }
@@ -55,13 +73,16 @@ export class LogFollower {
     this.hooks.onLines(lines.map(parted));
   }
 
-  onTrouble(trouble) {
-    if (this.cutter.signal.aborted)
-      return;
-    this.hooks.onState(trouble.message);
+  onEnd(trouble) {
     if (trouble instanceof Refusal && trouble.code === 'unknown_task')
-      return;
-    this.timer = setTimeout(() => this.start(), this.pause);
+      return this.hooks.onState(trouble.message);
+    if (!trouble && !this.hooks.lives())
+      return this.hooks.onState('The log has ended.');
+    if (Date.now() - this.opened > STEADY_MS)
+      this.pause = FIRST_PAUSE_MS;
+    const words = trouble ? trouble.message : 'The log has broken off';
+    this.hooks.onState(`${words}. Looking again in ${this.pause / 1000} s.`);
+    this.timer = setTimeout(() => this.followOnce(), this.pause);
     this.pause = Math.min(this.pause * 2, LONGEST_PAUSE_MS);
   }
 }

@@ -8,9 +8,11 @@ import { LogFollower } from './log_follower.js';
 const MOST_LINES = 3000;
 
 export class LogView {
-  constructor(instance) {
+  /** `lives()` tells whether more is to be expected of the instance. */
+  constructor(instance, lives) {
     this.lines = [];
     this.fresh = [];
+    this.anew = false;
     this.atEnd = true;
     const find = freshId('find');
     this.find = el('input', { type: 'search', id: find, placeholder: 'words of a line', on: { input: onceAFrame(() => this.redraw()) } });
@@ -21,7 +23,8 @@ export class LogView {
       el('p', { class: 'filters' }, el('label', { for: find }, 'Find'), this.find, this.state, this.newest), this.box);
     this.draw = onceAFrame(() => this.drawFresh());
     this.follower = new LogFollower(instance, {
-      onBegin: () => { this.lines = []; this.redraw(); },
+      lives,
+      onBegin: () => { this.anew = true; },
       onLines: (lines) => this.add(lines),
       onState: (words) => setText(this.state, words),
     });
@@ -29,21 +32,32 @@ export class LogView {
     this.follower.start();
   }
 
-  close() {
-    this.follower.close();
+  /** Lets the node go. */
+  stop() {
+    this.follower.stop();
   }
 
-  /** The instance runs again: its log goes on. */
+  /** The instance runs again, or the node is back: the log goes on. */
   again() {
     this.follower.start();
   }
 
   add(lines) {
-    this.lines.push(...lines);
-    this.fresh.push(...lines);
-    if (this.lines.length > MOST_LINES)
-      this.lines.splice(0, this.lines.length - MOST_LINES);
+    // What is shown stays until there is something to show in its place.
+    if (this.anew && lines.length > 0)
+      this.beginAnew();
+    for (const list of [this.lines, this.fresh]) {
+      list.push(...lines);
+      list.splice(0, list.length - MOST_LINES);
+    }
     this.draw();
+  }
+
+  beginAnew() {
+    this.anew = false;
+    this.lines = [];
+    this.fresh = [];
+    this.emptied = true;
   }
 
   wanted(line) {
@@ -53,17 +67,20 @@ export class LogView {
 
   redraw() {
     this.fresh = [...this.lines];
-    this.box.replaceChildren();
+    this.emptied = true;
     this.drawFresh();
   }
 
   drawFresh() {
+    const { scrollTop } = this.box;
+    if (this.emptied)
+      this.box.replaceChildren();
+    this.emptied = false;
     const lines = this.fresh.splice(0).filter((x) => this.wanted(x)).slice(-MOST_LINES);
     this.box.append(...lines.map(makeLine));
     while (this.box.childElementCount > MOST_LINES)
       this.box.firstElementChild.remove();
-    if (this.atEnd)
-      this.box.scrollTop = this.box.scrollHeight;
+    this.box.scrollTop = this.atEnd ? this.box.scrollHeight : scrollTop;
   }
 
   onScroll() {
