@@ -33,6 +33,8 @@ class FakeCell:
         self.listeners = set()
         self.log_readers = set()
         self.requests = []
+        self.skills = []
+        self.delays = {}
         self.away = threading.Event()
         self.nodes = [f"node-{n:02}" for n in range(1, nodes + 1)]
         self.tasks = {f"task-{t:02}": [self.instance(f"task-{t:02}", s) for s in range(steps)]
@@ -68,6 +70,8 @@ class FakeCell:
                 "discovery_server": "127.0.0.1:11811", "incarnation": 1, "nodes": nodes, "tasks": self.task_rows()}
 
     def figures(self, query):
+        if query.get("instance") and query["instance"] not in [x["spec"]["instance"] for x in self.rows()]:
+            return {"type": "error", "error": {"code": "unknown_task", "message": "no such instance", "where": "/instance", "hint": ""}}
         rows = [x for x in self.rows() if query.get("task") in (None, x["spec"]["task"])
                 and query.get("instance") in (None, x["spec"]["instance"])]
         return {"type": "instance_description", "instances": [
@@ -84,7 +88,7 @@ class FakeCell:
         return {"cell": self.cell, "instances": lambda: self.figures(query),
                 "cells": lambda: {"type": "cell_list", "cells": [{"cell": "load", "coordinator": self.nodes[0], "size": len(self.nodes),
                                                                   "address": "127.0.0.1:8420", "discovery_server": "127.0.0.1:11811"}]},
-                "skills": lambda: {"type": "skill_list", "skills": []},
+                "skills": lambda: {"type": "skill_list", "skills": self.skills},
                 "topics": lambda: {"type": "topic_list", "topics": []}}[what[0]]()
 
     def tell(self):
@@ -126,7 +130,11 @@ class Handler(http.server.BaseHTTPRequestHandler):
             return self.events()
         if path.endswith("/logs"):
             return self.log()
-        self.reply(self.fake.answer(path.removeprefix("/v1/"), {}))
+        what = path.removeprefix("/v1/")
+        answer = json.dumps(self.fake.answer(what, {}))
+        # It says how things were before.
+        time.sleep(self.fake.delays.get(what, 0))
+        self.bytes(answer.encode(), "application/json")
 
     def do_POST(self):
         body = self.rfile.read(int(self.headers["Content-Length"]))

@@ -16,12 +16,14 @@ import { ROOMS } from './rooms/rooms.js';
 const HIDDEN_MS = 60000;
 /** No first reading takes longer; facts that are newer may not be in it. */
 const READ_MS = 3000;
+/** How long ago something was is said anew this often, though nothing happens. */
+const TICK_MS = 5000;
 
 const store = new Store();
 const announcer = new Announcer(document.getElementById('announcer'));
 const stream = new EventStream({ onEvents, onLink, onNode, onOpen });
 const questions = new Questions(store, () => stream.cut());
-const figures = new Figures(store, () => stream.cut());
+const figures = new Figures(store, () => stream.cut(), questions.want);
 const app = { store, figures, questions, announcer, go: (hash) => { location.hash = hash; } };
 const frame = new Frame(app, stream);
 let room = null;
@@ -38,6 +40,8 @@ async function onOpen(again) {
   caughtUp = false;
   if (again)
     announcer.say('The node is back');
+  // A task of such a name may have begun while nobody listened.
+  store.ended.clear();
   await questions.readAll();
   caughtUp = true;
   // Clocks of nodes differ, so "while it was read" is counted back from the newest fact.
@@ -108,6 +112,7 @@ document.addEventListener('visibilitychange', onVisibility);
 window.addEventListener('pagehide', letGo);
 window.addEventListener('pageshow', (event) => event.persisted && onVisibility());
 
+setInterval(() => document.hidden || store.touch('time'), TICK_MS);
 window.addEventListener('hashchange', openRoom);
 window.addEventListener('online', () => stream.lookNow());
 setText(document.getElementById('loading'), '');

@@ -2,7 +2,7 @@
 // are asked for only while somebody can see them, every 5 s at most, and more
 // seldom where the answer takes long, so that the node spends less than a
 // hundredth of its time on this page.
-import { get, NoAnswer, send } from './api.js';
+import { get, NoAnswer, Refusal, send } from './api.js';
 import { Samples } from './samples.js';
 
 const EVERY_MS = 5000;
@@ -10,9 +10,11 @@ const LONGEST_MS = 30000;
 const SHARE = 100;
 
 export class Figures {
-  constructor(store, onTrouble) {
+  /** `again` is told what is to be asked because it has changed while figures came. */
+  constructor(store, onTrouble, again) {
     this.store = store;
     this.onTrouble = onTrouble;
+    this.again = again;
     this.samples = new Samples();
     this.wishes = [];
     this.timer = null;
@@ -46,11 +48,28 @@ export class Figures {
       this.timer = setTimeout(() => this.look(), pause);
   }
 
-  async answer(wish) {
-    if (wish === 'instances')
-      return this.store.setFigures((await get('instances')).instances);
-    if (wish !== 'resources')
-      return this.store.setFigures((await send(JSON.stringify({ type: 'instance_query', ...wish }))).instances);
+  answer(wish) {
+    if (wish === 'resources')
+      return this.store.flights.during(() => this.readResources(), this.again);
+    return wish === 'instances' ? this.readInstances(get('instances')) : this.readSome(wish);
+  }
+
+  async readInstances(answer) {
+    this.store.setFigures((await answer).instances);
+  }
+
+  /** What is refused is not there any more; each refusal is an event, for everybody. */
+  async readSome(wish) {
+    try {
+      await this.readInstances(send(JSON.stringify({ type: 'instance_query', ...wish })));
+    } catch (trouble) {
+      if (!(trouble instanceof Refusal))
+        throw trouble;
+      this.wishes = this.wishes.filter((x) => x !== wish);
+    }
+  }
+
+  async readResources() {
     const [cell, me] = await Promise.all([get('cell?resources=now'), get('node')]);
     this.store.me = me;
     this.store.setCell(cell);
@@ -61,6 +80,7 @@ export class Figures {
       if (row.state === 'active')
         this.samples.add(row.identity.name, row.resources);
     }
+    this.samples.prune([...this.store.nodes.keys()]);
     this.store.touch('figures', 'nodes');
   }
 }

@@ -63,6 +63,7 @@ function onInstanceChanged(store, event, ask) {
   row.state = data.state;
   delete row.unknown_since_unix_ms;
   deriveTaskState(store.tasks.get(row.spec.task), store);
+  store.flights.note('task', row.spec.task);
   store.touch('instances', 'tasks');
 }
 

@@ -19,6 +19,11 @@ export class Questions {
 
   /** `ask('cell')`, or `ask('task', name)`. */
   ask = (kind, name) => {
+    this.store.flights.note(kind, name);
+    this.want(kind, name);
+  };
+
+  want = (kind, name) => {
     this.wanted.set(name === undefined ? kind : `${kind} ${name}`, { kind, name });
     this.timer ??= setTimeout(() => this.round(), ROUND_MS);
   };
@@ -63,7 +68,7 @@ export class Questions {
   async askOne({ kind, name }) {
     const begun = Date.now();
     try {
-      await ANSWERS[kind](this.store, name);
+      await this.store.flights.during(() => ANSWERS[kind](this.store, name), this.want);
     } catch (trouble) {
       if (trouble instanceof Refusal && trouble.code === 'unknown_task')
         this.store.dropTask(name);

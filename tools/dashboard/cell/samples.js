@@ -10,9 +10,17 @@ export class Samples {
   add(node, resources, now = Date.now()) {
     const rows = this.ofNode.get(node) ?? [];
     rows.push({ time: now, ...shares(resources) });
-    while (rows.length > 0 && rows[0].time < now - LONGEST_MS)
-      rows.shift();
     this.ofNode.set(node, rows);
+  }
+
+  /** Forgets what is old, and nodes that `nodes` does not name. */
+  prune(nodes, now = Date.now()) {
+    for (const [node, rows] of this.ofNode) {
+      while (rows.length > 0 && rows[0].time < now - LONGEST_MS)
+        rows.shift();
+      if (rows.length === 0 || !nodes.includes(node))
+        this.ofNode.delete(node);
+    }
   }
 
   of(node) {
@@ -22,7 +30,7 @@ export class Samples {
   /** How much time a line shows: all that is known of any node, a minute at least. */
   span(now = Date.now()) {
     const first = Math.min(now, ...[...this.ofNode.values()].map((rows) => rows[0].time));
-    return Math.max(SHORTEST_MS, now - first);
+    return Math.max(SHORTEST_MS, Math.min(LONGEST_MS, now - first));
   }
 }
 

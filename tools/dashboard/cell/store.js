@@ -1,6 +1,7 @@
 // What is known of the cell. Rooms read it and are told which kinds of things
 // have changed, together and once a frame, however many events came.
 import { onceAFrame } from '../page/frames.js';
+import { Flights } from './flights.js';
 
 export const MOST_EVENTS = 2000;
 const MOST_ENDED = 200;
@@ -21,6 +22,7 @@ export class Store {
     this.events = [];
     this.link = { state: 'connecting', since: Date.now() };
     this.ended = new Set();
+    this.flights = new Flights();
     this.listeners = new Set();
     this.changed = new Set();
     this.tell = onceAFrame(() => this.tellListeners());
@@ -57,27 +59,46 @@ export class Store {
     this.tasks = new Map();
     this.instances = new Map();
     for (const row of this.nodes.values())
-      for (const instance of row.instances)
-        this.instances.set(instance.spec.instance, instance);
+      this.placeInstances(row.instances);
     for (const row of rows)
-      this.putTask(row);
+      this.placeTask(row);
+    this.pruneFigures();
     this.touch('tasks', 'instances');
   }
 
   /** Replaces a task, and with it what is known of its instances. */
   putTask(row) {
-    this.forgetInstances(row.task);
-    this.tasks.set(row.task, row);
-    for (const instance of row.instances)
-      this.instances.set(instance.spec.instance, instance);
+    this.placeTask(row);
+    this.pruneFigures();
     this.touch('tasks', 'instances');
   }
 
+  placeTask(row) {
+    if (this.ended.has(row.task))
+      return;
+    this.forgetInstances(row.task);
+    this.tasks.set(row.task, row);
+    this.placeInstances(row.instances);
+  }
+
+  /** An answer may be older than the end of a task. */
+  placeInstances(rows) {
+    for (const row of rows)
+      if (!this.ended.has(row.spec.task))
+        this.instances.set(row.spec.instance, row);
+  }
+
   dropTask(task) {
-    for (const instance of this.forgetInstances(task))
-      this.figures.delete(instance.spec.instance);
+    this.forgetInstances(task);
     this.tasks.delete(task);
+    this.pruneFigures();
     this.touch('tasks', 'instances');
+  }
+
+  pruneFigures() {
+    for (const instance of this.figures.keys())
+      if (!this.instances.has(instance))
+        this.figures.delete(instance);
   }
 
   /** A task that was terminated: nothing is asked of it any more. */
@@ -89,9 +110,7 @@ export class Store {
   }
 
   forgetInstances(task) {
-    const gone = this.instancesOf(task);
-    gone.forEach((x) => this.instances.delete(x.spec.instance));
-    return gone;
+    this.instancesOf(task).forEach((x) => this.instances.delete(x.spec.instance));
   }
 
   instancesOf(task) {

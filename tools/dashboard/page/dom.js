@@ -44,6 +44,15 @@ export function replace(parent, ...children) {
   parent.replaceChildren(...children.flat().filter((x) => x !== null && x !== undefined && x !== false));
 }
 
+/** Makes the children of `parent` again only when what they are made of, `parts`, has changed. */
+export function remade(parent, parts, make) {
+  const words = JSON.stringify(parts);
+  if (parent.madeOf === words)
+    return;
+  parent.madeOf = words;
+  replace(parent, make());
+}
+
 /**
  * Makes the children of `parent` those of `items`, in this order, and keeps the
  * elements of items that stay: focus, selection and scrolling survive.
@@ -51,6 +60,12 @@ export function replace(parent, ...children) {
 export function keyed(parent, items, keyOf, make, update) {
   const known = parent.keyedChildren ?? new Map();
   const next = new Map();
+  const focused = parent.contains(document.activeElement) ? document.activeElement : null;
+  // First, or everything behind one that goes would be moved.
+  const wanted = new Set(items.map(keyOf));
+  for (const [key, element] of known)
+    if (!wanted.has(key))
+      element.remove();
   let cursor = parent.firstChild;
   for (const item of items) {
     const key = keyOf(item);
@@ -62,10 +77,10 @@ export function keyed(parent, items, keyOf, make, update) {
     else
       parent.insertBefore(element, cursor);
   }
-  for (const [key, element] of known)
-    if (!next.has(key))
-      element.remove();
   parent.keyedChildren = next;
+  // An element that is moved loses the focus.
+  if (focused && focused !== document.activeElement && parent.contains(focused))
+    focused.focus({ preventScroll: true });
 }
 
 let ids = 0;

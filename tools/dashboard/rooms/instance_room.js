@@ -1,5 +1,5 @@
 // One instance: what it is, what it does, how it ended before, and its log.
-import { el, replace, setText } from '../page/dom.js';
+import { el, keyed, remade, setText } from '../page/dom.js';
 import { stateMark, updateState } from '../page/marks.js';
 import { address } from '../page/router.js';
 import { ago, asList, clock, dateAndTime, hertz, instanceState, milliseconds, number } from '../page/words.js';
@@ -17,13 +17,13 @@ export class InstanceRoom {
     this.actions = el('p', { class: 'actions' });
     this.facts = el('div', {});
     this.ends = el('div', {});
+    this.endsBox = el('section', { hidden: true }, el('h2', {}, 'Earlier ends'), this.ends);
     this.log = new LogView(this.name, () => this.lives());
     this.root = el('div', { class: 'room' },
       el('p', { class: 'way' }, el('a', { href: address('instances') }, 'Instances')),
       el('h1', {}, this.title, ' ', this.state), this.reason, this.figures, this.actions,
       el('section', {}, el('h2', {}, 'Log'), this.log.root),
-      this.ends, el('section', {}, el('h2', {}, 'About'), this.facts));
-    app.figures.wish({ instance: this.name });
+      this.endsBox, el('section', {}, el('h2', {}, 'About'), this.facts));
   }
 
   close() {
@@ -42,14 +42,17 @@ export class InstanceRoom {
     return row ? !['stopped', 'failed'].includes(row.state) : !store.cell;
   }
 
-  update(kinds) {
+  update() {
     const linked = this.app.store.link.state;
     if (linked === 'live' && this.linked !== 'live')
       this.log.again();
     this.linked = linked;
     const row = this.app.store.instances.get(this.name);
+    if (Boolean(row) !== this.there)
+      this.app.figures.wish(row && { instance: this.name });
+    this.there = Boolean(row);
     if (!row)
-      return this.app.store.cell && setText(this.reason, 'The cell has no instance of that name now; its log may still be there.');
+      return this.app.store.cell && this.showAbsence();
     const state = instanceState(row);
     updateState(this.state, state);
     setText(this.title, `${row.spec.task} / ${row.spec.step}`);
@@ -57,9 +60,37 @@ export class InstanceRoom {
     this.showFigures(row);
     if (this.known !== state && state === 'running')
       this.log.again();
-    if (this.known !== state || kinds.has('instances') && !this.known)
-      this.showAbout(row);
     this.known = state;
+    this.readEnds(row);
+    this.showActions(row);
+    this.showAbout(row);
+    this.showEnds(row.ends ?? []);
+  }
+
+  showAbsence() {
+    updateState(this.state, 'stopped');
+    setText(this.reason, 'The cell has no instance of that name now; its log may still be there.');
+    const next = this.replacement();
+    remade(this.actions, [next], () => this.wayOn(next));
+  }
+
+  /** What runs the same step now; an id is the task's, the step's and eight digits. */
+  replacement() {
+    const begin = this.name.slice(0, -8);
+    return [...this.app.store.instances.values()].map((x) => x.spec)
+      .find((x) => x.instance !== this.name && `${x.task}-${x.step}-` === begin)?.instance;
+  }
+
+  wayOn(next) {
+    return next && el('a', { class: 'button', href: address('instances', next) }, 'What runs in its place');
+  }
+
+  /** No event tells how it ended. */
+  readEnds({ spec, restarts = 0, state }) {
+    const run = `${restarts} ${state}`;
+    if (this.run !== undefined && this.run !== run)
+      this.app.questions.ask('task', spec.task);
+    this.run = run;
   }
 
   showFigures(row) {
@@ -74,14 +105,18 @@ export class InstanceRoom {
     ].filter(Boolean).join('   ·   '));
   }
 
+  showActions({ spec, node }) {
+    const way = (words, ...where) => el('a', { class: 'button', href: address(...where) }, words);
+    const next = this.lives() ? undefined : this.replacement();
+    remade(this.actions, [spec.instance, node, next], () => [this.wayOn(next),
+      way('Restart', 'requests', 'task_restart', { task: spec.task, instance: spec.instance }),
+      way('Its task', 'tasks', spec.task), way(`Its node, ${node}`, 'nodes', node)]);
+  }
+
   showAbout(row) {
     const { spec } = row;
     const streams = (list) => asList(list).map((x) => el('div', {}, x.endpoint, ' ', el('span', { class: 'soft' }, x.data_type)));
-    const request = (type, words, query) => el('a', { class: 'button', href: address('requests', type, query) }, words);
-    replace(this.actions, request('task_restart', 'Restart', { task: spec.task, instance: spec.instance }),
-      el('a', { class: 'button', href: address('tasks', spec.task) }, 'Its task'),
-      el('a', { class: 'button', href: address('nodes', row.node) }, `Its node, ${row.node}`));
-    replace(this.facts, facts([
+    remade(this.facts, [spec, row.node, row.since_unix_ms, row.container, row.image], () => facts([
       ['Instance', spec.instance], ['Task', spec.task], ['Node', row.node],
       ['Skill', `${spec.operation} / ${spec.model} / ${spec.deployment}`], ['Build', spec.skill.slice(0, 16)],
       ['Reads', streams(spec.input)], ['Writes', streams(spec.output)],
@@ -90,8 +125,11 @@ export class InstanceRoom {
       ['GPU', spec.gpu], ['In this state since', dateAndTime(row.since_unix_ms)], ['Runs as', row.container], ['Image', row.image],
       ['Restart', spec.life?.restart?.policy], ['On node loss', spec.life?.on_node_loss?.policy],
     ]));
-    const ends = row.ends ?? [];
-    replace(this.ends, ends.length === 0 ? null : el('section', {}, el('h2', {}, 'Earlier ends'), ends.map(makeEnd)));
+  }
+
+  showEnds(ends) {
+    this.endsBox.hidden = ends.length === 0;
+    keyed(this.ends, ends, (x) => x.unix_ms, makeEnd);
   }
 }
 

@@ -3,7 +3,7 @@
 import { send } from '../cell/api.js';
 import { GraphPicture } from '../graph/graph_picture.js';
 import { el, replace, setText } from '../page/dom.js';
-import { debounced } from '../page/frames.js';
+import { throttled } from '../page/frames.js';
 import { stateMark, updateState } from '../page/marks.js';
 import { address } from '../page/router.js';
 import { ago, dateAndTime } from '../page/words.js';
@@ -31,8 +31,8 @@ export class TaskRoom {
       el('section', {}, el('h2', {}, 'Steps over nodes'), this.picture.root),
       el('section', {}, el('h2', {}, 'Instances'), this.instances.root),
       el('section', {}, el('h2', {}, 'What has happened'), this.dropped, this.history.root));
-    app.figures.wish({ task: this.name });
-    this.askHistory = debounced(() => this.readHistory(), HISTORY_MS);
+    this.newest = app.store.events.at(-1);
+    this.askHistory = throttled(() => this.readHistory(), HISTORY_MS);
     this.readHistory();
   }
 
@@ -52,16 +52,27 @@ export class TaskRoom {
       updateState(this.state, 'stopped');
       setText(this.about, 'The cell has no task of that name now.');
     }
+    if (Boolean(task) !== this.there)
+      this.app.figures.wish(task && { task: this.name });
+    this.there = Boolean(task);
     const instances = store.instancesOf(this.name);
     this.picture.update(instances);
     this.instances.update(instances);
     this.showWaits(instances);
-    if (kinds.has('events') && this.concerns(store.events.at(-1)))
+    if (kinds.has('events') && this.newEvents().some((x) => this.concerns(x)))
       this.askHistory();
   }
 
+  /** Many may come with one picture. */
+  newEvents() {
+    const { events } = this.app.store;
+    const fresh = events.slice(events.lastIndexOf(this.newest) + 1);
+    this.newest = events.at(-1);
+    return fresh;
+  }
+
   concerns(event) {
-    return event?.subject === this.name || event?.data?.task === this.name;
+    return event.subject === this.name || event.data?.task === this.name;
   }
 
   showWaits(instances) {

@@ -2,7 +2,7 @@
 // room is opened, when instances change, and when somebody asks.
 import { get } from '../cell/api.js';
 import { el, freshId, setText } from '../page/dom.js';
-import { debounced, onceAFrame } from '../page/frames.js';
+import { onceAFrame, throttled } from '../page/frames.js';
 import { Table } from '../page/table.js';
 import { count } from '../page/words.js';
 
@@ -21,7 +21,7 @@ export class TopicsRoom {
       el('p', { class: 'filters' }, el('label', { for: find }, 'Find'), this.find,
         el('button', { type: 'button', on: { click: () => this.read() } }, 'Read again'), this.words),
       this.table.root);
-    this.again = debounced(() => this.read(), AGAIN_MS);
+    this.again = throttled(() => this.read(), AGAIN_MS);
     this.read();
   }
 
