@@ -22,12 +22,13 @@ from selenium.webdriver.common.keys import Keys
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 from browser import Browser  # noqa: E402
 import reading  # noqa: E402
+from keeping_place import KeepingPlace  # noqa: E402
 from making_way import MakingWay  # noqa: E402
 
 OPTIONS = argparse.Namespace(url="", scene={}, pictures=None)
 
 
-class DashboardTest(MakingWay, unittest.TestCase):
+class DashboardTest(KeepingPlace, MakingWay, unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.page = Browser(OPTIONS.url)

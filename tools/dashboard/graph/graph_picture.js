@@ -1,4 +1,4 @@
-// The picture of a task: made anew when steps or nodes change, else only its
+// The picture of a task: made anew when steps, instances or nodes change, else only its
 // words and marks are brought up to date.
 import { el, replace, setAttribute, setText, svg } from '../page/dom.js';
 import { shapePath } from '../page/marks.js';
@@ -19,7 +19,7 @@ export class GraphPicture {
 
   update(instances) {
     const graph = taskGraph(instances);
-    const structure = JSON.stringify([graph.flows, graph.ends, graph.steps.map((x) => [x.id, x.node])]);
+    const structure = JSON.stringify([graph.flows, graph.ends, graph.steps.map((x) => [x.id, x.node, x.row.spec.instance])]);
     if (structure !== this.structure)
       this.draw(graph);
     this.structure = structure;
@@ -110,13 +110,20 @@ export class GraphPicture {
     const parts = this.arrows.get(key);
     const writer = from.step && this.store.instances.get(from.step.row.spec.instance);
     const reader = to.step && this.store.instances.get(to.step.row.spec.instance);
-    const flows = [writer, reader].every((x) => !x || instanceState(x) === 'running');
+    const flows = [[from, writer], [to, reader]].every(([end, row]) => !end.step || row && instanceState(row) === 'running');
     setAttribute(parts.line, 'class', `arrow ${flows ? 'flows' : 'still'}`);
     const figures = this.store.figures.get(writer?.spec.instance) ?? {};
-    const words = [hertz(figures.rate_hz), milliseconds(figures.age_ms ?? figures.latency_ms)].filter(Boolean);
+    const words = [hertz(figures.rate_hz), timeWords(figures)].filter(Boolean);
     if (parts.figures)
       setText(parts.figures, flows ? words.join(' · ') || 'no figures' : 'nothing flows');
   }
+}
+
+/** How old it is at the output, or if that is not known how long the step takes. */
+function timeWords({ age_ms, latency_ms }) {
+  if (age_ms !== undefined)
+    return `${milliseconds(age_ms)} old`;
+  return latency_ms === undefined ? '' : `takes ${milliseconds(latency_ms)}`;
 }
 
 function lines(streams) {

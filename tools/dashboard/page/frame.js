@@ -29,8 +29,11 @@ export class Frame {
     document.getElementById('link').append(this.link);
     this.banner = document.getElementById('banner');
     this.look = el('button', { type: 'button', on: { click: () => stream.lookNow() } }, 'Look now');
-    this.words = el('span', {});
-    this.banner.append(this.words, this.look);
+    this.words = el('span', { role: 'alert' });
+    // It changes each second, and is not read aloud each time.
+    this.countdown = el('span', {});
+    this.banner.append(this.words, this.countdown, this.look);
+    document.querySelector('.skip').addEventListener('click', (event) => this.skip(event));
     this.setUpKeys(setUpTheme(document.getElementById('theme')));
     // How long a node has been away is told anew each second, and only then.
     setInterval(() => this.store.link.state === 'away' && this.showLink(), 1000);
@@ -56,6 +59,12 @@ export class Frame {
     keys.add('m', 'Change the theme', () => this.app.announcer.say(`Theme: ${nextTheme()}`));
     keys.add('?', 'This help', () => openHelp(keys));
     document.getElementById('help').addEventListener('click', () => openHelp(keys));
+  }
+
+  /** The address stays that of the room, which is not made anew. */
+  skip(event) {
+    event.preventDefault();
+    this.main.focus();
   }
 
   show(where, room) {
@@ -104,8 +113,9 @@ export class Frame {
     updateState(this.link, state);
     this.banner.hidden = state !== 'away';
     document.body.classList.toggle('stale', state === 'away');
-    if (state === 'away')
-      setText(this.words, `The node has not answered since ${clock(since)}: what is shown is as it was then. `
-        + `Looking again in ${Math.max(0, Math.ceil((retryAt - Date.now()) / 1000))} s.`);
+    if (state !== 'away')
+      return;
+    setText(this.words, `The node has not answered since ${clock(since)}: what is shown is as it was then.`);
+    setText(this.countdown, `Looking again in ${Math.max(0, Math.ceil((retryAt - Date.now()) / 1000))} s.`);
   }
 }

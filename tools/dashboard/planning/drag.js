@@ -1,12 +1,19 @@
-// Dragging by mouse, pen or finger. Whatever can be dragged has a button that
-// does the same.
+// Dragging by mouse, pen or finger; by a finger at the grip only, for elsewhere it
+// scrolls the page. Whatever can be dragged has a button that does the same.
+import { el } from '../page/dom.js';
 
 const FAR_PX = 6;
+
+export function grip() {
+  return el('span', { class: 'grip', 'aria-hidden': 'true' }, '⠿');
+}
 
 /** Lets `handle` be dragged; `onDrop(zone)` gets the element of `zones()` that it was dropped on. */
 export function makeDraggable(handle, zones, onDrop) {
   handle.addEventListener('pointerdown', (begin) => {
     if (begin.button !== 0 || begin.target.closest('button, input, a'))
+      return;
+    if (begin.pointerType !== 'mouse' && !begin.target.closest('.grip'))
       return;
     begin.preventDefault();
     handle.setPointerCapture(begin.pointerId);

@@ -33,17 +33,21 @@ export class PlanRoom {
     this.planBox = el('section', { hidden: true }, el('h2', {}, 'Plan'), this.state, el('div', { class: 'plan-and-if' }, this.result, this.whatIf.root));
     this.root = el('div', { class: 'room' }, el('h1', {}, 'New task'),
       el('div', { class: 'form-and-json' }, this.form.root, el('div', { class: 'sticky' }, this.sender.root, this.sender.reply)), this.planBox);
-    this.shownSkills = -1;
     this.sender.box.set(this.document);
   }
 
-  update() {
-    const { store } = this.app;
+  update(kinds) {
     // Skills come late, or change; a form that somebody writes in is not made anew for less.
-    if (this.shownSkills !== store.skills.length)
-      this.form.show(this.document);
-    this.shownSkills = store.skills.length;
+    if (kinds.has('skills') || kinds.has('all'))
+      this.showSkills();
     this.whatIf.update();
+  }
+
+  showSkills() {
+    const skills = JSON.stringify(this.form.descriptors());
+    if (this.shownSkills !== skills)
+      this.form.show(this.document);
+    this.shownSkills = skills;
   }
 
   onWritten(document) {

@@ -17,11 +17,19 @@ export function stepForm({ step, index, pipeline, skills, onChange, redo }) {
   return el('section', { class: 'step-form', 'aria-label': `Step ${step.id}` },
     el('header', {}, el('h3', {}, `Step ${index + 1}`),
       el('button', { type: 'button', class: 'quiet remove', 'aria-label': `Remove step ${step.id}`,
-        on: { click: () => { pipeline.splice(index, 1); redo(); } } }, 'Remove')),
+        on: { click: (event) => leave(event.target, pipeline, index, redo) } }, 'Remove')),
     whatFields(step, models, model, skills, shape),
     descriptor ? streams(step, descriptor, pipeline, shape)
       : el('p', { class: 'state warn' }, 'No node of the cell has this skill; the JSON can be changed all the same.'),
     model ? parameters(step, model, shape) : null, lifeFields(step, shape));
+}
+
+/** Who used the button of what goes is then at the one that brings another. */
+function leave(button, pipeline, index, redo) {
+  button.closest('form').querySelector('.adder button').focus();
+  button.closest('.step-form').remove();
+  pipeline.splice(index, 1);
+  redo();
 }
 
 function whatFields(step, models, model, skills, { where, onChange, redo }) {
@@ -71,7 +79,7 @@ function lifeFields(step, { where, onChange }) {
   const policy = (name) => (value) => set(name)(value === '' ? undefined : { ...step[name], policy: value });
   const whole = (name) => (text) => set(name)(text === '' ? undefined : Number(text));
   const some = ['labels', 'restart', 'on_node_loss', 'priority', 'safe_timeout_s'].some((x) => step[x] !== undefined);
-  return el('details', { open: some }, el('summary', {}, 'Where, and how it lives'), el('div', { class: 'row' },
+  return el('details', { class: 'life', open: some }, el('summary', {}, 'Where, and how it lives'), el('div', { class: 'row' },
     field(`${where}/labels`, 'On a node labelled', textInput(labelWords(step.labels), (text) => {
       const labels = labelsOf(text);
       set('labels')(Object.keys(labels).length ? labels : undefined);

@@ -18,12 +18,12 @@ export function streamFields({ step, side, port, others, where, onChange, onShap
   };
   const rows = streams.map((stream, index) => {
     const place = streams.length === 1 && !Array.isArray(step[side]) ? `${where}/${side}` : `${where}/${side}/${index}`;
-    return streamRow({ stream, side, port, others, place, keep, reshape, remove: () => { streams.splice(index, 1); reshape(); } });
+    return streamRow({ stream, side, port, others, place, keep, reshape, remove: () => { add.focus(); streams.splice(index, 1); reshape(); } });
   });
   const add = el('button', { type: 'button', class: 'quiet', disabled: streams.length >= MOST,
     on: { click: () => { streams.push({ endpoint: '' }); reshape(); } } }, `Add ${side === 'input' ? 'an input' : 'an output'}`);
   const id = freshId(side);
-  return el('fieldset', { class: 'streams', 'aria-labelledby': id }, el('legend', { id }, side === 'input' ? 'Reads' : 'Writes'),
+  return el('fieldset', { class: 'streams', 'data-side': side, 'aria-labelledby': id }, el('legend', { id }, side === 'input' ? 'Reads' : 'Writes'),
     rows, rows.length === 0 ? el('p', { class: 'soft' }, side === 'input' ? 'Nothing.' : 'As the skill has it: topics are named after the task and the step.') : null, add);
 }
 

@@ -1,6 +1,7 @@
 // The form of a task: its name, its steps, and how it may push others aside.
 import { el, replace } from '../page/dom.js';
 import { choice, clearFields, field, markFields, setOrDrop, textInput } from './field.js';
+import { keepingPlace } from './keep_place.js';
 import { stepForm } from './step_form.js';
 import { newStep } from './task_document.js';
 
@@ -18,10 +19,10 @@ export class TaskForm {
     if (!Array.isArray(document.pipeline))
       document.pipeline = [];
     const skills = this.descriptors();
-    replace(this.root, this.head(),
+    keepingPlace(this.root, () => replace(this.root, this.head(),
       document.pipeline.map((step, index) => stepForm({
         step, index, pipeline: document.pipeline, skills, onChange: () => this.tell(), redo: () => this.redo(),
-      })), this.adder(skills));
+      })), this.adder(skills)));
   }
 
   /** Each operation's newest build is the last one of the list. */

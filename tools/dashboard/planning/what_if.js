@@ -2,7 +2,7 @@
 // sent by their buttons; each change asks for a plan anew.
 import { el, keyed, replace, setText } from '../page/dom.js';
 import { number, mebibytes } from '../page/words.js';
-import { makeDraggable } from './drag.js';
+import { grip, makeDraggable } from './drag.js';
 import { field, textInput } from './field.js';
 import { labelsOf, paperNode } from './task_document.js';
 
@@ -42,7 +42,7 @@ export class WhatIf {
       steps: el('span', { class: 'steps' }),
       button: el('button', { type: 'button', class: 'quiet', on: { click: () => this.move(node.name, !this.away.has(node.name)) } }),
     };
-    const card = el('li', { class: 'node-card', 'data-node': node.name }, el('b', {}, node.name), el('span', { class: 'soft' }, sizeWords(node)), parts.steps, parts.button);
+    const card = el('li', { class: 'node-card', 'data-node': node.name }, grip(), el('b', {}, node.name), el('span', { class: 'soft' }, sizeWords(node)), parts.steps, parts.button);
     card.parts = parts;
     makeDraggable(card, () => [this.here, this.out], (zone) => this.move(node.name, zone === this.out));
     return card;

@@ -1,10 +1,10 @@
 // One node: what is used of it over the last minutes, what it runs, what can be
 // asked of it.
 import { shares } from '../cell/samples.js';
-import { el, keyed, replace, setAttribute, setText } from '../page/dom.js';
+import { el, keyed, remade, setAttribute, setText } from '../page/dom.js';
 import { meter, sparkline, stateMark, updateMeter, updateSparkline, updateState } from '../page/marks.js';
 import { address } from '../page/router.js';
-import { ago, nodeState, number, percent } from '../page/words.js';
+import { ago, dateAndTime, nodeState, number, percent } from '../page/words.js';
 import { InstanceTable } from './instance_table.js';
 import { facts, labelWords, ofMebibytes } from './node_table.js';
 
@@ -53,13 +53,14 @@ export class NodeRoom {
   showFacts(row) {
     const { identity, resources, role } = row;
     const skills = this.app.store.skills.filter((x) => x.nodes.includes(this.name)).map((x) => x.skill.descriptor.operation);
-    replace(this.facts, facts([
+    const rows = [
       ['Role', role], ['Address', identity.address], ['Architecture', resources.architecture],
       ['Labels', labelWords(resources.labels)], ['Devices', resources.devices.join(', ')],
       ['GPUs', resources.gpus.map((x) => `${x.index}: ${x.name ?? 'GPU'}`).join(', ')],
-      ['Skills', [...new Set(skills)].join(', ')], ['In this state for', ago(row.since_unix_ms)],
+      ['Skills', [...new Set(skills)].join(', ')], ['In this state since', dateAndTime(row.since_unix_ms)],
       ['UUID', identity.uuid], ['Epoch', identity.epoch],
-    ]));
+    ];
+    remade(this.facts, rows, () => facts(rows));
     this.showActions(row);
   }
 
@@ -68,9 +69,10 @@ export class NodeRoom {
       class: 'button', href: address('requests', type, { node: this.name, ...query }),
     }, words);
     const draining = nodeState(row) === 'draining';
-    replace(this.actions, draining ? request('node_undrain', 'Undrain') : request('node_drain', 'Drain'),
-      row.role === 'coordinator' ? null : request('node_transfer', 'Transfer'),
-      row.role === 'coordinator' ? null : request('node_release', 'Release'));
+    const coordinator = row.role === 'coordinator';
+    remade(this.actions, [draining, coordinator], () => [
+      draining ? request('node_undrain', 'Undrain') : request('node_drain', 'Drain'),
+      coordinator ? null : request('node_transfer', 'Transfer'), coordinator ? null : request('node_release', 'Release')]);
   }
 }
 
