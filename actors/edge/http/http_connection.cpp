@@ -23,6 +23,9 @@ namespace http = boost::beast::http;
 
 constexpr size_t read_bytes = 8 * 1024;
 
+/// Static: the connection's own buffer is for replies.
+constexpr std::string_view go_on = "HTTP/1.1 100 Continue\r\n\r\n";
+
 std::string_view to_view(boost::beast::string_view text) {
   return {text.data(), text.size()};
 }
@@ -204,10 +207,12 @@ bool http_connection::check_body(size_t most_bytes) {
   const auto expect = parser_->get()[http::field::expect];
   if (parser_->is_done() || !boost::beast::iequals(expect, "100-continue"))
     return true;
-  outgoing_ = "HTTP/1.1 100 Continue\r\n\r\n";
-  boost::asio::async_write(socket_, boost::asio::buffer(outgoing_),
+  // Nothing else may be written meanwhile: who does not read it in time is
+  // closed without a word.
+  phase_ = phase::continuing;
+  boost::asio::async_write(socket_, boost::asio::buffer(go_on),
                            [self = shared_from_this()](error ec, size_t) {
-                             if (self->phase_ != phase::reading)
+                             if (self->phase_ != phase::continuing)
                                return;
                              if (ec)
                                self->abort();

@@ -55,6 +55,7 @@ private:
     queued,      ///< For its turn; nothing is read.
     waiting,     ///< For the first byte of a request.
     reading,     ///< A request.
+    continuing,  ///< Tells the client that the body may come.
     answering,   ///< Somebody else works on the answer.
     writing,     ///< The reply.
     lingering,   ///< For the client to read the last reply and close.
