@@ -30,7 +30,8 @@ caf::error open_http(const node_config& config, const node_data& data,
   options.port = config.http_port;
   options.socket_path = edges.socket_path = socket_path(config);
   options.token = data.token;
-  options.public_paths = {registration_path, hello_path};
+  options.public_paths.insert(options.public_paths.end(),
+                              {registration_path, hello_path});
   options.handler = [handler = edges.handler](http_request request,
                                               const responder& answer) {
     (*handler)(std::move(request), answer);

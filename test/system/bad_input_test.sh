@@ -20,6 +20,14 @@ still_up() {
   expect "tasks" "$(get head /v1/tasks | jq '.tasks | length')" 0
 }
 
+test_whether_a_node_lives_is_told_to_everybody() {
+  start_alone
+  expect "by TCP, without a token" "$(curl -sS --max-time "$deadline_s" \
+    "http://$address/healthz")" '{"status":"ok"}'
+  expect "anything else" "$(curl -sS --max-time "$deadline_s" -o /dev/null \
+    -w '%{http_code}' "http://$address/v1/node")" 401
+}
+
 test_bad_requests_are_refused_with_their_code() {
   start_alone
   expect "no JSON" "$(refusal '{"type":')" malformed_json
