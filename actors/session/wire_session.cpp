@@ -3,6 +3,7 @@
 #include "actors/house/limits.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <iterator>
 #include <mutex>
 #include <utility>
@@ -27,8 +28,26 @@ namespace {
 
 using session_self = session_actor::stateful_pointer<wire_session_state>;
 
+void count_lost(session_self self, std::ptrdiff_t beats) {
+  const auto& st = self->state;
+  if (beats > 0)
+    st.context.count(metric::beats_lost, {st.peer}, static_cast<double>(beats));
+}
+
+/// What is on its way when a session ends is not lost; what is older than the
+/// pause before another question is.
+void count_unanswered(session_self self) {
+  const auto& st = self->state;
+  const auto latest = st.context.boot_now_ms(self->system())
+                      - limits::lease::probe_interval.count();
+  count_lost(self,
+             std::count_if(st.beats_sent.begin(), st.beats_sent.end(),
+                           [&](const auto& x) { return x.second < latest; }));
+}
+
 void end_wire_session(session_self self, const std::string& reason) {
   auto& st = self->state;
+  count_unanswered(self);
   if (st.owner)
     self->send(st.owner, session_closed{reason});
   st.wire->link->close(reason);
@@ -77,8 +96,10 @@ void send_out(session_self self, const send_beat& beat) {
   if (beat.kind == beat_kind::beat) {
     st.context.count(metric::beats_sent, {st.peer});
     st.beats_sent.emplace_back(number, st.context.boot_now_ms(self->system()));
-    if (st.beats_sent.size() > limits::session::remembered_beats)
+    if (st.beats_sent.size() > limits::session::remembered_beats) {
       st.beats_sent.pop_front();
+      count_lost(self, 1);
+    }
   }
   st.wire->beats->send(beat.kind, number);
   st.context.count(metric::session_sent_bytes, {st.peer}, beat_packet::size);
@@ -95,8 +116,7 @@ void settle_beats(session_self self, beat_received& ack) {
   if (found == sent.end())
     return;
   ack.sent_boot_ms = found->second;
-  st.context.count(metric::beats_lost, {st.peer},
-                   static_cast<double>(found - sent.begin()));
+  count_lost(self, found - sent.begin());
   sent.erase(sent.begin(), std::next(found));
 }
 

@@ -1,0 +1,89 @@
+#include "actors/session/wire_session.hpp"
+
+#include "actors/house/limits.hpp"
+#include "test/fixture.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <memory>
+#include <string>
+#include <utility>
+
+namespace roscell::test {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+/// Links that carry nothing anywhere.
+struct dead_link : session_link {
+  void start(session_callbacks) override {}
+  bool send(std::string) override {
+    return true;
+  }
+  void close(std::string) override {}
+  size_t queued_bytes() const override {
+    return 0;
+  }
+};
+
+struct dead_beats : beat_link {
+  void send(beat_kind, uint32_t) override {}
+};
+
+/// A session with arm, from which no beat comes back.
+struct silent_session {
+  virtual_time time;
+  std::shared_ptr<metric_book> metrics = std::make_shared<metric_book>();
+  session_actor session;
+
+  silent_session() {
+    auto wire = std::make_shared<session_wire>();
+    wire->link = std::make_shared<dead_link>();
+    wire->beats = std::make_unique<dead_beats>();
+    auto context = time.context;
+    context.metrics = metrics;
+    session = spawn(time.system, context, wire_session, context, wire, "arm");
+  }
+
+  void beat() {
+    caf::anon_send(session, send_beat{beat_kind::beat, 0});
+    time.settle();
+  }
+
+  void end() {
+    caf::anon_send(std::exchange(session, nullptr), close_session{"silent"});
+    time.settle();
+  }
+
+  double lost() const {
+    const auto samples = metrics->samples(metric::beats_lost);
+    return samples.empty() ? 0 : samples.at(0).sum;
+  }
+};
+
+} // namespace
+
+TEST_CASE_METHOD(silent_session,
+                 "beats that nobody answered before the end are lost",
+                 "[session][metrics]") {
+  beat();
+  time.advance(limits::lease::beat_period);
+  beat();
+  time.advance(limits::lease::probe_interval + 1ms);
+  CHECK(lost() == 0);
+  // Its answer may be on its way.
+  beat();
+  end();
+  CHECK(lost() == 2);
+}
+
+TEST_CASE_METHOD(silent_session, "beats too old to be remembered are lost",
+                 "[session][metrics]") {
+  for (size_t i = 0; i < limits::session::remembered_beats + 3; ++i)
+    beat();
+  CHECK(lost() == 3);
+  end();
+}
+
+} // namespace roscell::test
