@@ -1,5 +1,7 @@
 #include "actors/requests/history/request_history.hpp"
 
+#include "actors/requests/history/decision_length.hpp"
+
 #include <algorithm>
 #include <utility>
 
@@ -24,8 +26,9 @@ request_history::ticket request_history::begin(std::string type,
                                                int64_t unix_ms,
                                                time_point now) {
   std::lock_guard guard{mutex_};
-  if (entries_.size() == max_requests)
-    entries_.pop_front();
+  while (entries_.size() == max_requests
+         || (!entries_.empty() && parts_ > max_parts))
+    drop_oldest_request();
   auto& x = entries_.emplace_back();
   x.id = ++last_;
   x.came = now;
@@ -46,6 +49,7 @@ void request_history::enter(ticket request, std::string handler,
   hop.handler = std::move(handler);
   hop.begin_us = span_us(x->came, now);
   x->actors.emplace_back();
+  ++parts_;
 }
 
 request_history::question request_history::ask(ticket request, uint64_t actor,
@@ -64,6 +68,7 @@ request_history::question request_history::ask(ticket request, uint64_t actor,
   asked.node = std::move(node);
   asked.begin_us = span_us(x->came, now);
   x->actors.back().push_back(actor);
+  ++parts_;
   return {request, x->trace.hops.size() - 1, hop.asked.size() - 1};
 }
 
@@ -105,6 +110,8 @@ request_history::traces(const std::string& subject,
 }
 
 void request_history::decide(task_placement placement) {
+  shorten_decision(placement.plan, max_decision_bytes);
+  shorten_decision(placement.refusal, max_decision_bytes);
   std::lock_guard guard{mutex_};
   const auto known =
       std::find_if(placements_.begin(), placements_.end(),
@@ -125,6 +132,13 @@ request_history::placement(const std::string& task) const {
     if (x.task == task)
       return x;
   return std::nullopt;
+}
+
+void request_history::drop_oldest_request() {
+  parts_ -= entries_.front().actors.size();
+  for (const auto& asked : entries_.front().actors)
+    parts_ -= asked.size();
+  entries_.pop_front();
 }
 
 request_history::entry* request_history::find(ticket id) {

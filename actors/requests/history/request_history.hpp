@@ -25,8 +25,11 @@ public:
   static constexpr size_t max_requests = 100;
   static constexpr size_t max_hops = 32;      ///< Of one request.
   static constexpr size_t max_questions = 64; ///< Of one hop.
+  /// Hops and questions of all requests but the latest: half a MiB.
+  static constexpr size_t max_parts = 4096;
   static constexpr size_t max_placements = 100;
-  static constexpr size_t max_placement_bytes = 1024 * 1024;
+  static constexpr size_t max_placement_bytes = 1024 * 1024; ///< Of all.
+  static constexpr size_t max_decision_bytes = 128 * 1024;   ///< Of one.
 
   /// Names a question of a request.
   struct question {
@@ -69,6 +72,7 @@ private:
     std::vector<std::vector<uint64_t>> actors; ///< Of the hops' questions.
   };
 
+  void drop_oldest_request();
   entry* find(ticket id);
   void close_hop(entry& of, time_point now);
   void trim_placements();
@@ -76,6 +80,7 @@ private:
   mutable std::mutex mutex_;
   ticket last_ = 0;
   std::deque<entry> entries_;
+  size_t parts_ = 0; ///< Hops and questions that are kept.
   std::deque<task_placement> placements_;
   size_t placement_bytes_ = 0;
 };

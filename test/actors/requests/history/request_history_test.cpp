@@ -1,5 +1,7 @@
 #include "actors/requests/history/request_history.hpp"
 
+#include "messages/codec/json_codec.hpp"
+
 #include <catch2/catch.hpp>
 
 namespace roscell::test {
@@ -121,6 +123,28 @@ TEST_CASE_METHOD(history_fixture, "Hops and questions are bounded",
   CHECK(of("t").at(0).hops.size() == request_history::max_hops);
 }
 
+TEST_CASE_METHOD(history_fixture,
+                 "Requests with many questions drive out the oldest ones",
+                 "[request_history]") {
+  constexpr size_t many = request_history::max_questions;
+  constexpr size_t hops = request_history::max_hops;
+  const auto work = [this](const std::string& subject) {
+    const auto id = begin(subject);
+    for (size_t i = 0; i < hops; ++i) {
+      book.enter(id, "deploy", at(1));
+      for (size_t j = 0; j < many; ++j)
+        book.ask(id, j, "arm", at(2));
+    }
+  };
+  constexpr size_t enough = request_history::max_parts / (hops * many);
+  for (size_t i = 0; i < enough; ++i)
+    work("t" + std::to_string(i));
+  CHECK(of("").size() == enough);
+  begin("next");
+  CHECK(of("t0").empty());
+  CHECK(of("next").size() == 1);
+}
+
 TEST_CASE_METHOD(history_fixture, "A request without a ticket leaves no trace",
                  "[request_history]") {
   book.enter(0, "claim", at(1));
@@ -154,6 +178,45 @@ TEST_CASE_METHOD(history_fixture,
   // One that is larger than all of the room is not kept at all.
   book.decide(decision("huge", request_history::max_placement_bytes));
   CHECK_FALSE(book.placement("huge"));
+}
+
+namespace {
+
+json many_rejected() {
+  auto result = json::array();
+  while (result.dump().size() < 2 * request_history::max_decision_bytes)
+    result.push_back({{"step", "s" + std::to_string(result.size())},
+                      {"reasons", {"needs 2 cores, 1.5 free"}}});
+  return result;
+}
+
+} // namespace
+
+TEST_CASE_METHOD(history_fixture,
+                 "A large decision is cut, says so, and drives out no other",
+                 "[request_history]") {
+  book.decide(decision("small"));
+  const json plan{{"score", 1}, {"rejected", many_rejected()}};
+  const json error{
+      {"type", "error"},
+      {"error",
+       {{"message", "it fits nowhere"}, {"rejected", many_rejected()}}}};
+  for (int i = 0; i < 3; ++i) {
+    book.decide({"plan" + std::to_string(i), 5, plan.dump(), ""});
+    book.decide({"error" + std::to_string(i), 5, "", error.dump()});
+  }
+  CHECK(book.placement("small"));
+  CHECK(book.placement("plan0"));
+  const auto kept = json::parse(book.placement("plan2")->plan);
+  CHECK(kept["score"] == 1);
+  CHECK(kept["rejected"].size() > 100);
+  CHECK(kept["rejected"][99] == plan["rejected"][99]);
+  const auto words = "of " + std::to_string(plan["rejected"].size())
+                     + " rejected candidates, "
+                     + std::to_string(kept["rejected"].size()) + " are kept";
+  CHECK(kept["warnings"] == json{words});
+  const auto refused = json::parse(book.placement("error2")->refusal);
+  CHECK(refused["error"]["message"] == "it fits nowhere; " + words);
 }
 
 } // namespace roscell::test
