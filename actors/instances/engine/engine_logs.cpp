@@ -113,8 +113,12 @@ void open_log(engine_runtime_pointer self, const engine_answered& x,
   }
   follower.running = is_running(found);
   const auto wait = wait_of(query);
-  const bool follow = follower.running && wait.count() > 0
-                      && st.followers.size() < limits::log::followers;
+  const bool follow = follower.running && wait.count() > 0;
+  // Who follows asks again at once: an answer without text would go round.
+  if (follow && st.followers.size() >= limits::log::followers) {
+    follower.promise.deliver(too_many_followers());
+    return;
+  }
   const auto origin = *created;
   if (follow) {
     follower.until = self->clock().now() + wait;

@@ -1,3 +1,4 @@
+#include "actors/house/limits.hpp"
 #include "test/actors/instances/engine/engine_bench.hpp"
 
 #include <atomic>
@@ -291,6 +292,27 @@ TEST_CASE("a log is read, and followed until there is more") {
   SECTION("there is none") {
     CHECK(b.refusal<log_excerpt>(query).code == error_code::unknown_task);
   }
+}
+
+TEST_CASE(
+    "one follower of logs too many is told so, and not answered at once") {
+  facts opened;
+  engine_bench b;
+  b.script.on("GET /containers/roscell-i/json", 200, running);
+  b.script.on("GET /containers/c1/logs",
+              [&](engine_caller& who, const engine_call_seen&) {
+                who.open();
+                opened.put("opened");
+              });
+  log_query query;
+  query.instance = "i";
+  query.offset = 0;
+  query.wait_ms = limits::log::wait.count();
+  for (size_t i = 0; i < limits::log::followers; ++i) {
+    caf::anon_send(b.runtime, query);
+    opened.await("opened");
+  }
+  CHECK(b.refusal<log_excerpt>(query).code == error_code::conflict);
 }
 
 TEST_CASE("ids that cannot be names reach no engine") {
