@@ -87,6 +87,11 @@ cell_measured measured(const cell_coordinator_state& st) {
   cell_measured result;
   for (auto& node : st.registry.rows()) {
     const auto& name = node.identity.name;
+    // A name may be on its way from one machine to another; a scraper wants it
+    // once.
+    if (const auto* owner = st.registry.find_name(name);
+        owner == nullptr || owner->row.identity.uuid != node.identity.uuid)
+      continue;
     const bool away = !is_present(st, name);
     for (auto& x : st.deployments.measures_on(name, away)) {
       if (away && is_live(x.state))

@@ -39,13 +39,14 @@ caf::result<task_plan> search(searcher_self self, const allocate_task& asked) {
   const auto begin = std::chrono::steady_clock::now();
   auto outcome = allocate(asked, limits::task::allocation_budget,
                           [&guard] { return guard.must_stop(); });
-  tally(self, outcome, std::chrono::steady_clock::now() - begin);
   if (const auto gone = guard.end(); !gone.empty()) {
     ++self->state.interrupted;
-    return fail(error_code::conflict,
+    outcome =
+        failure{error_code::conflict,
                 "node '" + gone + "' left while the task was being placed",
-                "/pipeline", "send the request again");
+                "/pipeline", "send the request again"};
   }
+  tally(self, outcome, std::chrono::steady_clock::now() - begin);
   if (auto* problem = std::get_if<failure>(&outcome)) {
     ++self->state.refusals;
     return to_error(*problem);

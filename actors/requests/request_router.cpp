@@ -76,6 +76,15 @@ void answer_request(request_router_self self, const std::string& id,
   }
 }
 
+/// A refusal before anybody works on the request. A scraper does not want a
+/// family of whatever word a client thinks of.
+request_routed refuse_early(request_router_self self, const failure& why,
+                            const std::string& type = "invalid") {
+  self->state.services->context.count(metric::requests,
+                                      {type, to_word(why.code)});
+  return refusal(self, why);
+}
+
 void tally(request_router_self self, const running_request& request,
            const request_routed& answer) {
   const auto& home = self->state.services->context;
@@ -170,17 +179,20 @@ void dispatch(request_router_self self, const request_runner& run,
 }
 
 /// Handles a `request_id` that has been seen. True if that settles it.
-bool recall(request_router_self self, const std::string& id,
-            const std::string& body, promise_type& promise) {
+bool recall(request_router_self self, const std::string& type,
+            const std::string& id, const std::string& body,
+            promise_type& promise) {
   auto i = self->state.remembered.find(id);
   if (i == self->state.remembered.end())
     return false;
   auto& known = i->second;
   if (known.body != body)
     promise.deliver(
-        refusal(self, {error_code::conflict,
-                       "request_id '" + id + "' was used for another request",
-                       "/request_id", "choose an id that has not been used"}));
+        refuse_early(self,
+                     {error_code::conflict,
+                      "request_id '" + id + "' was used for another request",
+                      "/request_id", "choose an id that has not been used"},
+                     type));
   else if (known.reply.empty())
     known.waiting.push_back(promise);
   else
@@ -194,9 +206,9 @@ caf::result<request_routed> pass_on(request_router_self self,
                                     const json& document) {
   const auto& membership = self->state.services->membership;
   if (!membership)
-    return refusal(self,
-                   {error_code::unknown_type,
-                    "this node has no handler for '" + type + "'", "/type"});
+    return refuse_early(self, {error_code::unknown_type,
+                               "this node has no handler for '" + type + "'",
+                               "/type"});
   return self->delegate(membership, route_request{document.dump(), ""});
 }
 
@@ -240,18 +252,20 @@ caf::result<request_routed> route(request_router_self self,
   static_assert(document_limits{}.max_bytes == limits::http::body_bytes);
   auto parsed = parse_document(request.text);
   if (auto* why = std::get_if<failure>(&parsed))
-    return refusal(self, *why);
+    return refuse_early(self, *why);
   auto& document = std::get<json>(parsed);
   // What is taken from strangers comes from coordinators, maybe newer ones.
   if (auto why = request.only.empty()
                      ? validate_request(document)
                      : validate_message(document, {message_kind::request}))
-    return refusal(self, *why);
+    return refuse_early(self, *why);
   const auto type = document.at("type").get<std::string>();
   if (!request.only.empty() && type != request.only)
-    return refusal(self, {error_code::unauthorized,
-                          "only a '" + request.only + "' is taken here",
-                          "/type", "send it to /v1/requests"});
+    return refuse_early(self,
+                        {error_code::unauthorized,
+                         "only a '" + request.only + "' is taken here", "/type",
+                         "send it to /v1/requests"},
+                        type);
   if (is_for_others(*st.services, type, document))
     return pass_to_node(self, type, std::move(document));
   const auto* run = st.registry->find(type);
@@ -261,7 +275,7 @@ caf::result<request_routed> route(request_router_self self,
   auto promise = self->make_response_promise<request_routed>();
   if (!id.empty()) {
     const auto body = document.dump();
-    if (recall(self, id, body, promise))
+    if (recall(self, type, id, body, promise))
       return promise;
     st.remembered[id].body = body;
     st.remembered_bytes += body.size();

@@ -33,9 +33,10 @@ failure not_found(const http_request& request) {
       error_code::unknown_type,
       request.method + " " + request.path + " is not known here", "",
       "the paths are /v1/requests (GET and POST), /v1/registration (the same), "
-      "/v1/hello, /v1/node, /v1/cost, /v1/cell, /v1/cells, "
-      "/v1/tasks, /v1/instances, /v1/instances/{id}/logs, /v1/skills, "
-      "/v1/events, /metrics and /healthz"};
+      "/v1/hello, /v1/node, /v1/cost, /v1/actors/{name}, /v1/cell, /v1/cells, "
+      "/v1/tasks, /v1/tasks/{task}, the same with /placement or /trace, "
+      "/v1/instances, /v1/instances/{id}, the same with /logs, /v1/skills, "
+      "/v1/topics, /v1/events, /metrics and /healthz"};
 }
 
 /// A number of the query part: `fallback` if absent, nothing if it is no

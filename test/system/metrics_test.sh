@@ -104,6 +104,30 @@ await_value() {
   done
 }
 
+test_every_picture_for_grafana_has_something_to_show() {
+  need_prometheus
+  start_line
+  give_frames 3
+  metrics arm >> "$scratch/head.txt"
+  local told query wanted
+  told=$(awk '$1 == "#" && $2 == "TYPE" {print $3}' "$scratch/head.txt")
+  jq -r '.. | .expr? // empty' docs/examples/grafana/roscell.json \
+    > "$scratch/queries"
+  [[ -s $scratch/queries ]] || fail "no picture asks anything"
+  jq -R '{record: "any:query", expr: gsub("\\$__rate_interval"; "1m")}' \
+    "$scratch/queries" | jq -s '{groups: [{name: "all", rules: .}]}' \
+    > "$scratch/rules.yml"
+  promtool check rules --lint=none "$scratch/rules.yml" > "$scratch/said" 2>&1 \
+    || fail "$(cat "$scratch/said")"
+  while read -r query; do
+    while read -r wanted; do
+      wanted=${wanted%_total} wanted=${wanted%_bucket}
+      has_line -E "^$wanted(_total)?\$" <<< "$told" \
+        || fail "nobody tells $wanted: $query"
+    done < <(grep -oE '(roscell|process)_[a-z_]+' <<< "$query")
+  done < "$scratch/queries"
+}
+
 # memory_of PATH: MiB in use on the member, as the coordinator answers there.
 memory_of() {
   get head "$1" | jq '.nodes[] | select(.identity.name == "arm")

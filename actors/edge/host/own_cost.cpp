@@ -67,6 +67,16 @@ double entries(const fs::path& folder) {
 
 } // namespace
 
+double read_boot_time(const fs::path& file) {
+  std::ifstream in{file};
+  std::string key;
+  double result = 0;
+  while (in >> key)
+    if (key == "btime")
+      return in >> result ? result : 0;
+  return 0;
+}
+
 own_cost read_own_cost(const fs::path& process) {
   own_cost result;
   take_times(text_of(process / "stat"), result);

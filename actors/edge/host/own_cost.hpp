@@ -18,4 +18,8 @@ struct own_cost {
 /// @param process the process's folder in /proc; tests have their own.
 own_cost read_own_cost(const std::filesystem::path& process = "/proc/self");
 
+/// When the host was booted, in whole seconds since 1970; 0 if that is not
+/// known. It stays the same unless somebody sets the host's clock.
+double read_boot_time(const std::filesystem::path& file = "/proc/stat");
+
 } // namespace roscell

@@ -1,8 +1,7 @@
 #include "actors/requests/metrics/scrape.hpp"
 
-#include "actors/house/boot_clock.hpp"
+#include "actors/edge/host/own_cost.hpp"
 #include "actors/house/limits.hpp"
-#include "actors/house/wall_clock.hpp"
 #include "actors/requests/metrics/cell_metrics.hpp"
 
 #include <optional>
@@ -28,12 +27,6 @@ struct scrape_state {
 
 using scrape_pointer = introspected_actor::stateful_pointer<scrape_state>;
 
-/// When the host was booted, in seconds since 1970.
-double booted_unix_s(caf::actor_system& system) {
-  constexpr double ms_in_s = 1000;
-  return static_cast<double>(unix_now_ms() - boot_now_ms(system)) / ms_in_s;
-}
-
 std::vector<instance_measures>
 measures_of(const std::vector<instance_row>& rows) {
   std::vector<instance_measures> result;
@@ -46,7 +39,7 @@ measures_of(const std::vector<instance_row>& rows) {
 std::string text_of(scrape_pointer self) {
   const auto& st = self->state;
   exposition result{st.format};
-  write_cost(read_own_cost(), booted_unix_s(self->system()), result);
+  write_cost(read_own_cost(), read_boot_time(), result);
   if (st.cell) {
     write_cell(*st.cell, result);
     write_instances(st.cell->instances, result);

@@ -22,6 +22,7 @@ struct router_fixture {
   /// The one type that is taken, from coordinators, whose members may be newer.
   std::string only;
   std::shared_ptr<request_history> history;
+  std::shared_ptr<metric_book> metrics = std::make_shared<metric_book>();
 
   router_fixture() {
     gate = time.system.spawn([this](caf::event_based_actor* self) {
@@ -94,6 +95,7 @@ struct router_fixture {
     auto services = std::make_shared<node_services>();
     history = services->history;
     services->context = time.context;
+    services->context.metrics = metrics;
     services->name = "arm";
     services->membership = membership;
     services->coordinator = coordinator;
@@ -216,6 +218,29 @@ TEST_CASE_METHOD(router_fixture,
   // A reply is no request, and neither is a session message.
   CHECK(error_of(ask(R"({"type":"cell_list","cells":[]})")) == "unknown_type");
   CHECK(runs == 0);
+}
+
+TEST_CASE_METHOD(router_fixture,
+                 "What is refused before any work on it is counted, too",
+                 "[router][metrics]") {
+  answer_at_once();
+  registry.add(refuse);
+  start();
+  ask("{");
+  ask(R"({"type":"make_coffee"})");
+  ask(R"({"type":"make_tea"})");
+  ask(R"({"type":"task_query","task":7})");
+  ask(list_query("a"));
+  ask(R"({"type":"task_query","request_id":"a"})");
+  std::vector<std::string> counted;
+  for (const auto& x : metrics->samples(metric::requests))
+    counted.push_back(x.labels[0] + " " + x.labels[1] + " "
+                      + std::to_string(static_cast<int>(x.sum)));
+  CHECK(counted
+        == std::vector<std::string>{
+            "cell_list_query done 1", "invalid malformed_json 1",
+            "invalid schema_violation 1", "invalid unknown_type 2",
+            "task_query conflict 1"});
 }
 
 TEST_CASE_METHOD(router_fixture,

@@ -31,6 +31,15 @@ TEST_CASE("what the kernel does not tell costs nothing", "[own_cost]") {
   CHECK(cost.pss_bytes == 0);
 }
 
+TEST_CASE("when the host was booted is the same at each look", "[own_cost]") {
+  fixture_root folder;
+  folder.write("/stat", "cpu  1 2 3 4\nintr 5 6\nbtime 1700000000\nctxt 7\n");
+  CHECK(read_boot_time(folder.path() + "/stat") == 1'700'000'000);
+  CHECK(read_boot_time(folder.path() + "/nobody") == 0);
+  CHECK(read_boot_time() > 0);
+  CHECK(read_boot_time() == read_boot_time());
+}
+
 TEST_CASE("this process has a cost", "[own_cost]") {
   const auto cost = read_own_cost();
   CHECK(cost.resident_bytes > 0);

@@ -108,4 +108,27 @@ TEST_CASE_METHOD(scraped_cell, "a node that is away has no figures",
         != std::string::npos);
 }
 
+TEST_CASE_METHOD(scraped_cell,
+                 "a name that goes to another machine is told once",
+                 "[metrics]") {
+  lose(arm);
+  time.advance(limits::membership::name_held + std::chrono::seconds{1});
+  auto kept = time.ask<place_reserved>(
+      coordinator, place_reservation{"arm", "a-new-machine", 1, 60'000});
+  time.settle();
+  REQUIRE(kept->has_value());
+  const auto text = scrape()->text;
+  const auto count = [&text](const std::string& words) {
+    size_t result = 0;
+    for (auto at = text.find(words); at != std::string::npos;
+         at = text.find(words, at + 1))
+      ++result;
+    return result;
+  };
+  CHECK(count("roscell_node_state{node=\"arm\"") == 1);
+  CHECK(count("roscell_node_resource_used{node=\"arm\",resource=\"cpu_cores\"")
+        == 1);
+  CHECK(count("roscell_instance_state{instance_id=\"t-s0-") == 1);
+}
+
 } // namespace roscell::test
