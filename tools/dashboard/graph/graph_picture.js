@@ -100,7 +100,7 @@ export class GraphPicture {
     const figures = svg('text', { x: arrow.label.x, y: top + height - 4, class: 'figures' });
     this.arrows.get(arrow.key).figures = figures;
     return svg('g', { class: 'flow' },
-      svg('title', {}, arrow.streams.map((x) => `${x.endpoint} (${x.data_type})`).join('\n')),
+      streamTitle(arrow.streams),
       svg('rect', { x: arrow.label.x - 76, y: top, width: 152, height: height + 2, rx: 3 }),
       lines(arrow.streams).map((words, index) => svg('text', { x: arrow.label.x, y: top + 12 + 15 * index }, words)),
       figures);
@@ -126,6 +126,10 @@ function timeWords({ age_ms, latency_ms }) {
   return latency_ms === undefined ? '' : `takes ${milliseconds(latency_ms)}`;
 }
 
+function streamTitle(streams) {
+  return svg('title', {}, streams.map((x) => `${x.endpoint} (${x.data_type})`).join('\n'));
+}
+
 function lines(streams) {
   if (streams.length <= 3)
     return streams.map((x) => shortName(x.endpoint, 23));
@@ -134,7 +138,7 @@ function lines(streams) {
 
 function makeEnd({ x, y, width, height, end }) {
   return svg('g', { class: 'end' },
-    svg('title', {}, end.streams.map((one) => `${one.endpoint} (${one.data_type})`).join('\n')),
+    streamTitle(end.streams),
     svg('rect', { x, y, width, height, rx: height / 2 > 20 ? 12 : height / 2 }),
     lines(end.streams).map((words, index) => svg('text', { x: x + width / 2, y: y + 18 + 15 * index }, words)));
 }

@@ -1,6 +1,6 @@
 // A JSON document that can be read, changed and copied, with a number before each
 // line and a mark at each that is wrong.
-import { el, freshId, keyed, setAttribute, setText } from '../page/dom.js';
+import { button, el, freshId, keyed, setAttribute, setText } from '../page/dom.js';
 import { onceAFrame } from '../page/frames.js';
 import { JsonTrouble, lineOf, placeOf, placesIn } from './json_places.js';
 
@@ -19,7 +19,7 @@ export class JsonBox {
     this.copied = el('span', { class: 'soft', role: 'status' });
     this.root = el('div', { class: 'json' },
       el('p', { class: 'json-head' }, el('label', { for: id }, label), this.copied,
-        el('button', { type: 'button', class: 'quiet', on: { click: () => this.copy() } }, 'Copy')),
+        button('Copy', () => this.copy(), { class: 'quiet' })),
       el('div', { class: 'json-body' }, this.numbers, this.area), this.trouble);
     this.drawNumbers = onceAFrame(() => this.showNumbers());
   }

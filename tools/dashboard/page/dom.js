@@ -8,6 +8,10 @@ export function el(tag, properties = {}, ...children) {
   return filled(document.createElement(tag), properties, children);
 }
 
+export function button(words, act, more = {}) {
+  return el('button', { type: 'button', ...more, on: { click: act } }, words);
+}
+
 export function svg(tag, properties = {}, ...children) {
   return filled(document.createElementNS(SVG, tag), properties, children);
 }

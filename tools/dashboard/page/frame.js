@@ -1,6 +1,6 @@
 // What stays while rooms change: the way between them, how the node is reached,
 // help, theme, shortcuts.
-import { el, replace, setAttribute, setText } from './dom.js';
+import { button, el, replace, setAttribute, setText } from './dom.js';
 import { openHelp } from './help.js';
 import { stateMark, updateState } from './marks.js';
 import { address } from './router.js';
@@ -28,7 +28,7 @@ export class Frame {
     this.link = stateMark('connecting');
     document.getElementById('link').append(this.link);
     this.banner = document.getElementById('banner');
-    this.look = el('button', { type: 'button', on: { click: () => stream.lookNow() } }, 'Look now');
+    this.look = button('Look now', () => stream.lookNow());
     this.words = el('span', { role: 'alert' });
     // It changes each second, and is not read aloud each time.
     this.countdown = el('span', {});

@@ -1,5 +1,5 @@
 // The page's own help: what it does by itself, and its keys.
-import { el } from './dom.js';
+import { button, el } from './dom.js';
 import { shape } from './marks.js';
 
 const MARKS = [
@@ -17,7 +17,7 @@ const WORDS = [
   + 'hundred times its duration lies between two questions. The lines of the last ten minutes begin when the page is opened.',
   'A page that has been hidden for a minute lets go of the node, and reads what it has missed when it is looked at again. '
   + 'If the node does not answer, the page says so and looks again, after 0.5 s at first and every 15 s at last.',
-  'Every request is shown as the JSON that is sent. It can be changed, copied, and sent with `roscell request` as well.',
+  'Every request is shown as the JSON that is sent, with a request_id. It can be changed, copied, and sent with `roscell request` as well.',
 ];
 
 export function openHelp(keys) {
@@ -32,6 +32,6 @@ export function openHelp(keys) {
     el('ul', { class: 'marks' }, MARKS.map(([kind, meaning]) => el('li', { class: `state ${kind}` }, shape(kind), ` ${meaning}`))),
     el('h3', {}, 'What is asked of the node, and when'),
     ...WORDS.map((text) => el('p', {}, text)),
-    el('button', { type: 'button', class: 'main', autofocus: true, on: { click: () => dialog.close() } }, 'Close'));
+    button('Close', () => dialog.close(), { class: 'main', autofocus: true }));
   dialog.showModal();
 }

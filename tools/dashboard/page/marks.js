@@ -23,6 +23,10 @@ export function shapePath(kind) {
   return SHAPES[kind];
 }
 
+export function warning(words) {
+  return el('p', { class: 'state warn' }, shape('warn'), el('span', {}, words));
+}
+
 /** The mark and the word of a state; `update` changes it where it stands. */
 export function stateMark(state) {
   const mark = el('span', { class: 'state' }, el('span', { class: 'state-shape' }), el('span', {}));
@@ -72,12 +76,8 @@ export function updateSparkline(parts, samples, key, windowMs, now = Date.now())
   const x = (time) => (WIDTH * (1 - (now - time) / windowMs)).toFixed(1);
   const y = (share) => (height - 1 - Math.max(0, Math.min(1, share)) * (height - 2)).toFixed(1);
   let path = '';
-  for (const sample of samples.filter((one) => sampleHas(one, key)))
+  for (const sample of samples.filter((x) => x[key] !== undefined))
     path += path ? `H${x(sample.time)}V${y(sample[key])}` : `M${x(sample.time)} ${y(sample[key])}`;
   setAttribute(parts.line, 'd', path ? `${path}H${WIDTH}` : 'M0 0');
   setAttribute(parts.area, 'd', path ? `${path}H${WIDTH}V${height}H${x(samples[0].time)}z` : 'M0 0');
-}
-
-function sampleHas(sample, key) {
-  return sample[key] !== undefined;
 }

@@ -1,7 +1,7 @@
 // A table that can be sorted and paged. Rows keep their elements while they are
 // shown, so an update costs what has changed, and a page is at most 50 rows,
 // however many there are.
-import { el, keyed, setAttribute, setText } from './dom.js';
+import { button, el, keyed, setAttribute, setText } from './dom.js';
 
 const PAGE = 50;
 
@@ -33,7 +33,7 @@ export class Table {
     if (!column.order)
       return el('th', { scope: 'col', class: column.class }, column.title);
     return el('th', { scope: 'col', class: column.class },
-      el('button', { type: 'button', class: 'head', on: { click: () => this.sortBy(index) } }, column.title));
+      button(column.title, () => this.sortBy(index), { class: 'head' }));
   }
 
   sortBy(index) {
@@ -114,8 +114,8 @@ function compare(a, b) {
 export class Pager {
   constructor(turn) {
     this.words = el('span', {});
-    this.back = el('button', { type: 'button', class: 'quiet', on: { click: () => turn(-1) } }, 'Previous');
-    this.on = el('button', { type: 'button', class: 'quiet', on: { click: () => turn(1) } }, 'Next');
+    this.back = button('Previous', () => turn(-1), { class: 'quiet' });
+    this.on = button('Next', () => turn(1), { class: 'quiet' });
     this.root = el('nav', { class: 'pager', 'aria-label': 'Pages' }, this.back, this.words, this.on);
   }
 

@@ -5,11 +5,8 @@ const CHOICES = ['system', 'light', 'dark'];
 export function setUpTheme(button) {
   let choice = stored();
   const show = () => {
-    if (choice === 'system')
-      delete document.documentElement.dataset.theme;
-    else
-      document.documentElement.dataset.theme = choice;
-    button.textContent = { system: 'Theme: system', light: 'Theme: light', dark: 'Theme: dark' }[choice];
+    document.documentElement.dataset.theme = choice;
+    button.textContent = `Theme: ${choice}`;
   };
   const next = () => {
     choice = CHOICES[(CHOICES.indexOf(choice) + 1) % CHOICES.length];

@@ -1,5 +1,6 @@
 // The form of one step, made from its skill's descriptor.
-import { el } from '../page/dom.js';
+import { button, el } from '../page/dom.js';
+import { warning } from '../page/marks.js';
 import { choice, field, setOrDrop, textInput } from './field.js';
 import { parameterField } from './parameter_field.js';
 import { streamFields } from './stream_fields.js';
@@ -16,11 +17,10 @@ export function stepForm({ step, index, pipeline, skills, onChange, redo }) {
   const shape = { where, onChange, redo };
   return el('section', { class: 'step-form', 'aria-label': `Step ${step.id}` },
     el('header', {}, el('h3', {}, `Step ${index + 1}`),
-      el('button', { type: 'button', class: 'quiet remove', 'aria-label': `Remove step ${step.id}`,
-        on: { click: (event) => leave(event.target, pipeline, index, redo) } }, 'Remove')),
+      button('Remove', (event) => leave(event.target, pipeline, index, redo), { class: 'quiet remove', 'aria-label': `Remove step ${step.id}` })),
     whatFields(step, models, model, skills, shape),
     descriptor ? streams(step, descriptor, pipeline, shape)
-      : el('p', { class: 'state warn' }, 'No node of the cell has this skill; the JSON can be changed all the same.'),
+      : warning('No node of the cell has this skill; the JSON can be changed all the same.'),
     model ? parameters(step, model, shape) : null, lifeFields(step, shape));
 }
 

@@ -1,5 +1,5 @@
 // The inputs or outputs of a step: from another step, or at an endpoint.
-import { el, freshId } from '../page/dom.js';
+import { button, el, freshId } from '../page/dom.js';
 import { asList } from '../page/words.js';
 import { choice, field, setOrDrop, textInput } from './field.js';
 
@@ -20,8 +20,7 @@ export function streamFields({ step, side, port, others, where, onChange, onShap
     const place = streams.length === 1 && !Array.isArray(step[side]) ? `${where}/${side}` : `${where}/${side}/${index}`;
     return streamRow({ stream, side, port, others, place, keep, reshape, remove: () => { add.focus(); streams.splice(index, 1); reshape(); } });
   });
-  const add = el('button', { type: 'button', class: 'quiet', disabled: streams.length >= MOST,
-    on: { click: () => { streams.push({ endpoint: '' }); reshape(); } } }, `Add ${side === 'input' ? 'an input' : 'an output'}`);
+  const add = button(`Add ${side === 'input' ? 'an input' : 'an output'}`, () => { streams.push({ endpoint: '' }); reshape(); }, { class: 'quiet', disabled: streams.length >= MOST });
   const id = freshId(side);
   return el('fieldset', { class: 'streams', 'data-side': side, 'aria-labelledby': id }, el('legend', { id }, side === 'input' ? 'Reads' : 'Writes'),
     rows, rows.length === 0 ? el('p', { class: 'soft' }, side === 'input' ? 'Nothing.' : 'As the skill has it: topics are named after the task and the step.') : null, add);
@@ -41,7 +40,7 @@ function streamRow({ stream, side, port, others, place, keep, reshape, remove })
     parts.push(field(`${place}/data_type`, 'Type', choice([['', 'by the skill'], ...known(port.data_types, stream.data_type)], stream.data_type ?? '', set('data_type'))));
     parts.push(field(`${place}/protocol`, 'Protocol', choice([['', 'by its form'], ...known(port.protocols, stream.protocol)], stream.protocol ?? '', set('protocol'))));
   }
-  return el('div', { class: 'stream' }, parts, el('button', { type: 'button', class: 'quiet remove', 'aria-label': `Remove this ${side}`, on: { click: remove } }, '✕'));
+  return el('div', { class: 'stream' }, parts, button('✕', remove, { class: 'quiet remove', 'aria-label': `Remove this ${side}` }));
 }
 
 /** What the document says stays a choice, though the skill does not name it. */

@@ -1,5 +1,5 @@
 // The form of a task: its name, its steps, and how it may push others aside.
-import { el, replace } from '../page/dom.js';
+import { button, el, replace } from '../page/dom.js';
 import { choice, clearFields, field, markFields, setOrDrop, textInput } from './field.js';
 import { keepingPlace } from './keep_place.js';
 import { stepForm } from './step_form.js';
@@ -44,7 +44,7 @@ export class TaskForm {
   adder(skills) {
     const operations = [...new Set(skills.map((x) => x.operation))].sort();
     const what = choice(operations.length ? operations : [['', 'no skill is known']], operations[0] ?? '', () => {});
-    const add = el('button', { type: 'button', disabled: operations.length === 0, on: { click: () => this.addStep(what.value) } }, 'Add a step');
+    const add = button('Add a step', () => this.addStep(what.value), { disabled: operations.length === 0 });
     return el('div', { class: 'adder' }, field('/pipeline', 'Skill', what), add);
   }
 

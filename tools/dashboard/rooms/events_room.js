@@ -1,10 +1,11 @@
 // What happens, as it happens, with filters. The newest 2000 events are kept in
 // the page, 100 of them shown at once.
 import { MOST_EVENTS } from '../cell/store.js';
-import { el, freshId, setText } from '../page/dom.js';
+import { button, el, setText } from '../page/dom.js';
 import { onceAFrame } from '../page/frames.js';
 import { Pager } from '../page/table.js';
 import { EventRows, kindOfEvent, textOfEvent, topicOfEvent } from './event_rows.js';
+import { SearchField } from './search_field.js';
 
 const PAGE = 100;
 const TOPICS = ['nodes', 'tasks', 'instances', 'cells'];
@@ -15,16 +16,15 @@ export class EventsRoom {
     this.page = 0;
     this.held = null;
     const draw = onceAFrame(() => this.draw());
-    const find = freshId('find');
-    this.find = el('input', { type: 'search', id: find, placeholder: 'event, name, reason …', value: where.query.get('find') ?? '', on: { input: draw } });
+    this.find = new SearchField('event, name, reason …', draw, where.query.get('find'));
     this.topics = TOPICS.map((topic) => el('input', { type: 'checkbox', checked: true, value: topic, on: { change: draw } }));
     this.trouble = el('input', { type: 'checkbox', on: { change: draw } });
-    this.hold = el('button', { type: 'button', 'aria-pressed': 'false', on: { click: () => this.toggle() } }, 'Hold');
+    this.hold = button('Hold', () => this.toggle(), { 'aria-pressed': 'false' });
     this.amount = el('span', { class: 'soft' });
     this.rows = new EventRows(PAGE);
     this.pager = new Pager((step) => { this.page += step; this.draw(); });
     this.root = el('div', { class: 'room' }, el('h1', {}, 'Events'),
-      el('p', { class: 'filters' }, el('label', { for: find }, 'Find'), this.find,
+      el('p', { class: 'filters' }, this.find.parts,
         this.topics.map((box) => el('label', { class: 'check' }, box, box.value)),
         el('label', { class: 'check' }, this.trouble, 'only trouble'), this.hold, this.amount),
       this.rows.root, this.pager.root,
@@ -45,10 +45,10 @@ export class EventsRoom {
 
   draw() {
     const { events } = this.app.store;
-    const words = this.find.value.toLowerCase().replaceAll('_', ' ').split(/\s+/).filter(Boolean);
+    const words = this.find.words.replaceAll('_', ' ');
     const topics = new Set(this.topics.filter((x) => x.checked).map((x) => x.value));
     const shown = (this.held ?? events).filter((x) => topics.has(topicOfEvent(x))
-      && (!this.trouble.checked || kindOfEvent(x) !== 'good') && words.every((word) => textOfEvent(x).includes(word))).reverse();
+      && (!this.trouble.checked || kindOfEvent(x) !== 'good') && this.find.fits(textOfEvent(x), words)).reverse();
     this.page = Math.max(0, Math.min(this.page, Math.ceil(shown.length / PAGE) - 1));
     const from = this.page * PAGE;
     const page = shown.slice(from, from + PAGE);

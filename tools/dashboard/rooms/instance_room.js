@@ -1,7 +1,7 @@
 // One instance: what it is, what it does, how it ended before, and its log.
 import { el, keyed, remade, setText } from '../page/dom.js';
 import { stateMark, updateState } from '../page/marks.js';
-import { address } from '../page/router.js';
+import { address, way } from '../page/router.js';
 import { ago, asList, clock, dateAndTime, hertz, instanceState, milliseconds, number } from '../page/words.js';
 import { LogView } from './log_view.js';
 import { facts } from './node_table.js';
@@ -82,7 +82,7 @@ export class InstanceRoom {
   }
 
   wayOn(next) {
-    return next && el('a', { class: 'button', href: address('instances', next) }, 'What runs in its place');
+    return next && way('What runs in its place', 'instances', next);
   }
 
   /** No event tells how it ended. */
@@ -106,7 +106,6 @@ export class InstanceRoom {
   }
 
   showActions({ spec, node }) {
-    const way = (words, ...where) => el('a', { class: 'button', href: address(...where) }, words);
     const next = this.lives() ? undefined : this.replacement();
     remade(this.actions, [spec.instance, node, next], () => [this.wayOn(next),
       way('Restart', 'requests', 'task_restart', { task: spec.task, instance: spec.instance }),

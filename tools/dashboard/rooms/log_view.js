@@ -1,9 +1,10 @@
 // The lines of a log, bounded, with a filter. It stays at the end while somebody
 // reads the end, and stands still while they read elsewhere.
-import { el, freshId, setText } from '../page/dom.js';
+import { button, el, setText } from '../page/dom.js';
 import { onceAFrame } from '../page/frames.js';
 import { clock } from '../page/words.js';
 import { LogFollower } from './log_follower.js';
+import { SearchField } from './search_field.js';
 
 const MOST_LINES = 3000;
 
@@ -14,13 +15,12 @@ export class LogView {
     this.fresh = [];
     this.anew = false;
     this.atEnd = true;
-    const find = freshId('find');
-    this.find = el('input', { type: 'search', id: find, placeholder: 'words of a line', on: { input: onceAFrame(() => this.redraw()) } });
+    this.find = new SearchField('words of a line', () => this.redraw());
     this.state = el('span', { class: 'soft', role: 'status' });
-    this.newest = el('button', { type: 'button', class: 'quiet', on: { click: () => this.toEnd() } }, 'To the newest line');
+    this.newest = button('To the newest line', () => this.toEnd(), { class: 'quiet' });
     this.box = el('div', { class: 'log', tabindex: 0, role: 'log', 'aria-live': 'off', 'aria-label': 'Log', on: { scroll: () => this.onScroll() } });
     this.root = el('div', {},
-      el('p', { class: 'filters' }, el('label', { for: find }, 'Find'), this.find, this.state, this.newest), this.box);
+      el('p', { class: 'filters' }, this.find.parts, this.state, this.newest), this.box);
     this.draw = onceAFrame(() => this.drawFresh());
     this.follower = new LogFollower(instance, {
       lives,
@@ -60,11 +60,6 @@ export class LogView {
     this.emptied = true;
   }
 
-  wanted(line) {
-    const words = this.find.value.toLowerCase();
-    return !words || line.text.toLowerCase().includes(words);
-  }
-
   redraw() {
     this.fresh = [...this.lines];
     this.emptied = true;
@@ -76,7 +71,7 @@ export class LogView {
     if (this.emptied)
       this.box.replaceChildren();
     this.emptied = false;
-    const lines = this.fresh.splice(0).filter((x) => this.wanted(x)).slice(-MOST_LINES);
+    const lines = this.fresh.splice(0).filter((x) => x.text.toLowerCase().includes(this.find.words)).slice(-MOST_LINES);
     this.box.append(...lines.map(makeLine));
     while (this.box.childElementCount > MOST_LINES)
       this.box.firstElementChild.remove();

@@ -3,7 +3,7 @@
 import { shares } from '../cell/samples.js';
 import { el, keyed, remade, setAttribute, setText } from '../page/dom.js';
 import { meter, sparkline, stateMark, updateMeter, updateSparkline, updateState } from '../page/marks.js';
-import { address } from '../page/router.js';
+import { address, way } from '../page/router.js';
 import { ago, dateAndTime, nodeState, number, percent } from '../page/words.js';
 import { InstanceTable } from './instance_table.js';
 import { facts, labelWords, ofMebibytes } from './node_table.js';
@@ -65,9 +65,7 @@ export class NodeRoom {
   }
 
   showActions(row) {
-    const request = (type, words, query = {}) => el('a', {
-      class: 'button', href: address('requests', type, { node: this.name, ...query }),
-    }, words);
+    const request = (type, words) => way(words, 'requests', type, { node: this.name });
     const draining = nodeState(row) === 'draining';
     const coordinator = row.role === 'coordinator';
     remade(this.actions, [draining, coordinator], () => [

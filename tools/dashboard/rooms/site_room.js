@@ -1,7 +1,7 @@
 // The cells of the site, and the nodes of this one.
 import { el, keyed, setAttribute, setText } from '../page/dom.js';
 import { stateMark, updateState } from '../page/marks.js';
-import { address } from '../page/router.js';
+import { address, way } from '../page/router.js';
 import { count, instanceState, kindOf } from '../page/words.js';
 import { NodeTable } from './node_table.js';
 import { EventRows, isEcho } from './event_rows.js';
@@ -67,7 +67,7 @@ function makeFree(row) {
   const parts = { state: stateMark(row.state), about: el('span', { class: 'soft' }) };
   const card = el('li', { class: 'card' },
     el('p', {}, el('b', {}, row.name), ' ', parts.state), el('p', {}, parts.about),
-    el('p', {}, el('a', { class: 'button', href: address('requests', 'cell_formation', { members: row.name }) }, 'Bring into this cell')));
+    el('p', {}, way('Bring into this cell', 'requests', 'cell_formation', { members: row.name })));
   card.parts = parts;
   return card;
 }

@@ -1,25 +1,25 @@
 // The ROS 2 topics of the cell. No event tells of them, so they are read when the
 // room is opened, when instances change, and when somebody asks.
 import { get } from '../cell/api.js';
-import { el, freshId, setText } from '../page/dom.js';
-import { onceAFrame, throttled } from '../page/frames.js';
+import { button, el, setText } from '../page/dom.js';
+import { throttled } from '../page/frames.js';
 import { Table } from '../page/table.js';
 import { count } from '../page/words.js';
+import { SearchField } from './search_field.js';
 
 const AGAIN_MS = 2000;
 
 export class TopicsRoom {
   constructor(app) {
     this.app = app;
-    const find = freshId('find');
-    this.find = el('input', { type: 'search', id: find, placeholder: 'topic, type, program …', on: { input: onceAFrame(() => this.draw()) } });
+    this.find = new SearchField('topic, type, program …', () => this.draw());
     this.words = el('span', { class: 'soft', role: 'status' });
     this.table = new Table({
       caption: 'Topics', columns: COLUMNS, keyOf: (x) => `${x.topic} ${x.data_type}`, empty: 'No topic is known.',
     });
     this.root = el('div', { class: 'room' }, el('h1', {}, 'Topics'),
-      el('p', { class: 'filters' }, el('label', { for: find }, 'Find'), this.find,
-        el('button', { type: 'button', on: { click: () => this.read() } }, 'Read again'), this.words),
+      el('p', { class: 'filters' }, this.find.parts,
+        button('Read again', () => this.read()), this.words),
       this.table.root);
     this.again = throttled(() => this.read(), AGAIN_MS);
     this.read();
@@ -41,11 +41,7 @@ export class TopicsRoom {
   }
 
   draw() {
-    const words = this.find.value.toLowerCase().split(/\s+/).filter(Boolean);
-    const rows = this.app.store.topics.filter((x) => {
-      const text = JSON.stringify(x).toLowerCase();
-      return words.every((word) => text.includes(word));
-    });
+    const rows = this.app.store.topics.filter((x) => this.find.fits(JSON.stringify(x).toLowerCase()));
     this.table.update(rows);
     setText(this.words, this.trouble || count(rows.length, 'topic'));
   }
