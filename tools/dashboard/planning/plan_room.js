@@ -1,13 +1,13 @@
 // A new task: the form, its JSON, where it would go and why, and its start.
 import { send } from '../cell/api.js';
-import { el, replace, setText } from '../page/dom.js';
+import { button, el, replace, setText } from '../page/dom.js';
 import { debounced } from '../page/frames.js';
-import { shape } from '../page/marks.js';
+import { shape, warning } from '../page/marks.js';
 import { address } from '../page/router.js';
 import { count } from '../page/words.js';
 import { refusalView } from '../requests/refusal_view.js';
 import { Sender } from '../requests/sender.js';
-import { keepDraft, keptDraft } from './drafts.js';
+import { draftNotes, keepDraft, keptDraft } from './drafts.js';
 import { preemptedList } from './plan_tables.js';
 import { planView } from './plan_view.js';
 import { emptyTask, planQuery } from './task_document.js';
@@ -25,13 +25,14 @@ export class PlanRoom {
       label: 'The request', action: 'Start', onDocument: (document) => this.onWritten(document), onReply: (reply) => this.started(reply),
     });
     this.sender.fields = this.form;
-    this.planButton = el('button', { type: 'button', on: { click: () => this.plan() } }, 'Plan');
+    this.planButton = button('Plan', () => this.plan());
     this.sender.buttons.prepend(this.planButton);
     this.state = el('p', { class: 'soft', role: 'status' });
     this.result = el('div', {});
     this.whatIf = new WhatIf(app.store, debounced(() => this.plan(), AGAIN_MS));
     this.planBox = el('section', { hidden: true }, el('h2', {}, 'Plan'), this.state, el('div', { class: 'plan-and-if' }, this.result, this.whatIf.root));
     this.root = el('div', { class: 'room' }, el('h1', {}, 'New task'),
+      draftNotes().map(warning),
       el('div', { class: 'form-and-json' }, this.form.root, el('div', { class: 'sticky' }, this.sender.root, this.sender.reply)), this.planBox);
     this.sender.box.set(this.document);
   }
@@ -85,8 +86,8 @@ export class PlanRoom {
     return el('div', {}, el('p', { class: 'state good', role: 'status' }, shape('good'), el('span', {},
       el('b', {}, `Task ${reply.task} runs`), ` with ${count(reply.instances.length, 'instance')}. `, el('a', { href: address('tasks', reply.task) }, 'Look at it'))),
     reply.preempted?.length ? [el('h3', {}, 'What has made way for it'), preemptedList(reply.preempted)] : null,
-    (reply.warnings ?? []).map((x) => el('p', { class: 'state warn' }, shape('warn'), x)),
-    (reply.refused ?? []).map((x) => el('p', { class: 'state warn' }, shape('warn'), `${x.step} not on ${x.node}: ${x.reason}`)));
+    (reply.warnings ?? []).map(warning),
+    (reply.refused ?? []).map((x) => warning(`${x.step} not on ${x.node}: ${x.reason}`)));
   }
 }
 

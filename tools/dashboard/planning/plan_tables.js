@@ -3,12 +3,12 @@ import { el, svg } from '../page/dom.js';
 import { address } from '../page/router.js';
 import { number, percent } from '../page/words.js';
 
-function table(caption, heads, rows) {
+export function table(caption, heads, rows) {
   return el('div', { class: 'scroll-x' }, el('table', {}, el('caption', { class: 'sr' }, caption),
     el('thead', {}, el('tr', {}, heads.map((x) => el('th', { scope: 'col' }, x)))), el('tbody', {}, rows)));
 }
 
-const row = (...cells) => el('tr', {}, cells.map((x, index) => el(index === 0 ? 'th' : 'td', { scope: index === 0 ? 'row' : null }, x)));
+export const row = (...cells) => el('tr', {}, cells.map((x, index) => el(index === 0 ? 'th' : 'td', { scope: index === 0 ? 'row' : null }, x)));
 
 export function allocationTable(allocations) {
   const share = (x) => (x === undefined ? '' : percent(x));

@@ -1,16 +1,16 @@
 // A plan with its explanation: the score, where each step goes, what it takes
 // there, and why not elsewhere.
-import { el } from '../page/dom.js';
-import { shape } from '../page/marks.js';
+import { button, el } from '../page/dom.js';
+import { warning } from '../page/marks.js';
 import { count, number } from '../page/words.js';
 import { allocationTable, preemptedList, rejectedTable, useTable } from './plan_tables.js';
 
-/** `former` is the plan before this one, to compare with; `askWhy(step)` asks for a step's best alternative. */
+/** `former` is the plan before this one, to compare with; `askWhy(step)`, if given, asks for a step's best alternative. */
 export function planView(plan, former, askWhy) {
   return el('div', { class: 'plan' }, scoreLine(plan, former),
-    (plan.warnings ?? []).map((x) => el('p', { class: 'state warn' }, shape('warn'), x)),
+    (plan.warnings ?? []).map(warning),
     plan.preempted?.length ? [el('h3', {}, 'What would be ended for it'), preemptedList(plan.preempted)] : null,
-    el('h3', {}, 'Where each step goes'), allocationTable(plan.allocations), changes(plan, former), whyNot(plan, askWhy),
+    el('h3', {}, 'Where each step goes'), allocationTable(plan.allocations), changes(plan, former), askWhy ? whyNot(plan, askWhy) : null,
     (plan.alternatives ?? []).map(alternative),
     plan.use?.length ? el('details', { open: true }, el('summary', {}, 'What is used of the nodes, before and after'), useTable(plan.use)) : null,
     plan.rejected.length ? el('details', { open: plan.rejected.length < 12 },
@@ -41,7 +41,7 @@ function changes(plan, former) {
 
 function whyNot(plan, askWhy) {
   return el('p', { class: 'actions' }, el('span', { class: 'soft' }, 'What would the next best place cost?'),
-    plan.allocations.map((x) => el('button', { type: 'button', class: 'quiet', on: { click: () => askWhy(x.step) } }, x.step)));
+    plan.allocations.map((x) => button(x.step, () => askWhy(x.step), { class: 'quiet' })));
 }
 
 function alternative(x) {

@@ -1,6 +1,4 @@
 // Task requests as documents: how they begin, what can be made of them.
-import { asList } from '../page/words.js';
-
 export function emptyTask() {
   return { type: 'task_request', task: 'my-task', pipeline: [] };
 }
@@ -28,23 +26,6 @@ export function planQuery(request, { without = [], with: added = [], why = '' } 
     ...(preempt && preempt !== 'none' ? { preempt: true } : {}),
     ...(without.length ? { without } : {}), ...(added.length ? { with: added } : {}), ...(why ? { why } : {}),
   };
-}
-
-/** The request that would make these instances again, under another name. */
-export function requestOf(instances, task) {
-  return { type: 'task_request', task, pipeline: instances.map(({ spec }) => stepOf(spec)) };
-}
-
-function stepOf(spec) {
-  const step = { id: spec.step, operation: spec.operation, model: spec.model, deployment: spec.deployment };
-  for (const side of ['input', 'output']) {
-    const streams = asList(spec[side]).map(({ from, ...stream }) => stream);
-    if (streams.length > 0)
-      step[side] = streams.length === 1 ? streams[0] : streams;
-  }
-  if (Object.keys(spec.parameters ?? {}).length > 0)
-    step.parameters = spec.parameters;
-  return step;
 }
 
 /** A node on paper needs all of these. */

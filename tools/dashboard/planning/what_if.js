@@ -1,6 +1,6 @@
 // What if a node were not there, or one more: nodes are dragged out and back, or
 // sent by their buttons; each change asks for a plan anew.
-import { el, keyed, replace, setText } from '../page/dom.js';
+import { button, el, keyed, replace, setText } from '../page/dom.js';
 import { number, mebibytes } from '../page/words.js';
 import { grip, makeDraggable } from './drag.js';
 import { field, textInput } from './field.js';
@@ -15,10 +15,11 @@ export class WhatIf {
     this.here = el('ul', { class: 'zone', 'aria-label': 'Nodes that are planned with' });
     this.out = el('ul', { class: 'zone out', 'aria-label': 'Nodes that are thought away' });
     this.hint = el('p', { class: 'soft' }, 'Drag a node here.');
+    this.lost = el('p', { class: 'state warn', role: 'status' });
     this.form = el('div', { class: 'paper' });
     this.root = el('section', { class: 'what-if' }, el('h3', {}, 'What if'),
       el('div', { class: 'zones' }, el('div', {}, el('h4', {}, 'Planned with'), this.here),
-        el('div', {}, el('h4', {}, 'Thought away'), this.out, this.hint)), this.form);
+        el('div', {}, el('h4', {}, 'Thought away'), this.out, this.hint)), this.lost, this.form);
     this.showAdder();
   }
 
@@ -31,16 +32,25 @@ export class WhatIf {
   update(allocations = this.allocations ?? []) {
     this.allocations = allocations;
     const nodes = [...this.store.nodes.values()].filter((x) => x.state === 'active').map((x) => x.resources);
+    this.dropLost(nodes);
     const all = [...nodes, ...this.added];
     keyed(this.here, all.filter((x) => !this.away.has(x.name)), (x) => x.name, (x) => this.makeCard(x), (card, x) => this.updateCard(card, x));
     keyed(this.out, all.filter((x) => this.away.has(x.name)), (x) => x.name, (x) => this.makeCard(x), (card, x) => this.updateCard(card, x));
     this.hint.hidden = this.away.size > 0;
   }
 
+  /** A plan is refused that thinks away who is not there. */
+  dropLost(nodes) {
+    const lost = [...this.away].filter((x) => !nodes.some((node) => node.name === x));
+    lost.forEach((x) => this.away.delete(x));
+    if (lost.length > 0)
+      setText(this.lost, `Need not be thought away, for it is not there now: ${lost.join(', ')}.`);
+  }
+
   makeCard(node) {
     const parts = {
       steps: el('span', { class: 'steps' }),
-      button: el('button', { type: 'button', class: 'quiet', on: { click: () => this.move(node.name, !this.away.has(node.name)) } }),
+      button: button('', () => this.move(node.name, !this.away.has(node.name)), { class: 'quiet' }),
     };
     const card = el('li', { class: 'node-card', 'data-node': node.name }, grip(), el('b', {}, node.name), el('span', { class: 'soft' }, sizeWords(node)), parts.steps, parts.button);
     card.parts = parts;
@@ -72,7 +82,7 @@ export class WhatIf {
   }
 
   showAdder() {
-    replace(this.form, el('button', { type: 'button', on: { click: () => this.showForm() } }, 'Think of one more node'));
+    replace(this.form, button('Think of one more node', () => this.showForm()));
   }
 
   showForm() {
@@ -83,8 +93,8 @@ export class WhatIf {
     replace(this.form, el('div', { class: 'row' }, input('name', 'Name', 'text'), input('cpu', 'Cores'), input('memory_mib', 'Memory (MiB)'),
       input('disk_mib', 'Disk (MiB)'), input('gpu_memory_mib', 'GPU memory (MiB)'), input('labels', 'Labels (a=1, b=2)', 'text')),
     el('p', { class: 'actions' },
-      el('button', { type: 'button', class: 'main', on: { click: () => this.add(paperNode({ ...values, like, labels: labelsOf(values.labels) })) } }, 'Add it to the plan'),
-      el('button', { type: 'button', on: { click: () => this.showAdder() } }, 'Leave it')));
+      button('Add it to the plan', () => this.add(paperNode({ ...values, like, labels: labelsOf(values.labels) })), { class: 'main' }),
+      button('Leave it', () => this.showAdder())));
     this.form.querySelector('input').select();
   }
 

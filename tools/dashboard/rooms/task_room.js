@@ -2,13 +2,14 @@
 // and what can be asked for it.
 import { send } from '../cell/api.js';
 import { GraphPicture } from '../graph/graph_picture.js';
-import { el, replace, setText } from '../page/dom.js';
+import { button, el, replace, setText } from '../page/dom.js';
 import { throttled } from '../page/frames.js';
 import { stateMark, updateState } from '../page/marks.js';
-import { address } from '../page/router.js';
+import { address, way } from '../page/router.js';
 import { ago, dateAndTime } from '../page/words.js';
+import { DecisionView } from '../planning/decision_view.js';
 import { keepDraft } from '../planning/drafts.js';
-import { requestOf } from '../planning/task_document.js';
+import { copyOf } from '../planning/task_copy.js';
 import { EventRows } from './event_rows.js';
 import { InstanceTable } from './instance_table.js';
 
@@ -30,6 +31,7 @@ export class TaskRoom {
       el('h1', {}, this.name, ' ', this.state), this.about, this.actions(), this.waits,
       el('section', {}, el('h2', {}, 'Steps over nodes'), this.picture.root),
       el('section', {}, el('h2', {}, 'Instances'), this.instances.root),
+      new DecisionView(this.name).root,
       el('section', {}, el('h2', {}, 'What has happened'), this.dropped, this.history.root));
     this.newest = app.store.events.at(-1);
     this.askHistory = throttled(() => this.readHistory(), HISTORY_MS);
@@ -37,9 +39,9 @@ export class TaskRoom {
   }
 
   actions() {
-    const request = (type, words) => el('a', { class: 'button', href: address('requests', type, { task: this.name }) }, words);
+    const request = (type, words) => way(words, 'requests', type, { task: this.name });
     return el('p', { class: 'actions' }, request('task_restart', 'Restart'), request('task_termination', 'Stop'),
-      el('button', { type: 'button', on: { click: () => this.planAnew() } }, 'Use as a new task'));
+      button('Use as a new task', () => this.planAnew()));
   }
 
   update(kinds) {
@@ -93,7 +95,8 @@ export class TaskRoom {
   }
 
   planAnew() {
-    keepDraft(requestOf(this.app.store.instancesOf(this.name), `${this.name}-2`));
+    const { document, notes } = copyOf(this.name, this.app.store.instancesOf(this.name), `${this.name}-2`);
+    keepDraft(document, notes);
     this.app.go(address('plan'));
   }
 }
