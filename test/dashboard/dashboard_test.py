@@ -20,6 +20,7 @@ from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.keys import Keys
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
+from asking import Asking  # noqa: E402
 from browser import Browser  # noqa: E402
 import reading  # noqa: E402
 from keeping_place import KeepingPlace  # noqa: E402
@@ -28,7 +29,7 @@ from making_way import MakingWay  # noqa: E402
 OPTIONS = argparse.Namespace(url="", scene={}, pictures=None)
 
 
-class DashboardTest(KeepingPlace, MakingWay, unittest.TestCase):
+class DashboardTest(Asking, KeepingPlace, MakingWay, unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.page = Browser(OPTIONS.url)
@@ -230,13 +231,27 @@ class DashboardTest(KeepingPlace, MakingWay, unittest.TestCase):
         stranger = reading.stranger()
         try:
             self.page.driver.get(f"http://localhost:{stranger.server_port}/")
-            base = OPTIONS.url.split("/dashboard/")[0]
-            self.assertEqual(self.page.driver.execute_async_script(reading.TRESPASS, base), "nothing")
+            secret = OPTIONS.url.split("/dashboard/")[0]
+            base = secret.rsplit("/", 1)[0]
+            self.assertEqual(self.page.driver.execute_async_script(reading.TRESPASS, base, secret, self.trespass()), "nothing")
+            self.page.driver.switch_to.frame(self.page.find("iframe"))
+            self.assertEqual(self.page.driver.find_elements("css selector", "#room"), [])
+            self.page.driver.switch_to.default_content()
         finally:
             stranger.shutdown()
             stranger.server_close()
         self.page.open("#/tasks")
+        time.sleep(3)
         self.assertNotIn("trespass", self.page.text())
+        # From the page itself the same is done, and can be seen.
+        self.page.js("fetch(new URL('../v1/requests', document.baseURI), {method: 'POST', body: arguments[0]})", self.trespass())
+        self.page.sees("trespass", "running")
+        self.stop("trespass")
+
+    def trespass(self):
+        end = lambda name: {"endpoint": f"{OPTIONS.scene['data']}/{name}", "protocol": "file", "data_type": "text/plain"}
+        return json.dumps({"type": "task_request", "task": "trespass", "pipeline": [
+            {"id": "talk", "operation": "talk", "model": "plain", "input": end("talk.in"), "output": end("trespass.out")}]})
 
     def test_zz_pictures_are_taken(self):
         if not OPTIONS.pictures:

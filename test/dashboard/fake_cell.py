@@ -18,6 +18,8 @@ import time
 PAGE = pathlib.Path(__file__).resolve().parents[2] / "tools" / "dashboard"
 POLICY = ("default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self'; "
           "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'")
+PLAN = {"type": "task_plan", "task": "thought", "optimal": True, "allocations": [], "rejected": [],
+        "score": {"total": 0, "balance": 0, "load": 0, "alpha": 1, "gap": 0, "lower_bound": 0}}
 mimetypes.add_type("text/javascript", ".js")
 
 
@@ -35,6 +37,7 @@ class FakeCell:
         self.requests = []
         self.skills = []
         self.delays = {}
+        self.lost = set()
         self.away = threading.Event()
         self.nodes = [f"node-{n:02}" for n in range(1, nodes + 1)]
         self.tasks = {f"task-{t:02}": [self.instance(f"task-{t:02}", s) for s in range(steps)]
@@ -63,7 +66,8 @@ class FakeCell:
 
     def cell(self):
         identity = lambda name: {"name": name, "uuid": "0" * 32, "epoch": 1, "address": "127.0.0.1:8420"}
-        nodes = [{"identity": identity(name), "role": "coordinator" if n == 0 else "primary", "state": "active",
+        nodes = [{"identity": identity(name), "role": "coordinator" if n == 0 else "primary",
+                  "state": "lost" if name in self.lost else "active",
                   "since_unix_ms": self.started, "resources": self.resources(name),
                   "instances": [x for x in self.rows() if x["node"] == name]} for n, name in enumerate(self.nodes)]
         return {"type": "cell_description", "cell": "load", "coordinator": self.nodes[0], "address": "127.0.0.1:8420",
@@ -150,6 +154,7 @@ class Handler(http.server.BaseHTTPRequestHandler):
         query = json.loads(body)
         self.fake.requests.append(query)
         self.reply(self.fake.figures(query) if query["type"] == "instance_query"
+                   else PLAN if query["type"] == "task_plan_query"
                    else {"type": "task_history", "task": query.get("task", ""), "events": []})
 
     def fall_silent(self):

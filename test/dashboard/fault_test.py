@@ -33,6 +33,7 @@ class FaultTest(unittest.TestCase):
         self.fake.tasks = copy.deepcopy(self.tasks)
         self.fake.skills = []
         self.fake.delays.clear()
+        self.fake.lost.clear()
         self.fake.away.clear()
 
     def row(self):
@@ -215,6 +216,19 @@ class FaultTest(unittest.TestCase):
         page.until(lambda: "paint" in page.text("main .adder select"))
         self.assertEqual(page.js("const x = document.activeElement; return [x.value, x.selectionStart, x.selectionEnd]"), ["carve", 2, 4])
         self.assertTrue(page.js("return document.querySelector('details.life').open"))
+
+    def test_a_node_that_was_thought_away_and_is_lost_spoils_no_plan(self):
+        page = self.page
+        page.open("#/plan")
+        page.press("Plan")
+        page.press("Think away node-02")
+        page.sees("As if node-02 were not there")
+        self.assertEqual(self.asked("task_plan_query")[-1]["without"], ["node-02"])
+        self.fake.lost.add("node-02")
+        self.fake.say("node_lost", "node-02", {"reason": "no word"})
+        page.sees("not there now: node-02", selector=".what-if")
+        page.press("Plan")
+        page.until(lambda: "without" not in self.asked("task_plan_query")[-1])
 
     # What time does.
 

@@ -48,21 +48,28 @@ return [...document.querySelectorAll('button, a[href], input, select, textarea')
   .map((x) => x.outerHTML.slice(0, 120));
 """
 
-# What a page of another origin tries: to read, to send, to show the page in a frame.
+# What a page of another origin tries: to send without the secret, and even with it to
+# read, and to look into a frame.
 TRESPASS = """
-const [base, done] = arguments;
-const request = JSON.stringify({type: 'task_termination', task: 'trespass'});
+const [base, secret, request, done] = arguments;
 const tries = [
-  ['read', () => fetch(base + '/v1/cell').then((x) => x.text())],
+  ['read', () => fetch(secret + '/v1/cell').then((x) => x.text())],
+  ['read a reply', () => fetch(secret + '/v1/requests', {method: 'POST', body: '{"type":"cell_query"}'}).then((x) => x.text())],
   ['send', () => fetch(base + '/v1/requests', {method: 'POST', body: request}).then((x) => x.text())],
   ['send as JSON', () => fetch(base + '/v1/requests',
     {method: 'POST', body: request, headers: {'Content-Type': 'application/json'}}).then((x) => x.text())],
+  ['send without a look at the answer', () => fetch(base + '/v1/requests',
+    {method: 'POST', mode: 'no-cors', body: request}).then(() => Promise.reject())],
 ];
 const frame = document.createElement('iframe');
-frame.src = base + '/dashboard/';
+frame.src = secret + '/dashboard/';
+const shown = new Promise((then) => { frame.onload = then; });
 document.body.append(frame);
-Promise.all(tries.map(([what, act]) => act().then(() => what, () => null))).then((got) => {
-  const done_what = got.filter(Boolean);
+Promise.all(tries.map(([what, act]) => act().then(() => what, () => null))).then(async (got) => {
+  await shown;
+  let inside = null;
+  try { inside = frame.contentWindow.document.body; } catch { /* As it should be. */ }
+  const done_what = [...got, inside && 'look into the frame'].filter(Boolean);
   done(done_what.length ? done_what.join(', ') : 'nothing');
 });
 """

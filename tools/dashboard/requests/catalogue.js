@@ -1,5 +1,6 @@
 // The requests that can be made here, and what each of them says. A field that is
 // left empty is left out of the document. New tasks have a room of their own.
+import { setOrDrop } from '../planning/field.js';
 
 const force = { name: 'force', kind: 'flag', label: 'End at once what is not safe yet' };
 const instances = {
@@ -29,20 +30,26 @@ export const REQUESTS = [
   { type: '', title: 'Any other request', about: 'Whatever docs/messages.md lists, written by hand.', fields: [], start: { type: 'node_query' } },
 ];
 
-/** The document that the fields' values make. */
-export function documentOf(request, values) {
-  const document = { ...(request.start ?? { type: request.type }) };
-  for (const field of request.fields) {
-    const value = valueOf(field, values[field.name]);
-    if (value !== undefined)
-      document[field.name] = value;
-  }
-  return document;
+/** Of a request that says nothing yet. */
+export function startOf(request) {
+  return request.start ?? { type: request.type };
+}
+
+export function setField(document, field, value) {
+  setOrDrop(document, field.name, valueOf(field, value));
+}
+
+/** What a field shows of a document. */
+export function shownIn(document, { kind, name }) {
+  const value = document[name];
+  if (kind === 'flag')
+    return value === true;
+  return Array.isArray(value) ? value.join(', ') : value ?? '';
 }
 
 function valueOf({ kind, whole, required }, value) {
   if (kind === 'flag')
-    return value || undefined;
+    return value || '';
   if (kind === 'names')
     return String(value ?? '').split(/[\s,]+/).filter(Boolean);
   if (value === '' || value === undefined)

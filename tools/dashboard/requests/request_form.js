@@ -1,59 +1,62 @@
-// The fields of one request.
-import { el, freshId, keyed, setText } from '../page/dom.js';
-import { choicesOf, documentOf } from './catalogue.js';
+// The fields of one request, and what they change in its JSON, which may say more.
+import { el, freshId, keyed } from '../page/dom.js';
+import { clearFields, field, markFields } from '../planning/field.js';
+import { choicesOf, setField, shownIn } from './catalogue.js';
 
 export class RequestForm {
-  constructor(app, request, query, onDocument) {
+  /** `document()` gives what the JSON says, or null if it cannot be read; `onDocument` gets it changed. */
+  constructor(app, request, query, document, onDocument) {
     this.app = app;
-    this.request = request;
+    this.document = document;
     this.onDocument = onDocument;
-    this.fields = request.fields.map((field) => this.makeField(field, query.get(field.name)));
+    this.fields = request.fields.map((about) => this.makeField(about, query.get(about.name)));
     this.root = el('form', { class: 'fields', on: { submit: (event) => event.preventDefault() } },
       this.fields.map((x) => x.root),
       request.fields.length === 0 ? el('p', { class: 'soft' }, 'It has no fields; the JSON can be changed.') : null);
     this.showChoices();
   }
 
-  makeField(field, given) {
-    const id = freshId(field.name);
-    const listId = freshId('choices');
-    const wrong = el('span', { class: 'field-wrong', id: freshId('wrong') });
-    const tell = () => this.tell();
-    let input;
-    if (field.kind === 'flag')
-      input = el('input', { id, type: 'checkbox', checked: given === 'true' || (given === null && field.start), on: { change: tell } });
-    else if (field.kind === 'choice')
-      input = el('select', { id, on: { change: tell } }, el('option', { value: '' }, 'as it is by default'), field.choices.map((x) => el('option', {}, x)));
-    else
-      input = el('input', { id, list: listId, value: given ?? '', type: field.kind === 'number' ? 'number' : 'text', step: field.whole ? 1 : 'any',
-        required: field.required, autocomplete: 'off', 'aria-describedby': wrong.id, on: { input: tell } });
-    const list = el('datalist', { id: listId });
-    const root = el('div', { class: `field ${field.kind}` }, el('label', { for: id }, field.label, field.required ? el('span', { class: 'soft' }, ' (needed)') : null),
-      input, list, field.about ? el('span', { class: 'soft about' }, field.about) : null, wrong);
-    return { field, input, list, root, wrong };
+  makeField(about, given) {
+    const made = { about, list: el('datalist', { id: freshId('choices') }) };
+    made.input = this.makeInput(about, given, made.list.id, () => this.tell([made]));
+    made.root = field(`/${about.name}`, `${about.label}${about.required ? ' (needed)' : ''}`, made.input, about.about);
+    made.root.classList.add(about.kind);
+    made.root.append(made.list);
+    return made;
+  }
+
+  makeInput({ kind, choices, start, whole, required }, given, list, tell) {
+    if (kind === 'flag')
+      return el('input', { type: 'checkbox', checked: given === 'true' || (given === null && start), on: { change: tell } });
+    if (kind === 'choice')
+      return el('select', { on: { change: tell } }, el('option', { value: '' }, 'as it is by default'), choices.map((x) => el('option', {}, x)));
+    return el('input', { list, value: given ?? '', type: kind === 'number' ? 'number' : 'text', step: whole ? 1 : 'any',
+      required, autocomplete: 'off', on: { input: tell } });
+  }
+
+  /** The JSON was written by hand: the fields say what it says. */
+  show(document) {
+    for (const { about, input } of this.fields)
+      input[about.kind === 'flag' ? 'checked' : 'value'] = shownIn(document, about);
   }
 
   showChoices() {
-    for (const { field, list } of this.fields)
-      keyed(list, choicesOf(field, this.app.store), (x) => x, (x) => el('option', { value: x }));
+    for (const { about, list } of this.fields)
+      keyed(list, choicesOf(about, this.app.store), (x) => x, (x) => el('option', { value: x }));
   }
 
-  tell() {
-    for (const { wrong, input } of this.fields) {
-      setText(wrong, '');
-      input.removeAttribute('aria-invalid');
-    }
-    const values = Object.fromEntries(this.fields.map(({ field, input }) => [field.name, field.kind === 'flag' ? input.checked : input.value]));
-    this.onDocument(documentOf(this.request, values));
+  /** What else was written into the JSON stays there. */
+  tell(fields = this.fields) {
+    clearFields(this.root);
+    const document = this.document();
+    if (document === null)
+      return this.mark(fields.map(({ about }) => ({ where: `/${about.name}`, words: 'Not taken over: the JSON cannot be read.' })));
+    for (const { about, input } of fields)
+      setField(document, about, about.kind === 'flag' ? input.checked : input.value);
+    this.onDocument(document);
   }
 
   mark(places) {
-    for (const { where, words } of places) {
-      const found = this.fields.find((x) => where.split('/')[1] === x.field.name);
-      if (!found)
-        continue;
-      found.input.setAttribute('aria-invalid', 'true');
-      setText(found.wrong, words);
-    }
+    markFields(this.root, places);
   }
 }

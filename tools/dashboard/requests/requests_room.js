@@ -1,9 +1,9 @@
 // Requests to nodes and tasks: a form, the JSON that it makes, and the reply.
 import { el, replace, setAttribute } from '../page/dom.js';
 import { address } from '../page/router.js';
-import { REQUESTS } from './catalogue.js';
+import { REQUESTS, startOf } from './catalogue.js';
 import { RequestForm } from './request_form.js';
-import { Sender } from './sender.js';
+import { objectIn, Sender } from './sender.js';
 
 export class RequestsRoom {
   constructor(app, where) {
@@ -11,8 +11,12 @@ export class RequestsRoom {
     this.request = REQUESTS.find((x) => x.type === where.name) ?? REQUESTS[0];
     if (where.name === 'other')
       this.request = REQUESTS.at(-1);
-    this.sender = new Sender({ label: 'The request', action: 'Send', grave: this.request.grave });
-    this.form = new RequestForm(app, this.request, where.query, (document) => this.sender.box.set(document));
+    this.sender = new Sender({
+      label: 'The request', action: 'Send', grave: this.request.grave, onDocument: (document) => this.form.show(document ?? {}),
+    });
+    const { box } = this.sender;
+    box.set(startOf(this.request));
+    this.form = new RequestForm(app, this.request, where.query, () => objectIn(box.text), (document) => box.set(document));
     this.root = el('div', { class: 'room' }, el('h1', {}, 'Requests'),
       el('div', { class: 'columns' }, this.list(),
         el('div', { class: 'request' }, el('h2', {}, this.request.title), el('p', {}, this.request.about),

@@ -1,11 +1,12 @@
 // A JSON document on its way to the node, and what came back. The document that
-// is sent is the one that is shown.
+// is sent is the one that is shown, with a request id, so that it can be sent again
+// without being done again.
 import { send } from '../cell/api.js';
 import { JsonBox } from '../json/json_box.js';
-import { el, replace, setText } from '../page/dom.js';
+import { button, el, replace, setText } from '../page/dom.js';
 import { shape } from '../page/marks.js';
 import { spoken } from '../page/words.js';
-import { refusalView } from './refusal_view.js';
+import { isOpenEnd, openEnd, refusalView } from './refusal_view.js';
 
 export class Sender {
   constructor({ label, action, grave = false, onDocument, onReply }) {
@@ -13,15 +14,15 @@ export class Sender {
     this.onReply = onReply;
     this.fields = null;
     this.box = new JsonBox({ label, onDocument });
-    this.button = el('button', { type: 'button', class: grave ? 'main grave' : 'main', on: { click: () => this.send() } }, action);
-    this.cancel = el('button', { type: 'button', hidden: true, on: { click: () => this.cutter.abort() } }, 'Wait no longer');
+    this.button = button(action, () => this.send(), { class: grave ? 'main grave' : 'main' });
+    this.cancel = button('Wait no longer', () => this.cutter.abort(), { hidden: true });
     this.state = el('span', { class: 'soft', role: 'status' });
     this.reply = el('div', { class: 'reply' });
     this.buttons = el('p', { class: 'actions' }, this.button, this.cancel, this.state);
     this.root = el('div', { class: 'sender' }, this.box.root, this.buttons);
   }
 
-  async send(text = this.box.text) {
+  async send(text = withId(this.box.text)) {
     this.cutter = new AbortController();
     this.busy(true);
     replace(this.reply);
@@ -29,17 +30,39 @@ export class Sender {
       const reply = await send(text, this.cutter.signal);
       replace(this.reply, this.onReply?.(reply) ?? replyView(reply));
     } catch (trouble) {
-      replace(this.reply, trouble.name === 'AbortError' ? el('p', {}, 'The node goes on with it; its events tell how it ends.')
-        : refusalView(trouble, this.box, this.fields));
+      replace(this.reply, this.troubleView(trouble, text));
     }
     this.busy(false);
     this.reply.scrollIntoView({ block: 'nearest' });
+  }
+
+  troubleView(trouble, text) {
+    if (trouble.name === 'AbortError')
+      return el('p', {}, 'The node goes on with it; its events tell how it ends.');
+    return isOpenEnd(trouble) ? openEnd(trouble, objectIn(text) ?? {}, () => this.send(text)) : refusalView(trouble, this.box, this.fields);
   }
 
   busy(whether) {
     this.button.disabled = whether;
     this.cancel.hidden = !whether;
     setText(this.state, whether ? 'The node works on it …' : '');
+  }
+}
+
+/** What is no request is sent as it is, and refused with its place. */
+function withId(text) {
+  const document = objectIn(text);
+  const id = crypto.getRandomValues(new Uint32Array(3)).join('-');
+  return document ? JSON.stringify({ request_id: `dashboard-${id}`, ...document }) : text;
+}
+
+/** The object that a text is, or null. */
+export function objectIn(text) {
+  try {
+    const document = JSON.parse(text);
+    return typeof document === 'object' && !Array.isArray(document) ? document : null;
+  } catch {
+    return null;
   }
 }
 
