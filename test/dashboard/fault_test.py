@@ -120,12 +120,12 @@ class FaultTest(unittest.TestCase):
         self.set_state("failed")
         del self.fake.tasks["task-03"]
         self.fake.say("task_terminated", "task-03")
-        page.go(f"#/instances/{INSTANCE}")
-        page.sees("failed", selector="h1")
+        page.go(f"#/instances?find={INSTANCE}")
+        page.sees("failed", selector="tbody")
         self.row()["state"] = "stopped"
         time.sleep(4)
         # What the event said was asked for again after the old answer had come.
-        page.sees("stopped", selector="h1", patience=3)
+        page.sees("stopped", selector="tbody", patience=3)
         page.go("#/tasks")
         self.assertNotIn("task-03", page.text())
 
