@@ -32,9 +32,18 @@ TEST_CASE("a disk is judged by its room and by its files", "[doctor]") {
   CHECK(judge_disk(disk).front().how == judgement::broken);
 }
 
+TEST_CASE("a folder that is there is given to nobody else", "[doctor]") {
+  disk_facts disk{"/run/x", "/run/x", EACCES, 50ULL << 30, 1'000'000, true};
+  CHECK(judge_disk(disk).front().remedy == "ls -ld /run/x && id");
+  disk.data_dir = "/run/x/$(id)";
+  CHECK_THAT(judge_disk(disk).front().remedy,
+             Contains("sudo install -d -m 700 -o ")
+                 && Contains("'/run/x/$(id)'"));
+}
+
 TEST_CASE("fsync is judged by its median", "[doctor]") {
-  CHECK(judge_fsync({0.2, 0.3, 900}).how == judgement::ok);
-  CHECK(judge_fsync({80, 90, 0.1}).how == judgement::warning);
+  CHECK(judge_fsync("/data", {0.2, 0.3, 900}).how == judgement::ok);
+  CHECK(judge_fsync("/data", {80, 90, 0.1}).how == judgement::warning);
 }
 
 TEST_CASE("an engine is broken only where it was asked for", "[doctor]") {
@@ -54,6 +63,11 @@ TEST_CASE("an engine is broken only where it was asked for", "[doctor]") {
   CHECK(judge_engines("process", {}, true)[0].how == judgement::skipped);
   CHECK(judge_engines("auto", {closed, good}, true).size() == 1);
   CHECK(judge_engines("auto", {good}, false)[0].how == judgement::warning);
+  // A new start would end the containers that run.
+  const asked_engine hangs{"/var/run/docker.sock", true,
+                           edge_error{error_code::timeout, "no answer", ""}};
+  CHECK(judge_engines("docker", {hangs}, true)[0].remedy
+        == "sudo systemctl status docker");
 }
 
 TEST_CASE("what of a GPU is missing is named", "[doctor]") {
@@ -73,6 +87,10 @@ TEST_CASE("what of a GPU is missing is named", "[doctor]") {
   CHECK(judge_gpu(gpu).how == judgement::ok);
   gpu.unusable_device = "/dev/nvidia0";
   CHECK(judge_gpu(gpu).how == judgement::warning);
+  // Nobody is put into the group of root for it.
+  CHECK_THAT(judge_gpu(gpu).remedy, Contains("sudo chmod a+rw /dev/nvidia0"));
+  gpu.device_group = "video";
+  CHECK_THAT(judge_gpu(gpu).remedy, Contains("sudo usermod -aG video "));
 }
 
 TEST_CASE("the real library is asked for its GPUs", "[doctor]") {

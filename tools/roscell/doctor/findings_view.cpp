@@ -1,5 +1,6 @@
 #include "tools/roscell/doctor/findings_view.hpp"
 
+#include "tools/roscell/doctor/command_text.hpp"
 #include "tools/roscell/view/format.hpp"
 
 #include <langinfo.h>
@@ -47,26 +48,24 @@ std::string area_view(const std::string& area, const findings& all,
   return t.render(style);
 }
 
-/// A command of many files fills screens: it is had from the doctor again.
-std::string remedy_of(const finding& x) {
-  constexpr size_t longest_remedy = 400;
-  if (x.remedy.size() <= longest_remedy)
-    return printable(x.remedy);
-  return "roscell doctor -o json --only " + printable(x.check)
-         + " | jq -r '.[].remedy // empty' | sh";
+std::string remedy_of(const finding& x, const std::string& doctor) {
+  return printable(x.remedy.size() <= longest_remedy
+                       ? x.remedy
+                       : remedies_of(doctor, x.check));
 }
 
 /// What is to be done, in lines that are not cut, so that they can be pasted.
-std::string advice(const finding& x, const text_style& style, bool signs) {
+std::string advice(const finding& x, const text_style& style, bool signs,
+                   const std::string& doctor) {
   const auto mark = mark_of(x.how, signs);
   const auto colour = style.colour ? state_colour(mark) : "";
   std::string text = colour + mark + (colour.empty() ? "" : "\x1b[0m") + " "
                      + (x.node.empty() ? "" : printable(x.node) + ": ")
-                     + x.check + ": " + printable(x.seen) + "\n";
+                     + printable(x.check) + ": " + printable(x.seen) + "\n";
   if (!x.matters.empty())
     text += "    " + printable(x.matters) + "\n";
   if (!x.remedy.empty())
-    text += "    $ " + remedy_of(x) + "\n";
+    text += "    $ " + remedy_of(x, doctor) + "\n";
   return text;
 }
 
@@ -122,7 +121,7 @@ bool locale_is_utf8() {
 }
 
 std::string findings_view(const findings& all, const text_style& style,
-                          bool signs) {
+                          bool signs, const std::string& doctor) {
   std::vector<std::string> areas;
   for (const auto& x : all)
     if (x.node.empty()
@@ -136,7 +135,7 @@ std::string findings_view(const findings& all, const text_style& style,
        {judgement::broken, judgement::warning, judgement::skipped})
     for (const auto& x : all)
       if (x.how == how && !(x.matters.empty() && x.remedy.empty()))
-        text += advice(x, style, signs) + "\n";
+        text += advice(x, style, signs, doctor) + "\n";
   return text + sum_of(all);
 }
 

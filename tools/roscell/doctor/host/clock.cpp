@@ -21,7 +21,7 @@ finding judge_clock(const clock_facts& clock) {
   constexpr auto why =
       "ages of frames between hosts, and the order of events and logs, are as "
       "wrong as the clocks differ";
-  constexpr auto synchronise = "timedatectl set-ntp true";
+  constexpr auto synchronise = "sudo timedatectl set-ntp true";
   if (!clock.synchronised)
     return {judgement::warning, "nothing synchronises the clock of this host",
             why, synchronise};

@@ -1,6 +1,7 @@
 #include "tools/roscell/doctor/host/disk.hpp"
 
 #include "actors/edge/io/unique_fd.hpp"
+#include "tools/roscell/doctor/command_text.hpp"
 #include "tools/roscell/view/format.hpp"
 
 #include <fcntl.h>
@@ -51,29 +52,32 @@ unique_fd nameless_file(const fs::path& folder) {
 }
 
 finding may_not_write(const disk_facts& disk) {
-  const auto dir = disk.data_dir.string();
+  const auto there = shell_word(disk.existing.string());
   const auto seen = "this user cannot write to " + disk.existing.string() + ": "
                     + std::strerror(disk.write_error);
   constexpr auto why = "a node of this user cannot keep who it is and what it "
                        "runs, and does not start";
   if (disk.write_error == EROFS)
     return {judgement::broken, seen, why,
-            "sudo mount -o remount,rw \"$(stat -c %m " + disk.existing.string()
-                + ")\""};
+            "sudo mount -o remount,rw \"$(stat -c %m " + there + ")\""};
+  // A folder that is there has an owner, who may be meant.
+  if (disk.existing == disk.data_dir)
+    return {judgement::broken, seen, why, "ls -ld " + there + " && id"};
   return {judgement::broken, seen, why,
-          "sudo install -d -m 700 -o \"$(id -un)\" " + dir};
+          "sudo install -d -m 700 -o " + own_user() + " "
+              + shell_word(disk.data_dir.string())};
 }
 
 finding judge_room(const disk_facts& disk) {
   const auto room = format_bytes(static_cast<double>(disk.free_bytes));
   const auto at = disk.existing.string();
-  const auto look = "du -xsh " + at + "/* | sort -h";
+  const auto look = "du -xhd 1 " + shell_word(at) + " | sort -h";
   if (disk.counts_files && disk.free_files < few_files)
     return {disk.free_files == 0 ? judgement::broken : judgement::warning,
             "there is room for " + std::to_string(disk.free_files)
                 + " more files in " + at,
             "tasks and instances are refused when it is used up",
-            "df -i " + at};
+            "df -i " + shell_word(at)};
   const auto seen = room + " are free in " + at;
   if (disk.free_bytes < little_room)
     return {disk.free_bytes < no_room ? judgement::broken : judgement::warning,
@@ -131,7 +135,7 @@ std::optional<std::vector<double>> measure_fsync(const fs::path& folder) {
   return result;
 }
 
-finding judge_fsync(std::vector<double> took_ms) {
+finding judge_fsync(const fs::path& folder, std::vector<double> took_ms) {
   const auto middle =
       took_ms.begin() + static_cast<std::ptrdiff_t>(took_ms.size() / 2);
   std::nth_element(took_ms.begin(), middle, took_ms.end());
@@ -142,8 +146,9 @@ finding judge_fsync(std::vector<double> took_ms) {
     return {judgement::ok, seen};
   return {judgement::warning, seen,
           "each change of a task is kept before it is answered for: requests "
-          "take several times as long",
-          "roscell node --data-dir /var/tmp/roscell   # on a faster disk"};
+          "take several times as long. A node that is to keep who it is takes "
+          "its data directory along to a faster disk",
+          "findmnt -T " + shell_word(folder.string())};
 }
 
 findings examine_disk(const examined_host& host) {
@@ -156,7 +161,7 @@ findings examine_fsync(const examined_host& host) {
   if (!took || took->empty())
     return {
         {judgement::skipped, "nothing can be written to " + folder.string()}};
-  return {judge_fsync(*took)};
+  return {judge_fsync(folder, *took)};
 }
 
 } // namespace roscell::cli

@@ -30,7 +30,9 @@ findings judge_disk(const disk_facts& disk);
 std::optional<std::vector<double>>
 measure_fsync(const std::filesystem::path& folder);
 
-finding judge_fsync(std::vector<double> took_ms);
+/// @param folder where it was measured.
+finding judge_fsync(const std::filesystem::path& folder,
+                    std::vector<double> took_ms);
 
 findings examine_disk(const examined_host& host);
 findings examine_fsync(const examined_host& host);

@@ -1,5 +1,7 @@
 #include "tools/roscell/doctor/host/engines.hpp"
 
+#include "tools/roscell/doctor/command_text.hpp"
+
 #include <filesystem>
 #include <set>
 #include <variant>
@@ -10,19 +12,21 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string engine_unit(const std::string& socket) {
+/// One that hangs is looked at: a new start would end its containers.
+std::string engine_unit(const std::string& socket, bool hangs) {
   const bool podman = socket.find("podman") != std::string::npos;
   const bool of_user = socket.rfind("/run/user/", 0) == 0;
   return std::string{of_user ? "systemctl --user " : "sudo systemctl "}
-         + "restart " + (podman ? "podman.socket" : "docker");
+         + (hangs ? "status " : "start ")
+         + (podman ? "podman.socket" : "docker");
 }
 
 std::string engine_remedy(const asked_engine& engine, const edge_error& why) {
   const bool podman = engine.socket.find("podman") != std::string::npos;
   if (why.code != error_code::unauthorized)
-    return engine_unit(engine.socket);
+    return engine_unit(engine.socket, why.code == error_code::timeout);
   return podman ? "systemctl --user enable --now podman.socket"
-                : "sudo usermod -aG docker \"$(id -un)\"";
+                : "sudo usermod -aG docker " + own_user();
 }
 
 finding judge_answer(const asked_engine& engine, const found_engine& found,
@@ -34,8 +38,9 @@ finding judge_answer(const asked_engine& engine, const found_engine& found,
     return {judgement::warning,
             seen + ", and the host has cgroups of version 1",
             "a rootless engine bounds neither CPU nor memory of instances then",
-            "sudo grubby --update-kernel=ALL "
-            "--args=systemd.unified_cgroup_hierarchy=1"};
+            "sudo sed -i 's/^GRUB_CMDLINE_LINUX=\"/"
+            "&systemd.unified_cgroup_hierarchy=1 /' /etc/default/grub && sudo "
+            "update-grub   # and start the host anew"};
   return {judgement::ok, seen};
 }
 

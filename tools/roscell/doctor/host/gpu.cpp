@@ -2,12 +2,16 @@
 
 #include "actors/edge/disk/small_file.hpp"
 #include "actors/edge/host/gpu_probe.hpp"
+#include "tools/roscell/doctor/command_text.hpp"
 #include "tools/roscell/view/format.hpp"
 
 #include <dlfcn.h>
+#include <grp.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <system_error>
@@ -60,6 +64,28 @@ std::vector<std::string> gpu_devices(const std::string& dev) {
   return result;
 }
 
+/// Its name; empty for that of root, and for one that has none.
+std::string group_of(const std::string& device) {
+  struct stat info {};
+  if (stat(device.c_str(), &info) != 0 || info.st_gid == 0)
+    return {};
+  constexpr size_t most_bytes = 16384;
+  std::array<char, most_bytes> text{};
+  group row{};
+  group* found = nullptr;
+  getgrgid_r(info.st_gid, &row, text.data(), text.size(), &found);
+  return found == nullptr ? std::string{} : found->gr_name;
+}
+
+/// Who is in the group of root may do more than use a GPU.
+std::string device_remedy(const gpu_facts& gpu) {
+  if (!gpu.device_group.empty())
+    return "sudo usermod -aG " + shell_word(gpu.device_group) + " "
+           + own_user();
+  const auto device = shell_word(gpu.unusable_device);
+  return "sudo chmod a+rw " + device + "   # until the driver is loaded again";
+}
+
 /// Whether the library is there, and why it does not begin.
 void ask_library(const std::string& name, gpu_facts& gpu) {
   const std::unique_ptr<void, int (*)(void*)> library{
@@ -94,8 +120,10 @@ gpu_facts look_at_gpu(const examined_host& host) {
   result.devices = gpu_devices(host.dev);
   for (const auto& device : result.devices)
     if (result.unusable_device.empty()
-        && access(device.c_str(), R_OK | W_OK) != 0)
+        && access(device.c_str(), R_OK | W_OK) != 0) {
       result.unusable_device = device;
+      result.device_group = group_of(device);
+    }
   ask_library(host.nvml, result);
   if (result.library && result.library_error.empty())
     for (const auto& gpu : gpu_probe{host.nvml}.read())
@@ -121,9 +149,7 @@ finding judge_gpu(const gpu_facts& gpu) {
             why, "sudo modprobe nvidia && sudo nvidia-modprobe -c 0 -u"};
   if (!gpu.unusable_device.empty())
     return {judgement::warning, "this user may not use " + gpu.unusable_device,
-            why,
-            "sudo usermod -aG \"$(stat -c %G " + gpu.unusable_device
-                + ")\" \"$(id -un)\""};
+            why, device_remedy(gpu)};
   if (!gpu.library)
     return {judgement::warning,
             "there is a GPU with its driver, but no libnvidia-ml.so.1", why,

@@ -15,6 +15,7 @@ struct gpu_facts {
   std::string module;               ///< Version of the module; empty: none.
   std::vector<std::string> devices; ///< "/dev/nvidia0", ...
   std::string unusable_device;      ///< The first that this user cannot open.
+  std::string device_group;         ///< Its group; empty: root's.
   bool library = false;
   std::string library_error;     ///< Why it does not begin; empty: it does.
   std::vector<std::string> gpus; ///< "NVIDIA H100, 80 GiB".

@@ -1,6 +1,7 @@
 #include "tools/roscell/doctor/host/leftovers.hpp"
 
 #include "actors/edge/io/unique_fd.hpp"
+#include "tools/roscell/doctor/command_text.hpp"
 #include "tools/roscell/doctor/host/process_maps.hpp"
 #include "tools/roscell/view/format.hpp"
 
@@ -10,11 +11,12 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <fstream>
+#include <charconv>
 #include <map>
 #include <optional>
 #include <set>
 #include <string_view>
+#include <system_error>
 
 namespace roscell::cli {
 
@@ -61,7 +63,8 @@ std::string dds_owner(std::string_view name) {
 /// Whether somebody holds the lock; nothing: this user cannot know. It is given
 /// back at once.
 std::optional<bool> is_held(const fs::path& lock) {
-  const unique_fd file{open(lock.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW)};
+  const unique_fd file{
+      open(lock.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK)};
   if (!file)
     return std::nullopt;
   return flock(file.get(), LOCK_EX | LOCK_NB) != 0;
@@ -122,12 +125,50 @@ void add_file(leftovers& to, const fs::path& file) {
   to.files.push_back(file);
 }
 
+/// The user whose fences lie in a folder of that name; nothing for others.
+std::optional<uid_t> fence_user(std::string_view name) {
+  constexpr std::string_view prefix = "roscell-";
+  uid_t result = 0;
+  if (!begins_with(name, prefix))
+    return std::nullopt;
+  name.remove_prefix(prefix.size());
+  const auto end =
+      std::from_chars(name.data(), name.data() + name.size(), result);
+  if (end.ec != std::errc{} || end.ptr != name.data() + name.size())
+    return std::nullopt;
+  return result;
+}
+
+/// As `fence_path` names them.
+bool is_fence_name(const std::string& name) {
+  constexpr size_t digits = 32;
+  return name.size() == digits
+         && name.find_first_not_of("0123456789abcdef") == name.npos;
+}
+
+/// A folder of fences that nobody else than its user has made; nothing if not:
+/// everybody may make files in the folder around it.
+unique_fd open_fences(const fs::path& path) {
+  const auto user = fence_user(path.filename().native());
+  struct stat info {};
+  if (!user)
+    return {};
+  unique_fd result{open(path.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW
+                                          | O_NONBLOCK | O_CLOEXEC)};
+  if (result && fstat(result.get(), &info) == 0 && info.st_uid == *user)
+    return result;
+  return {};
+}
+
 /// Whether a fence has passed for good.
-bool has_passed(const fs::path& fence, int64_t now_boot_ms) {
+bool has_passed(int folder, const std::string& name, int64_t now_boot_ms) {
+  const unique_fd file{openat(folder, name.c_str(),
+                              O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC)};
+  struct stat info {};
   int64_t moment = 0;
-  std::ifstream in{fence, std::ios::binary};
-  in.read(reinterpret_cast<char*>(&moment), sizeof moment);
-  return in.gcount() == sizeof moment && moment + fence_grace_ms < now_boot_ms;
+  return file && fstat(file.get(), &info) == 0 && S_ISREG(info.st_mode)
+         && pread(file.get(), &moment, sizeof moment, 0) == sizeof moment
+         && moment < now_boot_ms - fence_grace_ms;
 }
 
 } // namespace
@@ -151,13 +192,14 @@ leftovers find_fence_leftovers(const fs::path& folder, int64_t now_boot_ms) {
   std::error_code error;
   for (fs::directory_iterator i{folder, error}, end; !error && i != end;
        i.increment(error)) {
-    if (!begins_with(i->path().filename().string(), "roscell-")
-        || !i->is_directory(error))
+    const auto fences = open_fences(i->path());
+    if (!fences)
       continue;
     std::error_code closed;
     for (fs::directory_iterator fence{i->path(), closed};
          !closed && fence != end; fence.increment(closed))
-      if (has_passed(fence->path(), now_boot_ms))
+      if (const auto name = fence->path().filename().string();
+          is_fence_name(name) && has_passed(fences.get(), name, now_boot_ms))
         add_file(result, fence->path());
   }
   std::sort(result.files.begin(), result.files.end());
@@ -170,7 +212,7 @@ finding judge_leftovers(const leftovers& left, const std::string& whose,
     return {};
   std::string command = "rm -f";
   for (const auto& file : left.files)
-    command += " " + file.string();
+    command += " " + shell_word(file.string());
   return {judgement::warning,
           std::to_string(left.files.size()) + " files of " + whose
               + " that nobody uses take "

@@ -1,6 +1,7 @@
 #include "tools/roscell/doctor/host/shared_memory.hpp"
 
 #include "actors/edge/io/unique_fd.hpp"
+#include "tools/roscell/doctor/command_text.hpp"
 #include "tools/roscell/doctor/host/leftovers.hpp"
 #include "tools/roscell/view/format.hpp"
 
@@ -70,6 +71,7 @@ shared_memory_facts look_at_shared_memory(const fs::path& folder) {
 finding judge_shared_memory(const fs::path& folder,
                             const shared_memory_facts& memory) {
   const auto at = folder.string();
+  const auto word = shell_word(at);
   constexpr auto why =
       "no fence of a movable step can be kept, and stock ROS 2 "
       "programs of this host do not hear each other";
@@ -77,29 +79,29 @@ finding judge_shared_memory(const fs::path& folder,
     return {memory.exists ? judgement::warning : judgement::broken,
             at + (memory.exists ? " is no memory but a disk" : " is not there"),
             why,
-            "sudo mkdir -p " + at
-                + " && sudo mount -t tmpfs -o mode=1777 tmpfs " + at};
+            "sudo mkdir -p " + word
+                + " && sudo mount -t tmpfs -o mode=1777 tmpfs " + word};
   const auto room = format_bytes(static_cast<double>(memory.free)) + " of "
                     + format_bytes(static_cast<double>(memory.size))
                     + " are free in " + at;
   if (memory.free < no_memory)
     return {judgement::broken, room, why,
             "sudo mount -o remount,size=" + std::to_string(2 * memory.size)
-                + " " + at};
+                + " " + word};
   if (memory.write_error != 0)
     return {judgement::broken,
             "this user cannot write to " + at + ": "
                 + std::strerror(memory.write_error),
-            why, "sudo mount -o remount,rw,mode=1777 " + at};
+            why, "sudo mount -o remount,rw,mode=1777 " + word};
   if (!memory.all_write)
     return {judgement::warning, at + " is not open to all users",
             "programs of other users cannot share memory",
-            "sudo chmod 1777 " + at};
+            "sudo chmod 1777 " + word};
   if (memory.free < little_memory || memory.size <= container_default)
     return {judgement::warning, room,
             "stock ROS 2 programs need half a MiB each and room for images; a "
             "container gets its host's with --ipc=host",
-            "sudo mount -o remount,size=512M " + at};
+            "sudo mount -o remount,size=512M " + word};
   return {judgement::ok, room};
 }
 

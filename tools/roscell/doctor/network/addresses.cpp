@@ -1,6 +1,7 @@
 #include "tools/roscell/doctor/network/addresses.hpp"
 
 #include "actors/edge/io/unique_fd.hpp"
+#include "tools/roscell/doctor/command_text.hpp"
 
 #include <arpa/inet.h>
 #include <net/if.h>
@@ -39,17 +40,17 @@ finding no_address(const std::string& wanted,
                        "one address of this host";
   if (link.exists && !link.up)
     return {judgement::broken, wanted + " is down", why,
-            "ip link set dev " + wanted + " up"};
+            "sudo ip link set dev " + shell_word(wanted) + " up"};
   if (link.exists)
     return {judgement::broken, wanted + " has no IPv4 address", why,
-            "ip address add ADDRESS/24 dev " + wanted};
+            "sudo ip address add ADDRESS/24 dev " + shell_word(wanted)};
   if (all.empty())
     return {judgement::broken, "no interface is up and has an IPv4 address",
-            why, "ip link set dev lo up && ip -brief address"};
+            why, "sudo ip link set dev lo up && ip -brief address"};
   return {judgement::broken,
           "'" + wanted + "' is no interface and no IPv4 address of this host, "
               + "which has " + describe_interfaces(all),
-          why, "roscell node --interface " + all.front().name};
+          why, "roscell node --interface " + shell_word(all.front().name)};
 }
 
 /// The finding of a check that has no interface to look at.
@@ -99,8 +100,9 @@ finding judge_interface(const std::string& wanted,
     return {judgement::broken, seen + ", but no carrier",
             "nothing leaves this host: no cable, no access point, or the other "
             "end is down",
-            "ip link set dev " + at->name + " down && ip link set dev "
-                + at->name + " up"};
+            "sudo ip link set dev " + shell_word(at->name)
+                + " down && sudo ip link set dev " + shell_word(at->name)
+                + " up"};
   if (at->loopback && wanted.empty())
     return {judgement::warning, seen + ", and there is no other address",
             "only nodes of this host can be in its cell", "ip -brief address"};
@@ -119,7 +121,7 @@ finding judge_mtu(const interface_address& at, const link_facts& link) {
               + std::to_string(fragments_at(ethernet_mtu))
               + ", and the loss of one loses them all. A tunnel needs it so; "
                 "elsewhere raise it",
-          "ip link set dev " + at.name + " mtu 1500"};
+          "sudo ip link set dev " + shell_word(at.name) + " mtu 1500"};
 }
 
 multicast_route look_at_multicast_route() {
@@ -150,12 +152,12 @@ finding judge_multicast(const interface_address& at, const link_facts& link,
   if (at.loopback)
     return {judgement::skipped, at.name + " reaches this host only"};
   const auto add_route =
-      std::string{"ip route replace 239.255.0.1/32 dev "} + at.name;
+      "sudo ip route replace 239.255.0.1/32 dev " + shell_word(at.name);
   constexpr auto why = "nodes without --join or --peer, and ROS 2 programs "
                        "without `roscell env`, are not found by others";
   if (!link.multicast)
     return {judgement::warning, at.name + " takes no multicast", why,
-            "ip link set dev " + at.name + " multicast on"};
+            "sudo ip link set dev " + shell_word(at.name) + " multicast on"};
   if (route.error != 0)
     return {judgement::warning,
             std::string{"there is no route to 239.255.0.1: "}
