@@ -65,6 +65,23 @@ constexpr auto drop_a_few =
     R"([{"match": {"op": "<", "left": {"numgen": {"mode": "random", "mod": 100}},
       "right": 5}}, {"drop": null}])";
 
+constexpr auto ports_map =
+    R"([{"vmap": {"key": {"payload": {"protocol": "udp", "field": "dport"}},
+      "data": {"set": [["*", {"drop": null}], [22, {"drop": null}],
+        [{"range": [8000, 9000]}, {"accept": null}]]}}}])";
+constexpr auto state_map =
+    R"([{"vmap": {"key": {"ct": {"key": "state"}},
+      "data": {"set": [["invalid", {"drop": null}],
+        ["established", {"accept": null}], ["related", {"accept": null}]]}}}])";
+constexpr auto pairs_map =
+    R"([{"vmap": {"key": {"concat": [{"meta": {"key": "l4proto"}},
+        {"payload": {"protocol": "th", "field": "dport"}}]},
+      "data": {"set": [[{"concat": ["tcp", 22]}, {"accept": null}],
+        [{"concat": ["udp", 8420]}, {"accept": null}]]}}}])";
+constexpr auto senders_map =
+    R"([{"vmap": {"key": {"payload": {"protocol": "ip", "field": "saddr"}},
+      "data": {"set": [["10.0.0.1", {"accept": null}]]}}}])";
+
 } // namespace
 
 TEST_CASE("without rules every packet is let in", "[doctor]") {
@@ -127,14 +144,78 @@ TEST_CASE("a set is looked into, and a chain that is jumped to", "[doctor]") {
         == packet_fate::dropped);
 }
 
+TEST_CASE("a map gives each packet its own verdict", "[doctor]") {
+  CHECK(fate_of("drop", {ports_map}) == packet_fate::accepted);
+  CHECK(judge_packet(ruleset("accept", {ports_map}), {"udp", 9, "eth0"}).fate
+        == packet_fate::dropped);
+  CHECK(judge_packet(ruleset("accept", {ports_map}), {"tcp", 9, "eth0"}).fate
+        == packet_fate::accepted);
+  CHECK(fate_of("accept", {state_map}) == packet_fate::accepted);
+  CHECK(fate_of("drop", {state_map}) == packet_fate::dropped);
+  CHECK(fate_of("drop", {pairs_map}) == packet_fate::accepted);
+  CHECK(judge_packet(ruleset("drop", {pairs_map}), {"tcp", 8420, "eth0"}).fate
+        == packet_fate::dropped);
+}
+
+TEST_CASE("a map that asks for more is not guessed at", "[doctor]") {
+  CHECK(fate_of("drop", {senders_map}) == packet_fate::depends);
+  CHECK(fate_of("accept", {senders_map}) == packet_fate::accepted);
+}
+
+TEST_CASE("a map that has a name is looked into, and its chains", "[doctor]") {
+  auto rules = ruleset("drop", {R"([{"vmap": {
+    "key": {"meta": {"key": "iifname"}}, "data": "@doors"}}])"});
+  rules["nftables"].push_back(json::parse(
+      R"({"map": {"family": "inet", "table": "t", "name": "doors",
+        "map": "verdict", "elem": [["lo", {"accept": null}],
+          ["eth0", {"goto": {"target": "hall"}}]]}})"));
+  rules["nftables"].push_back(json::parse(
+      R"({"rule": {"family": "inet", "table": "t", "chain": "hall",
+        "handle": 9, "expr": [{"accept": null}]}})"));
+  CHECK(judge_packet(rules, beat).fate == packet_fate::accepted);
+  CHECK(judge_packet(rules, {"udp", 8420, "eth1"}).fate
+        == packet_fate::dropped);
+}
+
+TEST_CASE("who wrote the rules is told to change them", "[doctor]") {
+  const needed_packet skills{{"udp", 7490, "eth0"}, 7649, "topics"};
+  auto rules = ruleset("drop", {});
+  const auto remedy = [&] {
+    return judge_firewall({0, rules.dump()}, {skills})[0].remedy;
+  };
+  CHECK(remedy() == "sudo nft insert rule inet t c udp dport 7490-7649 accept");
+  rules["nftables"].push_back(json::parse(
+      R"({"chain": {"family": "inet", "table": "t", "name": "ufw-user-input"}})"));
+  CHECK(remedy() == "sudo ufw allow 7490:7649/udp");
+  for (auto& x : rules["nftables"])
+    x.begin().value()["table"] = "firewalld";
+  CHECK(remedy()
+        == "sudo firewall-cmd --permanent --add-port=7490-7649/udp && sudo "
+           "firewall-cmd --reload");
+}
+
+TEST_CASE("rules that nftables does not tell of are not taken for none",
+          "[doctor]") {
+  const auto found =
+      judge_older_rules({{judgement::ok, "nftables lets in"}}, "filter\n");
+  REQUIRE(found.size() == 1);
+  CHECK(found[0].how == judgement::skipped);
+  CHECK(judge_older_rules({{judgement::ok, "well"}}, "")[0].how
+        == judgement::ok);
+  CHECK(judge_older_rules({{judgement::broken, "closed"}}, "filter").size()
+        == 2);
+}
+
 TEST_CASE("a port that is closed is told with the command that opens it",
           "[doctor]") {
   const command_result listed{0, ruleset("drop", {tcp_ports}).dump()};
-  const auto found = judge_firewall(
-      listed, {{{"tcp", 8420, "eth0"}, "requests"}, {beat, "beats"}});
+  const auto found =
+      judge_firewall(listed, {{{"tcp", 8420, "eth0"}, 8420, "requests"},
+                              {beat, 8420, "beats"}});
   REQUIRE(found.size() == 1);
   CHECK(found[0].how == judgement::broken);
-  CHECK(found[0].remedy == "nft insert rule inet t c udp dport 8420 accept");
+  CHECK(found[0].remedy
+        == "sudo nft insert rule inet t c udp dport 8420 accept");
 }
 
 TEST_CASE("rules that cannot be listed are skipped with the reason",

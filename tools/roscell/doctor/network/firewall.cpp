@@ -1,7 +1,11 @@
 #include "tools/roscell/doctor/network/firewall.hpp"
 
+#include "actors/edge/disk/small_file.hpp"
+#include "tools/roscell/doctor/command_text.hpp"
 #include "tools/roscell/doctor/network/addresses.hpp"
 #include "tools/roscell/doctor/network/ports.hpp"
+
+#include <algorithm>
 
 namespace roscell::cli {
 
@@ -13,17 +17,33 @@ constexpr std::chrono::seconds nft_limit{3};
 /// (skills/ros2/participant_qos.cpp).
 constexpr unsigned first_skill_place = 90;
 
-/// The command that lets a packet in, in the words of who wrote the rules.
-std::string let_in(const packet_verdict& decided,
-                   const arriving_packet& packet) {
-  const auto port = std::to_string(packet.port);
+/// The command that lets packets in, in the words of who wrote the rules.
+std::string let_in(const packet_verdict& decided, const needed_packet& needed) {
+  const auto& protocol = needed.packet.protocol;
+  const auto ports = [&](const char* between) {
+    const auto first = std::to_string(needed.packet.port);
+    return needed.last_port <= needed.packet.port
+               ? first
+               : first + between + std::to_string(needed.last_port);
+  };
   if (decided.table == "firewalld")
-    return "firewall-cmd --permanent --add-port=" + port + "/" + packet.protocol
-           + " && firewall-cmd --reload";
-  if (decided.why.find("ufw-") != std::string::npos)
-    return "ufw allow " + port + "/" + packet.protocol;
-  return "nft insert rule " + decided.family + " " + decided.table + " "
-         + decided.chain + " " + packet.protocol + " dport " + port + " accept";
+    return "sudo firewall-cmd --permanent --add-port=" + ports("-") + "/"
+           + protocol + " && sudo firewall-cmd --reload";
+  if (decided.by_ufw)
+    return "sudo ufw allow " + ports(":") + "/" + protocol;
+  return "sudo nft insert rule " + shell_word(decided.family) + " "
+         + shell_word(decided.table) + " " + shell_word(decided.chain) + " "
+         + protocol + " dport " + ports("-") + " accept";
+}
+
+/// What shows the rules that a packet depends on.
+std::string show_rules(const packet_verdict& decided) {
+  if (decided.table == "firewalld")
+    return "sudo firewall-cmd --list-all-zones";
+  if (decided.by_ufw)
+    return "sudo ufw status verbose";
+  return "sudo nft -a list chain " + shell_word(decided.family) + " "
+         + shell_word(decided.table) + " " + shell_word(decided.chain);
 }
 
 finding judge_needed(const packet_verdict& decided,
@@ -34,13 +54,12 @@ finding judge_needed(const packet_verdict& decided,
       " (" + decided.family + " " + decided.table + " " + decided.chain + ")";
   if (decided.fate == packet_fate::dropped)
     return {judgement::broken, port + " is closed by " + decided.why + chain,
-            "other nodes need it for " + needed.what, let_in(decided, packet)};
+            "other nodes need it for " + needed.what, let_in(decided, needed)};
   return {judgement::warning,
           "whether " + port + " is open depends on " + decided.why + chain,
           "other nodes need it for " + needed.what
               + ", and the rule asks for more than port and protocol",
-          "nft -a list chain " + decided.family + " " + decided.table + " "
-              + decided.chain};
+          show_rules(decided)};
 }
 
 finding not_listed(const command_result& listed) {
@@ -48,7 +67,7 @@ finding not_listed(const command_result& listed) {
     return {judgement::skipped,
             "there is no program `nft` that lists its rules",
             {},
-            "apt-get install nftables"};
+            "sudo apt-get install nftables"};
   if (listed.code == command_took_too_long)
     return {judgement::skipped, "`nft list ruleset` did not end in time"};
   const bool forbidden =
@@ -68,16 +87,20 @@ std::vector<needed_packet> needed_packets(const examined_host& host) {
   const auto at = examined_address(host.interface, list_interfaces());
   const auto by = at ? at->name : std::string{};
   std::vector<needed_packet> result;
-  const auto add = [&](const char* protocol, unsigned port, const char* what) {
-    if (port != 0)
-      result.push_back({{protocol, port, by}, what});
+  const auto add = [&](const char* protocol, port_range ports,
+                       const char* what) {
+    if (ports.first != 0)
+      result.push_back({{protocol, ports.first, by}, ports.last, what});
   };
-  add("tcp", config.http_port, "requests and sessions");
-  add("udp", config.http_port, "beats");
-  add("udp", config.discovery_port, "the discovery server");
-  add("udp", public_ports(config.public_domain_id).first,
+  const auto skills = ports_of_domain(config.ros_domain_id);
+  const port_range http{config.http_port, config.http_port};
+  add("tcp", http, "requests and sessions");
+  add("udp", http, "beats");
+  add("udp", {config.discovery_port, config.discovery_port},
+      "the discovery server");
+  add("udp", public_ports(config.public_domain_id),
       "finding the cells of a site");
-  add("udp", ports_of_domain(config.ros_domain_id).first + first_skill_place,
+  add("udp", {skills.first + first_skill_place, skills.last},
       "the topics of skills, there and above");
   return result;
 }
@@ -98,10 +121,28 @@ findings judge_firewall(const command_result& listed,
   return result;
 }
 
+findings judge_older_rules(findings found, const std::string& tables) {
+  if (tables.empty())
+    return found;
+  found.erase(
+      std::remove_if(found.begin(), found.end(),
+                     [](const auto& x) { return x.how == judgement::ok; }),
+      found.end());
+  found.push_back({judgement::skipped,
+                   "there are rules of iptables-legacy, which nftables does "
+                   "not tell of",
+                   "", "sudo iptables-legacy -S INPUT"});
+  return found;
+}
+
 findings examine_firewall(const examined_host& host) {
-  return judge_firewall(
-      run_bounded({host.nft, "-j", "list", "ruleset"}, nft_limit),
-      needed_packets(host));
+  constexpr size_t most_names = 256;
+  return judge_older_rules(
+      judge_firewall(
+          run_bounded({host.nft, "-j", "list", "ruleset"}, nft_limit),
+          needed_packets(host)),
+      read_small_file(host.proc + "/net/ip_tables_names", most_names)
+          .value_or(""));
 }
 
 } // namespace roscell::cli

@@ -111,11 +111,33 @@ rule_match match_meta(const std::string& key, const json& right,
   return rule_match::maybe;
 }
 
+rule_match match_left(const json& left, const json& right,
+                      const arriving_packet& packet, const named_sets& sets);
+
+/// Several things at once, each of which has to have its value.
+rule_match match_parts(const json& left, const json& right,
+                       const arriving_packet& packet, const named_sets& sets) {
+  if (right.is_array() || right.contains("set"))
+    return any_of_values(
+        right.is_array() ? right : right["set"],
+        [&](const json& x) { return match_parts(left, x, packet, sets); });
+  const auto values = right.find("concat");
+  if (values == right.end() || values->size() != left.size())
+    return rule_match::maybe;
+  auto result = rule_match::yes;
+  for (size_t i = 0; i < left.size(); ++i)
+    result = std::min(result, match_left(left[i], (*values)[i], packet, sets));
+  return result;
+}
+
 /// What a rule asks for, without its operator.
 rule_match match_left(const json& left, const json& right,
                       const arriving_packet& packet, const named_sets& sets) {
   if (!left.is_object())
     return rule_match::maybe;
+  if (const auto parts = left.find("concat"); parts != left.end())
+    return parts->is_array() ? match_parts(*parts, right, packet, sets)
+                             : rule_match::maybe;
   if (const auto payload = left.find("payload"); payload != left.end())
     return match_payload(*payload, right, packet, sets);
   if (const auto meta = left.find("meta"); meta != left.end())
@@ -150,11 +172,15 @@ rule_match match_one(const json& match, const arriving_packet& packet,
 bool asks_for_more(const json& x) {
   if (const auto xt = x.find("xt"); xt != x.end())
     return word_in(*xt, "type") == "match" && word_in(*xt, "name") != "comment";
-  return x.contains("limit") || x.contains("vmap") || x.contains("quota")
-         || x.contains("ct count");
+  return x.contains("limit") || x.contains("quota") || x.contains("ct count");
 }
 
 } // namespace
+
+rule_match match_value(const json& left, const json& right,
+                       const arriving_packet& packet, const named_sets& sets) {
+  return match_left(left, right, packet, sets);
+}
 
 rule_match match_rule(const json& expressions, const arriving_packet& packet,
                       const named_sets& sets) {

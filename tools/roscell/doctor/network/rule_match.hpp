@@ -15,4 +15,10 @@ enum class rule_match { no, maybe, yes };
 rule_match match_rule(const json& expressions, const arriving_packet& packet,
                       const std::map<std::string, json>& sets);
 
+/// Whether what a rule looks at (`left`, as nftables tells it) has for a packet
+/// the value `right`, or is within it.
+rule_match match_value(const json& left, const json& right,
+                       const arriving_packet& packet,
+                       const std::map<std::string, json>& sets);
+
 } // namespace roscell::cli

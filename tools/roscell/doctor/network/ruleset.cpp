@@ -19,6 +19,7 @@ struct rule_chain {
 struct firewall_table {
   std::map<std::string, rule_chain> chains; ///< By name.
   std::map<std::string, json> sets;         ///< Their elements, by name.
+  std::map<std::string, json> maps;         ///< To verdicts, likewise.
 };
 
 std::string text_at(const json& object, const char* name) {
@@ -57,6 +58,8 @@ std::map<std::string, firewall_table> tables_in(const json& ruleset) {
       table.chains[text_at(what, "chain")].rules.push_back(what);
     else if (kind == "set")
       table.sets[text_at(what, "name")] = what.value("elem", json::array());
+    else if (kind == "map")
+      table.maps[text_at(what, "name")] = what.value("elem", json::array());
   }
   return result;
 }
@@ -71,8 +74,12 @@ public:
     auto end = walk(base, 0);
     if (!end && base.policy == "drop")
       end = {false, "the policy of the chain"};
-    packet_verdict result{packet_fate::accepted, base.family, base.table,
-                          base.name, ""};
+    packet_verdict result{packet_fate::accepted,
+                          base.family,
+                          base.table,
+                          base.name,
+                          "",
+                          is_of_ufw()};
     const bool passes = !end || end->passes;
     const auto& doubt = passes ? may_drop_ : may_pass_;
     if (!doubt.empty())
@@ -91,25 +98,74 @@ private:
 
   static constexpr int deepest_jump = 16;
 
+  bool is_of_ufw() const {
+    const auto chain = table_.chains.lower_bound("ufw-");
+    return chain != table_.chains.end() && chain->first.rfind("ufw-", 0) == 0;
+  }
+
+  /// What becomes of a packet by one statement; nothing: it goes on.
+  std::optional<ending> obey(const json& x, const std::string& name, int depth,
+                             bool& leaves) {
+    if (x.contains("accept"))
+      return ending{true, name};
+    if (x.contains("drop") || x.contains("reject") || is_reject_of_iptables(x))
+      return ending{false, name};
+    leaves = leaves || x.contains("return") || x.contains("goto");
+    if (const auto map = x.find("vmap"); map != x.end())
+      return look_up(*map, name, depth, leaves);
+    for (const auto* way : {"jump", "goto"})
+      if (const auto to = x.find(way); to != x.end())
+        if (const auto next = table_.chains.find(text_at(*to, "target"));
+            next != table_.chains.end() && depth < deepest_jump)
+          return walk(next->second, depth + 1);
+    return std::nullopt;
+  }
+
+  /// The pairs of value and verdict that a rule names, or has in itself.
+  json pairs_of(const json& map) const {
+    const auto data = map.value("data", json{});
+    if (data.is_object())
+      return data.value("set", json::array());
+    const auto name = data.is_string() ? data.get<std::string>() : "";
+    const auto known = table_.maps.find(name.substr(name.empty() ? 0 : 1));
+    return known == table_.maps.end() ? json{} : known->second;
+  }
+
+  /// The verdict of a map for the packet; one that only may be meant is noted.
+  std::optional<ending> look_up(const json& map, const std::string& name,
+                                int depth, bool& leaves) {
+    const auto key = map.value("key", json{});
+    json for_others; // Of all values that the map does not name.
+    for (const auto& x : pairs_of(map)) {
+      if (!x.is_array() || x.size() != 2 || !x[1].is_object())
+        continue;
+      const auto fits = match_value(key, x[0], packet_, table_.sets);
+      if (fits == rule_match::no)
+        continue;
+      if (x[0] == "*")
+        for_others = x[1];
+      else if (fits == rule_match::yes)
+        return obey(x[1], name, depth, leaves);
+      else if (bool left = false; auto end = obey(x[1], name, depth, left))
+        note(*end);
+    }
+    return for_others.is_object() ? obey(for_others, name, depth, leaves)
+                                  : std::nullopt;
+  }
+
   /// What the rule does with a packet that it is for; nothing: it goes on.
   std::optional<ending> act(const json& rule, const std::string& name,
                             int depth, bool& leaves) {
-    for (const auto& x : rule.value("expr", json::array())) {
-      if (!x.is_object())
-        continue;
-      if (x.contains("accept"))
-        return ending{true, name};
-      if (x.contains("drop") || x.contains("reject") || x.contains("vmap")
-          || is_reject_of_iptables(x))
-        return ending{false, name};
-      leaves = leaves || x.contains("return") || x.contains("goto");
-      for (const auto* way : {"jump", "goto"})
-        if (const auto to = x.find(way); to != x.end())
-          if (const auto next = table_.chains.find(text_at(*to, "target"));
-              next != table_.chains.end() && depth < deepest_jump)
-            return walk(next->second, depth + 1);
-    }
+    for (const auto& x : rule.value("expr", json::array()))
+      if (x.is_object())
+        if (auto end = obey(x, name, depth, leaves))
+          return end;
     return std::nullopt;
+  }
+
+  /// Something that may happen to a packet.
+  void note(const ending& end) {
+    (end.passes ? may_pass_ : may_drop_) = end.why;
   }
 
   std::optional<ending> walk(const rule_chain& chain, int depth) {
@@ -125,7 +181,7 @@ private:
       if (end && fits == rule_match::yes)
         return end;
       if (end)
-        (end->passes ? may_pass_ : may_drop_) = end->why;
+        note(*end);
       else if (leaves && fits == rule_match::yes)
         return std::nullopt;
     }

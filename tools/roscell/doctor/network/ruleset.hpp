@@ -24,8 +24,9 @@ struct packet_verdict {
   packet_fate fate = packet_fate::accepted;
   std::string family; ///< Of the chain that decides, with table and name.
   std::string table;
-  std::string chain; ///< The one that the kernel begins with.
-  std::string why;   ///< "the chain's policy", "its rule 7", ...
+  std::string chain;   ///< The one that the kernel begins with.
+  std::string why;     ///< "the chain's policy", "its rule 7", ...
+  bool by_ufw = false; ///< Its rules are written by ufw.
 };
 
 /// What nftables does with an arriving packet, by what `nft -j list ruleset`
