@@ -2,10 +2,15 @@
 
 #include "actors/edge/io/io_core.hpp"
 #include "actors/edge/io/listen_socket.hpp"
+#include "actors/edge/io/unique_fd.hpp"
 
 #include <boost/asio/posix/stream_descriptor.hpp>
 
+#include <array>
 #include <cerrno>
+#include <cstring>
+#include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -23,8 +28,11 @@ using error = boost::system::error_code;
 constexpr unsigned first_dds_port = 7400;
 constexpr unsigned domain_ports = 250;
 
-/// Participants take ports from the first on, so the last ones are tried.
-constexpr unsigned places = 50;
+/// Where skills begin to look for a free port
+/// (skills/ros2/participant_qos.cpp): they try every other one.
+constexpr unsigned first_skill_place = 90;
+constexpr unsigned skill_port_step = 2;
+constexpr unsigned places = 80;
 
 /// Datagrams taken in a row before other handlers get their turn.
 constexpr int burst = 64;
@@ -36,10 +44,11 @@ constexpr std::size_t longest_datagram = 65'535;
 class reach_port_core : public io_component,
                         public std::enable_shared_from_this<reach_port_core> {
 public:
-  reach_port_core(std::shared_ptr<io_core> core, int fd, const digest& key)
-      : core_(std::move(core)), socket_(core_->context(), fd), key_(key),
-        datagram_(longest_datagram) {
-    // nop
+  reach_port_core(std::shared_ptr<io_core> core, int fd,
+                  const reach_port_options& options)
+      : core_(std::move(core)), socket_(core_->context(), fd),
+        key_(options.key), datagram_(longest_datagram) {
+    inet_pton(AF_INET, options.address.c_str(), &own_);
   }
 
   const std::shared_ptr<io_core>& core() const {
@@ -85,27 +94,50 @@ private:
       return errno != EAGAIN;
     if (const auto answer =
             reach_answer({datagram_.data(), static_cast<size_t>(size)}, key_))
-      ::sendto(socket_.native_handle(), answer->data(), answer->size(),
-               MSG_DONTWAIT | MSG_NOSIGNAL,
-               reinterpret_cast<const sockaddr*>(&from), from_size);
+      send(*answer, from);
     return true;
+  }
+
+  /// From the node's address, by which the others know it: the kernel would
+  /// choose another one of this host.
+  void send(reach_bytes answer, sockaddr_in to) {
+    alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(in_pktinfo))> control{};
+    iovec bytes{answer.data(), answer.size()};
+    msghdr message{};
+    message.msg_name = &to;
+    message.msg_namelen = sizeof(to);
+    message.msg_iov = &bytes;
+    message.msg_iovlen = 1;
+    message.msg_control = control.data();
+    message.msg_controllen = control.size();
+    auto* header = CMSG_FIRSTHDR(&message);
+    header->cmsg_level = IPPROTO_IP;
+    header->cmsg_type = IP_PKTINFO;
+    header->cmsg_len = CMSG_LEN(sizeof(in_pktinfo));
+    in_pktinfo from{};
+    from.ipi_spec_dst = own_;
+    std::memcpy(CMSG_DATA(header), &from, sizeof(from));
+    ::sendmsg(socket_.native_handle(), &message, MSG_DONTWAIT | MSG_NOSIGNAL);
   }
 
   std::shared_ptr<io_core> core_;
   boost::asio::posix::stream_descriptor socket_;
   digest key_;
+  in_addr own_{};
   std::vector<char> datagram_;
 };
 
 class reach_port_handle : public reach_port {
 public:
-  reach_port_handle(std::shared_ptr<reach_port_core> socket, uint16_t port)
-      : socket_(std::move(socket)), port_(port) {
-    socket_->core()->post([socket = socket_] { socket->run(); });
+  void add(std::shared_ptr<reach_port_core> socket, uint16_t port) {
+    socket->core()->post([socket] { socket->run(); });
+    sockets_.push_back(std::move(socket));
+    port_ = port;
   }
 
   ~reach_port_handle() override {
-    socket_->core()->post([socket = socket_] { socket->close(); });
+    for (const auto& socket : sockets_)
+      socket->core()->post([socket] { socket->close(); });
   }
 
   uint16_t port() const override {
@@ -113,8 +145,8 @@ public:
   }
 
 private:
-  std::shared_ptr<reach_port_core> socket_;
-  uint16_t port_;
+  std::vector<std::shared_ptr<reach_port_core>> sockets_;
+  uint16_t port_ = 0;
 };
 
 /// What comes by multicast comes to no socket that is bound to one address. A
@@ -128,25 +160,62 @@ void join_group(int fd, const std::string& address) {
   setsockopt(fd, IPPROTO_IP, IP_MULTICAST_ALL, &off, sizeof(off));
 }
 
+/// The first port that is free, of every other one from `first` on.
+std::optional<bound_port> bind_from(unsigned first) {
+  for (unsigned i = 0; i < places; ++i) {
+    const auto port = first + skill_port_step * i;
+    if (port > std::numeric_limits<uint16_t>::max())
+      break;
+    const auto bound = bind_udp("0.0.0.0", static_cast<uint16_t>(port));
+    if (const auto* socket = std::get_if<bound_port>(&bound))
+      return *socket;
+  }
+  return std::nullopt;
+}
+
+/// Where the next skill of this host will listen.
+unsigned next_skill_port(unsigned first) {
+  const auto place = bind_from(first);
+  if (!place)
+    return first;
+  const unique_fd left_to_it{place->fd};
+  return place->port;
+}
+
 } // namespace
+
+uint16_t first_data_port(unsigned domain_id) {
+  return static_cast<uint16_t>(first_dds_port + domain_ports * domain_id
+                               + first_skill_place + 1);
+}
+
+uint16_t first_data_port_beside(uint16_t data_port) {
+  return data_port < first_dds_port
+             ? uint16_t{0}
+             : first_data_port((data_port - first_dds_port) / domain_ports);
+}
 
 edge_result<std::unique_ptr<reach_port>>
 reach_port::open(io_thread& io, const reach_port_options& options) {
-  const auto last =
-      first_dds_port + domain_ports * options.domain_id + domain_ports - 1;
-  for (unsigned i = 0; i < places; ++i) {
-    const auto port = static_cast<uint16_t>(last - i);
-    const auto bound = bind_udp("0.0.0.0", port);
-    const auto* socket = std::get_if<bound_port>(&bound);
-    if (socket == nullptr)
-      continue;
-    join_group(socket->fd, options.address);
-    auto core =
-        std::make_shared<reach_port_core>(io.core(), socket->fd, options.key);
-    return std::make_unique<reach_port_handle>(std::move(core), port);
-  }
+  auto result = std::make_unique<reach_port_handle>();
+  const auto add = [&](const bound_port& bound) {
+    join_group(bound.fd, options.address);
+    result->add(std::make_shared<reach_port_core>(io.core(), bound.fd, options),
+                bound.port);
+  };
+  const auto first = first_data_port(options.domain_id);
+  const auto low = bind_udp("0.0.0.0", first);
+  if (const auto* bound = std::get_if<bound_port>(&low))
+    add(*bound);
+  // The port of the next skill is left to it: the one behind is as good.
+  const auto next = next_skill_port(first - 1U) + 1U;
+  if (result->port() != next)
+    if (const auto high = bind_from(next))
+      add(*high);
+  if (result->port() != 0)
+    return result;
   return edge_error{error_code::conflict,
-                    "none of the last 50 DDS ports of domain "
+                    "none of the DDS ports of domain "
                         + std::to_string(options.domain_id) + " is free",
                     ""};
 }

@@ -129,14 +129,20 @@ constexpr reach_way ways[] = {reach_way::session,   reach_way::beat,
 void begin_tries(const reach_setup& setup, const std::vector<reach_goal>& goals,
                  const std::shared_ptr<reach_draft>& draft) {
   std::vector<reach_try> tries;
-  for (const auto& goal : goals)
+  for (const auto& goal : goals) {
+    const auto host = parse_socket_address(goal.address);
+    const auto name = host ? host->address : std::string{};
+    const auto add = [&](reach_way way, const socket_address& at) {
+      tries.push_back({setup, draft, draft->rows.size(), at, name});
+      draft->rows.push_back({goal.node, way, at.port});
+    };
     for (const auto way : ways)
-      if (const auto at = place_of(goal, way)) {
-        const auto host = parse_socket_address(goal.address);
-        tries.push_back({setup, draft, draft->rows.size(), *at,
-                         host ? host->address : std::string{}});
-        draft->rows.push_back({goal.node, way, at->port});
-      }
+      if (const auto at = place_of(goal, way))
+        add(way, *at);
+    const auto first = first_data_port_beside(goal.data_port);
+    if (host && first != 0 && first != goal.data_port)
+      add(reach_way::data, {name, first});
+  }
   draft->open = tries.size();
   if (tries.empty())
     draft->done({});

@@ -7,6 +7,8 @@
 
 #include <caf/send.hpp>
 
+#include <charconv>
+#include <optional>
 #include <utility>
 
 namespace roscell {
@@ -22,43 +24,68 @@ int64_t unix_now_us() {
       .count();
 }
 
-reach_opened opened(reach_prober_self self, std::string discovery_server) {
-  const auto& st = self->state;
-  return {st.config.node,
-          program_version,
-          st.config.http_address,
-          std::move(discovery_server),
-          st.port ? st.port->port() : uint16_t{0},
-          unix_now_us()};
+/// What programs of a member use: its own discovery server, after the
+/// semicolons that say its id, in the domain of its cell.
+struct program_place {
+  std::string server;
+  unsigned domain = 0;
+};
+
+program_place place_of(const reach_prober_config& config,
+                       const std::map<std::string, std::string>& environment) {
+  program_place result{config.discovery_server, config.domain_id};
+  const auto server = environment.find("ROS_DISCOVERY_SERVER");
+  if (server != environment.end())
+    result.server = server->second.substr(server->second.find_last_of(';') + 1);
+  const auto domain = environment.find("ROS_DOMAIN_ID");
+  if (domain != environment.end())
+    std::from_chars(domain->second.data(),
+                    domain->second.data() + domain->second.size(),
+                    result.domain);
+  return result;
 }
 
-/// A member's own discovery server is what its programs use: after the
-/// semicolons that say its id.
-std::string server_of(const membership_state& x) {
-  const auto i = x.environment.find("ROS_DISCOVERY_SERVER");
-  return i == x.environment.end()
-             ? std::string{}
-             : i->second.substr(i->second.find_last_of(';') + 1);
+/// Has ports open in the domain for a while from now on.
+std::optional<edge_error> keep_open(reach_prober_self self, unsigned domain) {
+  auto& st = self->state;
+  st.closing = alarm{};
+  st.closing.set(self, self->clock().now() + reach_port_life);
+  if (st.port && st.port_domain == domain)
+    return std::nullopt;
+  auto port = reach_port::open(*st.config.io,
+                               {st.config.address, domain, st.config.key});
+  if (auto* why = std::get_if<edge_error>(&port))
+    return std::move(*why);
+  st.port = std::get<std::unique_ptr<reach_port>>(std::move(port));
+  st.port_domain = domain;
+  return std::nullopt;
+}
+
+caf::expected<reach_opened>
+opened(reach_prober_self self,
+       const std::map<std::string, std::string>& environment) {
+  const auto& st = self->state;
+  auto place = place_of(st.config, environment);
+  if (const auto why = keep_open(self, place.domain))
+    return to_caf(*why);
+  return reach_opened{st.config.node,         program_version,
+                      st.config.http_address, std::move(place.server),
+                      st.port->port(),        unix_now_us()};
 }
 
 caf::result<reach_opened> open(reach_prober_self self) {
-  auto& st = self->state;
-  if (!st.port) {
-    auto port = reach_port::open(
-        *st.config.io, {st.config.address, st.config.domain_id, st.config.key});
-    if (const auto* why = std::get_if<edge_error>(&port))
-      return to_caf(*why);
-    st.port = std::get<std::unique_ptr<reach_port>>(std::move(port));
-  }
-  st.closing = alarm{};
-  st.closing.set(self, self->clock().now() + reach_port_life);
-  if (!st.config.membership)
-    return opened(self, st.config.discovery_server);
+  const auto& membership = self->state.config.membership;
+  if (!membership)
+    return opened(self, {});
   auto promise = self->make_response_promise<reach_opened>();
-  self->request(st.config.membership, limits::local::part, membership_query{})
+  self->request(membership, limits::local::part, membership_query{})
       .then(
           [self, promise](const membership_state& x) mutable {
-            promise.deliver(opened(self, server_of(x)));
+            auto told = opened(self, x.environment);
+            if (told)
+              promise.deliver(std::move(*told));
+            else
+              promise.deliver(std::move(told.error()));
           },
           [promise](caf::error& why) mutable {
             promise.deliver(std::move(why));

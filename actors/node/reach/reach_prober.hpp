@@ -22,11 +22,11 @@ struct reach_prober_config {
   std::string http_address;     ///< "ip:port"
   std::string discovery_server; ///< "ip:port"; empty: ask the membership.
   membership_actor membership;  ///< Invalid on a coordination node.
-  unsigned domain_id = 0;
+  unsigned domain_id = 0;       ///< Of a node that is in no cell of others.
   digest key{};
 };
 
-/// How long the port stays open after it was asked for.
+/// How long the ports stay open after it was asked for.
 constexpr std::chrono::seconds reach_port_life{60};
 
 struct reach_prober_state {
@@ -34,6 +34,7 @@ struct reach_prober_state {
 
   reach_prober_config config;
   std::unique_ptr<reach_port> port; ///< Null most of the time.
+  unsigned port_domain = 0;         ///< Whose ports it has.
   alarm closing;
   uint64_t last_question = 0;
   std::map<uint64_t, caf::typed_response_promise<reach_report>> questions;

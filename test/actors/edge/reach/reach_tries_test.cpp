@@ -1,10 +1,13 @@
 #include "actors/edge/http/http_paths.hpp"
 #include "actors/edge/http/node_sockets.hpp"
+#include "actors/edge/io/listen_socket.hpp"
 #include "actors/edge/reach/reach_port.hpp"
 #include "actors/edge/reach/reach_tries.hpp"
 #include "test/actors/edge/io/edge_fixture.hpp"
 
 #include <map>
+
+#include <unistd.h>
 
 using namespace roscell;
 using namespace roscell::test::wire;
@@ -74,6 +77,46 @@ TEST_CASE("a node is reached by its port, its beats and its data", "[reach]") {
     }
     CHECK(found.count("discovery") == 0);
     CHECK(arm.sockets.beat->counters().malformed == 0);
+  }
+  io.stop();
+}
+
+TEST_CASE("a node answers from the address by which it is known", "[reach]") {
+  io_thread io{[](const std::string&) {}};
+  {
+    // The kernel itself would answer from 127.0.0.1.
+    constexpr auto second = "127.0.0.2";
+    const auto port =
+        expect(reach_port::open(io, {second, 72, reach_key("token")}));
+    const auto found =
+        try_goal(io, {"arm", std::string{second} + ":1", "", port->port()});
+    CHECK(found.at("data") == "found");
+    CHECK(found.at("large") == "found");
+  }
+  io.stop();
+}
+
+TEST_CASE("what is reached is where the first skills and the next one listen",
+          "[reach]") {
+  io_thread io{[](const std::string&) {}};
+  {
+    constexpr unsigned domain = 73;
+    const auto first = first_data_port(domain);
+    CHECK(first == 7400 + 250 * 73 + 91);
+    CHECK(first_data_port_beside(first) == first);
+    CHECK(first_data_port_beside(static_cast<uint16_t>(first + 20)) == first);
+    const reach_port_options options{loopback, domain, reach_key("token")};
+    {
+      const auto alone = expect(reach_port::open(io, options));
+      CHECK(alone->port() == first);
+    }
+    // As a skill has it; its port is never taken, nor that of the next one.
+    const auto skill = expect(bind_udp(loopback, uint16_t(first - 1)));
+    const auto beside = expect(reach_port::open(io, options));
+    CHECK(beside->port() == first + 2);
+    const auto next = expect(bind_udp(loopback, uint16_t(first + 1)));
+    ::close(skill.fd);
+    ::close(next.fd);
   }
   io.stop();
 }
