@@ -84,17 +84,17 @@ TEST_CASE("what is in the way is told with the command that mends it",
       only_finding("arm", row_to("leg", reach_way::data, port_answer::silent));
   CHECK(x.seen == "arm -> leg: data by udp port 7649: nothing comes back");
   CHECK(x.remedy
-        == "ssh 10.0.0.3 sudo nft insert rule inet filter input ip saddr "
-           "10.0.0.2 udp dport 7400-7649 accept");
+        == "ssh -t 10.0.0.3 'sudo nft insert rule inet filter input ip saddr "
+           "10.0.0.2 udp dport 7400-7649 accept'");
   x = only_finding("arm",
                    row_to("head", reach_way::session, port_answer::silent));
-  CHECK_THAT(x.remedy, Contains("10.0.0.1 sudo"));
+  CHECK_THAT(x.remedy, Contains("10.0.0.1 'sudo"));
   CHECK_THAT(x.remedy, Contains("tcp dport 8420 accept"));
   x = only_finding("arm",
                    row_to("leg", reach_way::data, port_answer::unreachable));
-  CHECK(x.remedy == "ssh 10.0.0.2 ip route get 10.0.0.3");
+  CHECK(x.remedy == "ssh -t 10.0.0.2 'ip route get 10.0.0.3'");
   x = only_finding("arm", row_to("leg", reach_way::large, port_answer::silent));
-  CHECK(x.remedy == "ssh 10.0.0.2 tracepath -n 10.0.0.3");
+  CHECK(x.remedy == "ssh -t 10.0.0.2 'tracepath -n 10.0.0.3'");
 }
 
 TEST_CASE("what no data at all comes of is not told thrice", "[doctor]") {
@@ -105,6 +105,25 @@ TEST_CASE("what no data at all comes of is not told thrice", "[doctor]") {
                  row_to("leg", reach_way::multicast, port_answer::silent)}),
       cell_of_three());
   CHECK(found.size() == 1);
+}
+
+TEST_CASE("each end of the ports that skills have is told of, and once",
+          "[doctor]") {
+  auto low = row_to("leg", reach_way::data, port_answer::silent);
+  low.port = 7491;
+  const auto high = row_to("leg", reach_way::data, port_answer::found);
+  auto found = judge_reach(report_of("arm", {high, low}), cell_of_three());
+  REQUIRE(found.size() == 1);
+  CHECK_THAT(found[0].seen, Contains("arm -> leg: data by udp port 7491"));
+  // Another program may have it, as long as it is not the node's own answer.
+  low.answer = port_answer::closed;
+  found = judge_reach(report_of("arm", {high, low}), cell_of_three());
+  REQUIRE(found.size() == 1);
+  CHECK(found[0].how == judgement::ok);
+  low.answer = port_answer::silent;
+  const auto both = row_to("leg", reach_way::data, port_answer::silent);
+  CHECK(judge_reach(report_of("arm", {both, low}), cell_of_three()).size()
+        == 1);
 }
 
 TEST_CASE("clocks are told when they differ for sure", "[doctor]") {
@@ -148,6 +167,16 @@ TEST_CASE("what other hosts have found is told in numbers, and what is wrong "
   CHECK_THAT(text, !Contains("NETWORK"));
 }
 
+TEST_CASE("nothing that another host tells controls the terminal", "[doctor]") {
+  const std::string erase = "\x1b[2J";
+  finding x{judgement::warning, erase, erase, erase};
+  x.check = x.area = x.node = erase;
+  CHECK_THAT(findings_view({x}, {}, false), !Contains("\x1b"));
+  x.node.clear();
+  x.area = "host";
+  CHECK_THAT(findings_view({x}, {}, false), !Contains("\x1b"));
+}
+
 TEST_CASE("a command of many files is had from the doctor again", "[doctor]") {
   finding many{judgement::warning, "900 files", "room", "rm -f "};
   many.check = "leftovers";
@@ -157,4 +186,6 @@ TEST_CASE("a command of many files is had from the doctor again", "[doctor]") {
   const auto text = findings_view({many}, {}, false);
   CHECK_THAT(text, Contains("roscell doctor -o json --only leftovers | jq"));
   CHECK(text.size() < 1000);
+  CHECK_THAT(findings_view({many}, {}, false, "roscell doctor --to /a/b"),
+             Contains("$ roscell doctor --to /a/b -o json --only leftovers"));
 }

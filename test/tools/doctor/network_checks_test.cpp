@@ -56,13 +56,13 @@ TEST_CASE("multicast has to leave by the interface of the node", "[doctor]") {
   auto link = good_link();
   CHECK(judge_multicast(eth0, link, {0, "10.0.0.5"}).how == judgement::ok);
   CHECK(judge_multicast(eth0, link, {0, "192.168.0.5"}).remedy
-        == "ip route replace 239.255.0.1/32 dev eth0");
+        == "sudo ip route replace 239.255.0.1/32 dev eth0");
   CHECK(judge_multicast(eth0, link, {ENETUNREACH, ""}).how
         == judgement::warning);
   CHECK(judge_multicast(lo, {}, {}).how == judgement::skipped);
   link.multicast = false;
   CHECK(judge_multicast(eth0, link, {0, "10.0.0.5"}).remedy
-        == "ip link set dev eth0 multicast on");
+        == "sudo ip link set dev eth0 multicast on");
 }
 
 TEST_CASE("socket buffers are judged by what skills ask for", "[doctor]") {
@@ -71,15 +71,27 @@ TEST_CASE("socket buffers are judged by what skills ask for", "[doctor]") {
   CHECK(judge_buffers({8 << 20, 212992}).how == judgement::warning);
   CHECK_THAT(judge_buffers({212992, 212992}).matters,
              Contains("an image of 1280x960"));
+  // What flows may be larger than what is usual.
+  const auto found = judge_buffers({8 << 20, 8 << 20}, image_of(3840, 2160));
+  CHECK(found.how == judgement::warning);
+  CHECK_THAT(found.matters, Contains("3840x2160 in colour has 24 MiB"));
+  CHECK_THAT(found.remedy, Contains("net.core.rmem_max=24883200"));
 }
 
 TEST_CASE("a node cannot do without its HTTP port", "[doctor]") {
   const port_facts taken{"tcp", 8420, EADDRINUSE, "pid 7 (nginx)", 7};
   CHECK(judge_port({"tcp", 8420, 0, "", 0}, true).how == judgement::ok);
   CHECK(judge_port(taken, true).how == judgement::broken);
-  CHECK(judge_port(taken, true).remedy == "kill 7");
+  // Whose program it is, and what for, is not known here.
+  CHECK(judge_port(taken, true).remedy == "ps -o pid,user,lstart,args -p 7");
   CHECK(judge_port({"udp", 11811, EADDRINUSE, "", 0}, false).how
         == judgement::warning);
+}
+
+TEST_CASE("a node that has its ports is told by its name", "[doctor]") {
+  const auto found = judge_node_there("arm", "10.0.0.5:8420");
+  CHECK(found.how == judgement::warning);
+  CHECK(found.remedy == "roscell doctor --to 10.0.0.5:8420");
 }
 
 TEST_CASE("ports that any program may get are reserved by the remedy",
@@ -92,7 +104,7 @@ TEST_CASE("ports that any program may get are reserved by the remedy",
   const auto found = judge_ephemeral(wide, {{8420, 8420}, {7400, 7649}});
   CHECK(found.how == judgement::warning);
   CHECK(found.remedy
-        == "sysctl -w net.ipv4.ip_local_reserved_ports=80,8420,7400-7649");
+        == "sudo sysctl -w net.ipv4.ip_local_reserved_ports=80,8420,7400-7649");
   const ephemeral_facts kept{
       {1024, 65000}, parse_port_ranges("80,7400-7500,7501-7700"), ""};
   CHECK(judge_ephemeral(kept, {{7400, 7649}}).how == judgement::ok);

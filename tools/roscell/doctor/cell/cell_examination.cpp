@@ -1,13 +1,13 @@
 #include "tools/roscell/doctor/cell/cell_examination.hpp"
 
 #include "messages/cell.hpp"
-#include "messages/failure.hpp"
+#include "tools/roscell/doctor/cell/asked_nodes.hpp"
 #include "tools/roscell/doctor/cell/reach_findings.hpp"
-#include "tools/roscell/exit_code.hpp"
+#include "tools/roscell/doctor/command_text.hpp"
+#include "tools/roscell/doctor/node/answer_trouble.hpp"
 
 #include <algorithm>
 #include <chrono>
-#include <future>
 #include <utility>
 #include <vector>
 
@@ -16,12 +16,6 @@ namespace roscell::cli {
 namespace {
 
 using std::chrono::system_clock;
-
-/// Longer than a coordinator waits for a node that has to look.
-constexpr std::chrono::seconds answer_limit{30};
-
-/// Nodes that are asked at a time: a coordinator serves others, too.
-constexpr size_t most_asked = 8;
 
 /// As many goals as a question may have.
 constexpr size_t most_goals = 64;
@@ -32,48 +26,13 @@ finding cell_finding(const char* check, finding x) {
   return x;
 }
 
-/// What a node has answered, or why it has not.
-template <class Reply>
-struct answer_of {
-  std::string node;
-  Reply reply;
-  finding trouble; ///< Its `seen` is empty if there is a reply.
-};
-
-template <class Reply>
-answer_of<Reply> ask_node(const node_client& to, const std::string& name,
-                          json request) {
-  answer_of<Reply> result;
-  result.node = name;
-  request["node"] = name;
-  try {
-    result.reply = to.ask(request, answer_limit).template get<Reply>();
-  } catch (const refused& e) {
-    const auto why = failure_from(e.reply);
-    // A node of an older program, or one that embeds it, cannot look.
-    const bool cannot = why.code == error_code::unknown_type
-                        || why.code == error_code::conflict;
-    result.trouble = {cannot ? judgement::skipped : judgement::broken,
-                      name + ": " + why.message, why.hint};
-  } catch (const command_error& e) {
-    result.trouble = {judgement::broken, name + ": " + e.what(), e.hint};
-  }
-  return result;
-}
-
-/// Asks all of them, some at a time, and gives the answers in their order.
-template <class Ask>
-auto ask_all(const std::vector<std::string>& names, Ask ask) {
-  using answer = decltype(ask(names.front()));
-  std::vector<answer> result(names.size());
-  for (size_t begin = 0; begin < names.size(); begin += most_asked) {
-    std::vector<std::future<answer>> asked;
-    for (size_t i = begin; i < std::min(begin + most_asked, names.size()); ++i)
-      asked.push_back(std::async(std::launch::async, ask, names[i]));
-    for (size_t i = 0; i < asked.size(); ++i)
-      result[begin + i] = asked[i].get();
-  }
-  return result;
+/// What is pasted here, so that it is done on the host where it was found.
+std::string remedy_there(const reach_opened& host, const finding& x) {
+  if (x.remedy.empty())
+    return {};
+  return on_host(host_of(host), x.remedy.size() <= longest_remedy
+                                    ? x.remedy
+                                    : remedies_of("roscell doctor", x.check));
 }
 
 /// The look at one cell, in the order in which it is done.
@@ -108,9 +67,8 @@ private:
       for (const auto& x : told.nodes)
         if (x.state == row_state::active)
           names_.push_back(x.identity.name);
-    } catch (const refused& e) {
-      const auto why = failure_from(e.reply);
-      add({cell_finding("reach", {judgement::broken, why.message, why.hint})});
+    } catch (const std::exception& e) {
+      add({cell_finding("reach", trouble_of(e, judgement::broken))});
     }
   }
 
@@ -199,6 +157,7 @@ private:
         x.reply.found = {cell_finding("host", x.trouble)};
       for (auto& one : x.reply.found) {
         one.node = x.node;
+        one.remedy = remedy_there(cell_.nodes.at(x.node), one);
         found_.push_back(std::move(one));
       }
     }

@@ -1,6 +1,7 @@
 #include "tools/roscell/doctor/cell/reach_findings.hpp"
 
 #include "actors/edge/io/socket_address.hpp"
+#include "tools/roscell/doctor/command_text.hpp"
 #include "tools/roscell/doctor/network/ports.hpp"
 #include "tools/roscell/view/format.hpp"
 
@@ -33,11 +34,6 @@ const way_words& words_of(reach_way way) {
   return words[static_cast<size_t>(way)];
 }
 
-std::string host_of(const reach_opened& x) {
-  const auto at = parse_socket_address(x.address);
-  return at ? at->address : x.address;
-}
-
 /// The ports that a firewall has to let through for a row.
 std::string ports_of(const reach_row& x) {
   if (x.way < reach_way::data)
@@ -52,20 +48,20 @@ std::string remedy_of(const reach_row& x, const std::string& from,
                       const std::string& to) {
   switch (x.answer) {
   case port_answer::unreachable:
-    return "ssh " + from + " ip route get " + to;
+    return on_host(from, "ip route get " + shell_word(to));
   case port_answer::closed:
   case port_answer::stranger:
-    return "ssh " + to + " roscell doctor --only ports";
+    return on_host(to, "roscell doctor --only ports");
   default:
     break;
   }
   if (x.way == reach_way::large)
-    return "ssh " + from + " tracepath -n " + to;
+    return on_host(from, "tracepath -n " + shell_word(to));
   if (x.way == reach_way::multicast)
-    return "roscell doctor --only multicast,firewall";
-  return "ssh " + to + " sudo nft insert rule inet filter input ip saddr "
-         + from + " " + words_of(x.way).protocol + " dport " + ports_of(x)
-         + " accept";
+    return on_host(to, "sudo roscell doctor --only multicast,firewall");
+  return on_host(to, "sudo nft insert rule inet filter input ip saddr "
+                         + shell_word(from) + " " + words_of(x.way).protocol
+                         + " dport " + ports_of(x) + " accept");
 }
 
 std::string meaning_of(const reach_row& x) {
@@ -109,12 +105,22 @@ bool is_loopback(const reached_cell& cell, const std::string& node) {
   return host_of(cell.nodes.at(node)).rfind("127.", 0) == 0;
 }
 
+/// Whether another program may have the port of a host's first skills.
+bool is_of_others(const reach_row& x, const reach_opened& to) {
+  return x.way == reach_way::data && x.port != to.data_port
+         && (x.answer == port_answer::closed
+             || x.answer == port_answer::stranger);
+}
+
 /// What comes of another trouble that is told is not told as well.
-bool is_consequence(const reach_row& x, const std::vector<reach_row>& all) {
-  return (x.way == reach_way::large || x.way == reach_way::multicast)
+bool is_consequence(const reach_row& x, const std::vector<reach_row>& all,
+                    const reach_opened& to) {
+  return x.way >= reach_way::data
          && std::any_of(all.begin(), all.end(), [&](const auto& other) {
               return other.node == x.node && other.way == reach_way::data
-                     && other.answer != port_answer::found;
+                     && other.answer != port_answer::found
+                     && !is_of_others(other, to)
+                     && (x.way != reach_way::data || other.port < x.port);
             });
 }
 
@@ -141,6 +147,11 @@ finding named(finding x, const char* check) {
 
 } // namespace
 
+std::string host_of(const reach_opened& x) {
+  const auto at = parse_socket_address(x.address);
+  return at ? at->address : x.address;
+}
+
 findings judge_reach(const reach_report& told, const reached_cell& cell) {
   findings result;
   std::map<std::string, bool> all_ways;
@@ -151,7 +162,9 @@ findings judge_reach(const reach_report& told, const reached_cell& cell) {
         || (x.way == reach_way::multicast && is_loopback(cell, x.node)))
       continue;
     auto& reached = all_ways.emplace(x.node, true).first->second;
-    if (x.answer == port_answer::found || is_consequence(x, told.rows))
+    const auto& to = cell.nodes.at(x.node);
+    if (x.answer == port_answer::found || is_of_others(x, to)
+        || is_consequence(x, told.rows, to))
       continue;
     reached = false;
     result.push_back(named(judge_row(x, told.node, cell), "reach"));
@@ -177,7 +190,7 @@ findings judge_versions(const reached_cell& cell) {
                               name + " is of version " + x.version
                                   + ", its coordinator of " + version,
                               "what only one of them knows cannot be used",
-                              "ssh " + host_of(x) + " roscell --version"},
+                              on_host(host_of(x), "roscell --version")},
                              "cell-versions"));
   if (result.empty())
     result.push_back(
@@ -214,7 +227,7 @@ findings judge_clocks(const std::vector<clock_reading>& all,
              + " the coordinator's",
          "ages of data are wrong, and programs drop transforms and messages as "
          "too old or from the future",
-         "ssh " + host_of(host->second) + " sudo chronyc makestep"},
+         on_host(host_of(host->second), "sudo chronyc makestep")},
         "cell-clocks"));
   }
   if (result.empty())

@@ -16,6 +16,9 @@ struct reached_cell {
   std::map<std::string, reach_opened> nodes; ///< By name.
 };
 
+/// The address of its host; what it says itself where that is none.
+std::string host_of(const reach_opened& x);
+
 /// What one node has tried. What its way back needs, too, is tried by the other
 /// one.
 findings judge_reach(const reach_report& told, const reached_cell& cell);

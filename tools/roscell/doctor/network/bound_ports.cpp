@@ -1,12 +1,18 @@
 #include "tools/roscell/doctor/network/bound_ports.hpp"
 
 #include "actors/edge/disk/small_file.hpp"
+#include "actors/edge/http/client/http_client.hpp"
+#include "actors/edge/http/http_paths.hpp"
+#include "messages/codec/json_codec.hpp"
+#include "messages/node.hpp"
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <functional>
 #include <set>
 #include <sstream>
+#include <variant>
 
 namespace roscell::cli {
 
@@ -22,6 +28,9 @@ struct bound_row {
 };
 
 constexpr auto tcp_listens = "0A";
+
+/// A node that lives tells its name far sooner.
+constexpr std::chrono::seconds hello_limit{2};
 
 void for_each_bound(const std::string& proc, const std::string& protocol,
                     const std::function<void(const bound_row&)>& look) {
@@ -79,6 +88,22 @@ port_holder find_port_holder(const std::string& proc,
       return {pid, name_of_process(i->path())};
   }
   return {};
+}
+
+std::string node_at(const std::string& address, uint16_t port) {
+  // Without a token, which is no business of whoever listens there.
+  const http_client there{{"", address, port, ""}};
+  http_client::options how;
+  how.timeout = hello_limit;
+  const auto reply = there.request("GET", hello_path, "", how);
+  const auto* said = std::get_if<http_reply>(&reply);
+  if (said == nullptr)
+    return {};
+  try {
+    return json::parse(said->body).get<node_hello>().node;
+  } catch (const std::exception&) {
+    return {};
+  }
 }
 
 size_t count_bound(const std::string& proc, unsigned first, unsigned last) {

@@ -17,6 +17,9 @@ struct port_holder {
 port_holder find_port_holder(const std::string& proc,
                              const std::string& protocol, unsigned port);
 
+/// The name of the node whose HTTP port that is; empty: it is none's.
+std::string node_at(const std::string& address, uint16_t port);
+
 /// How many of these UDP ports are bound.
 size_t count_bound(const std::string& proc, unsigned first, unsigned last);
 

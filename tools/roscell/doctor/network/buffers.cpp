@@ -20,9 +20,6 @@ int64_t given_buffer(int fd, int name) {
   return getsockopt(fd, SOL_SOCKET, name, &told, &size) == 0 ? told / 2 : 0;
 }
 
-/// 1280x960 in colour.
-constexpr int64_t image_bytes = 1280L * 960 * 3;
-
 } // namespace
 
 buffer_facts look_at_buffers() {
@@ -32,23 +29,39 @@ buffer_facts look_at_buffers() {
   return {given_buffer(fd.get(), SO_RCVBUF), given_buffer(fd.get(), SO_SNDBUF)};
 }
 
-finding judge_buffers(const buffer_facts& given) {
+sent_image image_of(int64_t width, int64_t height) {
+  constexpr int64_t bytes_of_colour = 3;
+  return {"an image of " + std::to_string(width) + "x" + std::to_string(height)
+              + " in colour",
+          width * height * bytes_of_colour};
+}
+
+sent_image usual_image() {
+  auto result = image_of(1280, 960);
+  result.name += " (as is usual; `cameras` tells of those that flow)";
+  return result;
+}
+
+finding judge_buffers(const buffer_facts& given, const sent_image& image) {
   const auto least = std::min(given.receive, given.send);
   const auto receive = format_bytes(static_cast<double>(given.receive));
   const auto send = format_bytes(static_cast<double>(given.send));
   const auto seen = "a socket gets " + receive + " to receive and " + send
                     + " to send, of 8 MiB that skills ask for";
-  if (least >= wanted_buffer_bytes)
+  if (least >= std::max(wanted_buffer_bytes, image.bytes))
     return {judgement::ok, seen};
-  const auto image = format_bytes(static_cast<double>(image_bytes));
+  const auto size =
+      image.name + " has " + format_bytes(static_cast<double>(image.bytes));
+  const auto wanted =
+      std::to_string(std::max(wanted_buffer_bytes, image.bytes));
   return {judgement::warning, seen,
-          given.receive < image_bytes
-              ? "an image of 1280x960 in colour has " + image
-                    + ": best-effort readers lose some when the host is busy"
-              : "several images of " + image
-                    + " at once do not find room: best-effort readers lose "
-                      "some when the host is busy",
-          "sysctl -w net.core.rmem_max=8388608 net.core.wmem_max=8388608"};
+          size
+              + (given.receive < image.bytes
+                     ? ": best-effort readers lose some when the host is busy"
+                     : ", and several at once do not find room: best-effort "
+                       "readers lose some when the host is busy"),
+          "sudo sysctl -w net.core.rmem_max=" + wanted
+              + " net.core.wmem_max=" + wanted};
 }
 
 findings examine_buffers(const examined_host& /*host*/) {

@@ -4,6 +4,7 @@
 #include "tools/roscell/doctor/finding.hpp"
 
 #include <cstdint>
+#include <string>
 
 namespace roscell::cli {
 
@@ -19,7 +20,19 @@ struct buffer_facts {
 
 buffer_facts look_at_buffers();
 
-finding judge_buffers(const buffer_facts& given);
+/// What has to find room.
+struct sent_image {
+  std::string name; ///< "an image of 1280x960 in colour"
+  int64_t bytes = 0;
+};
+
+sent_image image_of(int64_t width, int64_t height);
+
+/// For a host of which it is not known what flows.
+sent_image usual_image();
+
+finding judge_buffers(const buffer_facts& given,
+                      const sent_image& image = usual_image());
 
 findings examine_buffers(const examined_host& host);
 

@@ -2,6 +2,7 @@
 
 #include "actors/edge/disk/small_file.hpp"
 #include "actors/edge/io/unique_fd.hpp"
+#include "tools/roscell/doctor/command_text.hpp"
 #include "tools/roscell/doctor/network/addresses.hpp"
 #include "tools/roscell/doctor/network/bound_ports.hpp"
 
@@ -145,8 +146,15 @@ finding judge_port(const port_facts& facts, bool vital) {
                                       : facts.holder),
           why,
           facts.pid != 0
-              ? "kill " + std::to_string(facts.pid)
+              ? "ps -o pid,user,lstart,args -p " + std::to_string(facts.pid)
               : "sudo ss -lntup 'sport = :" + std::to_string(facts.port) + "'"};
+}
+
+finding judge_node_there(const std::string& name, const std::string& address) {
+  return {judgement::warning, "node '" + name + "' has them, at " + address,
+          "it runs already: what it knows is looked at when it is named. "
+          "Another node of this host needs another --port",
+          "roscell doctor --to " + shell_word(address)};
 }
 
 finding judge_ephemeral(const ephemeral_facts& facts,
@@ -165,7 +173,7 @@ finding judge_ephemeral(const ephemeral_facts& facts,
           "any program may get " + given + ", with " + inside + " of ROSCell",
           "a connection of another program may hold a port by chance, and then "
           "a node does not start, or is not found",
-          "sysctl -w net.ipv4.ip_local_reserved_ports="
+          "sudo sysctl -w net.ipv4.ip_local_reserved_ports="
               + (facts.reserved_text.empty() ? "" : facts.reserved_text + ",")
               + inside};
 }
@@ -197,6 +205,10 @@ findings examine_ports(const examined_host& host) {
     for (const auto* protocol : {"tcp", "udp"})
       result.push_back(judge_port(
           look_at_port(host, protocol, address, config.http_port), true));
+  if (is_broken(result))
+    if (const auto name = node_at(address, config.http_port); !name.empty())
+      return {judge_node_there(name, address + ":"
+                                         + std::to_string(config.http_port))};
   if (config.discovery_port != 0)
     result.push_back(judge_port(
         look_at_port(host, "udp", address, config.discovery_port), false));

@@ -34,6 +34,10 @@ struct port_facts {
 /// @param vital a node cannot start without it.
 finding judge_port(const port_facts& facts, bool vital);
 
+/// A node has the ports, and this program had not been told where it is.
+/// @param address "ip:port" of its HTTP.
+finding judge_node_there(const std::string& name, const std::string& address);
+
 /// Ports that the kernel gives to whoever asks for any.
 struct ephemeral_facts {
   port_range range{0, 0};

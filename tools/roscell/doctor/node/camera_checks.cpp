@@ -1,9 +1,10 @@
 #include "tools/roscell/doctor/node/camera_checks.hpp"
 
-#include "messages/failure.hpp"
 #include "roscell/skill/errors.hpp"
 #include "skills/ros2/topic_listener.hpp"
-#include "tools/roscell/exit_code.hpp"
+#include "tools/roscell/doctor/command_text.hpp"
+#include "tools/roscell/doctor/network/buffers.hpp"
+#include "tools/roscell/doctor/node/answer_trouble.hpp"
 #include "tools/roscell/ros2/echo/message_value.hpp"
 #include "tools/roscell/ros2/found_topic.hpp"
 
@@ -17,6 +18,12 @@ namespace roscell::cli {
 namespace {
 
 using calibration = std::optional<std::vector<double>>;
+
+/// What a camera says of its images.
+struct camera_words {
+  calibration k;
+  sent_image image; ///< Of no bytes where it says nothing.
+};
 
 /// A camera tells it with each image.
 constexpr std::chrono::seconds camera_patience{3};
@@ -36,16 +43,20 @@ public:
         [said = said_](const ros2::heard_message& x) { hear(*said, x); });
   }
 
-  finding judge(std::chrono::steady_clock::time_point deadline) {
+  camera_words words(std::chrono::steady_clock::time_point deadline) {
     auto told = said_->promise.get_future();
     const bool came = told.wait_until(deadline) == std::future_status::ready;
     listener_.reset();
-    return judge_camera(row_, came ? told.get() : std::nullopt);
+    return came ? told.get() : camera_words{};
+  }
+
+  const topic_row& row() const {
+    return row_;
   }
 
 private:
   struct first_word {
-    std::promise<calibration> promise;
+    std::promise<camera_words> promise;
     bool heard = false;
   };
 
@@ -56,9 +67,11 @@ private:
     try {
       message_library library{{}};
       const auto value = message_value(library, camera_info, x.payload, 16);
-      said.promise.set_value(value.at("k").get<std::vector<double>>());
+      said.promise.set_value({value.at("k").get<std::vector<double>>(),
+                              image_of(value.at("width").get<uint32_t>(),
+                                       value.at("height").get<uint32_t>())});
     } catch (const std::exception&) {
-      said.promise.set_value(std::nullopt);
+      said.promise.set_value({});
     }
   }
 
@@ -84,9 +97,17 @@ findings listen_to(const node_client& node,
     heard.push_back(std::make_unique<heard_camera>(node, x));
   const auto deadline = std::chrono::steady_clock::now() + camera_patience;
   findings result;
-  result.reserve(heard.size());
-  for (const auto& x : heard)
-    result.push_back(x->judge(deadline));
+  sent_image largest;
+  for (const auto& x : heard) {
+    const auto words = x->words(deadline);
+    result.push_back(judge_camera(x->row(), words.k));
+    if (words.image.bytes > largest.bytes)
+      largest = words.image;
+  }
+  // `buffers` does not know what flows.
+  const auto given = look_at_buffers();
+  if (std::min(given.receive, given.send) < largest.bytes)
+    result.push_back(judge_buffers(given, largest));
   return result;
 }
 
@@ -98,16 +119,18 @@ finding judge_camera(const topic_row& topic, const calibration& k) {
             "nothing came on " + topic.topic + " within "
                 + std::to_string(camera_patience.count()) + " s",
             "its writer is waiting for pictures, or cannot be heard from here",
-            "roscell echo " + topic.topic + " --count 1"};
+            "roscell echo " + shell_word(topic.topic) + " --count 1"};
   if (std::any_of(k->begin(), k->end(), [](double x) { return x != 0; }))
     return {judgement::ok, topic.topic + " tells a calibration"};
-  return {topic.readers.empty() ? judgement::warning : judgement::broken,
-          topic.topic + " is all zero: its camera is not calibrated",
-          "nothing can be measured in its pictures: skills that read it refuse "
-          "them, or compute nonsense",
-          "ros2 run camera_calibration cameracalibrator --size 8x6 --square "
-          "0.025 --ros-args -r image:="
-              + topic.topic.substr(0, topic.topic.rfind('/')) + "/image"};
+  return {
+      topic.readers.empty() ? judgement::warning : judgement::broken,
+      topic.topic + " is all zero: its camera is not calibrated",
+      "nothing can be measured in its pictures: skills that read it refuse "
+      "them, or compute nonsense",
+      "ros2 run camera_calibration cameracalibrator --size 8x6 --square "
+      "0.025 --ros-args -r "
+          + shell_word("image:=" + topic.topic.substr(0, topic.topic.rfind('/'))
+                       + "/image")};
 }
 
 findings examine_cameras(const node_client& node) {
@@ -116,13 +139,10 @@ findings examine_cameras(const node_client& node) {
     if (cameras.empty())
       return {{judgement::ok, "no camera tells anything"}};
     return listen_to(node, cameras);
-  } catch (const refused& e) {
-    const auto why = failure_from(e.reply);
-    return {{judgement::skipped, why.message, why.hint}};
-  } catch (const command_error& e) {
-    return {{judgement::skipped, e.what(), e.hint}};
   } catch (const engine::start_error& e) {
     return {{judgement::skipped, e.what()}};
+  } catch (const std::exception& e) {
+    return {trouble_of(e, judgement::skipped)};
   }
 }
 

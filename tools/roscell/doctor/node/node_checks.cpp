@@ -1,8 +1,9 @@
 #include "tools/roscell/doctor/node/node_checks.hpp"
 
 #include "actors/house/program_version.hpp"
-#include "messages/failure.hpp"
+#include "tools/roscell/doctor/command_text.hpp"
 #include "tools/roscell/doctor/host/programs.hpp"
+#include "tools/roscell/doctor/node/answer_trouble.hpp"
 #include "tools/roscell/doctor/node/camera_checks.hpp"
 #include "tools/roscell/view/format.hpp"
 
@@ -52,9 +53,8 @@ const told_check told_checks[] = {
 findings ask_and_judge(const node_client& node, const told_check& what) {
   try {
     return what.judge(node.get(what.path));
-  } catch (const refused& e) {
-    const auto why = failure_from(e.reply);
-    return {{judgement::skipped, why.message, why.hint}};
+  } catch (const std::exception& e) {
+    return {trouble_of(e, judgement::skipped)};
   }
 }
 
@@ -80,7 +80,7 @@ bool drops_many(const instance_figures& x) {
 /// Nothing, if the instance does as it should.
 findings judge_instance(const instance_row& row) {
   const auto& name = row.spec.instance;
-  const auto logs = "roscell logs " + name;
+  const auto logs = "roscell logs " + shell_word(name);
   if (row.state == instance_state::failed)
     return {{judgement::broken, name + " has failed: " + row.reason,
              "its task is not whole", logs}};
@@ -89,7 +89,9 @@ findings judge_instance(const instance_row& row) {
              name + " cannot be asked"
                  + (row.trouble.empty() ? "" : ": " + row.trouble),
              "whether it runs is not known",
-             row.trouble.empty() ? "roscell describe node " + row.node : logs}};
+             row.trouble.empty()
+                 ? "roscell describe node " + shell_word(row.node)
+                 : logs}};
   if (row.state == instance_state::running
       && row.health != instance_health::good)
     return {{judgement::warning,
@@ -102,7 +104,7 @@ findings judge_instance(const instance_row& row) {
                  + std::to_string(row.figures.frames),
              "frames come faster than it works: give it more CPU, or fewer "
              "frames",
-             "roscell describe instance " + name}};
+             "roscell describe instance " + shell_word(name)}};
   return {};
 }
 
@@ -190,7 +192,7 @@ findings judge_cell(const cell_description& cell) {
                + (x.reason.empty() ? "" : ": " + x.reason),
            "what ran there is not known, and nothing new is placed "
            "there",
-           "roscell describe node " + x.identity.name});
+           "roscell describe node " + shell_word(x.identity.name)});
   return result.empty() ? all_is_well(std::to_string(cell.nodes.size())
                                       + " nodes are in cell " + cell.cell)
                         : result;
