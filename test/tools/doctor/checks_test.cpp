@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <atomic>
 #include <future>
 #include <stdexcept>
 
@@ -69,6 +70,31 @@ TEST_CASE("a check that hangs is told of, and is a finding", "[doctor]") {
   CHECK(found[0].how == judgement::broken);
   CHECK(found[0].seen == "it did not end in time");
   CHECK(found[1].how == judgement::ok);
+}
+
+TEST_CASE("a check that still hangs is not begun again", "[doctor]") {
+  auto forever = std::make_shared<std::promise<void>>();
+  const auto end = forever->get_future().share();
+  auto begun = std::make_shared<std::atomic<int>>(0);
+  const auto stuck = named("stuck again", [begun, end] {
+    ++*begun;
+    end.wait();
+    return findings{{judgement::ok, "1"}};
+  });
+  const auto look = [&] {
+    return run_checks(
+        {stuck}, {}, [](auto&) {}, std::chrono::milliseconds{20});
+  };
+  CHECK(look()[0].how == judgement::broken);
+  CHECK(look()[0].seen == "it did not end in time");
+  CHECK(*begun == 1);
+  forever->set_value();
+  // What has ended meanwhile is told, or looked at anew.
+  using namespace std::chrono_literals;
+  CHECK(run_checks(
+            {stuck}, {}, [](auto&) {}, 10s)[0]
+            .how
+        == judgement::ok);
 }
 
 TEST_CASE("a command that does not end is ended", "[doctor]") {

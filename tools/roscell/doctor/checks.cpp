@@ -16,6 +16,9 @@
 #include <algorithm>
 #include <exception>
 #include <future>
+#include <map>
+#include <mutex>
+#include <system_error>
 #include <thread>
 
 namespace roscell::cli {
@@ -27,15 +30,57 @@ using look_clock = std::chrono::steady_clock;
 /// What takes longer than this is told about.
 constexpr std::chrono::seconds look_patience{1};
 
+using look_result = std::shared_future<findings>;
+
+/// The checks that were left to themselves and may still be going on. A node is
+/// asked to look again and again: what hangs must not take a thread each time.
+class left_looks {
+public:
+  void add(const std::string& name, look_result look) {
+    const std::lock_guard lock{mutex_};
+    looks_[name] = std::move(look);
+  }
+
+  /// Not valid if none of that name goes on.
+  look_result find(const std::string& name) {
+    const std::lock_guard lock{mutex_};
+    const auto i = looks_.find(name);
+    if (i == looks_.end())
+      return {};
+    if (i->second.wait_for(std::chrono::seconds{0})
+        != std::future_status::ready)
+      return i->second;
+    looks_.erase(i);
+    return {};
+  }
+
+private:
+  std::mutex mutex_;
+  std::map<std::string, look_result> looks_;
+};
+
+/// For as long as the program runs, as the threads do.
+left_looks& left_of_program() {
+  static auto* all = new left_looks;
+  return *all;
+}
+
 /// A check that is being made, by a thread of its own, which may stay in the
 /// kernel for ever.
 class running_look {
 public:
-  running_look(const check& what, const examined_host& host) : what_{what} {
+  running_look(const check& what, const examined_host& host)
+      : what_{what}, result_{left_of_program().find(what.name)} {
+    if (result_.valid())
+      return;
     std::packaged_task<findings()> task{
         [look = what.look, host] { return look(host); }};
     result_ = task.get_future();
-    thread_ = std::thread{std::move(task)};
+    try {
+      thread_ = std::thread{std::move(task)};
+    } catch (const std::system_error& e) {
+      not_begun_ = e.what();
+    }
   }
 
   bool ends_until(look_clock::time_point deadline) const {
@@ -48,17 +93,14 @@ public:
 
   /// To be called once.
   findings end(look_clock::time_point deadline) {
-    findings result;
-    if (ends_until(deadline)) {
-      thread_.join();
-      result = found();
-    } else {
+    const bool ended = ends_until(deadline);
+    if (!ended && thread_.joinable()) {
+      left_of_program().add(what_.name, result_);
       thread_.detach();
-      result = {{judgement::broken, "it did not end in time",
-                 "what it looks at does not answer: a disk, a driver or a "
-                 "container engine that hangs",
-                 "roscell doctor --only " + std::string{what_.name}}};
+    } else if (thread_.joinable()) {
+      thread_.join();
     }
+    auto result = ended ? found() : findings{unended()};
     for (auto& x : result) {
       x.check = what_.name;
       x.area = what_.area;
@@ -67,7 +109,16 @@ public:
   }
 
 private:
-  findings found() {
+  finding unended() const {
+    return {judgement::broken, "it did not end in time",
+            "what it looks at does not answer: a disk, a driver or a "
+            "container engine that hangs",
+            "roscell doctor --only " + std::string{what_.name}};
+  }
+
+  findings found() const {
+    if (!not_begun_.empty())
+      return {{judgement::skipped, "it could not be begun: " + not_begun_}};
     try {
       return result_.get();
     } catch (const std::exception& e) {
@@ -76,8 +127,9 @@ private:
   }
 
   const check& what_;
-  std::future<findings> result_;
+  look_result result_;
   std::thread thread_;
+  std::string not_begun_; ///< Why there is no thread.
 };
 
 } // namespace
@@ -145,7 +197,10 @@ findings examine_own_host(const node_config& config) {
   host.config = config;
   host.interface = config.address;
   host.node_runs = true;
-  return run_checks(host_checks(), host, [](const auto&) {});
+  // Who asks waits no longer than for a check of its own.
+  constexpr auto limit = longest_look - std::chrono::seconds{2};
+  return run_checks(
+      host_checks(), host, [](const auto&) {}, limit);
 }
 
 } // namespace roscell::cli

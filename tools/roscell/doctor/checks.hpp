@@ -30,7 +30,7 @@ using still_looking = std::function<void(const std::vector<std::string>&)>;
 
 /// Makes all checks at once, and gives what they found in the order of the
 /// checks. One that does not end, on a disk that does not answer, say, is a
-/// finding itself, and is left to itself.
+/// finding itself, and is left to itself; until it ends it is not begun again.
 findings run_checks(const std::vector<check>& checks, const examined_host& host,
                     const still_looking& tell,
                     std::chrono::milliseconds limit = longest_look);
