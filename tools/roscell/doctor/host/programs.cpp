@@ -3,6 +3,8 @@
 #include "actors/edge/host/installed_files.hpp"
 #include "actors/house/program_version.hpp"
 #include "actors/instances/skill_catalogue.hpp"
+#include "actors/node/node_runtime.hpp"
+#include "tools/roscell/doctor/command_text.hpp"
 
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 #include <fastrtps/config.h>
@@ -57,7 +59,7 @@ finding judge_versions(const std::string& built, const std::string& loaded) {
   return {
       judgement::warning, seen,
       "roscell was built with another version of Fast DDS than it runs with",
-      "dpkg -S " + loaded};
+      "dpkg -S " + shell_word(loaded)};
 }
 
 findings judge_skills(size_t good, const std::vector<skill_problem>& problems) {
@@ -69,7 +71,7 @@ findings judge_skills(size_t good, const std::vector<skill_problem>& problems) {
     result.push_back({judgement::broken, x.path + ": " + x.message,
                       "a node leaves the skill out, and steps that need it are "
                       "not placed here",
-                      "roscell skill check " + folder.string()});
+                      "roscell skill check " + shell_word(folder.string())});
   }
   if (problems.empty())
     result.push_back({good == 0 ? judgement::skipped : judgement::ok,
@@ -98,7 +100,9 @@ findings examine_skills(const examined_host& host) {
   for (const auto& x : dirs)
     if (fs::is_directory(x, error))
       there.push_back(x);
-  const auto found = skill_catalogue::scan(there);
+  const auto runtime = choose_runtime(host.config);
+  const auto found = skill_catalogue::scan(
+      there, {own_architecture(), runtime && runtime->socket.empty()});
   return judge_skills(found.skills().size(), found.problems());
 }
 

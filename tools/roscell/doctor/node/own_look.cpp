@@ -1,0 +1,53 @@
+#include "tools/roscell/doctor/node/own_look.hpp"
+
+#include "messages/insight/examination.hpp"
+#include "tools/roscell/doctor/node/answer_trouble.hpp"
+
+#include <algorithm>
+#include <future>
+
+namespace roscell::cli {
+
+namespace {
+
+using asked_look = std::shared_future<examination>;
+
+findings found_by_node(const asked_look& look, const std::string& name) {
+  try {
+    findings result;
+    for (const auto& x : look.get().found)
+      if (x.check == name)
+        result.push_back(x);
+    if (result.empty())
+      result.push_back({judgement::skipped, "the node does not look at it"});
+    return result;
+  } catch (const std::exception& e) {
+    return {trouble_of(e, judgement::skipped)};
+  }
+}
+
+} // namespace
+
+bool is_own_check(const std::string& name) {
+  constexpr const char* names[] = {"disk",   "fsync", "descriptors",
+                                   "engine", "gpu",   "skills"};
+  return std::find(std::begin(names), std::end(names), name) != std::end(names);
+}
+
+std::vector<check> own_checks(const std::shared_ptr<const node_client>& node,
+                              const std::vector<check>& checks) {
+  const asked_look look = std::async(std::launch::deferred, [node] {
+    return node->ask({{"type", examination_query::type}}, longest_look)
+        .get<examination>();
+  });
+  std::vector<check> result;
+  for (const auto& x : checks)
+    if (is_own_check(x.name))
+      result.push_back({x.name, x.area, x.about,
+                        [look, name = x.name](const examined_host& /*host*/) {
+                          return found_by_node(look, name);
+                        }});
+  return result;
+}
+
+} // namespace roscell::cli
