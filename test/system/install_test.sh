@@ -88,12 +88,17 @@ remedies() {
     "$scratch/found"
 }
 
+# paste COMMANDS: as root does, who needs no sudo.
+paste() {
+  "${inside[@]}" bash -ec "sudo() { \"\$@\"; }; $1"
+}
+
 # is_mended CHECK [OPTION...]: what was found is gone after its own remedies.
 is_mended() {
   local check=$1 commands
   shift
   commands=$(remedies)
-  "${inside[@]}" bash -ec "$commands" || fail "not a command: $commands"
+  paste "$commands" || fail "not a command: $commands"
   doctor --only "$check" "$@"
   jq -e 'all(.[]; .verdict == "ok")' "$scratch/found" > /dev/null \
     || fail "after '$commands': $(cat "$scratch/found")"
@@ -117,7 +122,7 @@ test_doctor_tells_of_an_interface_without_address_down_or_not_there() {
   "${inside[@]}" ip link set eth0 down
   doctor --only interface --interface eth0 && fail "it is content"
   found interface broken "eth0 is down"
-  "${inside[@]}" bash -ec "$(remedies)"
+  paste "$(remedies)"
   "${inside[@]}" ip link show up | has_line eth0
 }
 
@@ -140,7 +145,7 @@ test_doctor_tells_of_a_network_without_multicast() {
   "${inside[@]}" ip link set eth0 multicast off
   doctor --only multicast --interface eth0
   found multicast warning "eth0 takes no multicast"
-  "${inside[@]}" bash -ec "$(remedies)"
+  paste "$(remedies)"
   "${inside[@]}" ip link show eth0 | has_line MULTICAST
 }
 
@@ -165,10 +170,22 @@ test_doctor_names_who_has_a_port_of_the_node() {
   hold_port STREAM 8420
   doctor --only ports --interface eth0 && fail "it is content"
   found ports broken "tcp port 8420 is taken by pid $! (python3)"
-  is_mended ports --interface eth0
+  paste "$(remedies)" | has_line 'python3 -c' || fail "$(remedies)"
+  kill $!
+  tail --pid=$! -f /dev/null
+  doctor --only ports --interface eth0 || fail "$(cat "$scratch/found")"
   hold_port DGRAM 11811
   doctor --only ports --interface eth0 || fail "a member takes another port"
   found ports warning "udp port 11811 is taken by pid $! (python3)"
+}
+
+test_doctor_knows_a_node_by_its_port_that_it_was_not_told_of() {
+  on_a_host
+  http_port=8420
+  start_node arm --interface eth0
+  doctor --only ports --interface eth0 || fail "$(cat "$scratch/found")"
+  found ports warning "node 'arm' has them, at 10.231.7.1:8420"
+  expect "remedy" "$(remedies)" "roscell doctor --to 10.231.7.1:8420"
 }
 
 test_doctor_tells_of_ports_that_any_program_may_get() {
@@ -207,16 +224,59 @@ RULES
     "udp port 11811 is closed by the policy of the chain (inet house door)"
   found firewall warning "whether udp port 8420 is open depends on rule"
   expect "ports" "$(jq length "$scratch/found")" 3
-  "${inside[@]}" bash -ec "$(remedies)" > /dev/null
+  paste "$(remedies)" > /dev/null
   doctor --only firewall --interface eth0 || fail "$(cat "$scratch/found")"
   found firewall warning "udp port 8420"
   expect "ports" "$(jq length "$scratch/found")" 1
+  "${inside[@]}" nft flush ruleset
+  "${inside[@]}" nft -f - << RULES
+table inet house {
+  map doors {
+    type inet_service : verdict
+    elements = { 22 : accept, 8420 : jump hall }
+  }
+  chain door {
+    type filter hook input priority 0; policy drop;
+    ct state vmap { established : accept, related : accept, invalid : drop }
+    iifname vmap { "lo" : accept, "eth0" : jump hall }
+    tcp dport vmap @doors
+  }
+  chain hall {
+    meta l4proto . th dport vmap { udp . 7400-7700 : accept, tcp . 8420 : accept }
+    udp dport vmap { 8420 : accept, 32150-32166 : accept, * : drop }
+  }
+}
+RULES
+  doctor --only firewall --interface eth0 && fail "it is content"
+  expect "ports" "$(jq length "$scratch/found")" 1
+  found firewall broken "udp port 11811 is closed by rule"
+  is_mended firewall --interface eth0
+  "${inside[@]}" nft flush ruleset
+  "${inside[@]}" nft -f - << RULES
+table ip filter {
+  chain INPUT {
+    type filter hook input priority 0; policy drop;
+    jump ufw-user-input
+  }
+  chain ufw-user-input {
+    tcp dport 8420 accept
+  }
+}
+RULES
+  doctor --only firewall --interface eth0 && fail "it is content"
+  remedies | has_line '^sudo ufw allow 7490:7649/udp$' || fail "$(remedies)"
   "${inside[@]}" nft flush ruleset
   command -v iptables > /dev/null || return 0
   "${inside[@]}" iptables -A INPUT -p udp --dport 11811 -j REJECT
   doctor --only firewall --interface eth0 && fail "it is content"
   found firewall broken "udp port 11811 is closed by rule"
   is_mended firewall --interface eth0
+  "${inside[@]}" iptables -F
+  command -v iptables-legacy > /dev/null || return 0
+  "${inside[@]}" iptables-legacy -A INPUT -p udp -j DROP
+  doctor --only firewall --interface eth0 || fail "$(cat "$scratch/found")"
+  found firewall skipped "there are rules of iptables-legacy"
+  expect "findings" "$(jq length "$scratch/found")" 1
 }
 
 test_doctor_does_not_guess_what_it_may_not_see() {
@@ -237,6 +297,13 @@ test_doctor_says_what_the_kernel_gives_a_socket() {
   else
     found buffers warning "of 8 MiB that skills ask for"
   fi
+}
+
+test_doctor_tells_of_sockets_that_hold_no_image() {
+  with_bent_host SOCKET_BYTES=8388608 doctor --only buffers
+  found buffers ok "a socket gets 8 MiB to receive and 8 MiB to send"
+  with_bent_host SOCKET_BYTES=212992 doctor --only buffers
+  found buffers warning "a socket gets 208 KiB to receive and 208 KiB to send"
 }
 
 # with_mounts COMMANDS: what follows is in a mount namespace where these were
@@ -282,18 +349,24 @@ test_doctor_tells_of_shared_memory_that_is_full_small_closed_or_none() {
 }
 
 test_doctor_removes_from_shared_memory_what_nobody_uses_and_no_more() {
-  local shm=/dev/shm/fastrtps_ fill
+  local shm=/dev/shm/fastrtps_ past=00000000000000000000000000000000 fill
   fill="touch ${shm}dead ${shm}dead_el ${shm}live ${shm}live_el
     touch ${shm}port7 ${shm}port7_el ${shm}port7_sl /dev/shm/other
     touch /dev/shm/sem.fastrtps_port7_mutex
     exec 8< ${shm}live_el 9< ${shm}port7_sl; flock 8; flock -s 9
-    mkdir /dev/shm/roscell-0; head -c 8 /dev/zero > /dev/shm/roscell-0/past
-    printf '\\0\\0\\0\\0\\0\\377\\0\\0' > /dev/shm/roscell-0/to-come"
+    mkdir /dev/shm/roscell-0 /dev/shm/roscell-x /dev/shm/roscell-1
+    head -c 8 /dev/zero > /dev/shm/roscell-0/$past
+    printf '\\0\\0\\0\\0\\0\\377\\0\\0' > /dev/shm/roscell-0/${past//0/1}
+    # What anybody may put there.
+    cd /dev/shm/roscell-0; head -c 8 /dev/zero > '\$(touch run)'; cd /
+    head -c 8 /dev/zero > /dev/shm/roscell-x/$past
+    head -c 8 /dev/zero > /dev/shm/roscell-1/$past
+    mkfifo ${shm}pipe ${shm}pipe_el"
   with_shm mode=1777 "$fill"
   doctor --only leftovers
   found leftovers warning "2 files of Fast DDS that nobody uses"
   expect "remedies" "$(remedies)" "rm -f ${shm}dead ${shm}dead_el
-rm -f /dev/shm/roscell-0/past"
+rm -f /dev/shm/roscell-0/$past"
   with_shm mode=1777 "$fill; $(remedies)"
   doctor --only leftovers
   found leftovers ok "nothing that nobody uses"
@@ -371,6 +444,8 @@ test_doctor_tells_of_a_data_directory_that_is_full_closed_or_read_only() {
   inside=(setpriv --reuid=65534 --clear-groups)
   doctor --only disk && fail "it is content"
   found disk broken "this user cannot write to $folder: Permission denied"
+  # Whose it is may be meant: nothing is said to take it away from them.
+  expect "remedy" "$(remedies)" "ls -ld $folder && id"
 }
 
 test_doctor_tells_of_a_disk_that_is_slow_to_keep_what_is_written() {
@@ -425,7 +500,7 @@ test_doctor_tells_why_a_container_engine_cannot_be_used() {
   inside=(setpriv --reuid=65534 --clear-groups)
   doctor --config "$scratch/node.conf" --only engine && fail "it is content"
   found engine broken "no permission to use"
-  expect "remedy" "$(remedies)" 'sudo usermod -aG docker "$(id -un)"'
+  expect "remedy" "$(remedies)" 'sudo usermod -aG docker nobody'
   inside=()
   kill "$(tail -1 "$scratch/pids")"
   tail --pid="$(tail -1 "$scratch/pids")" -f /dev/null
@@ -482,6 +557,88 @@ test_doctor_tells_of_skills_that_cannot_be_loaded() {
   doctor --only skills && fail "it is content"
   found skills broken "bin/echo"
   [[ $(remedies) == "roscell skill check "* ]] || fail "$(remedies)"
+}
+
+test_doctor_tells_of_skills_whose_libraries_or_interpreter_are_missing() {
+  mkdir "$scratch/data"
+  cp -r "$skills" "$scratch/data/skills"
+  cp "$ROSCELL_BUILD/bin/lacking" "$scratch/data/skills/echo/bin/echo"
+  doctor --only skills && fail "it is content"
+  found skills broken "this node does not have libgone.so"
+  printf '#!/nowhere/python3\n' > "$scratch/data/skills/echo/bin/echo"
+  echo "runtime = process" > "$scratch/node.conf"
+  doctor --config "$scratch/node.conf" --only skills && fail "it is content"
+  found skills broken "this node does not have '/nowhere/python3'"
+}
+
+# doctor_here OPTION...: with nothing named but what the options name.
+doctor_here() {
+  env -u ROSCELL_TO "$ROSCELL" doctor -o json "$@" > "$scratch/found" \
+    2> "$scratch/doctor.err"
+}
+
+test_doctor_takes_what_a_node_has_from_the_node() {
+  mkdir -m 755 "$scratch/run"
+  start_node head --coordinator --interface lo --domain-id 7 \
+    --socket "$scratch/run/node.sock"
+  doctor_here --to "$scratch/run/node.sock" || fail "$(cat "$scratch/found")"
+  found disk ok "are free in $scratch/head"
+  found dds-ports ok "of domain 7 are in use"
+  found skills ok "1 can be loaded"
+  jq -e --arg run "$scratch/run" 'all(.[]; (.seen + .remedy) | contains($run)
+    | not)' "$scratch/found" > /dev/null || fail "$(cat "$scratch/found")"
+  # It is the node that cannot do without its program.
+  rm "$skills/echo/bin/echo"
+  doctor_here --to "$scratch/run/node.sock" --only skills && fail "it is content"
+  found skills broken "bin/echo"
+}
+
+test_doctor_with_cell_tells_what_it_found_where_no_node_answers() {
+  doctor --cell --only clock,shm
+  expect "exit code" $? 1
+  found reach broken "cannot connect"
+  jq -e 'any(.[]; .check == "shm")' "$scratch/found" > /dev/null \
+    || fail "$(cat "$scratch/found" "$scratch/doctor.err")"
+}
+
+test_doctor_without_threads_says_what_it_could_not_begin() {
+  [[ $(id -u) -eq 0 ]] || skip "another user needs root"
+  chmod 755 "$scratch"
+  inside=(setpriv --reuid=65533 --clear-groups prlimit --nproc=1:1)
+  doctor --only descriptors,shm
+  found descriptors skipped "it could not be begun"
+}
+
+test_doctor_tells_of_a_node_that_still_is_of_an_older_program() {
+  local version other
+  version=$("$ROSCELL" --version | cut -d' ' -f2)
+  other=${version%?}x
+  LC_ALL=C sed "s/${version//./[.]}/$other/g" "$ROSCELL" > "$scratch/roscell"
+  chmod +x "$scratch/roscell"
+  start_node head --coordinator --interface lo
+  doctor --to "$scratch/head/node.sock" --only node-version
+  found node-version ok "head is of version $version"
+  ROSCELL=$scratch/roscell doctor --to "$scratch/head/node.sock" \
+    --only node-version || fail "$(cat "$scratch/found" "$scratch/doctor.err")"
+  found node-version warning "head is of version $version"
+  found node-version warning "this program is of $other"
+}
+
+test_doctor_tells_of_instances_that_have_failed_or_starve() {
+  local instance
+  start_node head --coordinator --interface lo
+  echo_task t | jq '.pipeline[0] += {"restart": {"policy": "never"},
+      "health": {"inputs": {"max_age_s": 0.2}, "grace_s": 0.2}}' \
+    | to head request > "$scratch/reply.json" || fail "$(cat "$scratch/reply.json")"
+  instance=$(jq -r '.instances[0].instance' "$scratch/reply.json")
+  await head '.event == "instance_starved"' > /dev/null
+  doctor --to "$scratch/head/node.sock" --only instances
+  found instances warning "$instance is starved"
+  pkill -KILL -P "$(cut -d' ' -f1 "$scratch/head/instances/$instance/pid")"
+  await head ".event == \"instance_changed\" and .data.state == \"failed\"" \
+    > /dev/null
+  doctor --to "$scratch/head/node.sock" --only instances && fail "it is content"
+  found instances broken "$instance has failed"
 }
 
 test_doctor_asks_the_node_and_tells_who_is_away() {

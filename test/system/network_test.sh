@@ -96,7 +96,8 @@ test_doctor_names_each_thing_that_keeps_nodes_apart() {
   has_found broken "head -> arm: large data by udp port"
   has_found broken "arm -> belt: data by udp port"
   has_found warning "head -> belt: multicast by udp port"
-  jq -e 'any(.[]; .node == "belt" and .check == "mtu" and .verdict == "warning")' \
+  jq -e 'any(.[]; .node == "belt" and .check == "mtu" and .verdict == "warning"
+      and .remedy == "ssh -t 10.231.7.3 '"'sudo ip link set dev eth0 mtu 1500'"'")' \
     "$scratch/found" > /dev/null || fail "belt's MTU: $(cat "$scratch/found")"
   # What is larger than belt takes at once does not come.
   has_found broken "head -> belt: large data by udp port"
@@ -109,6 +110,56 @@ test_doctor_names_each_thing_that_keeps_nodes_apart() {
   cell_doctor reach
   has_found ok "arm reaches belt, head"
   has_found ok "head reaches arm, belt"
+}
+
+test_doctor_tells_sessions_and_beats_from_each_other() {
+  start_hosts
+  local port
+  port=$(get arm /v1/node | jq -r '.identity.address | split(":")[1]')
+  # What the session that is there needs still passes.
+  in_the_way 2 "ip saddr 10.231.7.1 tcp dport $port tcp flags & (syn|ack) == syn drop"
+  in_the_way 3 "ip saddr 10.231.7.2 udp dport $(get belt /v1/node \
+    | jq -r '.identity.address | split(":")[1]') drop"
+  cell_doctor reach && fail "it is content: $(cat "$scratch/found")"
+  has_found broken "head -> arm: sessions by tcp port $port: nothing comes back"
+  has_found warning "arm -> belt: beats by udp port"
+  has_found ok "belt reaches arm, head"
+}
+
+test_doctor_tells_of_a_firewall_before_the_ports_of_skills_only() {
+  start_hosts
+  # Open for what ROS 2 programs use, and not for a single skill.
+  in_the_way 2 "ip saddr 10.231.7.1 udp dport 7490-7649 drop"
+  # Wide enough for all skills of the host.
+  in_the_way 3 "ip saddr 10.231.7.1 udp dport 7560-7649 drop"
+  cell_doctor reach && fail "it is content: $(cat "$scratch/found")"
+  has_found broken "head -> arm: data by udp port 7491: nothing comes back"
+  has_found ok "head reaches belt"
+}
+
+test_doctor_reaches_a_node_by_the_second_address_of_its_host() {
+  bridge_hosts 2
+  make_site_token
+  ip -n "${hosts[1]}" address flush dev eth0
+  ip -n "${hosts[1]}" address add 10.231.7.22/24 dev eth0
+  ip -n "${hosts[1]}" address add 10.231.7.2/24 dev eth0
+  start_on 1 head --coordinator --cell line
+  start_on 2 arm --join "$(discovery_of head)"
+  await_joined head arm
+  cell_doctor reach
+  has_found ok "head reaches arm"
+  has_found ok "arm reaches head"
+}
+
+test_doctor_looks_at_the_domain_of_the_cell() {
+  bridge_hosts 2
+  make_site_token
+  start_on 1 head --coordinator --cell line --domain-id 7
+  start_on 2 arm --join "$(discovery_of head)"
+  await_joined head arm
+  in_the_way 2 "ip saddr 10.231.7.1 udp dport 9150-9399 drop"
+  cell_doctor reach && fail "it is content: $(cat "$scratch/found")"
+  has_found broken "head -> arm: data by udp port 9241: nothing comes back"
 }
 
 test_doctor_says_whose_clock_is_off_by_how_much() {
@@ -124,7 +175,7 @@ test_doctor_says_whose_clock_is_off_by_how_much() {
   # Beats go between hosts with little delay, and not without any.
   jq -e 'length == 1 and .[0].verdict == "broken" and (.[0].seen
       | test("^arm.s clock is (6[.]9[0-9]*|7|7[.]0[0-9]*) s behind the coord"))
-    and (.[0].remedy | startswith("ssh 10.231.7.2 sudo chronyc"))' \
+    and (.[0].remedy | startswith("ssh -t 10.231.7.2 "))' \
     "$scratch/found" > /dev/null || fail "$(cat "$scratch/found")"
   # What it says of itself, by its clock, is not what others go by.
   expect "its row" "$(row_state head arm)" active

@@ -1,3 +1,4 @@
+#include <sys/socket.h>
 #include <sys/syscall.h>
 #include <sys/timex.h>
 #include <unistd.h>
@@ -13,6 +14,7 @@
 // CLOCK_ERROR_US  The wall clock is synchronised and may be wrong by so much;
 //                 negative: nothing synchronises it.
 // FSYNC_MS        So long the disk takes to keep what was written.
+// SOCKET_BYTES    So much a socket's buffers hold.
 
 namespace {
 
@@ -56,6 +58,19 @@ __attribute__((visibility("default"))) int fsync(int fd) {
     nanosleep(&delay, nullptr);
   }
   return static_cast<int>(syscall(SYS_fsync, fd));
+}
+
+__attribute__((visibility("default"))) int
+getsockopt(int fd, int level, int name, void* value, socklen_t* size) noexcept {
+  long bytes = 0;
+  if (level == SOL_SOCKET && (name == SO_RCVBUF || name == SO_SNDBUF)
+      && has_setting("SOCKET_BYTES", bytes)) {
+    // The kernel tells twice of what it gives.
+    *static_cast<int*>(value) = static_cast<int>(2 * bytes);
+    return 0;
+  }
+  return static_cast<int>(
+      syscall(SYS_getsockopt, fd, level, name, value, size));
 }
 
 } // extern "C"
