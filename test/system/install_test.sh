@@ -74,10 +74,11 @@ doctor() {
     --data-dir "$scratch/$data" "$@" > "$scratch/found" 2> "$scratch/doctor.err"
 }
 
-# found CHECK VERDICT WORDS: the last findings have one of that check.
+# found CHECK VERDICT WORDS: the last findings, which are there, have one of that
+# check.
 found() {
-  jq -e --arg check "$1" --arg verdict "$2" --arg words "$3" \
-    'any(.[]; .check == $check and .verdict == $verdict
+  jq -es --arg check "$1" --arg verdict "$2" --arg words "$3" \
+    'any(.[][]; .check == $check and .verdict == $verdict
               and (.seen | contains($words)))' "$scratch/found" > /dev/null \
     || fail "$1 is not $2 with '$3': $(cat "$scratch/found" "$scratch/doctor.err")"
 }

@@ -51,8 +51,8 @@ cell_doctor() {
 
 # has_found VERDICT TEXT
 has_found() {
-  jq -e --arg how "$1" --arg seen "$2" \
-    'any(.[]; .verdict == $how and (.seen | contains($seen)))' \
+  jq -es --arg how "$1" --arg seen "$2" \
+    'any(.[][]; .verdict == $how and (.seen | contains($seen)))' \
     "$scratch/found" > /dev/null \
     || fail "no '$2' is $1: $(cat "$scratch/found" "$scratch/doctor.err")"
 }

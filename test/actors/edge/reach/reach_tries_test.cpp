@@ -96,25 +96,33 @@ TEST_CASE("a node answers from the address by which it is known", "[reach]") {
   io.stop();
 }
 
+TEST_CASE("a host without skills has one port for data", "[reach]") {
+  io_thread io{[](const std::string&) {}};
+  {
+    const auto port =
+        expect(reach_port::open(io, {loopback, 73, reach_key("token")}));
+    CHECK(port->port() == 7400 + 250 * 73 + 91);
+    CHECK(first_data_port_beside(port->port()) == port->port());
+  }
+  io.stop();
+}
+
 TEST_CASE("what is reached is where the first skills and the next one listen",
           "[reach]") {
   io_thread io{[](const std::string&) {}};
   {
-    constexpr unsigned domain = 73;
+    constexpr unsigned domain = 74;
     const auto first = first_data_port(domain);
-    CHECK(first == 7400 + 250 * 73 + 91);
-    CHECK(first_data_port_beside(first) == first);
-    CHECK(first_data_port_beside(static_cast<uint16_t>(first + 20)) == first);
-    const reach_port_options options{loopback, domain, reach_key("token")};
-    {
-      const auto alone = expect(reach_port::open(io, options));
-      CHECK(alone->port() == first);
-    }
-    // As a skill has it; its port is never taken, nor that of the next one.
     const auto skill = expect(bind_udp(loopback, uint16_t(first - 1)));
-    const auto beside = expect(reach_port::open(io, options));
-    CHECK(beside->port() == first + 2);
+    const auto port =
+        expect(reach_port::open(io, {loopback, domain, reach_key("token")}));
+    CHECK(port->port() == first + 2);
+    CHECK(first_data_port_beside(port->port()) == first);
+    // The next skill finds its port free.
     const auto next = expect(bind_udp(loopback, uint16_t(first + 1)));
+    // The last row is that of the first port.
+    const auto found = try_goal(io, {"arm", "127.0.0.1:1", "", port->port()});
+    CHECK(found.at("data") == "found");
     ::close(skill.fd);
     ::close(next.fd);
   }
