@@ -1,3 +1,4 @@
+#include "tools/roscell/doctor/node/answer_trouble.hpp"
 #include "tools/roscell/doctor/node/camera_checks.hpp"
 #include "tools/roscell/doctor/node/node_checks.hpp"
 
@@ -13,6 +14,24 @@ TEST_CASE("a node of another version is a warning", "[doctor]") {
   node.version = "1.0";
   CHECK(judge_version(node, "1.0")[0].how == judgement::ok);
   CHECK(judge_version(node, "1.1")[0].how == judgement::warning);
+}
+
+TEST_CASE("what a node answers amiss is a finding", "[doctor]") {
+  const auto trouble = [](const auto& ask) {
+    try {
+      ask();
+    } catch (const std::exception& e) {
+      return trouble_of(e, judgement::broken);
+    }
+    return finding{};
+  };
+  // As a node of another version may.
+  CHECK_THAT(trouble([] {
+               json{{"version", 7}}.get<node_description>();
+             }).seen,
+             Contains("the answer is not understood"));
+  const json error{{"error", {{"code", "conflict"}, {"message", "it looks"}}}};
+  CHECK(trouble([&] { throw refused{error}; }).seen == "it looks");
 }
 
 TEST_CASE("a node that does not come into its cell says why", "[doctor]") {

@@ -11,10 +11,12 @@
 #include "tools/roscell/doctor/network/buffers.hpp"
 #include "tools/roscell/doctor/network/firewall.hpp"
 #include "tools/roscell/doctor/network/ports.hpp"
+#include "tools/roscell/doctor/node/follow_node.hpp"
 #include "tools/roscell/view/format.hpp"
 
 #include <algorithm>
 #include <exception>
+#include <filesystem>
 #include <future>
 #include <map>
 #include <mutex>
@@ -132,6 +134,23 @@ private:
   std::string not_begun_; ///< Why there is no thread.
 };
 
+/// What its options do not say, a node knows itself; one that does not answer
+/// is looked at by its options.
+void follow_own_node(examined_host& host) {
+  const auto& config = host.config;
+  connection_options own;
+  own.to = std::filesystem::absolute(config.socket.empty()
+                                         ? config.data_dir / "node.sock"
+                                         : config.socket)
+               .string();
+  try {
+    const node_client node{own};
+    follow_node(host, node, node.get("/v1/node").get<node_description>());
+  } catch (const std::exception&) {
+    return;
+  }
+}
+
 } // namespace
 
 const std::vector<check>& host_checks() {
@@ -197,6 +216,7 @@ findings examine_own_host(const node_config& config) {
   host.config = config;
   host.interface = config.address;
   host.node_runs = true;
+  follow_own_node(host);
   // Who asks waits no longer than for a check of its own.
   constexpr auto limit = longest_look - std::chrono::seconds{2};
   return run_checks(

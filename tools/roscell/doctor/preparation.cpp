@@ -1,14 +1,13 @@
 #include "tools/roscell/doctor/preparation.hpp"
 
 #include "actors/edge/host/interfaces.hpp"
-#include "actors/edge/http/http_paths.hpp"
-#include "actors/edge/io/socket_address.hpp"
 #include "messages/node.hpp"
 #include "tools/roscell/daemon/config_file.hpp"
 #include "tools/roscell/daemon/node_options.hpp"
 #include "tools/roscell/doctor/cell/cell_examination.hpp"
 #include "tools/roscell/doctor/command_text.hpp"
 #include "tools/roscell/doctor/node/answer_trouble.hpp"
+#include "tools/roscell/doctor/node/follow_node.hpp"
 #include "tools/roscell/doctor/node/node_checks.hpp"
 #include "tools/roscell/doctor/node/own_look.hpp"
 #include "tools/roscell/exit_code.hpp"
@@ -40,35 +39,6 @@ examined_host host_of(const doctor_options& options) {
   if (!options.data_dir.empty())
     result.config.data_dir = fs::absolute(options.data_dir);
   return result;
-}
-
-/// The ports by which programs of the node's cell find each other.
-void follow_cell(node_config& config, const node_client& node,
-                 const std::map<std::string, std::string>& environment) {
-  const auto hello = node.get(hello_path).get<node_hello>();
-  config.public_domain_id = static_cast<uint8_t>(hello.public_domain);
-  config.ros_domain_id = static_cast<uint8_t>(hello.domain_id);
-  if (const auto x = environment.find("ROS_DOMAIN_ID"); x != environment.end())
-    config.ros_domain_id = static_cast<uint8_t>(std::atoi(x->second.c_str()));
-  const auto x = environment.find("ROS_DISCOVERY_SERVER");
-  if (x == environment.end())
-    return;
-  // Behind the semicolons that say its id.
-  if (const auto server = parse_socket_address(
-          std::string_view{x->second}.substr(x->second.rfind(';') + 1)))
-    config.discovery_port = server->port;
-}
-
-/// Looks at the host with the node in mind that runs there.
-void follow_node(examined_host& host, const node_client& node,
-                 const node_description& told) {
-  host.node_runs = true;
-  if (const auto at = parse_socket_address(told.identity.address)) {
-    if (host.interface.empty())
-      host.interface = at->address;
-    host.config.http_port = at->port;
-  }
-  follow_cell(host.config, node, told.environment);
 }
 
 /// A folder that was named is looked at from here.
