@@ -4,6 +4,7 @@
 #include <caf/message.hpp>
 #include <caf/sec.hpp>
 
+#include <string>
 #include <utility>
 
 namespace roscell {
@@ -31,11 +32,16 @@ failure failure_from(const json& reply) {
   if (body == reply.end() || !body->is_object())
     return {error_code::internal, "the peer sent no error where one was due"};
   json rest = *body;
+  const auto text = [&rest](const char* name) {
+    const auto found = rest.find(name);
+    return found != rest.end() && found->is_string() ? found->get<std::string>()
+                                                     : std::string{};
+  };
   failure result;
-  result.code = error_code_from(rest.value("code", "internal"));
-  result.message = rest.value("message", "");
-  result.where = rest.value("where", "");
-  result.hint = rest.value("hint", "");
+  result.code = error_code_from(text("code"));
+  result.message = text("message");
+  result.where = text("where");
+  result.hint = text("hint");
   for (auto known : {"code", "message", "where", "hint"})
     rest.erase(known);
   if (!rest.empty())

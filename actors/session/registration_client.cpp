@@ -7,10 +7,9 @@
 #include "actors/edge/session/session_handshake.hpp"
 #include "actors/house/edge_failure.hpp"
 #include "actors/house/limits.hpp"
+#include "actors/session/node_answer.hpp"
 #include "actors/session/registration_order.hpp"
 #include "messages/failure.hpp"
-#include "schemas/decode.hpp"
-#include "schemas/document.hpp"
 
 #include <caf/send.hpp>
 
@@ -61,14 +60,7 @@ template <class Reply>
 std::variant<Reply, failure> read(const node_answered& answer) {
   if (answer.body.empty())
     return answer.problem;
-  auto parsed = parse_document(answer.body);
-  if (auto* why = std::get_if<failure>(&parsed))
-    return failure{error_code::unreachable,
-                   "what answers there is no node of ROSCell: " + why->message};
-  const auto& document = std::get<json>(parsed);
-  if (document.value("type", "") == "error")
-    return failure_from(document);
-  return decode<Reply>(document);
+  return answer_as<Reply>(answer.body);
 }
 
 void end_registration_call(registration_client_self self, uint64_t call,

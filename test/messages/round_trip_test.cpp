@@ -145,6 +145,13 @@ TEST_CASE("a failure survives its error reply") {
   CHECK(failure_from(reply) == why);
 }
 
+TEST_CASE("an error reply may say anything instead of words") {
+  CHECK(failure_from(json::object()).code == error_code::internal);
+  const auto odd = failure_from(
+      {{"error", {{"code", 7}, {"message", json::array()}, {"hint", "h"}}}});
+  CHECK(odd == failure{error_code::internal, "", "", "h", ""});
+}
+
 TEST_CASE("every error code survives its word") {
   for (int i = 1; i <= static_cast<int>(error_code::internal); ++i) {
     auto code = static_cast<error_code>(i);
