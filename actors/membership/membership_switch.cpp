@@ -2,7 +2,7 @@
 #include "actors/edge/session/session_handshake.hpp"
 #include "actors/house/limits.hpp"
 #include "actors/membership/membership_steps.hpp"
-#include "actors/session/registration_order.hpp"
+#include "actors/session/registration/registration_order.hpp"
 
 #include <algorithm>
 #include <optional>

@@ -24,7 +24,7 @@
 #include "actors/requests/handlers/registry.hpp"
 #include "actors/requests/request_router.hpp"
 #include "actors/requests/rest.hpp"
-#include "actors/session/registration_client.hpp"
+#include "actors/session/registration/registration_client.hpp"
 #include "actors/session/session_connector.hpp"
 #include "messages/failure.hpp"
 

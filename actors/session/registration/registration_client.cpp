@@ -1,4 +1,4 @@
-#include "actors/session/registration_client.hpp"
+#include "actors/session/registration/registration_client.hpp"
 
 #include "actors/edge/http/client/http_call.hpp"
 #include "actors/edge/http/http_paths.hpp"
@@ -7,8 +7,8 @@
 #include "actors/edge/session/session_handshake.hpp"
 #include "actors/house/edge_failure.hpp"
 #include "actors/house/limits.hpp"
-#include "actors/session/node_answer.hpp"
-#include "actors/session/registration_order.hpp"
+#include "actors/session/registration/node_answer.hpp"
+#include "actors/session/registration/registration_order.hpp"
 #include "messages/failure.hpp"
 
 #include <caf/send.hpp>

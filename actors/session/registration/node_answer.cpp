@@ -1,4 +1,4 @@
-#include "actors/session/node_answer.hpp"
+#include "actors/session/registration/node_answer.hpp"
 
 #include "schemas/document.hpp"
 #include "schemas/message_catalogue.hpp"
