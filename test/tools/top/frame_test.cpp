@@ -125,6 +125,18 @@ TEST_CASE("a member says that it knows of itself only", "[top]") {
   CHECK(has(x.text(), "this node only; the whole cell: --to 10.0.0.1:8420"));
 }
 
+TEST_CASE("the help is read on 80 columns and 24 lines without moving",
+          "[top]") {
+  bench x;
+  x.now.where = room::help;
+  const auto text = x.text();
+  INFO(text);
+  CHECK(has(text, "Up Down PgUp PgDn Home End   move"));
+  CHECK(has(text, "nothing within `roscell shell`"));
+  CHECK(has(text, "all else is told by events."));
+  CHECK_FALSE(has(text, "…"));
+}
+
 TEST_CASE("details of a thing that is gone say so", "[top]") {
   bench x;
   x.now.where = room::details;

@@ -19,13 +19,12 @@ constexpr auto help = R"(  Up Down PgUp PgDn Home End   move
   s  S                         sort by the next column; the other way round
   /                            filter: what does not contain the text is hidden
   Esc                          no filter; back to the lists
-  q                            back to the lists; quit
+  q                            back to the lists; quit, as Ctrl-C does
+  Ctrl-Z                       stop, fg goes on; nothing within `roscell shell`
 
-  A bar is a node's resource:
-    █ #   used by other programs
-    ▒ +   reserved by instances
-    · .   free
-  Behind it stands what is used of it, 90 % and more in another colour.
+  A bar is a node's resource, and behind it stands what is used of it.
+    █ #   used by other programs        · .   free
+    ▒ +   reserved by instances         90 % and more have another colour
 
   The line below the first says what is wrong in the cell, the one above the
   keys what has happened last. A list is sorted by the column with ^ or v.

@@ -17,11 +17,19 @@ sigset_t set_of(std::initializer_list<int> signals) {
   return result;
 }
 
+/// Whoever has started us with it ignored would not bring us back.
+bool may_be_stopped() {
+  struct sigaction now {};
+  sigaction(SIGTSTP, nullptr, &now);
+  return now.sa_handler != SIG_IGN;
+}
+
 } // namespace
 
 terminal_signals::terminal_signals() {
-  const auto wanted =
-      set_of({SIGWINCH, SIGTSTP, SIGCONT, SIGINT, SIGTERM, SIGQUIT, SIGHUP});
+  auto wanted = set_of({SIGWINCH, SIGCONT, SIGINT, SIGTERM, SIGQUIT, SIGHUP});
+  if (may_be_stopped())
+    sigaddset(&wanted, SIGTSTP);
   pthread_sigmask(SIG_BLOCK, &wanted, &before_);
   fd_ = signalfd(-1, &wanted, SFD_CLOEXEC | SFD_NONBLOCK);
   if (fd_ < 0)

@@ -6,8 +6,9 @@
 namespace roscell::cli::top {
 
 /// Takes the signals that a full screen has to answer, without handlers: the
-/// size has changed, Ctrl-Z and its end, and those that end a program. To be
-/// made before any thread is, so that all of them leave the signals to it.
+/// size has changed, Ctrl-Z and its end, and those that end a program. Ctrl-Z
+/// means nothing where it was ignored before, as in `roscell shell`. To be made
+/// before any thread is, so that all of them leave the signals to it.
 class terminal_signals {
 public:
   terminal_signals();
