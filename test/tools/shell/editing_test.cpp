@@ -87,17 +87,37 @@ TEST_CASE("marks of what is pasted are taken out", "[shell]") {
   CHECK(filter.add("\x1b[200~{\n\t1}\x1b[201~\t") == "{\n 1}\t");
 }
 
-TEST_CASE("a mark may come in parts", "[shell]") {
-  paste_filter filter;
-  CHECK(filter.add("x\x1b[20").append(filter.add("0~\ty")) == "x y");
-  CHECK(filter.add("\tz\x1b[2").append(filter.add("01~\t")) == " z\t");
+TEST_CASE("marks may come in parts, cut anywhere", "[shell]") {
+  const std::string typed = "x\t\x1b[200~{\n\t1}\x1b[201~\ty";
+  for (size_t first = 0; first <= typed.size(); ++first)
+    for (size_t second = first; second <= typed.size(); ++second) {
+      paste_filter filter;
+      auto text = filter.add(typed.substr(0, first));
+      text += filter.add(typed.substr(first, second - first));
+      text += filter.add(typed.substr(second));
+      INFO(first << " " << second);
+      CHECK(text == "x\t{\n 1}\ty");
+    }
 }
 
 TEST_CASE("other keys are not kept back", "[shell]") {
   paste_filter filter;
-  CHECK(filter.add("\x1b") == "\x1b");
   CHECK(filter.add("\x1b[A") == "\x1b[A");
   CHECK(filter.add("\x1b[2~") == "\x1b[2~");
+  CHECK(filter.add("\x1b"
+                   "b")
+        == "\x1b"
+           "b");
+}
+
+TEST_CASE("Escape comes with the key behind it", "[shell]") {
+  paste_filter filter;
+  CHECK(filter.add("\x1b").empty());
+  CHECK(filter.add("b")
+        == "\x1b"
+           "b");
+  CHECK(filter.add("\x1b").empty());
+  CHECK(filter.add("\x1b") == "\x1b");
 }
 
 TEST_CASE("names are found in the answers of a node", "[shell]") {

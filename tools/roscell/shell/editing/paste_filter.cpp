@@ -10,10 +10,9 @@ namespace {
 constexpr std::string_view paste_begin = "\x1b[200~";
 constexpr std::string_view paste_end = "\x1b[201~";
 
-/// Bytes at the end of `text` that may be the beginning of `mark`. A lone
-/// escape is a key.
+/// Bytes at the end of `text` that may be the beginning of `mark`.
 size_t begun_mark(std::string_view text, std::string_view mark) {
-  for (size_t n = std::min(text.size(), mark.size() - 1); n > 1; --n)
+  for (size_t n = std::min(text.size(), mark.size() - 1); n > 0; --n)
     if (text.substr(text.size() - n) == mark.substr(0, n))
       return n;
   return 0;

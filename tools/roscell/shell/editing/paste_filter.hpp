@@ -11,7 +11,8 @@ namespace roscell::cli {
 class paste_filter {
 public:
   /// What is to be read of these bytes. The beginning of a mark is kept until
-  /// the rest has come.
+  /// the rest has come, Escape too: it begins the keys of an editor, and means
+  /// nothing to it before the next one.
   std::string add(std::string_view bytes);
 
 private:
