@@ -5,6 +5,7 @@
 #include "tools/roscell/client/node_client.hpp"
 #include "tools/roscell/commands.hpp"
 #include "tools/roscell/exit_code.hpp"
+#include "tools/roscell/view/format.hpp"
 #include "tools/roscell/view/log_lines.hpp"
 #include "tools/roscell/view/terminal.hpp"
 
@@ -42,15 +43,18 @@ public:
   log_printer(const logs_options& options, const node_client& node,
               std::string instance, const std::string& prefix)
       : options_{options}, node_{node}, instance_{std::move(instance)},
-        lines_{prefix} {}
+        lines_{prefix, stdout_is_terminal() ? log_reader::terminal
+                                            : log_reader::program} {}
 
   void run() {
     if (options_.tail == 0 && !options_.follow)
-      return print_kept();
-    node_.follow(stream_path(), [this](std::string_view line) {
-      print(lines_.add(std::string{line} + "\n"));
-      return true;
-    });
+      print_kept();
+    else
+      node_.follow(stream_path(), [this](std::string_view line) {
+        print(lines_.add(std::string{line} + "\n"));
+        return true;
+      });
+    print(lines_.finish());
   }
 
 private:
@@ -109,7 +113,8 @@ std::string prefix_of(const instance_row& row,
   size_t width = 0;
   for (const auto& x : all)
     width = std::max(width, x.spec.step.size());
-  return row.spec.step + std::string(width - row.spec.step.size(), ' ') + " | ";
+  return printable(row.spec.step)
+         + std::string(width - row.spec.step.size(), ' ') + " | ";
 }
 
 int show_logs(const logs_options& options) {
@@ -138,7 +143,9 @@ void add_logs_command(CLI::App& app, action& chosen) {
       "logs", "Print the log of a skill instance, or of a whole task.");
   command->footer("The beginning of an instance's id is enough if no other one "
                   "begins so. Of a task each\nline stands behind the name of "
-                  "its step.\n\n"
+                  "its step. On a terminal it is without colours, and with ? "
+                  "for what would steer that;\nfiles and pipes get it as it "
+                  "is.\n\n"
                   "Examples:\n  roscell logs fleet-poses-camera-1a2b3c4d\n"
                   "  roscell logs -t -f --tail 20 fleet-poses");
   add_connection_options(*command, options->connection);

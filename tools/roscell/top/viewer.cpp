@@ -1,5 +1,6 @@
 #include "tools/roscell/top/viewer.hpp"
 
+#include "tools/roscell/view/log_lines.hpp"
 #include "tools/roscell/view/terminal.hpp"
 
 #include <poll.h>
@@ -134,8 +135,9 @@ void viewer::take(question_failed x) {
 void viewer::take(log_line x) {
   if (log_.size() >= most_log_lines)
     log_.erase(log_.begin(), log_.begin() + most_log_lines / 10);
-  std::replace(x.text.begin(), x.text.end(), '\t', ' ');
-  log_.push_back(std::move(x.text));
+  auto text = harmless_line(x.text);
+  std::replace(text.begin(), text.end(), '\t', ' ');
+  log_.push_back(std::move(text));
 }
 
 void viewer::follow_log() {

@@ -1,8 +1,77 @@
 #include "tools/roscell/view/log_lines.hpp"
 
+#include "tools/roscell/view/format.hpp"
+
+#include <algorithm>
+
 namespace roscell::cli {
 
+namespace {
+
+/// A line that is longer is shown in parts.
+constexpr size_t longest_kept = 1024 * 1024;
+
+/// Bytes of the colour that `text` begins with, "\x1b[1;31m"; 0: it is none.
+size_t colour_length(std::string_view text) {
+  constexpr std::string_view begin = "\x1b[";
+  if (text.substr(0, begin.size()) != begin)
+    return 0;
+  const auto end = text.find_first_not_of("0123456789;:", begin.size());
+  return end != text.npos && text[end] == 'm' ? end + 1 : 0;
+}
+
+} // namespace
+
+std::string harmless_line(std::string_view line) {
+  std::string result;
+  if (!line.empty() && line.back() == '\r')
+    line.remove_suffix(1);
+  while (!line.empty()) {
+    auto length = colour_length(line);
+    if (length == 0) {
+      const bool is_tab = line.front() == '\t';
+      length =
+          is_tab ? 1 : std::min(line.find_first_of("\t\x1b", 1), line.size());
+      result += is_tab ? "\t" : printable(line.substr(0, length));
+    }
+    line.remove_prefix(length);
+  }
+  return result;
+}
+
+namespace {
+
+std::string harmless_lines(std::string_view lines) {
+  std::string result;
+  while (!lines.empty()) {
+    const auto newline = std::min(lines.find('\n'), lines.size());
+    result += harmless_line(lines.substr(0, newline));
+    if (newline < lines.size())
+      result += '\n';
+    lines.remove_prefix(std::min(newline + 1, lines.size()));
+  }
+  return result;
+}
+
+} // namespace
+
 std::string log_lines::add(std::string_view part) {
+  if (reader_ == log_reader::program)
+    return prefixed(part);
+  kept_ += part;
+  auto end = kept_.rfind('\n') + 1;
+  if (end == 0 && kept_.size() > longest_kept)
+    end = kept_.size();
+  const auto whole = kept_.substr(0, end);
+  kept_.erase(0, end);
+  return prefixed(harmless_lines(whole));
+}
+
+std::string log_lines::finish() {
+  return prefixed(harmless_lines(std::exchange(kept_, {})));
+}
+
+std::string log_lines::prefixed(std::string_view part) {
   std::string result;
   while (!part.empty()) {
     const auto newline = part.find('\n');

@@ -2,21 +2,41 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace roscell::cli {
+
+/// A line of a log, without its end, as a terminal may get it: without colours,
+/// and with '?' for whatever else would steer it.
+std::string harmless_line(std::string_view line);
+
+/// Who reads a log.
+enum class log_reader {
+  program, ///< The text stays as it is.
+  terminal ///< Each line is a harmless one.
+};
 
 /// Puts a name before each line of a log, so that the logs of several instances
 /// can stand in one. A line may come in parts.
 class log_lines {
 public:
-  /// Before each line; empty: the text stays as it is.
-  explicit log_lines(std::string prefix) : prefix_{std::move(prefix)} {}
+  /// Before each line; empty: there is none.
+  log_lines(std::string prefix, log_reader reader)
+      : prefix_{std::move(prefix)}, reader_{reader} {}
 
-  /// What is to be printed of a part.
+  /// What is to be printed of a part. For a terminal a line is kept until its
+  /// end has come.
   std::string add(std::string_view part);
 
+  /// What is kept of a line that has no end.
+  std::string finish();
+
 private:
+  std::string prefixed(std::string_view part);
+
   std::string prefix_;
+  log_reader reader_;
+  std::string kept_;
   bool in_line_ = false;
 };
 

@@ -4,6 +4,7 @@
 #include "tools/roscell/common_options.hpp"
 #include "tools/roscell/exit_code.hpp"
 #include "tools/roscell/shell/words/words.hpp"
+#include "tools/roscell/view/format.hpp"
 #include "tools/roscell/view/terminal.hpp"
 #include "tools/roscell/view/views.hpp"
 
@@ -34,8 +35,8 @@ int show_tree(const tree_options& options) {
     return exit_done;
   }
   const auto node = reply.get<node_description>();
-  print(node.identity.name + ", " + to_string(node.role)
-        + (node.cell.empty() ? "" : " in cell " + node.cell) + "\n\n"
+  print(printable(node.identity.name) + ", " + to_string(node.role)
+        + (node.cell.empty() ? "" : " in cell " + printable(node.cell)) + "\n\n"
         + actors_view(node.actors, view_style_now()));
   return exit_done;
 }
