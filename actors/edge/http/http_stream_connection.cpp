@@ -36,6 +36,10 @@ public:
     stream_->close();
   }
 
+  void break_off() override {
+    stream_->break_off();
+  }
+
 private:
   std::shared_ptr<stream_connection> stream_;
 };
@@ -144,6 +148,14 @@ void stream_connection::cut() {
 void stream_connection::close() {
   open_ = false;
   core_->post([self = shared_from_this()] { self->finish(); });
+}
+
+void stream_connection::break_off() {
+  open_ = false;
+  core_->post([self = shared_from_this()] {
+    self->cut_ = true;
+    self->finish();
+  });
 }
 
 void stream_connection::finish() {

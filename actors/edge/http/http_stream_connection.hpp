@@ -18,7 +18,7 @@ namespace roscell {
 
 /// INTERNAL to this folder: a connection whose reply is a stream. It exists
 /// before it gets the socket, so that its owner can write at once. `write`,
-/// `close` and `on_closed` may be called from any thread.
+/// `close`, `break_off` and `on_closed` may be called from any thread.
 class stream_connection
     : public std::enable_shared_from_this<stream_connection> {
 public:
@@ -35,6 +35,7 @@ public:
 
   bool write(std::string chunk);
   void close();
+  void break_off();
   void on_closed(std::function<void()> callback);
 
   /// Ends it at once.
@@ -75,7 +76,7 @@ private:
   bool chunked_ = false;
   bool writing_ = false;
   bool last_ = false; ///< Nothing is appended any more.
-  bool cut_ = false;  ///< The reader was too slow.
+  bool cut_ = false;  ///< It gets no proper end.
   bool shut_down_ = false;
   bool over_ = false;
 };

@@ -23,6 +23,10 @@ public:
   void close() override {
     // nop
   }
+
+  void break_off() override {
+    // nop
+  }
 };
 
 } // namespace

@@ -70,6 +70,10 @@ public:
 
   /// Ends the stream after what was queued.
   virtual void close() = 0;
+
+  /// The same where more should have come: the reader sees that it has no
+  /// proper end.
+  virtual void break_off() = 0;
 };
 
 /// Where a reply goes. Implemented by the server, and by fakes in tests.

@@ -114,6 +114,24 @@ TEST_CASE("a stream is passed on as it comes, and ends with the browser",
         == std::future_status::ready);
 }
 
+TEST_CASE("a browser sees whether a stream has ended or was broken off",
+          "[dashboard]") {
+  bench x;
+  const auto follow_until = [&](auto end) {
+    return x.browser().follow("/s/v1/events",
+                              [&](std::string_view line) {
+                                if (line == "data: 1")
+                                  end();
+                                return true;
+                              },
+                              {});
+  };
+  CHECK(std::holds_alternative<http_reply>(
+      follow_until([&] { x.events->close(); })));
+  CHECK(std::holds_alternative<edge_error>(
+      follow_until([&] { x.node.reset(); })));
+}
+
 TEST_CASE("the dashboard is one page and what it loads", "[dashboard]") {
   const auto& pages = dashboard_pages();
   REQUIRE(pages.count("/dashboard/") == 1);

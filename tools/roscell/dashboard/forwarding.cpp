@@ -86,10 +86,12 @@ void pass_stream(const std::shared_ptr<io_core>& core, http_call call,
     return way->to->write(std::string{bytes});
   };
   calls.on_end = [way, call, answer](const http_outcome& outcome) {
-    if (way->to)
+    if (!way->to)
+      pass_on(call, answer, outcome);
+    else if (std::holds_alternative<http_reply>(outcome))
       way->to->close();
     else
-      pass_on(call, answer, outcome);
+      way->to->break_off();
   };
   way->from = subscribe_http(core, call, std::move(calls));
 }

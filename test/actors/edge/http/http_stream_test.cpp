@@ -67,6 +67,18 @@ TEST_CASE("a stream that its owner lets go of ends properly") {
         != std::string::npos);
 }
 
+TEST_CASE("a stream that is broken off has no proper end") {
+  http_fixture node;
+  raw_client client{node.socket_path()};
+  client.send("GET /follow HTTP/1.1\r\n\r\n");
+  const auto stream = node.requests.take().answer.stream("text/plain");
+  stream->write("only line\n");
+  stream->break_off();
+  const auto reply = client.read_to_end();
+  CHECK(reply.find("a\r\nonly line\n\r\n") == reply.size() - 15);
+  CHECK_FALSE(stream->write("more"));
+}
+
 TEST_CASE("a client of HTTP/1.0 gets a stream without chunks") {
   http_fixture node;
   raw_client client{node.socket_path()};
