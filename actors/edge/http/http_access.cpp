@@ -34,6 +34,17 @@ bool names_host(const http_access& access, const http::request_header<>& x) {
          || contains(access.hosts, value.substr(0, value.find(':')));
 }
 
+/// Whether a browser says that a page of somebody else asks. It may lead here,
+/// as a link does, but not have something done.
+bool is_of_foreign_page(const http::request_header<>& x) {
+  const auto origin = value_of(x, http::field::origin);
+  if (!origin.empty()
+      && origin != "http://" + std::string{value_of(x, http::field::host)})
+    return true;
+  const auto site = x["Sec-Fetch-Site"];
+  return x.method() != http::verb::get && site == "cross-site";
+}
+
 } // namespace
 
 bool http_access::has_secret(const std::string& path) const {
@@ -55,8 +66,14 @@ find_caller(const http_access& access, const http::request_header<>& x,
   if (!names_host(access, x))
     return http_refusal{403, error_code::unauthorized,
                         "this server is not called by that name", ""};
-  if (has_token(access, x) || access.has_secret(path))
+  if (has_token(access, x))
     return http_caller::trusted;
+  if (access.has_secret(path)) {
+    if (is_of_foreign_page(x))
+      return http_refusal{403, error_code::unauthorized,
+                          "a page from elsewhere may not ask this server", ""};
+    return http_caller::trusted;
+  }
   if (contains(access.public_paths, path))
     return http_caller::stranger;
   return http_refusal{

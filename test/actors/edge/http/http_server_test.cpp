@@ -90,9 +90,15 @@ struct browsed_server {
   }
 
   std::string get(const std::string& path, const std::string& host) const {
+    return ask("GET " + path, host, "");
+  }
+
+  /// @param more lines of the header.
+  std::string ask(const std::string& what, const std::string& host,
+                  const std::string& more) const {
     raw_client client{server->port()};
-    client.send("GET " + path + " HTTP/1.1\r\nHost: " + host
-                + "\r\nConnection: close\r\n\r\n");
+    client.send(what + " HTTP/1.1\r\nHost: " + host + "\r\n" + more
+                + "Connection: close\r\n\r\n");
     return client.read_to_end();
   }
 };
@@ -118,6 +124,34 @@ TEST_CASE("a name that leads here by chance is refused") {
   CHECK(has_status(x.get("/s3cret/page", "localhost"), "200"));
   for (const auto* host : {"evil.example", "127.0.0.1.evil.example", ""})
     CHECK(has_status(x.get("/s3cret/page", host), "403"));
+}
+
+TEST_CASE("a page from elsewhere has nothing done by the secret path") {
+  const browsed_server x;
+  const auto status_of = [&](const std::string& method,
+                             const std::string& more) {
+    return x.ask(method + " /s3cret/v1/requests", "127.0.0.1:80", more)
+        .substr(9, 3);
+  };
+  for (const auto* more :
+       {"", "Origin: http://127.0.0.1:80\r\n",
+        "Sec-Fetch-Site: same-origin\r\n",
+        "Origin: http://127.0.0.1:80\r\nSec-Fetch-Site: same-origin\r\n"})
+    CHECK(status_of("POST", more) == "200");
+  for (const auto* more :
+       {"Origin: http://evil.example\r\n", "Origin: null\r\n",
+        "Origin: http://127.0.0.1:81\r\n", "Origin: http://localhost:80\r\n",
+        "Origin: https://127.0.0.1:80\r\n", "Sec-Fetch-Site: cross-site\r\n"})
+    CHECK(status_of("POST", more) == "403");
+  CHECK(status_of("GET", "Origin: http://evil.example\r\n") == "403");
+}
+
+TEST_CASE("a link or a file may lead a browser to the secret path") {
+  const browsed_server x;
+  CHECK(has_status(x.ask("GET /s3cret/page", "127.0.0.1",
+                         "Sec-Fetch-Site: cross-site\r\n"
+                         "Sec-Fetch-Mode: navigate\r\n"),
+                   "200"));
 }
 
 TEST_CASE("a page may load nothing from elsewhere, nor be shown there") {
