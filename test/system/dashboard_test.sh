@@ -32,6 +32,49 @@ test_a_coordinator_shows_it_to_those_who_may_open_its_socket_only() {
   has_line '404 Not Found' "$scratch/said" || fail "$(head -n 3 "$scratch/said")"
 }
 
+# fake_browser: an `xdg-open` that tells what it was given and how, once.
+fake_browser() {
+  mkdir "$scratch/bin" "$scratch/home"
+  mkfifo "$scratch/opened"
+  cat > "$scratch/bin/xdg-open" << FAKE
+#!/bin/bash
+{
+  echo "\$*"
+  stat -c %a "\$1"
+  cat "\$1"
+  grep SigBlk: /proc/self/status
+  ps -o sid= \$\$
+} > "$scratch/opened"
+FAKE
+  chmod +x "$scratch/bin/xdg-open"
+}
+
+test_a_browser_is_led_to_the_dashboard_by_a_file_that_only_its_user_reads() {
+  local address file mode page blocked session dashboard address_fd
+  start_node head --coordinator --cell line --interface lo
+  fake_browser
+  mkfifo "$scratch/address"
+  exec {address_fd}<> "$scratch/address"
+  HOME=$scratch/home DISPLAY=:7 PATH=$scratch/bin:$PATH "$ROSCELL" dashboard \
+    --to "$scratch/head/node.sock" > "$scratch/address" 2> "$scratch/said" &
+  dashboard=$!
+  echo "$dashboard" >> "$scratch/pids"
+  read -r -t "$deadline_s" address <&"$address_fd" || fail "no address is said"
+  { read -r -t "$deadline_s" file && read -r mode && read -r page \
+      && read -r _ blocked && read -r session; } < "$scratch/opened" \
+    || fail "no browser is started"
+  [[ $file == "$scratch"/home/roscell-dashboard-*.html ]] || fail "it gets $file"
+  expect "mode of the file" "$mode" 600
+  [[ $page == *"url=$address\""* ]] || fail "it leads elsewhere: $page"
+  expect "signals that the browser cannot get" "$blocked" 0000000000000000
+  [[ $session -ne $(ps -o sid= "$dashboard") ]] || fail "Ctrl-C ends it, too"
+  curl -sS --max-time "$deadline_s" "$address" | has_line '<html' \
+    || fail "there is no page"
+  kill -TERM "$dashboard"
+  wait "$dashboard" || fail "it ends with $?"
+  expect "what is left" "$(ls "$scratch/home")" ''
+}
+
 . test/system/scenes/terminal.sh
 
 # open_top WIDTH HEIGHT [NODE]: `roscell top` of that node, else `head`, run by a

@@ -13,6 +13,7 @@
 #include <CLI/CLI.hpp>
 
 #include <memory>
+#include <optional>
 #include <variant>
 
 namespace roscell::cli {
@@ -62,9 +63,13 @@ int show_dashboard(const dashboard_options& options) {
   const auto url = "http://127.0.0.1:" + std::to_string(server->port()) + "/"
                    + secret + "/dashboard/";
   print(url + "\n");
-  if (!options.no_browser && !open_page(url))
-    print_note("no browser was found here: open this address in one on this "
-               "machine");
+  std::optional<opened_page> page;
+  if (!options.no_browser)
+    print_note(page.emplace(url).has_begun()
+                   ? "if no page comes, open this address in a browser on this "
+                     "machine"
+                   : "no browser was found here: open this address in one on "
+                     "this machine");
   print_note("Ctrl-C ends it");
   signals.wait();
   return exit_done;

@@ -1,15 +1,18 @@
 #include "tools/roscell/shell/child.hpp"
 
 #include "actors/edge/io/unique_fd.hpp"
+#include "actors/edge/process/pidfd.hpp"
+#include "tools/roscell/child_setup.hpp"
 #include "tools/roscell/exit_code.hpp"
 #include "tools/roscell/view/terminal.hpp"
 
-#include <fcntl.h>
-#include <spawn.h>
+#include <poll.h>
 #include <sys/mman.h>
+#include <sys/signalfd.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
@@ -22,31 +25,32 @@ namespace {
 
 constexpr int by_signal = 128;
 
-/// How a child is started: with this standard input, and signals as usual.
-class child_setup {
-public:
-  child_setup() {
-    posix_spawn_file_actions_init(&files);
-    posix_spawnattr_init(&attributes);
-    sigset_t none{};
-    sigemptyset(&none);
-    posix_spawnattr_setsigmask(&attributes, &none);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK);
+/// Waits for its end. What is to end this process ends the child before.
+void await_child(pid_t child) {
+  sigset_t ending{};
+  sigemptyset(&ending);
+  sigaddset(&ending, SIGTERM);
+  sigaddset(&ending, SIGHUP);
+  const unique_fd ended{pidfd_open(child, 0)};
+  const unique_fd asked{signalfd(-1, &ending, SFD_CLOEXEC | SFD_NONBLOCK)};
+  std::array<pollfd, 2> fds{
+      {{ended.get(), POLLIN, 0}, {asked.get(), POLLIN, 0}}};
+  int last = 0;
+  while (ended && fds[0].revents == 0) {
+    poll(fds.data(), fds.size(), -1);
+    signalfd_siginfo taken{};
+    if (::read(asked.get(), &taken, sizeof taken) == sizeof taken) {
+      last = static_cast<int>(taken.ssi_signo);
+      kill(child, last);
+    }
   }
-
-  ~child_setup() {
-    posix_spawn_file_actions_destroy(&files);
-    posix_spawnattr_destroy(&attributes);
-  }
-
-  child_setup(const child_setup&) = delete;
-  child_setup& operator=(const child_setup&) = delete;
-
-  posix_spawn_file_actions_t files{};
-  posix_spawnattr_t attributes{};
-};
+  // It is still meant for us.
+  if (last != 0)
+    std::raise(last);
+}
 
 int end_of_child(pid_t child) {
+  await_child(child);
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
     // A signal that the shell takes itself is no end.
@@ -99,8 +103,7 @@ int run_child(const connection_options& connection, const std::string& line,
               child_input input) {
   child_setup setup;
   if (input == child_input::nothing)
-    posix_spawn_file_actions_addopen(&setup.files, STDIN_FILENO, "/dev/null",
-                                     O_RDONLY, 0);
+    setup.read_nothing();
   auto words = connection_words(connection);
   words.insert(words.begin(), "shell");
   words.insert(words.end(), {"-c", line});
