@@ -375,6 +375,36 @@ test_a_shell_at_a_terminal_completes_follows_and_asks() {
     || fail "$(cat "$scratch/state/roscell/history")"
 }
 
+test_a_shell_of_a_member_knows_what_its_coordinator_knows() {
+  start_node head --coordinator --cell line --interface lo
+  start_node arm --interface lo --join "$(discovery_of head)"
+  await_joined head arm
+  echo_task greeting | to head request > /dev/null
+  open_shell arm
+  sees 'arm@line> '
+  type_in 'tree he\t\r'
+  sees 'cell-coordinator' 'arm@line> '
+  type_in 'why gree\t\r'
+  sees "task 'greeting' was placed so" 'arm@line> '
+  type_in 'trace gree\t\r'
+  sees 'record_intent' 'arm@line> '
+}
+
+test_the_words_of_a_shell_may_follow_the_name_of_the_program() {
+  start_node head --coordinator --cell line --interface lo
+  open_shell head
+  sees 'head@line> '
+  type_in 'roscell foll\t\r'
+  sees 'shows all events' 'head@line> '
+  type_in 'roscell tree\r'
+  sees 'cell-coordinator' 'head@line> '
+  type_in 'roscell exit\r'
+  timeout "$deadline_s" tail --pid="$shell_pid" -f /dev/null \
+    || fail "it does not end"
+  printf '%s\n' 'roscell exit' nonsense > "$scratch/script"
+  to head shell < "$scratch/script" || fail "a script does not end either"
+}
+
 test_a_shell_looks_for_a_node_that_is_lost() {
   start_node head --coordinator --cell line --interface lo
   open_shell head

@@ -35,6 +35,7 @@ TEST_CASE("the shell completes commands and its own words", "[shell]") {
   CHECK(offered("no") == words{"node", "nodes"});
   CHECK(offered("  tas") == words{"tasks"});
   CHECK(offered("skills n") == words{"new"});
+  CHECK(offered("roscell tre") == words{"tree"});
   CHECK(offered("xyz").empty());
   const auto all = offered("");
   CHECK(std::count(all.begin(), all.end(), "follow") == 1);

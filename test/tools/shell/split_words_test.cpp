@@ -51,3 +51,10 @@ TEST_CASE("a quoted word is split into itself", "[shell]") {
     CHECK(split_words(quoted_word(word)).words == words{word});
   CHECK(quoted_word("--to=/a/b.c:1") == "--to=/a/b.c:1");
 }
+
+TEST_CASE("a line may begin with the name of the program", "[shell]") {
+  CHECK(without_program({"roscell", "exit"}) == words{"exit"});
+  CHECK(without_program({"roscell"}).empty());
+  CHECK(without_program({"logs", "roscell"}) == words{"logs", "roscell"});
+  CHECK(without_program({}).empty());
+}

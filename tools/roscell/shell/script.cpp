@@ -24,8 +24,8 @@ public:
   std::optional<int> take(const std::string& line) {
     if (request_.is_open() || json_collector::begins(line))
       return take_json(line);
-    const auto words = split_words(line).words;
-    if (words.empty() || words.front().front() == '#')
+    const auto words = without_program(split_words(line).words);
+    if (words.empty() || words.front().rfind('#', 0) == 0)
       return std::nullopt;
     ends_ = words.front() == "exit" || words.front() == "quit";
     return run_child(connection_, line, child_input::nothing);

@@ -114,7 +114,7 @@ private:
     if (request_.is_open() || json_collector::begins(line))
       return take_json(line);
     editor_.remember(line.substr(0, line.find_last_not_of(" \t") + 1));
-    const auto words = split_words(line).words;
+    const auto words = without_program(split_words(line).words);
     if (words.empty())
       return;
     if (changes_shell(words))
@@ -124,7 +124,7 @@ private:
     end_command();
   }
 
-  /// The terminal shows ^C where the cursor was. Who asks a node that is lost
+  /// The terminal shows ^C or ^\ where the cursor was. Who asks a node that is lost
   /// expects it back.
   void end_command() {
     events_.look_now();

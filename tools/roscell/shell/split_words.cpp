@@ -84,6 +84,12 @@ split_line split_words(std::string_view line) {
   return result;
 }
 
+std::vector<std::string> without_program(std::vector<std::string> words) {
+  if (!words.empty() && words.front() == "roscell")
+    words.erase(words.begin());
+  return words;
+}
+
 std::string quoted_word(const std::string& word) {
   if (!word.empty() && word.find_first_not_of(plain_letters) == word.npos)
     return word;

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <utility>
 
 namespace roscell::cli {
 
@@ -44,7 +45,6 @@ void refuse_misplaced(const std::vector<std::string>& words) {
                         "a service"};
 }
 
-/// The words of a line, which may begin with `roscell` from habit.
 std::vector<std::string> words_of(const std::string& line) {
   auto split = split_words(line);
   if (split.open != '\0')
@@ -53,9 +53,7 @@ std::vector<std::string> words_of(const std::string& line) {
                             ? std::string{"nothing stands behind the last \\"}
                             : "the quote " + std::string(1, split.open)
                                   + " is not closed"};
-  if (!split.words.empty() && split.words.front() == "roscell")
-    split.words.erase(split.words.begin());
-  return split.words;
+  return without_program(std::move(split.words));
 }
 
 } // namespace

@@ -196,7 +196,7 @@ completions complete(const CLI::App& app, std::string_view line,
     begun = std::move(split.words.back());
     split.words.pop_back();
   }
-  auto place = place_after(app, split.words);
+  auto place = place_after(app, without_program(std::move(split.words)));
   const auto head = take_option(place, begun);
   completions result;
   result.begin = split.last_begin;
