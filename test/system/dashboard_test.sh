@@ -223,6 +223,48 @@ test_top_leaves_the_terminal_as_it_was() {
   ended_with 0
 }
 
+test_top_within_a_shell_is_not_stopped() {
+  start_line
+  open_terminal 80 24
+  run_here "$ROSCELL shell --to $scratch/head/node.sock"
+  await_screen '^head@line>$'
+  type_keys top Enter
+  await_screen '^>arm +active'
+  type_keys C-z Tab
+  await_screen '^>TASK'
+  type_keys q
+  await_screen '^head@line>$'
+  type_keys C-d
+  ended_with 0
+}
+
+test_a_shell_that_is_told_to_end_leaves_the_terminal_as_it_was() {
+  start_node head --coordinator --cell line --interface lo
+  open_terminal 80 24
+  local way
+  for way in TERM HUP QUIT; do
+    run_here "$ROSCELL shell --to $scratch/head/node.sock"
+    await_screen '^head@line>$'
+    type_keys 'stop nothing'
+    await_screen '^head@line> stop nothing$'
+    signal_program $way
+    ended_with 0
+    on_screen | has_line 'roscell:' && fail "a line that was begun is done"
+  done
+  run_here "$ROSCELL shell --to $scratch/head/node.sock"
+  await_screen '^head@line>$'
+  type_keys 'events --since 0' Enter
+  await_screen 'node_started'
+  # Ctrl-\ ends the command only, SIGTERM the shell with it.
+  type_keys 'C-\'
+  await_screen '^head@line>$'
+  tmux send-keys -t it -R \; clear-history -t it
+  type_keys 'events --since 0' Enter
+  await_screen 'node_started'
+  signal_program TERM
+  ended_with 0
+}
+
 test_top_needs_a_terminal_but_a_poor_one_will_do() {
   local locale=C code=0
   "$ROSCELL" top < /dev/null > "$scratch/said" 2>&1 || code=$?

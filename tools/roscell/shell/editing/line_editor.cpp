@@ -31,8 +31,8 @@ constexpr size_t most_listed = 200;
 sigset_t editor_signals() {
   sigset_t result{};
   sigemptyset(&result);
-  sigaddset(&result, SIGINT);
-  sigaddset(&result, SIGWINCH);
+  for (const auto x : {SIGINT, SIGWINCH, SIGQUIT, SIGTERM, SIGHUP})
+    sigaddset(&result, x);
   return result;
 }
 
@@ -64,6 +64,8 @@ line_editor::line_editor(editor_calls calls, history_file& kept)
 }
 
 line_editor::~line_editor() {
+  // A signal that still waits may end the process here.
+  editor_.reset();
   const auto taken = editor_signals();
   pthread_sigmask(SIG_UNBLOCK, &taken, nullptr);
 }
@@ -90,6 +92,8 @@ void line_editor::set_up_editor() {
 
 line_editor::outcome line_editor::read(std::string& line) {
   interrupted_ = false;
+  if (at_end_)
+    return outcome::ended;
   std::fwrite(tell_pastes.data(), 1, tell_pastes.size(), stdout);
   // Before the prompt: what is typed as soon as that is seen, Ctrl-D above all,
   // would still be taken by the terminal itself.
@@ -99,7 +103,7 @@ line_editor::outcome line_editor::read(std::string& line) {
   print(tell_no_pastes);
   if (interrupted_)
     return outcome::interrupted;
-  if (text == nullptr || count <= 0)
+  if (at_end_ || text == nullptr || count <= 0)
     return outcome::ended;
   line.assign(text, static_cast<size_t>(count));
   while (!line.empty() && (line.back() == '\n' || line.back() == '\r'))
@@ -114,7 +118,9 @@ void line_editor::remember(const std::string& line) {
 }
 
 bool line_editor::forget_interrupts() {
-  return take_signals();
+  const auto taken = take_signals();
+  at_end_ = at_end_ || taken.ended;
+  return taken.interrupted || taken.quit;
 }
 
 char* line_editor::prompt_of(EditLine* editor) {
@@ -154,7 +160,7 @@ int line_editor::take_character(wchar_t& to) {
 }
 
 /// Waits until something is typed, and shows meanwhile what is new. False after
-/// Ctrl-C and at the end.
+/// Ctrl-C and at the end, which Ctrl-\ is where no command takes it.
 bool line_editor::await_bytes() {
   while (bytes_.empty() && !interrupted_ && !at_end_) {
     std::array<pollfd, 3> fds{{{signals_.get(), POLLIN, 0},
@@ -162,25 +168,36 @@ bool line_editor::await_bytes() {
                                {STDIN_FILENO, POLLIN, 0}}};
     if (poll(fds.data(), fds.size(), -1) < 0)
       continue;
-    if (fds[0].revents != 0)
-      interrupted_ = take_signals();
+    if (fds[0].revents != 0) {
+      const auto taken = take_signals();
+      interrupted_ = taken.interrupted;
+      at_end_ = taken.ended || taken.quit;
+    }
     if (fds[1].revents != 0)
       show_above();
     if (fds[2].revents != 0)
-      at_end_ = !read_bytes();
+      at_end_ = !read_bytes() || at_end_;
   }
-  return !bytes_.empty() && !interrupted_;
+  return !bytes_.empty() && !interrupted_ && !at_end_;
 }
 
-/// Whether Ctrl-C was among them.
-bool line_editor::take_signals() {
-  bool result = false;
+line_editor::taken_signals line_editor::take_signals() {
+  taken_signals result;
   for (signalfd_siginfo taken{};
-       ::read(signals_.get(), &taken, sizeof taken) > 0;) {
-    result = result || taken.ssi_signo == SIGINT;
-    if (taken.ssi_signo == SIGWINCH)
+       ::read(signals_.get(), &taken, sizeof taken) > 0;)
+    switch (taken.ssi_signo) {
+    case SIGWINCH:
       el_resize(editor_.get());
-  }
+      break;
+    case SIGINT:
+      result.interrupted = true;
+      break;
+    case SIGQUIT:
+      result.quit = true;
+      break;
+    default:
+      result.ended = true;
+    }
   return result;
 }
 

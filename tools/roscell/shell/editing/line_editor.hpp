@@ -27,9 +27,9 @@ struct editor_calls {
 
 /// Reads lines from a terminal: they can be edited, come back from the history,
 /// and are completed by Tab. What is new is shown above the line that is being
-/// typed. Takes SIGINT and SIGWINCH as long as it lives, and the language of
-/// the terminal, both for the whole process: it must be made before any thread
-/// is.
+/// typed. Takes SIGWINCH and what ends a program as long as it lives, and the
+/// language of the terminal, both for the whole process: it must be made before
+/// any thread is.
 class line_editor {
 public:
   enum class outcome { line, interrupted, ended };
@@ -40,13 +40,15 @@ public:
   line_editor(const line_editor&) = delete;
   line_editor& operator=(const line_editor&) = delete;
 
-  /// Reads one line, without its end.
+  /// Reads one line, without its end. At the end, which SIGTERM and SIGHUP are,
+  /// too, the terminal is as it was.
   outcome read(std::string& line);
 
   /// A line that the history gives back from now on.
   void remember(const std::string& line);
 
-  /// Whether there was a Ctrl-C that was meant for a command; it is forgotten.
+  /// Whether there was a Ctrl-C or Ctrl-\ that was meant for a command; they
+  /// are forgotten.
   bool forget_interrupts();
 
   /// Prints what is new; between two lines.
@@ -64,12 +66,18 @@ private:
     }
   };
 
+  struct taken_signals {
+    bool interrupted = false; ///< Ctrl-C.
+    bool quit = false;        ///< Ctrl-\.
+    bool ended = false;       ///< SIGTERM or SIGHUP.
+  };
+
   static char* prompt_of(EditLine* editor);
   static int next_character(EditLine* editor, wchar_t* to);
 
   void set_up_editor();
   bool await_bytes();
-  bool take_signals();
+  taken_signals take_signals();
   bool read_bytes();
   int take_character(wchar_t& to);
   void show_above();
