@@ -50,18 +50,18 @@ FAKE
 }
 
 test_a_browser_is_led_to_the_dashboard_by_a_file_that_only_its_user_reads() {
-  local address file mode page blocked session dashboard address_fd
+  local address file mode page blocked session dashboard address_fd opened_fd
   start_node head --coordinator --cell line --interface lo
   fake_browser
   mkfifo "$scratch/address"
-  exec {address_fd}<> "$scratch/address"
+  exec {address_fd}<> "$scratch/address" {opened_fd}<> "$scratch/opened"
   HOME=$scratch/home DISPLAY=:7 PATH=$scratch/bin:$PATH "$ROSCELL" dashboard \
     --to "$scratch/head/node.sock" > "$scratch/address" 2> "$scratch/said" &
   dashboard=$!
   echo "$dashboard" >> "$scratch/pids"
   read -r -t "$deadline_s" address <&"$address_fd" || fail "no address is said"
   { read -r -t "$deadline_s" file && read -r mode && read -r page \
-      && read -r _ blocked && read -r session; } < "$scratch/opened" \
+      && read -r _ blocked && read -r session; } <&"$opened_fd" \
     || fail "no browser is started"
   [[ $file == "$scratch"/home/roscell-dashboard-*.html ]] || fail "it gets $file"
   expect "mode of the file" "$mode" 600
