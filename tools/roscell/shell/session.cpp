@@ -124,8 +124,8 @@ private:
     end_command();
   }
 
-  /// The terminal shows ^C or ^\ where the cursor was. Who asks a node that is lost
-  /// expects it back.
+  /// The terminal shows ^C or ^\ where the cursor was. Who asks a node that is
+  /// lost expects it back.
   void end_command() {
     events_.look_now();
     if (editor_.forget_interrupts())
