@@ -48,8 +48,8 @@ return [...document.querySelectorAll('button, a[href], input, select, textarea')
   .map((x) => x.outerHTML.slice(0, 120));
 """
 
-# What a page of another origin tries: to send without the secret, and even with it to
-# read, and to look into a frame.
+# What a page of another origin tries, even with the secret: to send, with and without
+# a look at the answer, to read, and to look into a frame.
 TRESPASS = """
 const [base, secret, request, done] = arguments;
 const tries = [
@@ -58,8 +58,8 @@ const tries = [
   ['send', () => fetch(base + '/v1/requests', {method: 'POST', body: request}).then((x) => x.text())],
   ['send as JSON', () => fetch(base + '/v1/requests',
     {method: 'POST', body: request, headers: {'Content-Type': 'application/json'}}).then((x) => x.text())],
-  ['send without a look at the answer', () => fetch(base + '/v1/requests',
-    {method: 'POST', mode: 'no-cors', body: request}).then(() => Promise.reject())],
+  ...[base, secret].map((where) => ['send without a look at the answer', () => fetch(where + '/v1/requests',
+    {method: 'POST', mode: 'no-cors', body: request}).then(() => Promise.reject())]),
 ];
 const frame = document.createElement('iframe');
 frame.src = secret + '/dashboard/';
