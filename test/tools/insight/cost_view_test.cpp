@@ -42,6 +42,16 @@ TEST_CASE("Before any time has passed there is no rate", "[tools]") {
   CHECK(tells_of(text, "base  minute    0s        0  1 MiB"));
 }
 
+TEST_CASE("What a node writes at its start is not told as that of a day",
+          "[tools]") {
+  const auto text = [](double span_s) {
+    return cost_view({{{"base", {{"minute", span_s, 0, mib, 60, {}}}, ""}}},
+                     {});
+  };
+  CHECK_FALSE(tells_of(text(59), " KiB "));
+  CHECK(tells_of(text(60), " KiB "));
+}
+
 TEST_CASE("Why a node's cost is not known is told below the others",
           "[tools]") {
   const auto text =

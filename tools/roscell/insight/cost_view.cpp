@@ -23,6 +23,13 @@ std::string rate_text(double bytes, const cost_window& x) {
   return format_number(rate(bytes, x), 1);
 }
 
+/// What a node writes at its start says nothing of a day.
+std::string written_a_day(const cost_window& x) {
+  constexpr double least_s = 60;
+  return x.span_s < least_s ? "-"
+                            : format_bytes(day_s * rate(x.written_bytes, x));
+}
+
 /// "arm 19.2/18.9, leg 19.3/19"
 std::string peers_text(const cost_window& x) {
   std::vector<std::string> words;
@@ -45,7 +52,7 @@ std::vector<std::string> row_of(const std::string& node, const cost_window& x) {
           format_age(span),
           format_number(100 * rate(x.cpu_s, x)),
           format_memory(x.pss_bytes / mib),
-          format_bytes(day_s * rate(x.written_bytes, x)),
+          written_a_day(x),
           rate_text(sent_bytes, x),
           rate_text(received_bytes, x),
           peers_text(x)};
