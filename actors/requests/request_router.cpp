@@ -7,7 +7,6 @@
 #include "schemas/document.hpp"
 #include "schemas/message_catalogue.hpp"
 
-#include <algorithm>
 #include <chrono>
 #include <functional>
 #include <utility>
@@ -26,54 +25,21 @@ request_routed refusal(request_router_self self, const failure& why) {
           to_string(why.code)};
 }
 
-/// Removes a remembered request and gives those who wait for it.
-std::vector<promise_type> forget_answer(request_router_self self,
-                                        const std::string& id) {
-  auto& st = self->state;
-  auto i = st.remembered.find(id);
-  if (i == st.remembered.end())
-    return {};
-  auto waiting = std::move(i->second.waiting);
-  st.remembered_bytes -= i->second.body.size() + i->second.reply.size();
-  st.remembered.erase(i);
-  auto& order = st.remembered_order;
-  order.erase(std::remove(order.begin(), order.end(), id), order.end());
-  return waiting;
-}
-
-/// Drops the oldest finished answers beyond the limit.
-void trim(request_router_self self) {
-  auto& st = self->state;
-  while (st.remembered.size() > limits::request::remembered
-         || st.remembered_bytes > limits::request::remembered_bytes) {
-    auto i = std::find_if(
-        st.remembered_order.begin(), st.remembered_order.end(),
-        [&](const auto& id) { return !st.remembered.at(id).reply.empty(); });
-    if (i == st.remembered_order.end())
-      return;
-    const auto id = *i;
-    forget_answer(self, id);
-  }
-}
-
+/// Answers a request, and whoever has sent it again meanwhile.
 void answer_request(request_router_self self, const std::string& id,
                     promise_type promise, const request_routed& reply) {
+  auto& st = self->state;
   promise.deliver(reply);
   if (id.empty())
     return;
-  if (reply.refusal.empty()) {
-    auto& entry = self->state.remembered[id];
-    entry.reply = reply.text;
-    self->state.remembered_bytes += reply.text.size();
-    for (auto& other : entry.waiting)
+  if (reply.refusal.empty())
+    st.memory.finish(id, reply.text);
+  else
+    st.memory.forget(id);
+  auto others = st.waiting.extract(id);
+  if (!others.empty())
+    for (auto& other : others.mapped())
       other.deliver(reply);
-    entry.waiting.clear();
-    trim(self);
-  } else {
-    // A refused request may be tried again under its id.
-    for (auto& other : forget_answer(self, id))
-      other.deliver(reply);
-  }
 }
 
 /// A refusal before anybody works on the request. A scraper does not want a
@@ -178,25 +144,31 @@ void dispatch(request_router_self self, const request_runner& run,
           });
 }
 
-/// Handles a `request_id` that has been seen. True if that settles it.
+/// Handles a request with an id. False if it is to be worked on.
 bool recall(request_router_self self, const std::string& type,
             const std::string& id, const std::string& body,
             promise_type& promise) {
-  auto i = self->state.remembered.find(id);
-  if (i == self->state.remembered.end())
+  using standing = answer_memory::standing;
+  auto& st = self->state;
+  switch (st.memory.look(id, body)) {
+  case standing::unknown:
+    st.memory.begin(id, body);
     return false;
-  auto& known = i->second;
-  if (known.body != body)
-    promise.deliver(
-        refuse_early(self,
-                     {error_code::conflict,
-                      "request_id '" + id + "' was used for another request",
-                      "/request_id", "choose an id that has not been used"},
-                     type));
-  else if (known.reply.empty())
-    known.waiting.push_back(promise);
-  else
-    promise.deliver(request_routed{known.reply, ""});
+  case standing::begun:
+    st.waiting[id].push_back(promise);
+    return true;
+  case standing::answered:
+    promise.deliver(request_routed{st.memory.answer(id), ""});
+    return true;
+  case standing::taken:
+    break;
+  }
+  promise.deliver(
+      refuse_early(self,
+                   {error_code::conflict,
+                    "request_id '" + id + "' was used for another request",
+                    "/request_id", "choose an id that has not been used"},
+                   type));
   return true;
 }
 
@@ -273,14 +245,8 @@ caf::result<request_routed> route(request_router_self self,
     return pass_on(self, type, document);
   const auto id = document.value("request_id", "");
   auto promise = self->make_response_promise<request_routed>();
-  if (!id.empty()) {
-    const auto body = document.dump();
-    if (recall(self, type, id, body, promise))
-      return promise;
-    st.remembered[id].body = body;
-    st.remembered_bytes += body.size();
-    st.remembered_order.push_back(id);
-  }
+  if (!id.empty() && recall(self, type, id, document.dump(), promise))
+    return promise;
   dispatch(self, *run, id, std::move(document), promise);
   return promise;
 }
@@ -300,7 +266,7 @@ request_router(request_router_self self,
         const auto& st = self->state;
         return state_of({{"routed", st.routed},
                          {"refused", st.refused},
-                         {"remembered", st.remembered.size()}});
+                         {"remembered", st.memory.size()}});
       },
       [self](const route_request& request) { return route(self, request); },
   };

@@ -1,25 +1,18 @@
 #pragma once
 
+#include "actors/requests/answer_memory.hpp"
 #include "actors/requests/request_registry.hpp"
 
 #include <caf/actor_addr.hpp>
 #include <caf/typed_response_promise.hpp>
 
 #include <chrono>
-#include <deque>
 #include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace roscell {
-
-/// A request with a `request_id`: the same one again gets the same answer.
-struct remembered_request {
-  std::string body;
-  std::string reply; ///< Empty while it is being worked on.
-  std::vector<caf::typed_response_promise<request_routed>> waiting;
-};
 
 /// A request that a pipeline works on.
 struct running_request {
@@ -32,15 +25,17 @@ struct running_request {
   caf::typed_response_promise<request_routed> promise;
 };
 
-/// Owns the registry of requests and the answers of those that carry an id.
+/// Owns the registry of requests and who waits for which answer.
 struct request_router_state {
   static constexpr const char* name = "request-router";
 
   std::shared_ptr<const request_registry> registry;
   std::shared_ptr<const node_services> services;
-  std::map<std::string, remembered_request> remembered;
-  std::deque<std::string> remembered_order;
-  size_t remembered_bytes = 0;
+  answer_memory memory;
+  /// Who has sent a request again that is still worked on, by its id.
+  std::map<std::string,
+           std::vector<caf::typed_response_promise<request_routed>>>
+      waiting;
   std::map<caf::actor_addr, running_request> running; ///< By pipeline.
   uint64_t routed = 0;
   uint64_t refused = 0;
