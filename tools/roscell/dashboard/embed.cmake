@@ -19,6 +19,8 @@ string(CONCAT rows "      {\"/dashboard\",\n"
   "       {\"${type_html}\", R\"~page~(${redirection})~page~\"}},\n")
 foreach(file IN LISTS files)
   file(READ ${PAGES}/${file} text)
+  # Indentation helps whoever reads the files, and no browser.
+  string(REGEX REPLACE "\n +" "\n" text "${text}")
   string(REGEX REPLACE ".*[.]" "" ending ${file})
   string(REGEX REPLACE "^index[.]html$" "" path ${file})
   string(APPEND rows "      {\"/dashboard/${path}\",\n"
