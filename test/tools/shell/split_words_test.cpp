@@ -1,5 +1,7 @@
 #include "tools/roscell/shell/split_words.hpp"
 
+#include "tools/roscell/view/shell_word.hpp"
+
 #include <catch2/catch.hpp>
 
 using namespace roscell::cli;
@@ -48,8 +50,8 @@ TEST_CASE("the word that a line ends in is known by its place", "[shell]") {
 
 TEST_CASE("a quoted word is split into itself", "[shell]") {
   for (const std::string word : {"plain", "a b", "it's", "", "a\"b\\c", "$x;#"})
-    CHECK(split_words(quoted_word(word)).words == words{word});
-  CHECK(quoted_word("--to=/a/b.c:1") == "--to=/a/b.c:1");
+    CHECK(split_words(shell_word(word)).words == words{word});
+  CHECK(shell_word("--to=/a/b.c:1") == "--to=/a/b.c:1");
 }
 
 TEST_CASE("a line may begin with the name of the program", "[shell]") {

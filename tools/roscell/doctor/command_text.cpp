@@ -6,14 +6,10 @@
 #include <unistd.h>
 
 #include <array>
-#include <string_view>
 
 namespace roscell::cli {
 
 namespace {
-
-constexpr std::string_view plain_letters =
-    "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./:=,@%+";
 
 /// Anything else might be an option of ssh.
 bool is_host(const std::string& text) {
@@ -23,15 +19,6 @@ bool is_host(const std::string& text) {
 }
 
 } // namespace
-
-std::string shell_word(const std::string& word) {
-  if (!word.empty() && word.find_first_not_of(plain_letters) == word.npos)
-    return word;
-  std::string result = "'";
-  for (const char x : word)
-    result += x == '\'' ? std::string{"'\\''"} : std::string{x};
-  return result + "'";
-}
 
 std::string on_host(const std::string& address, const std::string& command) {
   return "ssh -t " + (is_host(address) ? address : "ADDRESS") + " "

@@ -1,14 +1,14 @@
 #pragma once
 
+#include "tools/roscell/view/shell_word.hpp"
+
+#include <cstddef>
 #include <string>
 
-/// Commands that are shown to be pasted into a shell.
+/// Commands that are shown to be pasted into a shell. Names in them are
+/// `shell_word`s: they come from folders that every user may write to, from
+/// other hosts and from ROS 2 programs.
 namespace roscell::cli {
-
-/// A word that the shell takes as it is: names come from folders that every
-/// user may write to, from other hosts and from ROS 2 programs. `quoted_word`
-/// is for a shell of our own, which expands nothing.
-std::string shell_word(const std::string& word);
 
 /// The same command, for another host than the one where it is pasted.
 std::string on_host(const std::string& address, const std::string& command);

@@ -7,9 +7,6 @@ namespace roscell::cli {
 namespace {
 
 constexpr std::string_view word_blanks = " \t\r\n";
-constexpr std::string_view plain_letters =
-    "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
-    "-_./:=,@%+~[]{}*?!^";
 
 /// Reads a line byte by byte.
 class word_splitter {
@@ -88,15 +85,6 @@ std::vector<std::string> without_program(std::vector<std::string> words) {
   if (!words.empty() && words.front() == "roscell")
     words.erase(words.begin());
   return words;
-}
-
-std::string quoted_word(const std::string& word) {
-  if (!word.empty() && word.find_first_not_of(plain_letters) == word.npos)
-    return word;
-  std::string result = "'";
-  for (const char x : word)
-    result += x == '\'' ? std::string{"'\\''"} : std::string{x};
-  return result + "'";
 }
 
 } // namespace roscell::cli

@@ -23,7 +23,4 @@ split_line split_words(std::string_view line);
 /// The words of a line without the `roscell` that it may begin with from habit.
 std::vector<std::string> without_program(std::vector<std::string> words);
 
-/// A word so that `split_words` gives it back; as it is where it may be.
-std::string quoted_word(const std::string& word);
-
 } // namespace roscell::cli

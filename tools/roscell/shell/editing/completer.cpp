@@ -2,6 +2,7 @@
 
 #include "tools/roscell/commands/completion.hpp"
 #include "tools/roscell/shell/split_words.hpp"
+#include "tools/roscell/view/shell_word.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -230,7 +231,7 @@ std::string replacement(const completions& found) {
   if (certain.empty())
     return {};
   const bool is_whole = found.words.size() == 1 && !found.goes_on;
-  return quoted_word(certain) + (is_whole ? " " : "");
+  return shell_word(certain) + (is_whole ? " " : "");
 }
 
 } // namespace roscell::cli
