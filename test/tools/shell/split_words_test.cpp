@@ -1,6 +1,6 @@
 #include "tools/roscell/shell/split_words.hpp"
 
-#include "tools/roscell/view/shell_word.hpp"
+#include "tools/roscell/shell_word.hpp"
 
 #include <catch2/catch.hpp>
 

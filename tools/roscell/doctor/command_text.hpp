@@ -1,6 +1,6 @@
 #pragma once
 
-#include "tools/roscell/view/shell_word.hpp"
+#include "tools/roscell/shell_word.hpp"
 
 #include <cstddef>
 #include <string>

@@ -2,7 +2,7 @@
 
 #include "tools/roscell/commands/completion.hpp"
 #include "tools/roscell/shell/split_words.hpp"
-#include "tools/roscell/view/shell_word.hpp"
+#include "tools/roscell/shell_word.hpp"
 
 #include <CLI/CLI.hpp>
 

@@ -1,4 +1,4 @@
-#include "tools/roscell/view/shell_word.hpp"
+#include "tools/roscell/shell_word.hpp"
 
 #include <string_view>
 
