@@ -53,31 +53,45 @@ set(ROSCELL_PRIVATE_FOLDER lib/roscell)
 
 # roscell_unity(target): compiles the sources of each folder together, a few at
 # a time, so that a template over messages is instantiated once for all of them.
-# A small batch keeps the wait after a change of one file short.
+# A small batch keeps the wait after a change of one file short. CMake's own unity
+# sources name the tree's place, so that no other clone of it would find their
+# objects in ccache; these name its files. A source with options of its own, which
+# must be set before, stays alone.
 function(roscell_unity target)
   if(NOT ROSCELL_UNITY)
     return()
   endif()
-  set_target_properties(${target} PROPERTIES
-    UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     # GCC takes a source that is compiled with others for a header.
     target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
   endif()
+  target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR})
+  set(groups)
   get_target_property(sources ${target} SOURCES)
   foreach(source IN LISTS sources)
     get_source_file_property(options ${source} COMPILE_OPTIONS)
-    if(NOT source MATCHES "[.]cpp$" OR options)
+    get_source_file_property(definitions ${source} COMPILE_DEFINITIONS)
+    cmake_path(ABSOLUTE_PATH source OUTPUT_VARIABLE path)
+    cmake_path(IS_PREFIX PROJECT_BINARY_DIR ${path} made)
+    if(NOT source MATCHES "[.]cpp$" OR options OR definitions OR made)
       continue()
     endif()
-    cmake_path(GET source PARENT_PATH folder)
+    cmake_path(RELATIVE_PATH path BASE_DIRECTORY ${PROJECT_SOURCE_DIR})
+    cmake_path(GET path PARENT_PATH folder)
     string(MAKE_C_IDENTIFIER "${folder}" id)
     math(EXPR count_${id} "0${count_${id}} + 1")
     math(EXPR batch "(${count_${id}} - 1) / ${ROSCELL_UNITY_BATCH}")
-    cmake_path(RELATIVE_PATH folder BASE_DIRECTORY ${PROJECT_SOURCE_DIR})
-    string(MAKE_C_IDENTIFIER "${folder}_${batch}" group)
-    set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${group})
+    list(APPEND groups ${id}_${batch})
+    string(APPEND text_${id}_${batch} "#include \"${path}\"\n")
+    list(REMOVE_ITEM sources ${source})
   endforeach()
+  list(REMOVE_DUPLICATES groups)
+  foreach(group IN LISTS groups)
+    set(unity ${CMAKE_CURRENT_BINARY_DIR}/${target}_unity/unity_${group}.cpp)
+    file(CONFIGURE OUTPUT ${unity} CONTENT "${text_${group}}" @ONLY)
+    list(APPEND sources ${unity})
+  endforeach()
+  set_target_properties(${target} PROPERTIES SOURCES "${sources}")
 endfunction()
 
 # roscell_glue(target): code that carries messages between templates. Optimizing

@@ -2,6 +2,7 @@
 
 #include "messages/codec/json_codec.hpp"
 #include "roscell/node.hpp"
+#include "test/places.hpp"
 
 #include <caf/actor_system.hpp>
 #include <caf/actor_system_config.hpp>
@@ -51,8 +52,7 @@ inline node_setup setup_in(const std::filesystem::path& folder) {
   result.node.discovery_port = 0;
   result.node.runtime = "process";
   result.node.data_dir = folder / "data";
-  result.node.shim =
-      std::string{ROSCELL_BINARY_DIR} + "/bin/" + "roscell-instance-shim";
+  result.node.shim = test::build_dir() / "bin/roscell-instance-shim";
   result.node.public_domain_id = static_cast<uint8_t>(100 + ::getpid() % 100);
   return result;
 }

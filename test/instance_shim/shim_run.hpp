@@ -2,6 +2,8 @@
 
 #include "test/skills/child_process.hpp"
 
+#include "test/places.hpp"
+
 #include <nlohmann/json.hpp>
 
 #include <cstdint>
@@ -14,7 +16,7 @@ namespace roscell::test {
 
 using nlohmann::json;
 
-inline const std::string shim = ROSCELL_BINARY_DIR "/bin/roscell-instance-shim";
+inline const std::string shim = test::build_dir() / "bin/roscell-instance-shim";
 
 /// Runs a shell script under the shim, with its records in `dir`.
 struct shim_run {

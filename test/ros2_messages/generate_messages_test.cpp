@@ -1,5 +1,7 @@
 #include "test/skills/child_process.hpp"
 
+#include "test/places.hpp"
+
 #include <catch2/catch.hpp>
 
 #include <filesystem>
@@ -22,9 +24,10 @@ public:
 
   /// What it says, without the folder; empty when it made the structs.
   std::string problem() {
-    std::vector<std::string> command{
-        ROSCELL_PYTHON, "-B", ROSCELL_SOURCE_DIR "/tools/generate_messages",
-        "--to", folder_ / "made"};
+    std::vector<std::string> command{roscell::test::python(), "-B",
+                                     roscell::test::source_dir()
+                                         / "tools/generate_messages",
+                                     "--to", folder_ / "made"};
     command.insert(command.end(), files_.begin(), files_.end());
     child_process tool{command, {}};
     auto code = tool.wait();

@@ -1,5 +1,6 @@
 #include "schemas/document.hpp"
 #include "schemas/message_catalogue.hpp"
+#include "test/places.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -14,7 +15,7 @@ namespace fs = std::filesystem;
 TEST_CASE("the descriptor of each bundled skill is valid, each model unique") {
   std::set<std::string> models;
   for (const auto& folder :
-       fs::directory_iterator{ROSCELL_SOURCE_DIR "/skills"}) {
+       fs::directory_iterator{test::source_dir() / "skills"}) {
     std::ifstream file{folder.path() / "skill.json"};
     if (!file)
       continue;

@@ -1,5 +1,6 @@
 #include "schemas/document.hpp"
 #include "schemas/message_catalogue.hpp"
+#include "test/places.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -26,7 +27,7 @@ json read_example(const fs::path& path) {
 TEST_CASE("each request file of docs/examples is a valid task request") {
   auto count = 0;
   for (const auto& file :
-       fs::directory_iterator{ROSCELL_SOURCE_DIR "/docs/examples"}) {
+       fs::directory_iterator{test::source_dir() / "docs/examples"}) {
     if (file.path().extension() != ".json")
       continue;
     INFO(file.path());
@@ -40,8 +41,8 @@ TEST_CASE("each request file of docs/examples is a valid task request") {
 
 TEST_CASE("a topic that an example reads is written by a step of it") {
   for (const auto* name : {"strategy_1", "strategy_2", "strategy_3"}) {
-    auto request = read_example(std::string{ROSCELL_SOURCE_DIR}
-                                + "/docs/examples/" + name + ".json");
+    auto request = read_example(test::source_dir() / "docs/examples"
+                                / (std::string{name} + ".json"));
     std::map<std::string, std::string> written;
     for (const auto& step : request["pipeline"])
       for (const auto& output : step["output"])

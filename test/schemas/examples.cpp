@@ -1,5 +1,7 @@
 #include "test/schemas/examples.hpp"
 
+#include "test/places.hpp"
+
 #include <algorithm>
 #include <fstream>
 #include <sstream>
@@ -32,10 +34,6 @@ example read_example(const fs::path& path) {
 }
 
 } // namespace
-
-fs::path source_dir() {
-  return ROSCELL_SOURCE_DIR;
-}
 
 std::string read_file(const fs::path& path) {
   std::ifstream file{path, std::ios::binary};

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "messages/codec/json_codec.hpp"
+#include "test/places.hpp"
 
 #include <filesystem>
 #include <string>
@@ -22,8 +23,5 @@ struct example {
 std::vector<example> examples();
 
 std::string read_file(const std::filesystem::path& path);
-
-/// The root of the sources.
-std::filesystem::path source_dir();
 
 } // namespace roscell::test

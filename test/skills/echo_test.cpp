@@ -1,3 +1,4 @@
+#include "test/places.hpp"
 #include "test/skills/child_process.hpp"
 #include "test/skills/support.hpp"
 
@@ -13,10 +14,10 @@ using nlohmann::json;
 
 namespace {
 
-const std::string folder_of_echo = ROSCELL_BINARY_DIR "/skills/echo";
+const std::string folder_of_echo = roscell::test::build_dir() / "skills/echo";
 
-child_process::variables environment(const temp_folder& folder,
-                                     const json& options) {
+child_process::variables variables_of(const temp_folder& folder,
+                                      const json& options) {
   auto stream = [&](const char* name) {
     return json{{{"protocol", "file"},
                  {"endpoint", folder / name},
@@ -41,7 +42,7 @@ TEST_CASE("echo repeats a growing file until it is told to stop") {
   temp_folder folder;
   folder.write("in", "one\ntwo\n");
   notify_receiver node{folder / "notify"};
-  child_process skill{{echo()}, environment(folder, {{"prefix", "> "}})};
+  child_process skill{{echo()}, variables_of(folder, {{"prefix", "> "}})};
   CHECK(node.receive() == "READY=1");
   CHECK(node.receive() == "READY=1\nWATCHDOG=1");
   folder.append("in", "three\n");
@@ -61,7 +62,7 @@ TEST_CASE("echo lives on when somebody waits for it to be safe") {
   temp_folder folder;
   folder.write("in", "one\n");
   notify_receiver node{folder / "notify"};
-  child_process skill{{echo()}, environment(folder, json::object())};
+  child_process skill{{echo()}, variables_of(folder, json::object())};
   CHECK(node.receive() == "READY=1");
   skill.signal(SIGUSR1);
   folder.append("in", "two\n");
@@ -79,14 +80,14 @@ TEST_CASE("echo ends by itself when it is not to follow") {
     lines += std::to_string(i) + "\n";
   folder.write("in", lines);
   child_process skill{
-      {echo()}, environment(folder, {{"follow", false}, {"queue_length", 1}})};
+      {echo()}, variables_of(folder, {{"follow", false}, {"queue_length", 1}})};
   CHECK(skill.wait() == 0);
   CHECK(content_of(folder / "out") == lines);
 }
 
 TEST_CASE("echo complains in one line when it cannot start") {
   temp_folder folder;
-  child_process skill{{echo()}, environment(folder, json::object())};
+  child_process skill{{echo()}, variables_of(folder, json::object())};
   CHECK(skill.wait() == 2);
   CHECK_THAT(skill.output(), Contains("engine: cannot start: cannot read input")
                                  && Contains("No such file"));

@@ -17,9 +17,9 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-std::unique_ptr<input_handler> make(const std::string& path,
-                                    const std::string& options = "{}",
-                                    const std::string& type = "text/plain") {
+std::unique_ptr<input_handler>
+make_input(const std::string& path, const std::string& options = "{}",
+           const std::string& type = "text/plain") {
   return make_file_input({{"file", path, type},
                           parameters::parse(options),
                           [](const std::string&) {}});
@@ -43,7 +43,7 @@ const std::string once = R"({"follow":false})";
 TEST_CASE("each line of a text file is a frame, also the last one") {
   temp_folder folder;
   folder.write("in.txt", "one\n\nthree");
-  running_input input{make(folder / "in.txt", once)};
+  running_input input{make_input(folder / "in.txt", once)};
   CHECK(input.wait() == "ended");
   CHECK(payload(input, 0) == "one");
   CHECK(payload(input, 1).empty());
@@ -55,7 +55,7 @@ TEST_CASE("each line of a text file is a frame, also the last one") {
 TEST_CASE("a text file is followed as it grows") {
   temp_folder folder;
   folder.write("in", "one\n");
-  running_input input{make(folder / "in")};
+  running_input input{make_input(folder / "in")};
   CHECK(payload(input, 0) == "one");
   folder.append("in", "two\n");
   CHECK(payload(input, 1) == "two");
@@ -67,7 +67,7 @@ TEST_CASE("a text file is followed as it grows") {
 TEST_CASE("a text file that is cut is read from its start") {
   temp_folder folder;
   folder.write("in", "a long first line\n");
-  running_input input{make(folder / "in")};
+  running_input input{make_input(folder / "in")};
   CHECK(payload(input, 0) == "a long first line");
   REQUIRE(::truncate((folder / "in").c_str(), 0) == 0);
   folder.append("in", "new\n");
@@ -77,7 +77,7 @@ TEST_CASE("a text file that is cut is read from its start") {
 TEST_CASE("a text file is followed across its replacement") {
   temp_folder folder;
   folder.write("in", "old\nrest");
-  running_input input{make(folder / "in")};
+  running_input input{make_input(folder / "in")};
   CHECK(payload(input, 0) == "old");
   folder.write("new", "new\n");
   REQUIRE(std::rename((folder / "new").c_str(), (folder / "in").c_str()) == 0);
@@ -90,7 +90,7 @@ TEST_CASE("a text file is followed across its replacement") {
 TEST_CASE("a text file may be away for a while") {
   temp_folder folder;
   folder.write("in", "old\n");
-  running_input input{make(folder / "in")};
+  running_input input{make_input(folder / "in")};
   CHECK(payload(input, 0) == "old");
   REQUIRE(std::rename((folder / "in").c_str(), (folder / "old").c_str()) == 0);
   folder.write("in", "new\n");
@@ -103,7 +103,7 @@ TEST_CASE("the files of a folder are frames in the order of their names") {
     folder.write(file, std::string{"content of "} + file);
   std::filesystem::create_directory(folder / "aa");
   REQUIRE(::mkfifo((folder / "ab").c_str(), 0600) == 0);
-  running_input input{make(folder / "", once, "image/png")};
+  running_input input{make_input(folder / "", once, "image/png")};
   CHECK(input.wait() == "ended");
   CHECK(payload(input, 0) == "content of a");
   CHECK(payload(input, 1) == "content of b");
@@ -115,7 +115,7 @@ TEST_CASE("the files of a folder are frames in the order of their names") {
 TEST_CASE("an empty folder is waited for, once it is known to be one") {
   temp_folder folder;
   std::filesystem::create_directory(folder / "in");
-  running_input input{make(folder / "in")};
+  running_input input{make_input(folder / "in")};
   folder.write("in/written", "w");
   CHECK(payload(input, 0) == "w");
   folder.write(".tmp", "renamed");
@@ -129,7 +129,7 @@ TEST_CASE("a file of a folder that is replaced is a new frame") {
   temp_folder folder;
   std::filesystem::create_directory(folder / "in");
   folder.write("in/a", "first");
-  running_input input{make(folder / "in")};
+  running_input input{make_input(folder / "in")};
   CHECK(payload(input, 0) == "first");
   folder.write("a", "the second");
   REQUIRE(std::rename((folder / "a").c_str(), (folder / "in/a").c_str()) == 0);
@@ -143,7 +143,7 @@ TEST_CASE("a folder that is taken away breaks the input") {
   temp_folder folder;
   std::filesystem::create_directory(folder / "in");
   folder.write("in/a", "a");
-  running_input input{make(folder / "in")};
+  running_input input{make_input(folder / "in")};
   CHECK(payload(input, 0) == "a");
   std::filesystem::remove_all(folder / "in");
   CHECK_THAT(input.wait(), Contains("was taken away"));
@@ -152,7 +152,7 @@ TEST_CASE("a folder that is taken away breaks the input") {
 TEST_CASE("a file of another type is one frame, and one more when replaced") {
   temp_folder folder;
   folder.write("in.png", "line\nline\n");
-  running_input input{make(folder / "in.png", "{}", "image/png")};
+  running_input input{make_input(folder / "in.png", "{}", "image/png")};
   CHECK(payload(input, 0) == "line\nline\n");
   folder.write("new", "another");
   REQUIRE(std::rename((folder / "new").c_str(), (folder / "in.png").c_str())
@@ -180,7 +180,8 @@ TEST_CASE("the rate of an input is limited") {
   temp_folder folder;
   folder.write("in", "1\n2\n3\n4\n5\n");
   auto start = std::chrono::steady_clock::now();
-  running_input input{make(folder / "in", R"({"follow":false,"rate_hz":100})")};
+  running_input input{
+      make_input(folder / "in", R"({"follow":false,"rate_hz":100})")};
   CHECK(input.wait() == "ended");
   auto spent = std::chrono::steady_clock::now() - start;
   CHECK(input.sink().policies().size() == 5);
@@ -191,19 +192,20 @@ TEST_CASE("the rate of an input is limited") {
 TEST_CASE("an input that waits for its turn ends when the skill stops") {
   temp_folder folder;
   folder.write("in", "1\n2\n");
-  running_input input{make(folder / "in", R"({"rate_hz":1e-300})")};
+  running_input input{make_input(folder / "in", R"({"rate_hz":1e-300})")};
   CHECK(payload(input, 0) == "1");
   // The destructor stops the input and would hang if it did not end.
 }
 
 TEST_CASE("an unusable input is refused with its path") {
   temp_folder folder;
-  CHECK_THROWS_WITH(make(folder / "missing"),
+  CHECK_THROWS_WITH(make_input(folder / "missing"),
                     Contains("/missing'") && Contains("No such file"));
-  CHECK_THROWS_WITH(make("relative"), Contains("absolute path"));
-  CHECK_THROWS_WITH(make("/dev/null"), Contains("neither a regular file"));
+  CHECK_THROWS_WITH(make_input("relative"), Contains("absolute path"));
+  CHECK_THROWS_WITH(make_input("/dev/null"),
+                    Contains("neither a regular file"));
   folder.write("in", "");
-  CHECK_THROWS_WITH(make(folder / "in", R"({"rate_hz":-1})"),
+  CHECK_THROWS_WITH(make_input(folder / "in", R"({"rate_hz":-1})"),
                     Contains("rate_hz"));
 }
 
@@ -212,12 +214,12 @@ TEST_CASE("a folder of images leaves out the descriptions beside them") {
   for (const auto* name : {"a.png", "camera.json", "calibration.yaml", "c.yml",
                            "licence.txt", "README.md", "z"})
     folder.write(name, name);
-  running_input images{make(folder / "", once, "image/png")};
+  running_input images{make_input(folder / "", once, "image/png")};
   CHECK(images.wait() == "ended");
   CHECK(images.sink().policies().size() == 2);
   CHECK(payload(images, 0) == "a.png");
   CHECK(payload(images, 1) == "z");
-  running_input all{make(folder / "", once)};
+  running_input all{make_input(folder / "", once)};
   CHECK(all.wait() == "ended");
   CHECK(all.sink().policies().size() == 7);
 }
@@ -226,8 +228,8 @@ TEST_CASE("a folder in a loop begins again, with what is there then") {
   temp_folder folder;
   folder.write("a", "1");
   folder.write("b", "2");
-  running_input input{
-      make(folder / "", R"({"follow":false,"loop":true,"rate_hz":1000})")};
+  running_input input{make_input(
+      folder / "", R"({"follow":false,"loop":true,"rate_hz":1000})")};
   CHECK(payload(input, 0) == "1");
   CHECK(payload(input, 1) == "2");
   CHECK(payload(input, 2) == "1");
@@ -239,9 +241,11 @@ TEST_CASE("a folder in a loop begins again, with what is there then") {
 
 TEST_CASE("an empty folder in a loop ends, or waits for files") {
   temp_folder folder;
-  running_input input{make(folder / "", R"({"follow":false,"loop":true})")};
+  running_input input{
+      make_input(folder / "", R"({"follow":false,"loop":true})")};
   CHECK(input.wait() == "ended");
-  running_input waiting{make(folder / "", R"({"loop":true,"rate_hz":1000})")};
+  running_input waiting{
+      make_input(folder / "", R"({"loop":true,"rate_hz":1000})")};
   folder.write("a", "1");
   CHECK(payload(waiting, 0) == "1");
   CHECK(payload(waiting, 1) == "1");

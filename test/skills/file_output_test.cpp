@@ -14,8 +14,8 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-std::unique_ptr<output_handler> make(const std::string& path,
-                                     const std::string& type = "text/plain") {
+std::unique_ptr<output_handler>
+make_output(const std::string& path, const std::string& type = "text/plain") {
   auto result =
       make_file_output({{"file", path, type}, {}, [](const std::string&) {}});
   result->open();
@@ -34,7 +34,7 @@ frame named(const std::string& name, const std::string& payload) {
 TEST_CASE("frames are appended to a file as lines") {
   temp_folder folder;
   folder.write("out", "before\n");
-  auto output = make(folder / "out");
+  auto output = make_output(folder / "out");
   output->write(named("a", "one"));
   output->write(named("b", "two\n"));
   output->write(named("c", ""));
@@ -44,8 +44,8 @@ TEST_CASE("frames are appended to a file as lines") {
 
 TEST_CASE("the folders above an output are made") {
   temp_folder folder;
-  make(folder / "a/b/out")->write(named("x", "1"));
-  make(folder / "c/d/")->write(named("x", "2"));
+  make_output(folder / "a/b/out")->write(named("x", "1"));
+  make_output(folder / "c/d/")->write(named("x", "2"));
   CHECK(content_of(folder / "a/b/out") == "1\n");
   CHECK(content_of(folder / "c/d/x") == "2");
 }
@@ -53,7 +53,7 @@ TEST_CASE("the folders above an output are made") {
 TEST_CASE("a folder gets one complete file per frame") {
   temp_folder folder;
   std::filesystem::create_directory(folder / "out");
-  auto output = make(folder / "out", "image/png");
+  auto output = make_output(folder / "out", "image/png");
   output->write(named("1.png", "first"));
   output->write(named("2.png", "second\n"));
   output->write(named("1.png", "again"));
@@ -74,7 +74,7 @@ TEST_CASE("the name of a frame cannot lead out of its folder") {
 }
 
 TEST_CASE("a full disk is reported with its remedy") {
-  CHECK_THROWS_WITH(make("/dev/full")->write(named("x", "1")),
+  CHECK_THROWS_WITH(make_output("/dev/full")->write(named("x", "1")),
                     Contains("'/dev/full'") && Contains("No space left")
                         && Contains("free space"));
 }
@@ -82,9 +82,9 @@ TEST_CASE("a full disk is reported with its remedy") {
 TEST_CASE("an unusable output is refused with its path") {
   temp_folder folder;
   folder.write("file", "");
-  CHECK_THROWS_WITH(make(folder / "file/out"), Contains("/file"));
-  CHECK_THROWS_WITH(make(folder / "file/out/"), Contains("/file/out"));
-  CHECK_THROWS_WITH(make("relative"), Contains("absolute path"));
-  CHECK_THROWS_WITH(make(folder / "x.png", "image/png"),
+  CHECK_THROWS_WITH(make_output(folder / "file/out"), Contains("/file"));
+  CHECK_THROWS_WITH(make_output(folder / "file/out/"), Contains("/file/out"));
+  CHECK_THROWS_WITH(make_output("relative"), Contains("absolute path"));
+  CHECK_THROWS_WITH(make_output(folder / "x.png", "image/png"),
                     Contains("end the path with '/'"));
 }

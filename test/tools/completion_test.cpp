@@ -2,6 +2,8 @@
 
 #include "tools/roscell/commands.hpp"
 
+#include "test/words.hpp"
+
 #include <CLI/CLI.hpp>
 #include <catch2/catch.hpp>
 
@@ -56,9 +58,7 @@ bool has_shell(const std::string& name) {
   return false;
 }
 
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
+using roscell::test::has;
 
 /// What a shell with the script offers after `words`; `roscell` itself is
 /// replaced by a function that prints `table`.

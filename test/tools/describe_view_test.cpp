@@ -1,5 +1,6 @@
 #include "tools/roscell/view/describe/describe_view.hpp"
 
+#include "test/words.hpp"
 #include "tools/roscell/exit_code.hpp"
 #include "tools/roscell/view/describe/parts.hpp"
 
@@ -60,9 +61,7 @@ std::string described(const known_cell& known, const std::string& name,
                        {{}, 61'000});
 }
 
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
+using roscell::test::has;
 
 std::string refusal(const known_cell& known, const std::string& name,
                     const std::string& kind = {}) {

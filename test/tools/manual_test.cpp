@@ -2,6 +2,8 @@
 
 #include "tools/roscell/commands.hpp"
 
+#include "test/words.hpp"
+
 #include <CLI/CLI.hpp>
 #include <catch2/catch.hpp>
 
@@ -42,9 +44,7 @@ std::string shown(const std::string& page) {
   return text;
 }
 
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
+using roscell::test::has;
 
 bool has_groff() {
   if (std::system("groff --version > /dev/null 2>&1") == 0)

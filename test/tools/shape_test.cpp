@@ -3,6 +3,7 @@
 #include "messages/cell.hpp"
 #include "messages/formation.hpp"
 #include "messages/skill.hpp"
+#include "test/places.hpp"
 #include "test/schemas/oracle.hpp"
 
 #include <catch2/catch.hpp>
@@ -14,8 +15,8 @@ namespace roscell::cli {
 namespace {
 
 json schema_of(const std::string& name) {
-  std::ifstream file{ROSCELL_SOURCE_DIR "/docs/output/" + name
-                     + ".schema.json"};
+  std::ifstream file{test::source_dir() / "docs/output"
+                     / (name + ".schema.json")};
   return json::parse(file);
 }
 

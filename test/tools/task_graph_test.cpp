@@ -2,6 +2,8 @@
 
 #include "tools/roscell/view/graph/graph_view.hpp"
 
+#include "test/words.hpp"
+
 #include <catch2/catch.hpp>
 
 using namespace roscell;
@@ -24,20 +26,18 @@ const io_endpoint pictures{"file", "/data/in", "image/png"};
 const io_endpoint image{"ros2", "/image", "sensor_msgs/msg/Image"};
 const io_endpoint tf{"ros2", "/tf", "tf2_msgs/msg/TFMessage"};
 
-task_graph sample() {
+task_graph sample_graph() {
   auto camera = step("camera", {pictures}, {image});
   camera.figures = {120, 10, 0, 3.25};
   return graph_of("t", {camera, step("poses", {image}, {tf})});
 }
 
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
+using roscell::test::has;
 
 } // namespace
 
 TEST_CASE("an output that is another step's input joins the two", "[tools]") {
-  const auto graph = sample();
+  const auto graph = sample_graph();
   REQUIRE(graph.streams.size() == 3);
   CHECK_FALSE(graph.streams[0].from);
   CHECK(graph.streams[0].to == 0);
@@ -58,7 +58,7 @@ TEST_CASE("the same endpoint of another protocol joins nothing", "[tools]") {
 }
 
 TEST_CASE("a graph shows steps, nodes, streams and figures", "[tools]") {
-  const auto text = graph_view(sample(), {});
+  const auto text = graph_view(sample_graph(), {});
   CHECK(has(text, "│ on arm-1, running "));
   CHECK(has(text, "│ 10 Hz, 0 dropped, 3.25 ms │"));
   CHECK(has(text, "│ in  /data/in "));
@@ -75,14 +75,14 @@ TEST_CASE("a step whose node is away is not shown as running", "[tools]") {
 }
 
 TEST_CASE("a graph is told to other programs", "[tools]") {
-  const auto dot = dot_text(sample());
+  const auto dot = dot_text(sample_graph());
   CHECK(has(dot, "digraph \"t\" {\n"));
   CHECK(has(dot, "s0 [label=\"camera\\non arm-1\\n10 Hz, 0 dropped"));
   CHECK(has(dot, "s0 -> s1 [label=\"/image\"];\n"));
-  const auto mermaid = mermaid_text(sample());
+  const auto mermaid = mermaid_text(sample_graph());
   CHECK(has(mermaid, "flowchart TB\n"));
   CHECK(has(mermaid, "s0 -->|\"/image\"| s1\n"));
-  const auto document = graph_json(sample());
+  const auto document = graph_json(sample_graph());
   CHECK(document.at("name") == "t");
   CHECK(document.at("streams").at(1).at("from") == "camera");
   CHECK(document.at("streams").at(2).at("to").is_null());

@@ -10,6 +10,7 @@
 #include "tools/render_scenes/placement.hpp"
 
 #include "test/parameters_of.hpp"
+#include "test/places.hpp"
 #include "test/skills/temp_folder.hpp"
 
 #include <map>
@@ -30,7 +31,7 @@ constexpr auto picture_type = "image/png";
 
 /// A picture of the NASA Swarmathon with twelve tags, and their true corners.
 const std::string photo_folder =
-    ROSCELL_SOURCE_DIR "/test/data/apriltag_photos";
+    test::source_dir() / "test/data/apriltag_photos";
 const std::string photo = photo_folder + "/33369213973_9d9bb4cc96_c.jpg";
 const std::string photo_truth = photo_folder + "/33369213973_9d9bb4cc96_c.txt";
 

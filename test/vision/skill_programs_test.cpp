@@ -1,3 +1,4 @@
+#include "test/places.hpp"
 #include "test/skills/child_process.hpp"
 #include "test/vision/fixture.hpp"
 
@@ -13,7 +14,7 @@ using nlohmann::json;
 
 namespace {
 
-const std::string skills = ROSCELL_BINARY_DIR "/skills/";
+const std::string skills = test::build_dir() / "skills/";
 
 json stream(const std::string& endpoint, const std::string& type) {
   return {{"protocol", "file"}, {"endpoint", endpoint}, {"data_type", type}};

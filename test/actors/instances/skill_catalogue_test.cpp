@@ -1,6 +1,7 @@
 #include "actors/instances/skill_catalogue.hpp"
 
 #include "test/actors/fakes/supervision_fakes.hpp"
+#include "test/places.hpp"
 
 #include <algorithm>
 #include <string>
@@ -215,7 +216,7 @@ TEST_CASE("a program that no deployment is for is refused") {
 TEST_CASE("a program that lacks a library is refused, with its name") {
   scratch_folder folder;
   write_echo(folder, "see");
-  fs::copy_file(ROSCELL_LACKING_PROGRAM, folder.path() / "see/bin/echo",
+  fs::copy_file(test::lacking_program(), folder.path() / "see/bin/echo",
                 fs::copy_options::overwrite_existing);
   const auto refused = scan(folder);
   CHECK(refused.skills().empty());

@@ -2,6 +2,7 @@
 
 #include "test/actors/edge/host/host_probe_fixture.hpp"
 #include "test/fixture.hpp"
+#include "test/places.hpp"
 
 #include <unistd.h>
 
@@ -24,7 +25,7 @@ struct probe_fixture {
     resource_probe_config config;
     config.host.root = root.path();
     config.host.data_dir = root.path();
-    config.host.nvml_library = ROSCELL_FAKE_NVML;
+    config.host.nvml_library = test::fake_nvml();
     config.host.affinity_cores = 64;
     // Not detached here: the test's time is virtual, its files are not.
     probe = spawn(time.system, time.context, resource_probe, config);

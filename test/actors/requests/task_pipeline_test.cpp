@@ -1,5 +1,7 @@
 #include "test/actors/fakes/coordinator_fakes.hpp"
 
+#include "test/words.hpp"
+
 #include <set>
 
 namespace roscell::test {
@@ -15,9 +17,7 @@ std::string text_in(const json& error, const std::string& field) {
   return error.at(field).get<std::string>();
 }
 
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
+using roscell::test::has;
 
 /// A cell of three nodes with 4 cores each.
 struct three_nodes : paper_cell {

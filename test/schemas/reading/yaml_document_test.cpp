@@ -1,5 +1,7 @@
 #include "schemas/document.hpp"
 
+#include "test/places.hpp"
+
 #include <catch2/catch.hpp>
 
 #include <filesystem>
@@ -75,7 +77,7 @@ pipeline:
 TEST_CASE("each file of docs/examples is the same document in YAML") {
   auto count = 0;
   for (const auto& file : std::filesystem::directory_iterator{
-           ROSCELL_SOURCE_DIR "/docs/examples"}) {
+           test::source_dir() / "docs/examples"}) {
     if (file.path().extension() != ".json")
       continue;
     INFO(file.path());

@@ -1,3 +1,4 @@
+#include "test/places.hpp"
 #include "tools/roscell/doctor/host/clock.hpp"
 #include "tools/roscell/doctor/host/disk.hpp"
 #include "tools/roscell/doctor/host/engines.hpp"
@@ -95,7 +96,7 @@ TEST_CASE("what of a GPU is missing is named", "[doctor]") {
 
 TEST_CASE("the real library is asked for its GPUs", "[doctor]") {
   examined_host host;
-  host.nvml = ROSCELL_FAKE_NVML;
+  host.nvml = test::fake_nvml();
   const auto gpu = look_at_gpu(host);
   CHECK(gpu.library);
   CHECK(gpu.library_error.empty());

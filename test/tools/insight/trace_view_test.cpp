@@ -1,5 +1,7 @@
 #include "tools/roscell/insight/trace_view.hpp"
 
+#include "test/words.hpp"
+
 #include <catch2/catch.hpp>
 
 namespace roscell::cli {
@@ -16,9 +18,7 @@ request_trace deployment() {
   return result;
 }
 
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
+using roscell::test::has;
 
 } // namespace
 

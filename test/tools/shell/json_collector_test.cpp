@@ -1,5 +1,7 @@
 #include "tools/roscell/shell/json_collector.hpp"
 
+#include "test/words.hpp"
+
 #include <catch2/catch.hpp>
 
 #include <initializer_list>
@@ -17,10 +19,7 @@ std::string said_after(json_collector& request,
   return said;
 }
 
-bool has(const std::string& text, const std::string& part) {
-  INFO(text);
-  return text.find(part) != text.npos;
-}
+using roscell::test::has;
 
 } // namespace
 

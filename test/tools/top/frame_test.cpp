@@ -1,5 +1,7 @@
 #include "tools/roscell/top/layout/frame.hpp"
 
+#include "test/words.hpp"
+
 #include <catch2/catch.hpp>
 
 using namespace roscell;
@@ -9,12 +11,12 @@ using namespace roscell::cli::top;
 namespace {
 
 /// A cell with a GPU on one of two nodes, and a task.
-struct bench {
+struct frame_bench {
   book known;
   std::vector<std::string> log;
   controls now;
 
-  bench() {
+  frame_bench() {
     node_description asked;
     asked.role = node_role::coordinator;
     asked.identity.name = "head";
@@ -55,15 +57,13 @@ struct bench {
   }
 };
 
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
+using roscell::test::has;
 
 } // namespace
 
 TEST_CASE("a screen has as many lines as there are, none of them too wide",
           "[top]") {
-  bench x;
+  frame_bench x;
   for (const auto where :
        {room::overview, room::details, room::log, room::events, room::help}) {
     x.now.where = where;
@@ -78,7 +78,7 @@ TEST_CASE("a screen has as many lines as there are, none of them too wide",
 }
 
 TEST_CASE("80 columns and 24 lines show nodes, tasks and instances", "[top]") {
-  const auto text = bench{}.text();
+  const auto text = frame_bench{}.text();
   INFO(text);
   CHECK(has(text, "cell line  live  2 nodes  1 task  1 instance  head"));
   CHECK(has(text, "all is well"));
@@ -91,7 +91,7 @@ TEST_CASE("80 columns and 24 lines show nodes, tasks and instances", "[top]") {
 
 TEST_CASE("what instances have reserved is not counted as used by others",
           "[top]") {
-  bench x;
+  frame_bench x;
   const auto text = x.text();
   INFO(text);
   // Of 2 cores in use one is reserved by the instance on the node.
@@ -100,7 +100,7 @@ TEST_CASE("what instances have reserved is not counted as used by others",
 }
 
 TEST_CASE("a line for a GPU is there where there is one", "[top]") {
-  bench x;
+  frame_bench x;
   CHECK(has(x.text(), "gpu 0"));
   CHECK(has(x.text(), "a GPU"));
   x.now.filter = "head";
@@ -109,7 +109,7 @@ TEST_CASE("a line for a GPU is there where there is one", "[top]") {
 
 TEST_CASE("a node that does not answer is said, and what it is that is shown",
           "[top]") {
-  bench x;
+  frame_bench x;
   x.known.lose("cannot connect", 51'000);
   const auto text = x.text();
   CHECK(has(text, "NO ANSWER for 10s"));
@@ -118,7 +118,7 @@ TEST_CASE("a node that does not answer is said, and what it is that is shown",
 }
 
 TEST_CASE("a member says that it knows of itself only", "[top]") {
-  bench x;
+  frame_bench x;
   node_description asked;
   asked.coordinator = "10.0.0.1:8420";
   x.known.set_cell(asked, cell_around(asked));
@@ -127,7 +127,7 @@ TEST_CASE("a member says that it knows of itself only", "[top]") {
 
 TEST_CASE("the help is read on 80 columns and 24 lines without moving",
           "[top]") {
-  bench x;
+  frame_bench x;
   x.now.where = room::help;
   const auto text = x.text();
   INFO(text);
@@ -138,7 +138,7 @@ TEST_CASE("the help is read on 80 columns and 24 lines without moving",
 }
 
 TEST_CASE("details of a thing that is gone say so", "[top]") {
-  bench x;
+  frame_bench x;
   x.now.where = room::details;
   x.now.subject = {thing_kind::task, "t"};
   CHECK(has(x.text(), "Kind:           task"));
@@ -147,7 +147,7 @@ TEST_CASE("details of a thing that is gone say so", "[top]") {
 }
 
 TEST_CASE("a text shows its end, or from where somebody looks", "[top]") {
-  bench x;
+  frame_bench x;
   x.now.where = room::log;
   for (int i = 0; i < 100; ++i)
     x.log.push_back("line " + std::to_string(i) + ".");

@@ -2,6 +2,8 @@
 
 #include "actors/house/limits.hpp"
 
+#include "test/words.hpp"
+
 /// What is answered when the store cannot keep a task, and when a node or the
 /// coordinator itself does not go on.
 namespace roscell::test {
@@ -27,9 +29,7 @@ std::string message_of(const json& reply) {
   return reply.at("error").at("message").get<std::string>();
 }
 
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
+using roscell::test::has;
 
 } // namespace
 

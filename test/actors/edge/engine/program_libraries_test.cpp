@@ -1,5 +1,6 @@
 #include "actors/edge/engine/program_libraries.hpp"
 #include "test/actors/edge/process/supervision_fixture.hpp"
+#include "test/places.hpp"
 
 #include <elf.h>
 
@@ -95,7 +96,7 @@ TEST_CASE("a damaged program is a clear error, a damaged file beside it none") {
 }
 
 TEST_CASE("a program that lacks a library is known without starting it") {
-  const auto missing = missing_libraries(ROSCELL_LACKING_PROGRAM);
+  const auto missing = missing_libraries(test::lacking_program());
   CHECK(std::get<std::vector<std::string>>(missing)
         == std::vector<std::string>{"libgone.so"});
   const auto none = missing_libraries("/proc/self/exe");

@@ -1,6 +1,7 @@
 #include "actors/edge/host/host_probe.hpp"
 #include "actors/house/limits.hpp"
 #include "host_probe_fixture.hpp"
+#include "test/places.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -251,7 +252,7 @@ TEST_CASE("a Jetson has unified memory and one GPU without its own",
     root.write("/etc/nv_tegra_release", "# R36 (release)");
   }
   auto options = options_for(root);
-  options.nvml_library = ROSCELL_FAKE_NVML;
+  options.nvml_library = test::fake_nvml();
   auto host = host_probe{options}.read(start);
   CHECK(host.unified_memory);
   REQUIRE(host.gpus.size() == 1);
@@ -270,7 +271,7 @@ TEST_CASE("GPUs are read through NVML, but for those that do not answer",
           "[host_probe]") {
   fixture_root root;
   auto options = options_for(root);
-  options.nvml_library = ROSCELL_FAKE_NVML;
+  options.nvml_library = test::fake_nvml();
   host_probe probe{options};
   for (int i = 0; i < 2; ++i) {
     auto gpus = probe.read(start).gpus;
@@ -284,7 +285,7 @@ TEST_CASE("what programs outside our instances use of a GPU is used",
           "[host_probe]") {
   fixture_root root;
   auto options = options_for(root);
-  options.nvml_library = ROSCELL_FAKE_NVML;
+  options.nvml_library = test::fake_nvml();
   host_probe probe{options};
   auto used = [&](const std::set<pid_t>& own) {
     return probe.read(start, own).gpus.at(0).memory_mib.used;

@@ -5,6 +5,7 @@
 #include "actors/instances/engine/engine_runtime.hpp"
 #include "test/actors/instances/process/process_bench.hpp"
 #include "test/fake_engine.hpp"
+#include "test/places.hpp"
 
 #include <condition_variable>
 #include <map>
@@ -102,7 +103,7 @@ struct engine_bench {
     config.context = context;
     config.context.events = events = keep_events(system, told_events);
     config.shim =
-        std::filesystem::path{ROSCELL_BINARY_DIR} / "bin/roscell-instance-shim";
+        std::filesystem::path{test::build_dir()} / "bin/roscell-instance-shim";
     config.socket = folder.path() / "engine";
     config.setting = {"uuid", 1024 * 1024};
     config.data_dir = folder.path() / "data";

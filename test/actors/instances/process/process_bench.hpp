@@ -4,6 +4,7 @@
 #include "actors/instances/process/process_runtime.hpp"
 #include "messages/failure.hpp"
 #include "test/actors/fakes/supervision_fakes.hpp"
+#include "test/places.hpp"
 
 #include <sys/types.h>
 
@@ -95,7 +96,7 @@ struct process_bench {
   process_bench() {
     config.instances_dir = folder.path() / "data" / "instances";
     config.shim =
-        std::filesystem::path{ROSCELL_BINARY_DIR} / "bin/roscell-instance-shim";
+        std::filesystem::path{test::build_dir()} / "bin/roscell-instance-shim";
     config.io = io.core();
     config.context = context;
     config.context.events = events = keep_events(system, told_events);

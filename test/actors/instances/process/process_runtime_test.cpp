@@ -3,6 +3,7 @@
 #include "actors/edge/disk/folder_hash.hpp"
 #include "actors/edge/process/pidfd.hpp"
 #include "test/actors/instances/process/process_bench.hpp"
+#include "test/places.hpp"
 
 #include <poll.h>
 #include <unistd.h>
@@ -254,7 +255,7 @@ TEST_CASE("ids that are no file names reach no file") {
 
 TEST_CASE("the echo skill says that it is ready, and again after a restart") {
   process_bench b;
-  const auto skill = fs::path{ROSCELL_BINARY_DIR} / "skills/echo";
+  const auto skill = fs::path{test::build_dir()} / "skills/echo";
   if (!fs::exists(skill / "bin/echo")) {
     WARN("skipped: the echo skill is not built");
     return;

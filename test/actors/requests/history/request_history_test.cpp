@@ -184,7 +184,8 @@ namespace {
 
 json many_rejected() {
   auto result = json::array();
-  while (result.dump().size() < 2 * request_history::max_decision_bytes)
+  for (size_t bytes = 0; bytes < 2 * request_history::max_decision_bytes;
+       bytes += result.back().dump().size())
     result.push_back({{"step", "s" + std::to_string(result.size())},
                       {"reasons", {"needs 2 cores, 1.5 free"}}});
   return result;
@@ -196,11 +197,11 @@ TEST_CASE_METHOD(history_fixture,
                  "A large decision is cut, says so, and drives out no other",
                  "[request_history]") {
   book.decide(decision("small"));
-  const json plan{{"score", 1}, {"rejected", many_rejected()}};
+  const auto rejected = many_rejected();
+  const json plan{{"score", 1}, {"rejected", rejected}};
   const json error{
       {"type", "error"},
-      {"error",
-       {{"message", "it fits nowhere"}, {"rejected", many_rejected()}}}};
+      {"error", {{"message", "it fits nowhere"}, {"rejected", rejected}}}};
   for (int i = 0; i < 3; ++i) {
     book.decide({"plan" + std::to_string(i), 5, plan.dump(), ""});
     book.decide({"error" + std::to_string(i), 5, "", error.dump()});

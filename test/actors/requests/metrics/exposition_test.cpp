@@ -1,5 +1,7 @@
 #include "actors/requests/metrics/cell_metrics.hpp"
 
+#include "test/words.hpp"
+
 #include <catch2/catch.hpp>
 
 namespace roscell::test {
@@ -13,9 +15,7 @@ std::string counted(exposition_format format) {
   return text.finish();
 }
 
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
+using roscell::test::has;
 
 } // namespace
 
