@@ -1,9 +1,12 @@
 #include "tools/roscell/view/formation_view.hpp"
 
+#include "test/printed_text.hpp"
+
 #include <catch2/catch.hpp>
 
 using namespace roscell;
 using namespace roscell::cli;
+using roscell::test::cells_in;
 
 namespace {
 
@@ -21,10 +24,10 @@ TEST_CASE("a formation has a row for each name, with code and message",
   moved.result = formation_result::joined;
   moved.from = "hall";
   const cell_formed formed{"lab", {moved, failed("x", "start it")}};
-  CHECK(formation_view(formed, {})
-        == "NODE   RESULT  FROM  MESSAGE\n"
-           "arm-1  joined  hall  -\n"
-           "x      failed  -     no node is visible (unknown_node)\n");
+  CHECK(cells_in(formation_view(formed, {}))
+        == "NODE|RESULT|FROM|MESSAGE\n"
+           "arm-1|joined|hall|-\n"
+           "x|failed|-|no node is visible (unknown_node)\n");
 }
 
 TEST_CASE("the hints of a formation are given once each", "[tools]") {
@@ -35,17 +38,16 @@ TEST_CASE("the hints of a formation are given once each", "[tools]") {
 }
 
 TEST_CASE("a move tells of the tasks that it cost", "[tools]") {
-  CHECK(
-      transferred_view({"arm-1", "lab", "hall", "lab-3-1", {"a", "b"}, {}}, {})
-      == "NODE   FROM  TO    TRANSFER  TASKS TERMINATED  TASKS RESCHEDULED\n"
-         "arm-1  lab   hall  lab-3-1   a,b               -\n");
+  CHECK(cells_in(transferred_view(
+            {"arm-1", "lab", "hall", "lab-3-1", {"a", "b"}, {}}, {}))
+        == "NODE|FROM|TO|TRANSFER|TASKS TERMINATED|TASKS RESCHEDULED\n"
+           "arm-1|lab|hall|lab-3-1|a,b|-\n");
 }
 
 TEST_CASE("a released node goes to no cell", "[tools]") {
-  CHECK(released_view({"arm-1", "lab", "lab-3-2", {}, {"t"}}, {})
-        == "NODE   FROM  TO             TRANSFER  TASKS TERMINATED  "
-           "TASKS RESCHEDULED\n"
-           "arm-1  lab   (independent)  lab-3-2   -                 t\n");
+  CHECK(cells_in(released_view({"arm-1", "lab", "lab-3-2", {}, {"t"}}, {}))
+        == "NODE|FROM|TO|TRANSFER|TASKS TERMINATED|TASKS RESCHEDULED\n"
+           "arm-1|lab|(independent)|lab-3-2|-|t\n");
 }
 
 TEST_CASE("a transfer's id is the first column", "[tools]") {
@@ -53,8 +55,8 @@ TEST_CASE("a transfer's id is the first column", "[tools]") {
   const transfer_description transfers{
       {{"lab-3-1", "arm-1", "u", "lab", "hall", transfer_state::returned,
         "no route", 1000}}};
-  CHECK(transfers_view(transfers, {{}, 61000})
-        == "TRANSFER  NODE   FROM  TO    STATE     SINCE  REASON\n"
-           "lab-3-1   arm-1  lab   hall  returned  1m00s  no route\n");
+  CHECK(cells_in(transfers_view(transfers, {{}, 61000}))
+        == "TRANSFER|NODE|FROM|TO|STATE|SINCE|REASON\n"
+           "lab-3-1|arm-1|lab|hall|returned|1m00s|no route\n");
   CHECK(transfers_view({}, {}) == "no transfers\n");
 }

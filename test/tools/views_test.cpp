@@ -1,5 +1,8 @@
 #include "tools/roscell/view/views.hpp"
 
+#include "test/printed_text.hpp"
+#include "test/words.hpp"
+
 #include <catch2/catch.hpp>
 
 #include <algorithm>
@@ -7,6 +10,8 @@
 
 using namespace roscell;
 using namespace roscell::cli;
+using roscell::test::cells_in;
+using roscell::test::right_aligned;
 
 namespace {
 
@@ -37,9 +42,7 @@ node_resources sample_resources() {
   return r;
 }
 
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != text.npos;
-}
+using roscell::test::has;
 
 } // namespace
 
@@ -60,35 +63,32 @@ TEST_CASE("a cell's row shows its size and where to join it", "[tools]") {
                           "",
                           {{"ROS_DISCOVERY_SERVER", ";10.0.0.1:11811"},
                            {"ROS_DOMAIN_ID", "7"}}}}};
-  CHECK(cells_view(cells, at(0))
-        == "CELL  COORDINATOR  NODES  ADDRESS        DISCOVERY SERVER  "
-           "ROS_DISCOVERY_SERVER  ROS_DOMAIN_ID\n"
-           "lab   arm-1            3  10.0.0.1:8420  10.0.0.1:11811    "
-           ";10.0.0.1:11811                   7\n");
+  const auto text = cells_view(cells, at(0));
+  CHECK(cells_in(text)
+        == "CELL|COORDINATOR|NODES|ADDRESS|DISCOVERY SERVER|"
+           "ROS_DISCOVERY_SERVER|ROS_DOMAIN_ID\n"
+           "lab|arm-1|3|10.0.0.1:8420|10.0.0.1:11811|;10.0.0.1:11811|7\n");
+  CHECK(right_aligned(text) == "NODES|ROS_DOMAIN_ID");
 }
 
 TEST_CASE("trouble has a column only if a cell has some", "[tools]") {
   const cell_list cells{
       {{"lab", "arm-1", "10.0.0.1:8420", "10.0.0.1:11811", 3, ""},
        {"hall", "arm-2", "10.0.0.2:8420", "10.0.0.2:11811", 0, "no route"}}};
-  CHECK(cells_view(cells, at(0))
-        == "CELL  COORDINATOR  NODES  ADDRESS        DISCOVERY SERVER  "
-           "ROS_DISCOVERY_SERVER  ROS_DOMAIN_ID  TROUBLE\n"
-           "lab   arm-1            3  10.0.0.1:8420  10.0.0.1:11811    "
-           "-                                 -  -\n"
-           "hall  arm-2            -  10.0.0.2:8420  10.0.0.2:11811    "
-           "-                                 -  no route\n");
+  CHECK(has(cells_in(cells_view(cells, at(0))),
+            "|ROS_DOMAIN_ID|TROUBLE\n"
+            "lab|arm-1|3|10.0.0.1:8420|10.0.0.1:11811|-|-|-\n"
+            "hall|arm-2|-|10.0.0.2:8420|10.0.0.2:11811|-|-|no route\n"));
 }
 
 TEST_CASE("both claims of a cell's name are shown as trouble", "[tools]") {
   const cell_list cells{{{"lab", "arm-1", "10.0.0.1:8420", "", 3, ""},
                          {"hall", "arm-3", "10.0.0.3:8420", "", 1, ""},
                          {"lab", "arm-2", "10.0.0.2:8420", "", 1, "told"}}};
-  const auto text = cells_view(cells, at(0));
+  const auto text = cells_in(cells_view(cells, at(0)));
   CHECK(has(text, "2 coordinators claim this name\n"));
   CHECK(has(text, "told\n"));
-  CHECK(has(text, "10.0.0.3:8420  -                 -                       "
-                  "          -  -\n"));
+  CHECK(has(text, "10.0.0.3:8420|-|-|-|-\n"));
 }
 
 TEST_CASE("a task that is named is shown with its steps, and how long data "
@@ -166,9 +166,10 @@ TEST_CASE("a task's row counts the steps that run", "[tools]") {
   failed.node = "arm-2";
   const task_description tasks{
       {{"t", task_state::degraded, 1000, 0, {sample_instance(), failed}}}};
-  CHECK(tasks_view(tasks, at(6000))
-        == "TASK  STATE     AGE  RUNNING  NODES\n"
-           "t     degraded   5s      1/2  arm-1,arm-2\n");
+  const auto text = tasks_view(tasks, at(6000));
+  CHECK(cells_in(text)
+        == "TASK|STATE|AGE|RUNNING|NODES\nt|degraded|5s|1/2|arm-1,arm-2\n");
+  CHECK(right_aligned(text) == "AGE|RUNNING");
 }
 
 TEST_CASE("what waits is shown with whom and for how long", "[tools]") {

@@ -1,8 +1,12 @@
 #include "tools/roscell/insight/cost_view.hpp"
 
+#include "test/printed_text.hpp"
+
 #include <catch2/catch.hpp>
 
 namespace roscell::cli {
+
+using test::cells_in;
 
 namespace {
 
@@ -27,19 +31,21 @@ bool tells_of(const std::string& text, const std::string& part) {
 } // namespace
 
 TEST_CASE("Each window of a node's cost is a row of rates", "[tools]") {
-  CHECK(cost_view({{busy_node()}}, {})
-        == "NODE  WINDOW   SPAN  CPU (%)      PSS  WRITTEN A DAY  SENT (B/s)  "
-           "RECEIVED (B/s)  PEERS (B/s)\n"
-           "base  minute  1m15s      0.2  8.1 MiB        844 KiB        20.2  "
-           "          18.9  arm 19.2/18.9, leg 1/0\n"
-           "base  day     1d01h      0.1    8 MiB            0 B           0  "
-           "             0  -\n");
+  const auto text = cost_view({{busy_node()}}, {});
+  CHECK(cells_in(text)
+        == "NODE|WINDOW|SPAN|CPU (%)|PSS|WRITTEN A DAY|SENT (B/s)|"
+           "RECEIVED (B/s)|PEERS (B/s)\n"
+           "base|minute|1m15s|0.2|8.1 MiB|844 KiB|20.2|"
+           "18.9|arm 19.2/18.9, leg 1/0\n"
+           "base|day|1d01h|0.1|8 MiB|0 B|0|0|-\n");
+  CHECK(test::right_aligned(text)
+        == "SPAN|CPU (%)|PSS|WRITTEN A DAY|SENT (B/s)|RECEIVED (B/s)");
 }
 
 TEST_CASE("Before any time has passed there is no rate", "[tools]") {
   const auto text =
       cost_view({{{"base", {{"minute", 0, 0, mib, 0, {}}}, ""}}}, {});
-  CHECK(tells_of(text, "base  minute    0s        0  1 MiB"));
+  CHECK(tells_of(cells_in(text), "base|minute|0s|0|1 MiB|"));
 }
 
 TEST_CASE("What a node writes at its start is not told as that of a day",
