@@ -1,5 +1,6 @@
 """A headless browser that looks at the dashboard, and what a person does with it."""
 
+import dataclasses
 import os
 import shutil
 import tempfile
@@ -18,6 +19,20 @@ ARGUMENTS = ("--headless", "--no-sandbox", "--disable-gpu", "--disable-quic",
 PATIENCE_S = float(os.environ.get("ROSCELL_DEADLINE_S", "30"))
 
 
+@dataclasses.dataclass
+class Work:
+    """What a page has worked, in seconds by the clock and on a core."""
+    clock_s: float
+    core_s: float
+
+    def __sub__(self, earlier):
+        return Work(self.clock_s - earlier.clock_s, self.core_s - earlier.core_s)
+
+    def slowdown(self):
+        """How much longer it took because others had the cores, too."""
+        return max(1.0, self.clock_s / self.core_s) if self.core_s else 1.0
+
+
 class Browser:
     """One window with data of its own."""
 
@@ -30,6 +45,7 @@ class Browser:
             options.add_argument(argument)
         options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
         self.driver = webdriver.Chrome(service=Service("/usr/bin/chromedriver"), options=options)
+        self.driver.execute_cdp_cmd("Performance.enable", {})
         self.size(width, height)
 
     def close(self):
@@ -139,6 +155,11 @@ class Browser:
         """What the page has asked of the node, by path."""
         return self.js("""return performance.getEntriesByType('resource')
             .map((x) => x.name).filter((x) => x.includes('/v1/')).map((x) => x.split('/v1/')[1])""")
+
+    def work(self):
+        metrics = self.driver.execute_cdp_cmd("Performance.getMetrics", {})["metrics"]
+        values = {x["name"]: x["value"] for x in metrics}
+        return Work(values["TaskDuration"], values["ThreadTime"])
 
     def complaints(self):
         """What the browser has to say against the page: errors, broken policies. That a

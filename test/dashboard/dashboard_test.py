@@ -209,10 +209,12 @@ class DashboardTest(Asking, KeepingPlace, MakingWay, unittest.TestCase):
         page.sees("Resources over the last minutes")
 
     def test_the_first_picture_comes_within_a_second(self):
+        before = self.page.work()
         self.page.open("#/site")
         first = self.page.js("return performance.getEntriesByName('first-contentful-paint')[0].startTime")
-        print(f"\n    first picture after {first:.0f} ms", end="")
-        self.assertLess(first, 1000)
+        slowdown = (self.page.work() - before).slowdown()
+        print(f"\n    first picture after {first:.0f} ms, on cores that made it {slowdown:.1f} times as long", end="")
+        self.assertLess(first, 1000 * slowdown)
 
     # Who may do what.
 

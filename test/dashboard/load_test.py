@@ -14,9 +14,12 @@ from browser import Browser  # noqa: E402
 from fake_cell import PAGE, serve  # noqa: E402
 
 SECONDS = 8
-# Of 95 of 100 frames, and of the longest piece of work: what a person sees as fluent.
+# Of 95 of 100 frames, and of the longest piece of work: what a person sees as fluent
+# where the page has a core to itself.
 MOST_FRAME_MS = 34
 MOST_TASK_MS = 150
+# What the page may work on a core.
+MOST_WORK = 0.25
 
 # How far frames are apart, what the page works, and how much of the time.
 MEASURE = """
@@ -49,23 +52,20 @@ class LoadTest(unittest.TestCase):
     def tearDownClass(cls):
         cls.page.close()
 
-    def work_ms(self):
-        metrics = self.page.driver.execute_cdp_cmd("Performance.getMetrics", {})["metrics"]
-        return next(x["value"] for x in metrics if x["name"] == "TaskDuration") * 1000
-
     def test_50_nodes_and_500_instances_at_10_events_a_second_stay_fluent(self):
-        self.page.driver.execute_cdp_cmd("Performance.enable", {})
         print()
         for room in ("site", "instances", "tasks", "tasks/task-01", "events", "nodes/node-01"):
             self.page.open(f"#/{room}")
             self.page.until(lambda: self.page.text("main").count("\n") > 10)
-            before = self.work_ms()
+            before = self.page.work()
             x = self.page.driver.execute_async_script(MEASURE, SECONDS)
-            busy = (self.work_ms() - before) / (SECONDS * 10)
+            work = self.page.work() - before
             print(f"    {room:14} frames {x['median']:.1f} ms, 95 % under {x['p95']:.1f}, most {x['most']:.0f}; "
-                  f"{x['long']} tasks over 50 ms, longest {x['longest']:.0f}; works {busy:.1f} % of the time")
-            self.assertLess(x["p95"], MOST_FRAME_MS, room)
-            self.assertLess(x["longest"], MOST_TASK_MS, room)
+                  f"{x['long']} tasks over 50 ms, longest {x['longest']:.0f}; works {100 * work.core_s / SECONDS:.1f} % "
+                  f"of the time, {work.slowdown():.1f} times as long as with a core to itself")
+            self.assertLess(x["p95"], MOST_FRAME_MS * work.slowdown(), room)
+            self.assertLess(x["longest"], MOST_TASK_MS * work.slowdown(), room)
+            self.assertLess(work.core_s, MOST_WORK * SECONDS, room)
 
     def test_few_questions_are_asked_however_many_events_come(self):
         self.page.open("#/events")

@@ -1,14 +1,30 @@
 # How people look at a cell: the dashboard in a real browser, against a real cell
 # and under load; `roscell top` and the shell at a terminal.
 
-test_people_see_and_do_what_they_came_for() {
+slow=(test_people_see_and_do_what_they_came_for test_a_page_sees_faults_that_no_real_cell_has_at_will test_a_page_of_a_large_cell_stays_fluent)
+
+# in_a_browser WHAT: test/dashboard/run.sh does that.
+in_a_browser() {
   local tool
   for tool in chromium chromedriver; do
     command -v $tool > /dev/null || skip "there is no $tool"
   done
   /usr/bin/python3 -c 'import selenium' 2> /dev/null || skip "there is no Selenium"
-  test/dashboard/run.sh "$ROSCELL_BUILD" > "$scratch/said" 2>&1 \
+  test/dashboard/run.sh "$ROSCELL_BUILD" "$1" > "$scratch/said" 2>&1 \
     || fail "$(tail -n 30 "$scratch/said")"
+  cat "$scratch/said"
+}
+
+test_people_see_and_do_what_they_came_for() {
+  in_a_browser scene
+}
+
+test_a_page_sees_faults_that_no_real_cell_has_at_will() {
+  in_a_browser faults
+}
+
+test_a_page_of_a_large_cell_stays_fluent() {
+  in_a_browser load
 }
 
 # page NAME PATH: what that node's Unix socket shows a browser.
