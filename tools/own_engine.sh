@@ -36,10 +36,17 @@ no_engine_here() {
 }
 
 # The Debian root file system that stands for the base image that a user with a
-# registry would pull. Made from the Debian mirror, once.
+# registry would pull. Made from the Debian mirror, once, whoever else wants it.
 make_base_tar() {
   [[ -s $base_tar ]] && return
   mkdir -p "$(dirname "$base_tar")"
+  (
+    flock 9
+    [[ -s $base_tar ]] || bootstrap_base_tar
+  ) 9> "$base_tar.lock"
+}
+
+bootstrap_base_tar() {
   mmdebstrap --quiet --variant=minbase --format=tar \
     --dpkgopt='path-exclude=/usr/share/doc/*' \
     --dpkgopt='path-exclude=/usr/share/locale/*' \

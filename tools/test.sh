@@ -1,172 +1,168 @@
 #!/usr/bin/env bash
-# Installs, builds and tests; prints a summary. Fast the second time.
-# Options: --lint, --unit, --system, --fuzz or --tidy run that part only.
+# Installs, builds and tests; ends with a table of where the time went, the
+# slowest tests, and how many have passed.
+# Usage: tools/test.sh [--lint|--unit|--system|--fuzz|--tidy]
+#
+#   --lint, --unit, --system, --fuzz
+#             that part only
+#   --tidy    clang-tidy on all sources; without it on those that the change
+#             touches, and in CI on the others, too, while there is time
+#
+#   ROSCELL_TEST_JOBS=N     tests beside each other           [three a core]
+#   ROSCELL_FUZZ_SECONDS=N  how long each fuzzer runs                   [15]
+#   ROSCELL_TIDY_MINUTES=N  minutes after which CI looks at no more sources
+#                           that the change does not touch              [40]
 set -uo pipefail
 cd "$(dirname "$0")/.."
 
-fuzz_seconds=${ROSCELL_FUZZ_SECONDS:-5}
-parts=${1:-all}
-log=build/test-logs
-passed=0 failed=0 skipped=0
-skip_reasons=()
+part=${1:-all}
+case $part in
+  all | --lint | --unit | --system | --fuzz | --tidy) ;;
+  -h | --help) sed -n '2,16s/^# \{0,1\}//p' "$0"; exit ;;
+  *) echo "test.sh: unknown option $part (--help tells more)" >&2; exit 2 ;;
+esac
+fuzz_seconds=${ROSCELL_FUZZ_SECONDS:-15}
+logs=$PWD/build/test-logs
+begin=$EPOCHSECONDS
+# What runs of this user know of each other, whatever clone they are of.
+cache=${XDG_CACHE_HOME:-${HOME:-$PWD/build}/.cache}/roscell
 . tools/building.sh
+. tools/testing/results.sh
+. tools/testing/room.sh
 may_build || exit 1
-mkdir -p "$log"
-SECONDS=0
+make_room || exit 1
 
 wants() {
-  [[ $parts == all || $parts == "--$1" ]]
+  [[ $part == all || $part == "--$1" ]]
 }
 
 say() {
-  printf '[%4d s] %s\n' "$SECONDS" "$*"
+  printf '[%4d s] %s\n' $((EPOCHSECONDS - begin)) "$*"
 }
 
-# report NAME STATUS: counts a check, and shows the end of its log if it failed.
-report() {
-  if [[ $2 -eq 0 ]]; then
-    say "ok      $1"
-    ((++passed))
-  else
-    say "FAILED  $1 ($log/$1.log)"
-    tail -n 40 "$log/$1.log"
-    ((++failed))
-  fi
-}
-
-# check NAME COMMAND...: one check that passes or fails as a whole.
+# check PART NAME COMMAND...: one check that passes or fails as a whole. What it
+# says is shown if it fails.
 check() {
-  "${@:2}" > "$log/$1.log" 2>&1
-  report "$1" $?
+  local log=$logs/$2.log from=$EPOCHREALTIME outcome=ok
+  measured "$1" "${@:3}" > "$log" 2>&1 || outcome=FAILED
+  write_case "$1" "$2" "$(seconds_since "$from")" "$outcome"
+  say "$(printf '%-7s %s' "$outcome" "$2")"
+  [[ $outcome == ok ]] || { tail -n 40 "$log"; echo "    -- all of it: $log"; return 1; }
 }
 
-# begin NAME COMMAND...: a check that only computes, at low priority beside the
-# tests, which mostly wait; `finish NAME` waits for it.
+# begin PART COMMAND...: in the idle time of the others; `finish PART` waits for
+# it and shows what it said.
 declare -A begun
 begin() {
-  rm -f "$log/$1.status"
   set -m # A process group of its own, which can be ended as a whole.
   {
     renice -n 19 -p "$BASHPID"
-    "${@:2}"
-    echo $? > "$log/$1.status"
-  } > "$log/$1.log" 2>&1 &
+    "${@:2}" > "$logs/$1.said" 2>&1
+  } > /dev/null &
   begun[$1]=$!
   set +m
 }
 
-# The status is in a file, for the shell forgets one whose process id it has seen
-# again, as it does after 32768 processes.
 finish() {
   wait "${begun[$1]}" 2> /dev/null
-  report "$1" "$(cat "$log/$1.status" 2> /dev/null || echo 1)"
   unset "begun[$1]"
+  cat "$logs/$1.said"
 }
 
-end_begun() {
+end_all() {
   local job
+  trap '' INT TERM HUP
   for job in "${begun[@]}"; do
     kill -- "-$job" 2> /dev/null
   done
+  give_room_back
 }
-trap end_begun EXIT
-
-configure() {
-  [[ -f build/$1/build.ninja ]] || cmake --preset "$1" "${@:2}"
-}
+trap end_all EXIT
+trap 'exit 130' INT
+trap 'exit 143' TERM HUP
 
 build_asan() {
-  configure asan -DROSCELL_WERROR=ON && ninja -C build/asan -j "$(build_jobs)"
+  [[ -f build/asan/build.ninja ]] \
+    || cmake --preset asan -DROSCELL_WERROR=ON || return
+  ninja -C build/asan -j "$(build_jobs)"
 }
 
-format() {
-  git ls-files '*.hpp' '*.cpp' | xargs clang-format --dry-run --Werror
+check_format() {
+  git ls-files -z '*.hpp' '*.cpp' | xargs -0 clang-format --dry-run --Werror
+}
+
+# run_tests LABELS: those of the build, side by side. What takes longest begins
+# first, also in a clone that has not run any of them yet.
+run_tests() {
+  local costs=build/asan/Testing/Temporary/CTestCostData.txt
+  mkdir -p "$(dirname "$costs")" "$cache"
+  [[ -s $costs ]] || cp "$cache/test-costs" "$costs" 2> /dev/null
+  # Of one that runs out of its time nobody writes a case down.
+  ctest_of_build "$1" || grep -q $'\tFAILED\t' "$ROSCELL_RESULTS" \
+    || write_case ctest "an entry of CTest, see above" 0 FAILED
+  cp "$costs" "$cache/test-costs" 2> /dev/null
+}
+
+ctest_of_build() {
+  setpriv --pdeathsig TERM -- ctest --test-dir build/asan -L "^($1)\$" \
+    -j "${ROSCELL_TEST_JOBS:-$(test_jobs)}" --output-on-failure --no-tests=error \
+    | grep --line-buffered -vE '^ *Start +[0-9]+:'
+}
+
+build_fuzzers() {
+  cmake --preset fuzz && ninja -C build/fuzz -j "$(build_jobs)" fuzzers
+}
+
+# Each fuzzer goes on from what earlier runs have found, in any clone.
+fuzz() {
+  local program name
+  check fuzz-build build-fuzzers build_fuzzers || return
+  for program in build/fuzz/bin/*_fuzz; do
+    name=$(basename "$program")
+    check fuzz "$name" env ROSCELL_CORPUS="$cache/fuzz" \
+      ROSCELL_FUZZ_SECONDS="$fuzz_seconds" \
+      ctest --test-dir build/fuzz -R "^$name\$" --verbose --no-tests=error
+    echo "         $(grep -oE 'executed_units: *[0-9]+' "$logs/$name.log" \
+      | grep -oE '[0-9]+') inputs in $fuzz_seconds s"
+  done
 }
 
 tidy() {
-  python3 tools/tidy.py build/asan
-}
-
-build_fuzz() {
-  cmake --preset fuzz -DROSCELL_FUZZ_SECONDS="$fuzz_seconds" && ninja -C build/fuzz -j "$(build_jobs)" fuzzers
-}
-
-# Counts the test cases of one Catch program; one that does not tell how many it
-# has run has not passed.
-unit() {
-  local program=$1 name cases
-  name=$(basename "$program")
-  if timeout 300 "$program" -r compact > "$log/$name.log" 2>&1 \
-    && cases=$(grep -oE '[0-9]+ test case' "$log/$name.log") \
-    && [[ ${cases%% *} -gt 0 ]]; then
-    say "ok      $name: ${cases}s"
-    passed=$((passed + ${cases%% *}))
-  else
-    say "FAILED  $name ($log/$name.log)"
-    tail -n 40 "$log/$name.log"
-    ((++failed))
-  fi
-}
-
-# Runs one fuzzer from its seeds for a bounded time.
-fuzz() {
-  local name inputs
-  name=$(basename "$1")
-  check "$name" ctest --test-dir build/fuzz -R "^$name\$" --verbose
-  inputs=$(grep -oE 'executed_units: *[0-9]+' "$log/$name.log" | grep -oE '[0-9]+')
-  echo "         $inputs inputs in $fuzz_seconds s"
-}
-
-system() {
-  tools/system_test.sh build/asan | tee "$log/system.log"
-  passed=$((passed + $(grep -c '^  ok ' "$log/system.log")))
-  failed=$((failed + $(grep -c '^  FAILED ' "$log/system.log")))
-  skipped=$((skipped + $(grep -c '^  SKIPPED ' "$log/system.log")))
-  while read -r reason; do
-    skip_reasons+=("$reason")
-  done < <(grep '^  SKIPPED ' "$log/system.log")
+  local how=(--touched)
+  [[ -z ${CI:-} ]] \
+    || how=(--begin-until $((begin + 60 * ${ROSCELL_TIDY_MINUTES:-40})))
+  [[ $part != --tidy ]] || how=()
+  check tidy clang-tidy python3 tools/tidy.py build/asan "${how[@]}"
+  echo "         $(tail -n 1 "$logs/clang-tidy.log")"
 }
 
 say "installing"
-tools/install.sh --with-tests || exit 1
+measured install tools/install.sh --with-tests || exit 1
 # Fast DDS 2.9.1 deletes its statistics objects through a base class of another
 # size; everything else that ASan checks stays on.
 export ASAN_OPTIONS=detect_leaks=1:new_delete_type_mismatch=0
 export UBSAN_OPTIONS=print_stacktrace=1
 
 if wants lint; then
-  check format format
-  check law tools/check_law.sh
-  check rules tools/check_rules.py
+  check lint format check_format
+  check lint law tools/check_law.sh
+  check lint rules tools/check_rules.py
 fi
-say "building with ASan and UBSan, warnings as errors"
-check build build_asan
-if [[ $failed -gt 0 ]]; then
-  echo "$passed passed, $failed failed"
-  exit 1
+if [[ $part != --fuzz ]]; then
+  say "building with ASan and UBSan, warnings as errors"
+  if ! check build build build_asan; then
+    python3 tools/testing/summary.py "$ROSCELL_RESULTS" "$begin"
+    exit 1
+  fi
 fi
-if wants lint; then
-  check law-of-programs tools/check_law.sh build/asan
-fi
-wants fuzz && begin build-fuzz build_fuzz
-wants tidy && begin tidy tidy
-if wants unit; then
-  for program in build/asan/bin/test_*; do
-    unit "$program"
-  done
-fi
-wants system && system
-if wants fuzz; then
-  finish build-fuzz
-  for program in build/fuzz/bin/*_fuzz; do
-    [[ -x $program ]] && fuzz "$program"
-  done
-fi
-wants tidy && finish tidy
-
-for reason in "${skip_reasons[@]}"; do
-  echo "$reason"
-done
+! wants lint || check lint law-of-programs tools/check_law.sh build/asan
+! wants fuzz || begin fuzz fuzz
+! wants tidy || begin tidy tidy
+tests=
+! wants unit || tests=unit
+! wants system || tests+=${tests:+|}system
+[[ -z $tests ]] || run_tests "$tests"
+[[ -z ${begun[fuzz]:-} ]] || finish fuzz
+[[ -z ${begun[tidy]:-} ]] || finish tidy
 say "done"
-echo "$passed passed, $failed failed, $skipped skipped"
-[[ $failed -eq 0 ]]
+python3 tools/testing/summary.py "$ROSCELL_RESULTS" "$begin"

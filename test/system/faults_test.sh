@@ -1,6 +1,8 @@
 # A cell of six hosts on a network that loses packets, is slow or falls apart.
 # ROSCELL_FAULT_SECONDS=600 makes the first two the ten minutes of the proof.
 
+slow=(test_a_fifth_of_all_packets_lost_costs_no_member test_200_ms_between_hosts_keep_nobody_out_and_cost_no_member)
+
 # start_six [DELAY_MS]: a coordinator and five members, each on its host.
 start_six() {
   local n

@@ -51,7 +51,10 @@ ends_alone() {
     timeout "$deadline_s" python3 - "${container%%:*}" << 'WAIT' \
       || fail "its shim has not ended"
 import os, select, sys
-select.select([os.pidfd_open(int(sys.argv[1]))], [], [])
+try:
+    select.select([os.pidfd_open(int(sys.argv[1]))], [], [])
+except ProcessLookupError:
+    pass  # It has ended before.
 WAIT
     expect "fenced" "$(jq .fenced "$scratch/arm/instances/$instance/exit")" true
   else

@@ -1,6 +1,8 @@
 # Cells that form by themselves and by name, exchange nodes and let them go. Most
 # tests are on loopback, where nodes see each other as on one network.
 
+slow=(test_a_transfer_survives_the_death_of_each_party_at_each_step)
+
 # start_cells NAME...: coordinators that see each other.
 start_cells() {
   local cell other

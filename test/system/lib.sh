@@ -18,8 +18,8 @@ skip() {
 
 need_namespaces() {
   [[ $(id -u) -eq 0 ]] || skip "network namespaces need root"
-  ip netns add "roscell-probe-$$" 2>/dev/null \
-    || skip "network namespaces cannot be made here"
+  { ip netns add "roscell-probe-$$" && ip netns exec "roscell-probe-$$" true; } \
+    2> /dev/null || skip "network namespaces cannot be made here"
   ip netns del "roscell-probe-$$"
 }
 
@@ -95,20 +95,16 @@ discovery_of() {
 # await NAME FILTER [SINCE]: waits until an event of that node matches the jq
 # filter, and prints it.
 await() {
-  local line stream reader end=$((SECONDS + deadline_s))
-  exec {stream}< <(exec "$ROSCELL" events --to "$scratch/$1/node.sock" \
+  local line= events matching reader
+  exec {events}< <(exec "$ROSCELL" events --to "$scratch/$1/node.sock" \
                      --since "${3:-0}" -o json 2> "$scratch/events.err")
   reader=$!
-  while read -r -t $((end - SECONDS)) line <&"$stream"; do
-    if jq -e "$2" <<< "$line" > /dev/null; then
-      kill "$reader"
-      exec {stream}<&-
-      echo "$line"
-      return
-    fi
-  done
-  kill "$reader" 2>/dev/null
-  fail "no event of $1 with: $2 $(cat "$scratch/events.err")"
+  exec {matching}< <(exec jq --unbuffered -c "select(($2)? // false)" <&"$events")
+  read -r -t "$deadline_s" line <&"$matching" || true
+  kill "$reader" 2> /dev/null
+  exec {events}<&- {matching}<&-
+  [[ -n $line ]] || fail "no event of $1 with: $2 $(cat "$scratch/events.err")"
+  echo "$line"
 }
 
 await_joined() {

@@ -5,9 +5,10 @@
 
 packages=$suite/packages
 
-# The packages, and the same once more as a newer version.
-before_all() {
-  command -v dh > /dev/null || return
+# The packages, the same once more as a newer version, and a Debian that has all
+# that they need.
+fetch_all() {
+  command -v dh mmdebstrap > /dev/null || return
   tools/package.sh --build "$ROSCELL_BUILD" --output "$packages" \
     roscell roscell-skills || return
   mkdir "$packages/newer"
@@ -18,17 +19,17 @@ before_all() {
     dpkg-deb -Znone -b "$suite/tree" "$packages/newer"
     rm -r "$suite/tree"
   done
+  clean_root systemd systemd-sysv "$packages"/roscell_*.deb \
+    "$packages"/roscell-skills_*.deb > "$suite/root"
 }
 
 start_debian_with_packages() {
-  local root
   need_debian_host
   compgen -G "$packages/newer/*.deb" > /dev/null \
-    || fail "there are no packages: $(cat "$suite/before_all.output")"
-  root=$(clean_root systemd systemd-sysv "$packages"/roscell_*.deb \
-    "$packages"/roscell-skills_*.deb 2> "$scratch/clean_root.err") \
-    || skip "no Debian can be made: $(cat "$scratch/clean_root.err")"
-  start_debian "$root"
+    || fail "there are no packages: $(cat "$suite/fetch_all.output")"
+  [[ -s $suite/root ]] \
+    || skip "no Debian can be made: $(tail -n 1 "$suite/fetch_all.output")"
+  start_debian "$(cat "$suite/root")"
   mkdir "$debian_root/packages"
   cp -rt "$debian_root/packages" "$packages"/roscell_*.deb \
     "$packages"/roscell-skills_*.deb "$packages/newer"

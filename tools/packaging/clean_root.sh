@@ -10,8 +10,15 @@ clean_root() {
   shift 2
   needs=$(for package in "$@"; do dpkg-deb -f "$package" Depends; done)
   root=$folder/$name-$(sha256sum <<< "$include $needs" | cut -c 1-16).tar
-  [[ -s $root ]] && echo "$root" && return
   mkdir -p "$folder"
+  (
+    flock 9
+    [[ -s $root ]] || bootstrap_root "$@"
+  ) 9> "$folder/$name.lock" && echo "$root"
+}
+
+# bootstrap_root FILE.deb...: makes $root of clean_root.
+bootstrap_root() {
   # Two builds of one tree may take turns.
   find "$folder" -name "$name-*.tar" -printf '%T@ %p\n' | sort -rn \
     | tail -n +2 | cut -d ' ' -f 2- | xargs -r rm
@@ -27,5 +34,4 @@ clean_root() {
     || { grep -E '^[EW]: ' "$root.log" | tail -n 1 >&2; return 1; }
   mv "$root.part" "$root"
   rm "$root.log"
-  echo "$root"
 }

@@ -9,7 +9,7 @@ need_debian_host() {
   command -v mmdebstrap dh > /dev/null || skip "mmdebstrap or debhelper is missing"
   cgroups=$(findmnt -nt cgroup2 -o TARGET | head -n 1)
   [[ -n $cgroups ]] || skip "systemd needs cgroups of version 2"
-  cgroup=$cgroups/roscell-test-$BASHPID
+  cgroup=$cgroups/roscell-$(basename "$scratch")
   mkdir "$cgroup" 2> /dev/null || skip "no cgroup can be made in $cgroups"
 }
 

@@ -10,6 +10,11 @@ base_tar=$ROSCELL_BUILD/../base-images/bookworm.tar
 engine_name=docker
 [[ $variant == docker ]] || engine_name=podman
 
+# The network is there before the tests only.
+fetch_all() {
+  make_base_tar
+}
+
 # For a test: skips it if there is no engine, and uses it if there is one.
 use_engine() {
   [[ -f $engine_dir.reason ]] && skip "$(cat "$engine_dir.reason")"

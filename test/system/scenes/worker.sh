@@ -2,7 +2,7 @@
 # by the system tests and tools/bench/lives_bench.sh.
 
 # make_worker: the skill `work`, a program that obeys the file $scratch/orders:
-# `crash STEP`, `done STEP`, `safe STEP`. It writes down when it starts, by the
+# `crash STEP` (once), `done STEP`, `safe STEP`. It writes down when it starts, by the
 # clock of the boot, which all nodes of a test share.
 make_worker() {
   skills=$scratch/skills
@@ -41,6 +41,7 @@ while True:
     if os.path.exists(f'{home}/done.{step}'):
         sys.exit(0)
     if os.path.exists(f'{home}/crash.{step}'):
+        os.unlink(f'{home}/crash.{step}')
         print(f'{step} crashes', flush=True)
         sys.exit(7)
     try:
@@ -82,10 +83,6 @@ work_task() {
 
 order() {
   touch "$scratch/orders/$1.$2"
-}
-
-take_back() {
-  rm "$scratch/orders/$1.$2"
 }
 
 # watch_end STEP: writes down when the first program of a step ends, by the

@@ -1,0 +1,46 @@
+#!/usr/bin/env bash
+# Lists what there is to run of the system tests, a line each: COST NAME FILE
+# VARIANT TEST... A file whose tests share what they start (it has before_all) is
+# one line for each of its variants, any other file one for each test. What costs
+# more is begun first; a file's line "slow=(TEST...)" names those of its tests that
+# take a minute or more.
+# Usage: tools/testing/list_system.sh [PATTERN], a regular expression that tests
+# match. $ROSCELL_VARIANTS="docker" leaves other variants out.
+set -uo pipefail
+cd "$(dirname "$0")/../../test/system" || exit
+pattern=${1:-.}
+
+# words_of NAME FILE: of its line "NAME=(WORD...)".
+words_of() {
+  sed -n "s/^$1=(\(.*\))\$/\1/p" "$2"
+}
+
+# variants_of FILE: "-" for one without.
+variants_of() {
+  local all variant
+  all=$(words_of variants "$1")
+  for variant in ${all:--}; do
+    [[ $variant == - || " ${ROSCELL_VARIANTS:-$all} " == *" $variant "* ]] \
+      && echo "$variant"
+  done
+}
+
+for file in *_test.sh; do
+  mapfile -t tests < <(grep -oE '^test_[a-z0-9_]+' "$file" | grep -E "$pattern")
+  [[ ${#tests[@]} -gt 0 ]] || continue
+  name=${file%_test.sh}
+  if grep -q '^before_all()' "$file"; then
+    while read -r variant; do
+      entry=$name
+      [[ $variant == - ]] || entry+=.$variant
+      echo "${#tests[@]} $entry $file $variant ${tests[*]}"
+    done < <(variants_of "$file")
+    continue
+  fi
+  slow=" $(words_of slow "$file") "
+  for test in "${tests[@]}"; do
+    cost=1
+    [[ $slow != *" $test "* ]] || cost=20
+    echo "$cost $name.${test#test_} $file - $test"
+  done
+done
