@@ -73,7 +73,7 @@ trap 'exit 130' INT TERM
 [[ -n $tree ]] || make_clone
 cd "$tree" || exit
 . tools/building.sh
-[[ -f build/asan/build.ninja ]] || cmake --preset asan > "$logs/cmake" || exit
+[[ -f build/asan/build.ninja ]] || cmake --preset asan -DROSCELL_WERROR=ON > "$logs/cmake" || exit
 found=0 all=0
 for patch in "$here"/test/faults/*.patch; do
   name=$(basename "$patch" .patch)
