@@ -8,7 +8,7 @@
 #   --tidy    clang-tidy on all sources; without it on those that the change
 #             touches, and in CI on the others, too, while there is time
 #
-#   ROSCELL_TEST_JOBS=N     tests beside each other           [three a core]
+#   ROSCELL_TEST_JOBS=N     tests beside each other             [two a core]
 #   ROSCELL_FUZZ_SECONDS=N  how long each fuzzer runs                   [15]
 #   ROSCELL_TIDY_MINUTES=N  minutes after which CI looks at no more sources
 #                           that the change does not touch              [40]
@@ -50,31 +50,28 @@ check() {
   [[ $outcome == ok ]] || { tail -n 40 "$log"; echo "    -- all of it: $log"; return 1; }
 }
 
-# begin PART COMMAND...: in the idle time of the others; `finish PART` waits for
-# it and shows what it said.
-declare -A begun
+# begin COMMAND...: in the idle time of the others; `finish` waits for it and
+# shows what it said.
+begun=
 begin() {
   set -m # A process group of its own, which can be ended as a whole.
   {
     renice -n 19 -p "$BASHPID"
-    "${@:2}" > "$logs/$1.said" 2>&1
+    "$@" > "$logs/beside.said" 2>&1
   } > /dev/null &
-  begun[$1]=$!
+  begun=$!
   set +m
 }
 
 finish() {
-  wait "${begun[$1]}" 2> /dev/null
-  unset "begun[$1]"
-  cat "$logs/$1.said"
+  wait "$begun" 2> /dev/null
+  begun=
+  cat "$logs/beside.said"
 }
 
 end_all() {
-  local job
   trap '' INT TERM HUP
-  for job in "${begun[@]}"; do
-    kill -- "-$job" 2> /dev/null
-  done
+  [[ -z $begun ]] || kill -- "-$begun" 2> /dev/null
   give_room_back
 }
 trap end_all EXIT
@@ -136,6 +133,12 @@ tidy() {
   echo "         $(tail -n 1 "$logs/clang-tidy.log")"
 }
 
+# One after the other: two compilers of each would take 2 GB more.
+fuzz_and_tidy() {
+  ! wants fuzz || fuzz
+  ! wants tidy || tidy
+}
+
 say "installing"
 measured install tools/install.sh --with-tests || exit 1
 # Fast DDS 2.9.1 deletes its statistics objects through a base class of another
@@ -156,13 +159,11 @@ if [[ $part != --fuzz ]]; then
   fi
 fi
 ! wants lint || check lint law-of-programs tools/check_law.sh build/asan
-! wants fuzz || begin fuzz fuzz
-! wants tidy || begin tidy tidy
+begin fuzz_and_tidy
 tests=
 ! wants unit || tests=unit
 ! wants system || tests+=${tests:+|}system
 [[ -z $tests ]] || run_tests "$tests"
-[[ -z ${begun[fuzz]:-} ]] || finish fuzz
-[[ -z ${begun[tidy]:-} ]] || finish tidy
+finish
 say "done"
 python3 tools/testing/summary.py "$ROSCELL_RESULTS" "$begin"

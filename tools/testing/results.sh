@@ -46,5 +46,5 @@ test_jobs() {
   local memory_jobs
   tools/testing/sandbox.sh --probe > /dev/null 2>&1 || { echo 1; return; }
   memory_jobs=$(awk '/^MemAvailable/ {print int($2 / 1024 / 1024)}' /proc/meminfo)
-  echo $(($(nproc) * 3 < memory_jobs ? $(nproc) * 3 : memory_jobs + 1))
+  echo $(($(nproc) * 2 < memory_jobs ? $(nproc) * 2 : memory_jobs + 1))
 }
