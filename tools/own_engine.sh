@@ -77,7 +77,10 @@ cgroup_manager = "cgroupfs"
 events_logger = "file"
 lock_type = "file"
 CONF
-  CONTAINERS_CONF=$engine_dir/containers.conf setsid "${engine_inside[@]}" \
+  # It leaves a copy of each image that is loaded.
+  mkdir -p -m 1777 "$engine_dir/temporary"
+  TMPDIR=$engine_dir/temporary CONTAINERS_CONF=$engine_dir/containers.conf \
+    setsid "${engine_inside[@]}" \
     podman --root "$engine_dir/root" --runroot "$engine_dir/exec" \
     --tmpdir "$engine_dir/tmp" --log-level info "${rootless_options[@]}" "$@" \
     system service --time 0 "unix://$engine_socket" \
@@ -122,7 +125,8 @@ start_engine() {
   [[ $engine_kind != rootless ]] || prepare_rootless || return
   launch_engine || no_engine_here "$program does not start here:" \
     "$(grep -v level=info "$engine_dir/log" | tail -n 1)" || return
-  engine import "$base_tar" debian:bookworm-slim > /dev/null
+  engine import "$base_tar" debian:bookworm-slim > /dev/null || return
+  rm -f "$engine_dir"/temporary/api_load.tar*
 }
 
 # end_engine [SIGNAL]: ends the engine and waits for its end. A Podman may be
