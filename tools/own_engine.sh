@@ -77,9 +77,10 @@ cgroup_manager = "cgroupfs"
 events_logger = "file"
 lock_type = "file"
 CONF
-  # It leaves a copy of each image that is loaded.
-  mkdir -p -m 1777 "$engine_dir/temporary"
-  TMPDIR=$engine_dir/temporary CONTAINERS_CONF=$engine_dir/containers.conf \
+  # It leaves a copy of each image that is loaded. Not in $engine_dir, which may
+  # be a small disk.
+  mkdir -p -m 1777 "$engine_dir.temporary"
+  TMPDIR=$engine_dir.temporary CONTAINERS_CONF=$engine_dir/containers.conf \
     setsid "${engine_inside[@]}" \
     podman --root "$engine_dir/root" --runroot "$engine_dir/exec" \
     --tmpdir "$engine_dir/tmp" --log-level info "${rootless_options[@]}" "$@" \
@@ -126,7 +127,7 @@ start_engine() {
   launch_engine || no_engine_here "$program does not start here:" \
     "$(grep -v level=info "$engine_dir/log" | tail -n 1)" || return
   engine import "$base_tar" debian:bookworm-slim > /dev/null || return
-  rm -f "$engine_dir"/temporary/api_load.tar*
+  rm -f "$engine_dir.temporary"/api_load.tar*
 }
 
 # end_engine [SIGNAL]: ends the engine and waits for its end. A Podman may be
@@ -145,6 +146,7 @@ stop_engine() {
   engine ps -aq 2>/dev/null | xargs -r docker -H "unix://$engine_socket" rm -f \
     > /dev/null 2>&1
   end_engine
+  rm -rf "$engine_dir.temporary"
   # A killed dockerd leaves its containerd.
   local rest
   rest=$(cat "$engine_dir/exec/containerd/containerd.pid" 2>/dev/null) \

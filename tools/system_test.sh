@@ -4,7 +4,7 @@
 #
 #   PATTERN               a regular expression; "^test_NAME$" is one test
 #   ROSCELL_VARIANTS=WORD only this variant of what is run with several engines
-#   ROSCELL_TEST_JOBS=N   so many at a time                    [three a core]
+#   ROSCELL_TEST_JOBS=N   so many at a time                      [two a core]
 #
 # The exit code is 0 if none failed.
 set -uo pipefail
@@ -14,6 +14,8 @@ case ${1:-} in
 esac
 . tools/testing/results.sh
 export ROSCELL_PATTERN=${2:-.}
+# As tools/test.sh has them, which says why.
+export ASAN_OPTIONS=${ASAN_OPTIONS:-detect_leaks=1:new_delete_type_mismatch=0}
 build=$(realpath "$1")
 [[ -f $build/CTestTestfile.cmake ]] \
   || { echo "system_test.sh: nothing is built in $1" >&2; exit 2; }
