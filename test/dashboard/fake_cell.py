@@ -34,6 +34,7 @@ class FakeCell:
         self.started = now()
         self.listeners = set()
         self.log_readers = set()
+        self.readings = itertools.count(1)
         self.requests = []
         self.skills = []
         self.delays = {}
@@ -201,10 +202,12 @@ class Handler(http.server.BaseHTTPRequestHandler):
         """Ten lines a second, until the browser or the test ends it."""
         self.begin_stream("text/plain")
         ended = threading.Event()
+        # Not its id(), which the next reading may get once this one has ended.
+        reading = f"#{next(self.fake.readings):04}"
         self.fake.log_readers.add(ended)
         try:
             for number in itertools.count(1):
-                self.wfile.write(f"- line {number} of reading {id(ended)}\n".encode())
+                self.wfile.write(f"- line {number} of reading {reading}\n".encode())
                 if ended.wait(0.1):
                     break
         except OSError:

@@ -63,7 +63,7 @@ class FaultTest(unittest.TestCase):
         first = page.text(".log .line").split()[-1]
         self.end_logs()
         page.sees("The log has broken off. Looking again in 1 s.")
-        page.until(lambda: first not in page.text(".log") and "line 2 of" in page.text(".log"))
+        page.until(lambda: first not in page.text(".log") and "line 2 of" in page.text(".log"), 10)
         self.assertEqual(page.text(".log").count("line 1 of"), 1)
         page.sees("Following.")
         self.set_state("stopped")
@@ -95,7 +95,7 @@ class FaultTest(unittest.TestCase):
         page.open(f"#/instances/{INSTANCE}")
         page.sees("line 2 of", selector=".log")
         page.js("hide(true)")
-        page.until(lambda: not self.fake.listeners and not self.fake.log_readers)
+        page.until(lambda: not self.fake.listeners and not self.fake.log_readers, 10)
         page.js("hide(false)")
         page.sees("live", selector="#link")
         page.until(lambda: len(self.fake.log_readers) == 1)
@@ -107,7 +107,7 @@ class FaultTest(unittest.TestCase):
         page.js("sessionStorage.hidden = 'yes'")
         page.driver.refresh()
         page.until(lambda: self.fake.listeners)
-        page.until(lambda: not self.fake.listeners)
+        page.until(lambda: not self.fake.listeners, 10)
         page.js("sessionStorage.clear()")
 
 
