@@ -42,6 +42,9 @@ if(ROSCELL_SANITIZE STREQUAL "address+undefined")
   add_compile_options(-gz=zlib)
   add_link_options(-Wl,--compress-debug-sections=zlib
     $<$<STREQUAL:$<TARGET_PROPERTY:TYPE>,EXECUTABLE>:-no-pie>)
+  # Thin archives name their objects, of which a copy would take 0.7 GB.
+  set(CMAKE_CXX_ARCHIVE_CREATE "<CMAKE_AR> qcT <TARGET> <LINK_FLAGS> <OBJECTS>")
+  set(CMAKE_CXX_ARCHIVE_APPEND "<CMAKE_AR> qT <TARGET> <LINK_FLAGS> <OBJECTS>")
 endif()
 
 if(ROSCELL_TIDY)

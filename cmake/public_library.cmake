@@ -21,6 +21,23 @@ function(roscell_public target name)
   set_property(GLOBAL APPEND PROPERTY ROSCELL_PUBLIC_LIBRARIES roscell::${name})
   install(TARGETS ${target} EXPORT roscell COMPONENT development
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  if(ROSCELL_SANITIZE STREQUAL "address+undefined")
+    roscell_install_whole(${target})
+  endif()
+endfunction()
+
+# roscell_install_whole(TARGET): with its objects, where the build has a thin
+# archive (house.cmake).
+function(roscell_install_whole target)
+  install(CODE "
+    execute_process(COMMAND \"${CMAKE_AR}\" t \"$<TARGET_FILE:${target}>\"
+      OUTPUT_VARIABLE objects OUTPUT_STRIP_TRAILING_WHITESPACE)
+    string(REPLACE \"\\n\" \";\" objects \"\${objects}\")
+    set(whole \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_LIBDIR}/$<TARGET_FILE_NAME:${target}>\")
+    file(REMOVE \"\${whole}\")
+    execute_process(COMMAND \"${CMAKE_AR}\" qc \"\${whole}\" \${objects}
+      COMMAND_ERROR_IS_FATAL ANY)"
+    COMPONENT development)
 endfunction()
 
 # roscell_public_headers(FOLDER_OR_FILE...): headers below include/roscell that

@@ -1,9 +1,11 @@
 #!/usr/bin/env bash
-# Lists what there is to run of the system tests, a line each: COST NAME FILE
-# VARIANT TEST... A file whose tests share what they start (it has before_all) is
-# one line for each of its variants, any other file one for each test. What costs
-# more is begun first; a file's line "slow=(TEST...)" names those of its tests that
-# take a minute or more.
+# Lists what there is to run of the system tests, a line each: COST LANE NAME
+# FILE VARIANT TEST... A file whose tests share what they start (it has
+# before_all) is one line for each of its variants, any other file one for each
+# test. What costs more is begun first; a file's line "slow=(TEST...)" names those
+# of its tests that take a minute or more. Those of one lane go one after the
+# other: each engine keeps its images, 1 GB of disk, so that there are two lanes
+# for them; "-" is none.
 # Usage: tools/testing/list_system.sh [PATTERN], a regular expression that tests
 # match. $ROSCELL_VARIANTS="docker" leaves other variants out.
 set -uo pipefail
@@ -25,15 +27,17 @@ variants_of() {
   done
 }
 
+engines=0
 for file in *_test.sh; do
   mapfile -t tests < <(grep -oE '^test_[a-z0-9_]+' "$file" | grep -E "$pattern")
   [[ ${#tests[@]} -gt 0 ]] || continue
-  name=${file%_test.sh}
+  name=${file%_test.sh} lane=-
   if grep -q '^before_all()' "$file"; then
     while read -r variant; do
       entry=$name
       [[ $variant == - ]] || entry+=.$variant
-      echo "${#tests[@]} $entry $file $variant ${tests[*]}"
+      ! grep -q scenes/engine.sh "$file" || lane=$((++engines % 2))
+      echo "${#tests[@]} $lane $entry $file $variant ${tests[*]}"
     done < <(variants_of "$file")
     continue
   fi
@@ -41,6 +45,6 @@ for file in *_test.sh; do
   for test in "${tests[@]}"; do
     cost=1
     [[ $slow != *" $test "* ]] || cost=20
-    echo "$cost $name.${test#test_} $file - $test"
+    echo "$cost $lane $name.${test#test_} $file - $test"
   done
 done
