@@ -4,8 +4,8 @@
 # before_all) is one line for each of its variants, any other file one for each
 # test. What costs more is begun first; a file's line "slow=(TEST...)" names those
 # of its tests that take a minute or more. Those of one lane go one after the
-# other: each engine keeps its images, 1 GB of disk, so that there are two lanes
-# for them; "-" is none.
+# other: an engine keeps its images and a Debian its files, 1 GB of disk each, so
+# that there are two lanes for them; "-" is none.
 # Usage: tools/testing/list_system.sh [PATTERN], a regular expression that tests
 # match. $ROSCELL_VARIANTS="docker" leaves other variants out.
 set -uo pipefail
@@ -27,22 +27,29 @@ variants_of() {
   done
 }
 
-engines=0
+# next_lane FILE: sets lane.
+next_lane() {
+  lane=-
+  ! grep -qE 'scenes/(engine|debian_host).sh' "$1" || lane=$((++large % 2))
+}
+
+large=0
 for file in *_test.sh; do
   mapfile -t tests < <(grep -oE '^test_[a-z0-9_]+' "$file" | grep -E "$pattern")
   [[ ${#tests[@]} -gt 0 ]] || continue
-  name=${file%_test.sh} lane=-
+  name=${file%_test.sh}
   if grep -q '^before_all()' "$file"; then
     while read -r variant; do
       entry=$name
       [[ $variant == - ]] || entry+=.$variant
-      ! grep -q scenes/engine.sh "$file" || lane=$((++engines % 2))
+      next_lane "$file"
       echo "${#tests[@]} $lane $entry $file $variant ${tests[*]}"
     done < <(variants_of "$file")
     continue
   fi
   slow=" $(words_of slow "$file") "
   for test in "${tests[@]}"; do
+    next_lane "$file"
     cost=1
     [[ $slow != *" $test "* ]] || cost=20
     echo "$cost $lane $name.${test#test_} $file - $test"
