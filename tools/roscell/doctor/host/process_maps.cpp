@@ -25,8 +25,14 @@ void visit_line(const fs::path& process, const std::string& line,
   std::istringstream in{line};
   std::string range, rights, offset, device, inode, path;
   in >> range >> rights >> offset >> device >> inode >> std::ws;
-  if (std::getline(in, path) && begins_with(path, below))
-    visit({process, device, path.substr(below.size())});
+  std::getline(in, path);
+  // Whoever is in a chroot sees what is mounted elsewhere by the way from the
+  // host's root.
+  std::error_code error;
+  const auto root = fs::read_symlink(process / "root", error).string();
+  for (const auto& begin : {below, root + below})
+    if (begins_with(path, begin))
+      return visit({process, device, path.substr(begin.size())});
 }
 
 } // namespace
