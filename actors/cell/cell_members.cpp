@@ -199,8 +199,11 @@ caf::result<node_departed> depart_member(coordinator_pointer self,
                                          const depart_node& request) {
   auto& st = self->state;
   auto* entry = st.registry.find_member(request.uuid, request.member);
-  if (!entry)
+  if (!entry) {
+    // It may go before its registration has been written down.
+    st.registry.withdraw(request.uuid, request.member);
     return node_departed{};
+  }
   const auto name = entry->row.identity.name;
   // A node that goes with instances is expected back: they go on running.
   if (!has_instances(st, name)) {

@@ -61,12 +61,18 @@ namespace {
 
 using namespace membership_steps;
 
+/// The coordinator may show the row before this node has been told.
+bool may_have_row(const membership_status& st) {
+  return st.phase == phase::joined
+         || (st.phase == phase::registering && st.registration_sent);
+}
+
 /// Tells the coordinator, if there is one, and then leaves.
 void leave(self_pointer self, const std::string& reason) {
   auto& st = self->state;
   if (st.phase == phase::leaving)
     return;
-  if (st.phase != phase::joined)
+  if (!may_have_row(st))
     return finish_leaving(self);
   st.phase = phase::leaving;
   st.frames.call(message_json(node_departure{reason}),

@@ -65,6 +65,9 @@ void start_late(self_pointer self, const instance_spec& spec) {
 
 void on_row(self_pointer self, uint64_t id, node_registered reply) {
   auto& st = self->state;
+  // It has said meanwhile that it goes.
+  if (st.phase != phase::registering)
+    return;
   st.phase = phase::active;
   const auto late = take_long_starts(reply);
   st.frames.answer(id, message_json(reply));
@@ -162,6 +165,8 @@ void on_request(self_pointer self, uint64_t id, const session_inquiry& x) {
     return on_place_request(self, id, x.body);
   if (type == node_registration::type)
     return on_registration(self, id, x.body);
+  if (type == node_departure::type && self->state.phase == phase::registering)
+    return on_departure(self, id, x.body);
   if (self->state.phase != phase::active) {
     refuse_call(self, id,
                 {error_code::conflict, "this session has no registered node"});

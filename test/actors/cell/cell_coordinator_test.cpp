@@ -181,6 +181,22 @@ TEST_CASE_METHOD(paper_cell, "A node that leaves without instances is gone",
   CHECK(count("node_left") == 1);
 }
 
+TEST_CASE_METHOD(paper_cell,
+                 "A node that leaves before its row is written down has none",
+                 "[cell_coordinator]") {
+  auto& arm = make_agent("arm");
+  node_registration registration;
+  registration.identity = arm.identity;
+  registration.resources.name = "arm";
+  const auto entered = time.ask<node_registered>(
+      coordinator, register_node{registration, arm.member});
+  depart(arm);
+  CHECK(why(entered->value()).code == error_code::conflict);
+  CHECK(request({{"type", "cell_query"}}).at("nodes").size() == 1);
+  CHECK(count("node_joined") == 0);
+  CHECK(count("node_lost") == 0);
+}
+
 TEST_CASE_METHOD(paper_cell, "A node that leaves with instances is expected",
                  "[cell_coordinator]") {
   auto& arm = add("arm");
