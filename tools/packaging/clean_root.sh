@@ -9,7 +9,7 @@ clean_root() {
   local folder=$PWD/build/base-images name=$1 include=$2 needs root
   shift 2
   needs=$(for package in "$@"; do dpkg-deb -f "$package" Depends; done)
-  root=$folder/$name-$(sha256sum <<< "$include $needs" | cut -c 1-16).tar
+  root=$folder/$name-$(sha256sum <<< "$include $needs" | cut -c 1-16).tar.gz
   mkdir -p "$folder"
   (
     flock 9
@@ -20,8 +20,9 @@ clean_root() {
 # bootstrap_root FILE.deb...: makes $root of clean_root.
 bootstrap_root() {
   # Two builds of one tree may take turns.
-  find "$folder" -name "$name-*.tar" -printf '%T@ %p\n' | sort -rn \
+  find "$folder" -name "$name-*.tar*" -printf '%T@ %p\n' | sort -rn \
     | tail -n +2 | cut -d ' ' -f 2- | xargs -r rm
+  local part=$folder/part.$name.tar.gz # By whose end it is packed.
   mmdebstrap --quiet --variant=minbase ${include:+--include="$include"} \
     --format=tar --skip=cleanup/apt \
     --dpkgopt='path-exclude=/usr/share/locale/*' \
@@ -30,8 +31,8 @@ bootstrap_root() {
     --customize-hook='chroot "$1" sh -c "apt-get -q install -y \
       --no-install-recommends --download-only /packages/*.deb"' \
     --customize-hook='rm -r "$1/packages"' \
-    bookworm "$root.part" > "$root.log" 2>&1 \
+    bookworm "$part" > "$root.log" 2>&1 \
     || { grep -E '^[EW]: ' "$root.log" | tail -n 1 >&2; return 1; }
-  mv "$root.part" "$root"
+  mv "$part" "$root"
   rm "$root.log"
 }

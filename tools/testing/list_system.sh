@@ -4,8 +4,9 @@
 # before_all) is one line for each of its variants, any other file one for each
 # test. What costs more is begun first; a file's line "slow=(TEST...)" names those
 # of its tests that take a minute or more. Those of one lane go one after the
-# other: an engine keeps its images and a Debian its files, 1 GB of disk each, so
-# that there are two lanes for them; "-" is none.
+# other: an engine keeps its images, 1 GB of disk, so that there are two lanes for
+# them, and a Debian with the packages for it 1.6 GB, so that it takes both: "0,1".
+# "-" is none.
 # Usage: tools/testing/list_system.sh [PATTERN], a regular expression that tests
 # match. $ROSCELL_VARIANTS="docker" leaves other variants out.
 set -uo pipefail
@@ -30,10 +31,11 @@ variants_of() {
 # next_lane FILE: sets lane.
 next_lane() {
   lane=-
-  ! grep -qE 'scenes/(engine|debian_host).sh' "$1" || lane=$((++large % 2))
+  ! grep -q scenes/engine.sh "$1" || lane=$((++engines % 2))
+  ! grep -q scenes/debian_host.sh "$1" || lane=0,1
 }
 
-large=0
+engines=0
 for file in *_test.sh; do
   mapfile -t tests < <(grep -oE '^test_[a-z0-9_]+' "$file" | grep -E "$pattern")
   [[ ${#tests[@]} -gt 0 ]] || continue
