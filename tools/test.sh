@@ -106,8 +106,11 @@ ctest_of_build() {
     | grep --line-buffered -vE '^ *Start +[0-9]+:'
 }
 
+# With one compiler where tests have the memory.
 build_fuzzers() {
-  cmake --preset fuzz && ninja -C build/fuzz -j "$(build_jobs)" fuzzers
+  local jobs=1
+  [[ $part == all ]] || jobs=$(build_jobs)
+  cmake --preset fuzz && ninja -C build/fuzz -j "$jobs" fuzzers
 }
 
 # Each fuzzer goes on from what earlier runs have found, in any clone.
