@@ -13,7 +13,13 @@
 #include <cerrno>
 #include <charconv>
 #include <cstring>
+#include <fstream>
+#include <iterator>
+#include <map>
 #include <memory>
+#include <optional>
+#include <sstream>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -33,14 +39,16 @@ struct folder_closer {
   }
 };
 
-/// The environment that a process was started with; empty for one of another
+/// The environment that a process was started with; none for one of another
 /// user.
-std::string environment_of(const std::string& pid) {
+std::optional<std::string> environment_of(const std::string& pid) {
   const unique_fd file{
       ::open(("/proc/" + pid + "/environ").c_str(), O_RDONLY | O_CLOEXEC)};
+  if (!file)
+    return std::nullopt;
   std::string result;
   char buffer[16 * 1024];
-  while (file && result.size() < max_environment_bytes) {
+  while (result.size() < max_environment_bytes) {
     const auto n = ::read(file.get(), buffer, sizeof(buffer));
     if (n < 0 && errno == EINTR)
       continue;
@@ -62,47 +70,90 @@ bool has_entry(std::string_view environment, std::string_view entry) {
   return false;
 }
 
+/// Whether a process whose environment looks empty is on its way from one
+/// program to the next: it has memory (field 23 of /proc/PID/stat), and the
+/// kernel says of the place of its environment (from field 50 to field 51)
+/// nothing yet, or that something is there.
+bool changes_program(const std::string& pid) {
+  std::ifstream file{"/proc/" + pid + "/stat"};
+  std::string stat{std::istreambuf_iterator<char>{file}, {}};
+  // The program's name, field 2, may have blanks and brackets.
+  const auto name_end = stat.rfind(')');
+  if (name_end == std::string::npos)
+    return false;
+  std::istringstream in{stat.substr(name_end + 1)};
+  constexpr size_t first_field = 3;
+  const std::vector<std::string> fields{std::istream_iterator<std::string>{in},
+                                        {}};
+  const auto field = [&](size_t number) {
+    return fields.at(number - first_field);
+  };
+  return fields.size() > 51 - first_field && field(23) != "0"
+         && (field(51) == "0" || field(51) != field(50));
+}
+
+struct search_result {
+  std::map<pid_t, unique_fd> found;
+  bool undecided = false; ///< Somebody has to be looked at again.
+};
+
 /// A descriptor for each process with that entry. Opened before the entry is
 /// read: a number that is given away meanwhile has another environment.
-std::vector<unique_fd> find_marked(const std::string& entry) {
-  std::vector<unique_fd> result;
+search_result find_marked(const std::string& entry) {
+  search_result result;
   const std::unique_ptr<DIR, folder_closer> folder{::opendir("/proc")};
   while (const auto* x = folder ? ::readdir(folder.get()) : nullptr) {
     const std::string name{static_cast<const char*>(x->d_name)};
     pid_t pid = 0;
     const auto* end = name.data() + name.size();
-    if (std::from_chars(name.data(), end, pid).ptr != end || pid <= 1
-        || !has_entry(environment_of(name), entry))
+    if (std::from_chars(name.data(), end, pid).ptr != end || pid <= 1)
+      continue;
+    const auto environment = environment_of(name);
+    if (environment && environment->empty())
+      result.undecided = result.undecided || changes_program(name);
+    if (!environment || !has_entry(*environment, entry))
       continue;
     unique_fd process{::pidfd_open(pid, 0)};
-    if (process && has_entry(environment_of(name), entry))
-      result.push_back(std::move(process));
+    const auto again = environment_of(name);
+    if (process && again && has_entry(*again, entry))
+      result.found.emplace(pid, std::move(process));
+    else
+      result.undecided = true;
   }
   return result;
 }
 
-void kill_and_await(const std::vector<unique_fd>& processes) {
-  for (const auto& x : processes)
-    ::pidfd_send_signal(x.get(), SIGKILL, nullptr, 0);
-  for (const auto& x : processes) {
-    pollfd waited{x.get(), POLLIN, 0};
-    ::poll(&waited, 1, round_ms);
-  }
+bool has_ended(const unique_fd& process, int limit_ms) {
+  pollfd waited{process.get(), POLLIN, 0};
+  return ::poll(&waited, 1, limit_ms) != 0;
+}
+
+/// Waits for `round_ms` at most.
+bool have_ended(const std::map<pid_t, unique_fd>& processes) {
+  bool all = true;
+  for (const auto& [pid, x] : processes)
+    all = has_ended(x, all ? round_ms : 0) && all;
+  return all;
 }
 
 } // namespace
 
 int kill_marked_processes(const std::string& name, const std::string& value) {
-  int killed = 0;
+  std::map<pid_t, unique_fd> killed;
   for (int round = 0; round < rounds; ++round) {
-    const auto found = find_marked(name + '=' + value);
-    if (found.empty())
+    auto now = find_marked(name + '=' + value);
+    for (auto& [pid, x] : now.found) {
+      ::pidfd_send_signal(x.get(), SIGKILL, nullptr, 0);
+      killed.insert_or_assign(pid, std::move(x));
+    }
+    // Who ends has no environment any more, some time before it has ended.
+    const bool ended = have_ended(killed);
+    if (now.found.empty() && ended && !now.undecided)
       break;
-    if (round == 0)
-      killed = static_cast<int>(found.size());
-    kill_and_await(found);
+    if (now.undecided)
+      ::poll(nullptr, 0, 1);
   }
-  return killed;
+  return static_cast<int>(killed.size());
 }
 
 } // namespace roscell

@@ -20,6 +20,20 @@ spawned_program sleeper(const std::string& value) {
 
 } // namespace
 
+TEST_CASE("a process is found that becomes another program meanwhile") {
+  const own_folder folder;
+  const auto value = folder.path().string();
+  // Most of its life it is on the way from one program to the next.
+  const std::string script = "exec >&- 2>&-; [ $1 = 200 ] && exec sleep 60; "
+                             "exec /bin/sh -c \"$0\" \"$0\" $(($1 + 1))";
+  for (int trial = 0; trial < 20; ++trial) {
+    const auto restless = value_of(spawn_program(
+        {"/bin/sh", {"-c", script, script, "0"}, {{"MARK", value}}}, 30s));
+    CHECK(kill_marked_processes("MARK", value) == 1);
+    CHECK(reap(restless.pidfd.get()) == 128 + SIGKILL);
+  }
+}
+
 TEST_CASE("only processes with the very variable are killed") {
   // Unlike that of any other run of this test.
   const own_folder folder;
