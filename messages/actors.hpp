@@ -192,6 +192,8 @@ using discovery_actor = introspected_actor::extend<
     // Errors: conflict (the port is in use), unreachable, internal.
     caf::replies_to<serve_programs>::with<programs_served>,
     caf::reacts_to<stop_serving>, caf::reacts_to<forget_coordinator>,
+    // Answered when it is done.
+    caf::replies_to<follow_server>::with<caf::ok_atom>,
     // What is seen is told to the sender.
     caf::reacts_to<announce_presence>, caf::reacts_to<withdraw_presence>,
     // INTERNAL: alarm number N, to look a peer's name up again.

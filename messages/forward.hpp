@@ -110,6 +110,7 @@ struct image_packed;
 struct start_instance;
 struct serve_programs;
 struct programs_served;
+struct follow_server;
 struct stop_serving;
 struct watch_endpoints;
 struct endpoints_missing;

@@ -63,6 +63,9 @@ struct node_registration {
   /// cell that gave it; negative: none.
   int64_t server_id = -1;
   std::string server_cell;
+  /// Its discovery server tells the cell's all that it knows anew after each
+  /// registration.
+  bool tells_anew = false;
 
   static constexpr auto fields() {
     return field_list{
@@ -76,7 +79,8 @@ struct node_registration {
         optional("refused_skills", &node_registration::refused_skills),
         optional("cell_uuid", &node_registration::cell_uuid),
         optional("server_id", &node_registration::server_id),
-        optional("server_cell", &node_registration::server_cell)};
+        optional("server_cell", &node_registration::server_cell),
+        optional("tells_anew", &node_registration::tells_anew)};
   }
 };
 
@@ -109,6 +113,9 @@ struct node_registered {
   std::string cell_uuid; ///< Empty: an older coordinator, which has none.
   /// At most one; none when the cell has no id left, or is older.
   std::vector<discovery_place> discovery;
+  /// The cell's discovery server tells the member's all that it knows anew
+  /// after each registration.
+  bool tells_anew = false;
 
   static constexpr auto fields() {
     return field_list{required("cell", &node_registered::cell),
@@ -116,7 +123,8 @@ struct node_registered {
                       required("incarnation", &node_registered::incarnation),
                       required("verdicts", &node_registered::verdicts),
                       optional("cell_uuid", &node_registered::cell_uuid),
-                      one_or_many("discovery", &node_registered::discovery)};
+                      one_or_many("discovery", &node_registered::discovery),
+                      optional("tells_anew", &node_registered::tells_anew)};
   }
 };
 

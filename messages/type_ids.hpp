@@ -113,6 +113,7 @@
   X(start_instance)                                                            \
   X(serve_programs)                                                            \
   X(programs_served)                                                           \
+  X(follow_server)                                                             \
   X(stop_serving)                                                              \
   X(watch_endpoints)                                                           \
   X(endpoints_missing)                                                         \

@@ -5,6 +5,7 @@
 #include "actors/cell/state/coordinator_publish.hpp"
 #include "actors/cell/state/coordinator_store.hpp"
 #include "actors/cell/state/coordinator_timer.hpp"
+#include "actors/cell/state/member_servers.hpp"
 #include "actors/cell/state/node_whereabouts.hpp"
 #include "actors/cell/state/task_story.hpp"
 #include "actors/cell/tasks/cell_instances.hpp"
@@ -84,9 +85,10 @@ void on_registration_kept(
                    {"epoch", who.epoch},
                    {"address", who.address},
                    {"size", st.registry.active_count()}});
-  promise.deliver(node_registered{
-      st.setup.cell, st.setup.self.name, st.setup.incarnation,
-      take_up_instances(self, node), st.setup.cell_uuid, place_of(st, *entry)});
+  promise.deliver(
+      node_registered{st.setup.cell, st.setup.self.name, st.setup.incarnation,
+                      take_up_instances(self, node), st.setup.cell_uuid,
+                      place_of(st, *entry), true});
   settle_arrivals(self, who.uuid, nullptr);
   on_node_returned(self, who.uuid);
 }
@@ -177,21 +179,24 @@ caf::result<node_registered> register_member(coordinator_pointer self,
   auto promise = self->make_response_promise<node_registered>();
   auto entry = entry_of(st, request);
   const bool known = st.registry.is_known(who, entry.origin, entry.server_id);
+  const auto go_on = [=, server_id = entry.server_id] {
+    meet_member_server(self, server_id, request.registration,
+                       [=] { on_registration_kept(self, request, promise); });
+  };
   self->monitor(request.member);
-  keep_records(
-      self, st.registry.propose(std::move(entry)),
-      [=] { on_registration_kept(self, request, promise); },
-      [=](const failure& why) {
-        // What is on disk will do: only the epoch there is an older one.
-        if (known)
-          return on_registration_kept(self, request, promise);
-        const auto& uuid = request.registration.identity.uuid;
-        self->state.registry.withdraw(uuid, request.member);
-        if (!self->state.registry.expects(uuid))
-          forget_refused(self, "members", uuid);
-        auto answer = promise;
-        answer.deliver(to_error(why));
-      });
+  keep_records(self, st.registry.propose(std::move(entry)), go_on,
+               [=](const failure& why) {
+                 // What is on disk will do: only the epoch there is an older
+                 // one.
+                 if (known)
+                   return go_on();
+                 const auto& uuid = request.registration.identity.uuid;
+                 self->state.registry.withdraw(uuid, request.member);
+                 if (!self->state.registry.expects(uuid))
+                   forget_refused(self, "members", uuid);
+                 auto answer = promise;
+                 answer.deliver(to_error(why));
+               });
   return promise;
 }
 
@@ -211,6 +216,7 @@ caf::result<node_departed> depart_member(coordinator_pointer self,
   } else {
     st.registry.deactivate(*entry, row_state::expected, request.reason,
                            now_of(self));
+    follow_member_server(self, *entry, server_contact::lost);
     lose_node(self, *entry, std::chrono::milliseconds{0});
     publish(self, {request.uuid});
   }
@@ -226,6 +232,7 @@ void on_member_lost(coordinator_pointer self, const member_lost& fact) {
   auto* entry = st.registry.find_member(fact.uuid, fact.member);
   if (!entry)
     return;
+  follow_member_server(self, *entry, server_contact::lost);
   const auto name = entry->row.identity.name;
   const bool departing = entry->row.state == row_state::departing;
   if (departing && !lose_departing_node(self, *entry, fact.reason)) {

@@ -6,6 +6,7 @@
 #include "actors/edge/io/socket_address.hpp"
 #include "actors/house/edge_failure.hpp"
 #include "actors/house/limits.hpp"
+#include "actors/membership/program_servers.hpp"
 #include "messages/failure.hpp"
 
 #include <caf/actor_cast.hpp>
@@ -15,8 +16,6 @@
 namespace roscell {
 
 namespace {
-
-using discovery_self = discovery_actor::stateful_pointer<discovery_state>;
 
 /// Whether this version can talk to who announces this. Coordinators of
 /// another version are told of as an event.
@@ -96,56 +95,6 @@ caf::result<caf::ok_atom> find(discovery_self self,
 void forget(discovery_self self) {
   self->state.client.reset();
   self->state.looking_for.clear();
-}
-
-std::string address_of(discovery_self self) {
-  const auto& st = self->state;
-  return st.config.address + ":" + std::to_string(st.server->port());
-}
-
-/// On the port that programs know; where that is taken, on another one, which
-/// is better than none.
-edge_result<std::unique_ptr<cell_server>> open_server(discovery_self self,
-                                                      uint16_t known_port) {
-  const auto& st = self->state;
-  const auto remote = parse_socket_address(st.served.remote);
-  if (!remote)
-    return edge_error{error_code::schema_violation,
-                      "'" + st.served.remote + "' is no address of a server",
-                      ""};
-  cell_server_options options;
-  options.address = st.config.address;
-  options.server_id = static_cast<uint8_t>(st.served.server_id);
-  options.domain_id = static_cast<uint32_t>(st.served.domain_id);
-  options.remote = remote_server{remote->address, remote->port,
-                                 static_cast<uint8_t>(st.served.remote_id)};
-  options.graph = st.config.graph;
-  std::vector<uint16_t> ports{st.config.discovery_port, 0};
-  if (known_port != 0)
-    ports.insert(ports.begin(), known_port);
-  for (const auto port : ports) {
-    options.port = port;
-    auto opened = cell_server::open(options);
-    const auto* why = std::get_if<edge_error>(&opened);
-    if (why == nullptr || why->code != error_code::conflict || port == 0)
-      return opened;
-  }
-  return edge_error{error_code::internal, "no port was tried", ""};
-}
-
-caf::result<programs_served> serve(discovery_self self,
-                                   const serve_programs& wish) {
-  auto& st = self->state;
-  if (!st.server || !(st.served == wish.place)) {
-    st.server.reset();
-    st.served = wish.place;
-    auto opened = open_server(self, wish.port);
-    if (auto* why = std::get_if<edge_error>(&opened))
-      return to_caf(*why);
-    st.server = std::get<std::unique_ptr<cell_server>>(std::move(opened));
-  }
-  st.server->reach_remote(wish.remote_is_there);
-  return programs_served{address_of(self)};
 }
 
 node_presence to_presence(const announcement& said) {
@@ -257,8 +206,14 @@ discovery_actor::behavior_type discovery(discovery_self self,
       },
       [self](const find_coordinator& wish) { return find(self, wish); },
       [self](const forget_coordinator&) { forget(self); },
-      [self](const serve_programs& wish) { return serve(self, wish); },
+      [self](const serve_programs& wish) {
+        return serve_programs_of_node(self, wish);
+      },
       [self](const stop_serving&) { self->state.server.reset(); },
+      [self](const follow_server& wish) {
+        follow_another_server(self, wish);
+        return caf::ok_atom_v;
+      },
       [self](const announce_presence& wish) { announce(self, wish); },
       [self](const withdraw_presence&) { withdraw(self); },
       [self](caf::tick_atom, uint64_t number) { on_tick(self, number); },

@@ -8,7 +8,9 @@
 #include "actors/house/house.hpp"
 #include "messages/messages.hpp"
 
+#include <chrono>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -25,6 +27,10 @@ struct discovery_config {
   uint16_t discovery_port = 11811; ///< Of the node's own discovery server.
   /// What that server knows; null: nobody wants to know.
   std::shared_ptr<ros_graph> graph;
+  /// Of that server; null: it begins at 1.
+  std::shared_ptr<number_reserve> numbers;
+  /// A coordinator's: the cell's server, which lives longer than this actor.
+  cell_server* cell = nullptr;
 };
 
 /// Owns the participants of a node: its CLIENT, its own discovery server, and
@@ -39,7 +45,13 @@ struct discovery_state {
   std::unique_ptr<cell_client> client;
   std::unique_ptr<cell_server> server;
   discovery_place served; ///< By `server`.
-  std::string announced;  ///< In wire form; empty: nothing.
+  struct meeting {
+    int64_t number = 0;
+    std::chrono::steady_clock::time_point since;
+  };
+  std::map<uint8_t, meeting> met; ///< Other servers.
+  int64_t meetings = 0;           ///< Counts them.
+  std::string announced;          ///< In wire form; empty: nothing.
   std::unique_ptr<public_presence> presence;
   presence_listener_actor listener; ///< Of `presence`.
   std::vector<std::string> peers;   ///< Of `presence`, in numbers.

@@ -109,6 +109,7 @@ node_registration registration_of(const membership_status& st) {
     result.server_id = st.programs->place.server_id;
     result.server_cell = st.programs->cell_uuid;
   }
+  result.tells_anew = true;
   if (st.switching)
     result.transfer = st.switching->order.transfer;
   else if (st.standing == node_state::orphaned)
@@ -224,6 +225,16 @@ bool is_older(const membership_status& st, const coordinator_found& found) {
          && found.incarnation < st.incarnation;
 }
 
+/// An orphan's coordinator may be back at any moment, and its steps wait for
+/// it. A search costs some 100 B/s, which is no burden for that time.
+std::chrono::milliseconds pause_before_next(membership_status& st) {
+  constexpr std::chrono::milliseconds longest_of_orphan{1500};
+  const auto pause = st.pause.next();
+  return st.standing == node_state::orphaned
+             ? std::min(pause, longest_of_orphan)
+             : pause;
+}
+
 } // namespace
 
 bool is_current(self_pointer self, uint64_t attempt, phase where) {
@@ -327,7 +338,7 @@ void attempt_failed(self_pointer self, const std::string& reason,
   if (!std::exchange(self->state.diagnosed, false))
     complain(self, reason, hint);
   forget_place(self);
-  retreat(self, reason, self->state.pause.next());
+  retreat(self, reason, pause_before_next(self->state));
 }
 
 void attempt_refused(self_pointer self, const std::string& reason,

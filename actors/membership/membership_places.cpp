@@ -81,10 +81,14 @@ bool is_own_cell(const membership_status& st, const node_presence& who) {
 /// The coordinator that an orphan waits for is back, maybe at a new address.
 void return_to(self_pointer self, const node_presence& who) {
   auto& st = self->state;
+  const bool elsewhere = st.wanted != who.discovery_server;
   st.wanted = who.discovery_server;
-  // Each announcement cuts one pause short. Else a node that is thrown out
-  // again and again would come back as often.
-  if (st.phase != phase::waiting || st.hurried == who)
+  // Each announcement cuts short one pause, or one search where it is not any
+  // more. Else a node that is thrown out again and again would come back as
+  // often.
+  const bool idle =
+      st.phase == phase::waiting || (st.phase == phase::searching && elsewhere);
+  if (!idle || st.hurried == who)
     return;
   st.hurried = who;
   st.pause.reset();

@@ -39,11 +39,12 @@ void on_unserved(self_pointer self, const caf::error& why) {
          "this node's own discovery server: " + to_failure(why).message}});
 }
 
-void ask_to_serve(self_pointer self, uint16_t port, bool remote_is_there) {
+void ask_to_serve(self_pointer self, uint16_t port, bool remote_is_there,
+                  bool tells_anew = false) {
   auto& st = self->state;
   const auto place = st.programs->place;
   self->request(st.parts.discovery, limits::local::part,
-                serve_programs{place, port, remote_is_there})
+                serve_programs{place, port, remote_is_there, tells_anew})
       .then([self,
              place](const programs_served& x) { on_served(self, place, x); },
             [self](const caf::error& why) { on_unserved(self, why); });
@@ -66,7 +67,7 @@ void serve_programs_of(self_pointer self, const node_registered& reply) {
   if (!st.programs || !(st.programs->place == place))
     st.programs = program_service{place, reply.cell_uuid, {}};
   st.programs->cell_uuid = reply.cell_uuid;
-  ask_to_serve(self, port, true);
+  ask_to_serve(self, port, true, reply.tells_anew);
 }
 
 void resume_programs(self_pointer self) {

@@ -195,7 +195,8 @@ private:
         discovery_config{config.address, config.ros_domain_id, config.name,
                          parts_.identity.uuid, config.public_domain_id,
                          config.peers, config.discovery_port,
-                         parts_.edges->graph});
+                         parts_.edges->graph, parts_.edges->numbers,
+                         parts_.edges->discovery.get()});
   }
 
   session_connector_actor start_connector() {

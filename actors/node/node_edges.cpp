@@ -101,6 +101,7 @@ caf::error open_discovery(const node_config& config, const node_data& data,
   options.domain_id = config.ros_domain_id;
   options.announcement = encode(said);
   options.graph = edges.graph;
+  options.numbers = edges.numbers;
   auto opened = cell_server::open(options);
   if (auto* why = std::get_if<edge_error>(&opened))
     return to_caf(*why);
@@ -141,6 +142,10 @@ caf::expected<std::shared_ptr<node_edges>> open_edges(const node_config& config,
   edges->io = std::make_unique<io_thread>([context](const std::string& text) {
     context.tell("edge_trouble", "", {{"message", text}});
   });
+  edges->numbers = std::make_shared<number_reserve>(
+      config.data_dir / "discovery_numbers", [context](const std::string& why) {
+        context.tell("edge_trouble", "", {{"message", why}});
+      });
   if (auto why = open_http(config, data, *edges))
     return why;
   if (!config.coordinator)

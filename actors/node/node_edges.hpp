@@ -44,6 +44,8 @@ struct node_edges {
   std::unique_ptr<io_thread> io;
   std::shared_ptr<late_handler> handler = std::make_shared<late_handler>();
   node_sockets sockets;
+  /// Of the node's discovery server.
+  std::shared_ptr<number_reserve> numbers;
   std::unique_ptr<cell_server> discovery; ///< Coordinators only.
   uint8_t server_id = 0;                  ///< Of `discovery`.
   std::string http_address;               ///< "ip:port"

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <string>
+#include <string_view>
 
 /// The seam between protocol actors and the wire: one authenticated session.
 /// Production puts a WebSocket behind it, tests a link that loses, delays,
@@ -155,14 +156,17 @@ struct forget_coordinator {
 struct serve_programs {
   discovery_place place;
   uint16_t port = 0; ///< UDP, as before; 0: as the node is set up.
-  /// The coordinator's server is there: ask it at once.
+  /// The session with the coordinator has begun; else it has ended, or is yet
+  /// to come.
   bool remote_is_there = false;
+  bool tells_anew = false; ///< See `node_registered`.
 
   static constexpr auto fields() {
     return field_list{
         required("place", &serve_programs::place),
         required("port", &serve_programs::port),
-        required("remote_is_there", &serve_programs::remote_is_there)};
+        required("remote_is_there", &serve_programs::remote_is_there),
+        optional("tells_anew", &serve_programs::tells_anew)};
   }
 };
 
@@ -171,6 +175,35 @@ struct programs_served {
 
   static constexpr auto fields() {
     return field_list{required("address", &programs_served::address)};
+  }
+};
+
+enum class server_contact {
+  met,     ///< The session with its node has begun.
+  lost,    ///< It has ended.
+  gone,    ///< Its node is not of the cell any more.
+  settled, ///< INTERNAL: by now it has told of all that is there.
+};
+
+constexpr auto enum_words(server_contact) {
+  return std::array<std::string_view, 4>{"met", "lost", "gone", "settled"};
+}
+
+/// What becomes of the discovery server of another node. Repeating it is
+/// harmless, but that `met` begins anew.
+struct follow_server {
+  int64_t server_id = 0;
+  server_contact contact = server_contact::met;
+  std::string uuid;        ///< Of the node; empty: nobody asks.
+  bool tells_anew = false; ///< With `met`: see `node_registration`.
+  int64_t meeting = 0;     ///< With `settled`: which one.
+
+  static constexpr auto fields() {
+    return field_list{required("server_id", &follow_server::server_id),
+                      required("contact", &follow_server::contact),
+                      optional("uuid", &follow_server::uuid),
+                      optional("tells_anew", &follow_server::tells_anew),
+                      optional("meeting", &follow_server::meeting)};
   }
 };
 

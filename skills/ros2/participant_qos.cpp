@@ -36,10 +36,11 @@ constexpr std::uint64_t pace_period_ms = 1;
 /// heartbeat.
 constexpr std::int32_t large_heartbeat_ns = 100'000'000;
 
-/// An end that dies without farewell is forgotten after the lease; half of the
-/// idle traffic of ROS 2's 20 s and 3 s is worth that.
+/// An end that dies without farewell is forgotten after the lease. A discovery
+/// server that has begun anew learns of this end by its next announcement,
+/// which goes no further than this host.
 constexpr std::int32_t lease_s = 30;
-constexpr std::int32_t announcement_period_s = 10;
+constexpr std::int32_t announcement_period_s = 4;
 
 /// How often a client repeats itself until the server has answered. The time
 /// to find another end is about three times this.

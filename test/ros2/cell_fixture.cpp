@@ -10,15 +10,6 @@ namespace roscell::test {
 
 namespace {
 
-/// Participants of one process would hand messages to each other without a
-/// socket; instances of a cell are processes of their own.
-void use_sockets() {
-  eprosima::fastrtps::LibrarySettingsAttributes settings;
-  settings.intraprocess_delivery =
-      eprosima::fastrtps::IntraprocessDeliveryType::INTRAPROCESS_OFF;
-  eprosima::fastrtps::xmlparser::XMLProfileManager::library_settings(settings);
-}
-
 std::unique_ptr<cell_server> must_open(std::uint8_t id, std::uint32_t domain) {
   cell_server_options options;
   options.address = "127.0.0.1";
@@ -33,6 +24,13 @@ std::unique_ptr<cell_server> must_open(std::uint8_t id, std::uint32_t domain) {
 }
 
 } // namespace
+
+void use_sockets() {
+  eprosima::fastrtps::LibrarySettingsAttributes settings;
+  settings.intraprocess_delivery =
+      eprosima::fastrtps::IntraprocessDeliveryType::INTRAPROCESS_OFF;
+  eprosima::fastrtps::xmlparser::XMLProfileManager::library_settings(settings);
+}
 
 engine::say_function logbook::say() {
   return [this](const std::string& line) {

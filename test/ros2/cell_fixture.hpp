@@ -16,6 +16,10 @@
 /// Skills' ends of topics, in cells on 127.0.0.1 with real discovery servers.
 namespace roscell::test {
 
+/// Participants of one process would hand messages to each other without a
+/// socket; instances of a cell are processes of their own.
+void use_sockets();
+
 /// Lines said, in order; other threads add to it.
 class logbook {
 public:

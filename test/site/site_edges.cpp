@@ -241,9 +241,16 @@ caf::behavior site_edge(caf::event_based_actor* self, site* place,
         return caf::ok_atom_v;
       },
       [=](const forget_coordinator&) { me->looking_for.clear(); },
-      [](const serve_programs&) { return programs_served{"10.0.0.9:11811"}; },
+      [=](const serve_programs& x) {
+        me->served = x;
+        return programs_served{"10.0.0.9:11811"};
+      },
       [](const stop_serving&) {
         // No program runs on this site.
+      },
+      [=](const follow_server& x) {
+        me->followed.push_back(x);
+        return caf::ok_atom_v;
       },
       [=](const open_session& x) { return open(self, place, me, x); },
       [=](const switch_node& x) { return switch_over(self, place, me, x); },

@@ -1,6 +1,7 @@
 #include "actors/cell/state/coordinator_publish.hpp"
 
 #include "actors/cell/state/coordinator_store.hpp"
+#include "actors/cell/state/member_servers.hpp"
 
 namespace roscell {
 
@@ -27,6 +28,7 @@ void drop_row(coordinator_pointer self, const std::string& uuid) {
   if (entry->row.state != row_state::reserved)
     record_fact(self, {"members", uuid, ""});
   st.deployments.forget_node(entry->row.identity.name);
+  follow_member_server(self, *entry, server_contact::gone);
   st.registry.erase(uuid);
   publish(self, {}, {uuid});
 }

@@ -130,7 +130,7 @@ RTPSParticipantAttributes make_attributes(const participant_settings& settings,
                                    settings.max_message_bytes};
   result.userTransports.push_back(guarded(
       settings.serves_programs ? host_transport(udp) : udp_transport(udp),
-      settings.route));
+      settings.guard));
   result.userData.assign(settings.announcement.begin(),
                          settings.announcement.end());
   auto at = udp_locator(settings.address, port);
@@ -179,15 +179,6 @@ rtps_participant::~rtps_participant() {
 void rtps_participant::update_announcement(const std::string& bytes) {
   auto attributes = participant_->getRTPSParticipantAttributes();
   attributes.userData.assign(bytes.begin(), bytes.end());
-  participant_->update_attributes(attributes);
-}
-
-void rtps_participant::add_remote(
-    const eprosima::fastdds::rtps::RemoteServerAttributes& x,
-    const std::string& announcement) {
-  auto attributes = participant_->getRTPSParticipantAttributes();
-  attributes.builtin.discovery_config.m_DiscoveryServers.push_back(x);
-  attributes.userData.assign(announcement.begin(), announcement.end());
   participant_->update_attributes(attributes);
 }
 

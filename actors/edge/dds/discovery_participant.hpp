@@ -1,8 +1,8 @@
 #pragma once
 
 #include "actors/edge/dds/discovery_sighting.hpp"
+#include "actors/edge/dds/lives/discovery_guard.hpp"
 #include "actors/edge/dds/ros_graph.hpp"
-#include "actors/edge/dds/rtps/discovery_transport.hpp"
 #include "actors/edge/io/edge_error.hpp"
 #include "actors/house/limits.hpp"
 #include "dds/participant_ids.hpp"
@@ -38,7 +38,7 @@ struct participant_settings {
   /// Programs of others are its clients: it hears those of this host at
   /// 127.0.0.1, too, and answers what they ask about liveliness.
   bool serves_programs = false;
-  std::shared_ptr<route_gate> route; ///< Null: none is ever shut.
+  std::shared_ptr<discovery_guard> guard; ///< A server's; others have none.
 };
 
 /// `schema_violation` when it is over `limits::discovery::announcement_bytes`.
@@ -74,11 +74,6 @@ public:
 
   /// Replaces the USER_DATA, and sends it to all who know us.
   void update_announcement(const std::string& bytes);
-
-  /// A server's: another one, which it registers with, and its announcement,
-  /// which has to be another one than before.
-  void add_remote(const eprosima::fastdds::rtps::RemoteServerAttributes& x,
-                  const std::string& announcement);
 
   /// Sends the own data to all who know us.
   void announce();

@@ -4,6 +4,7 @@
 #include "actors/edge/dds/discovery_address.hpp"
 #include "actors/edge/dds/discovery_participant.hpp"
 #include "actors/edge/dds/herald.hpp"
+#include "actors/edge/dds/lives/introducer.hpp"
 #include "actors/edge/dds/rtps/server_readiness.hpp"
 
 #include <algorithm>
@@ -29,11 +30,6 @@ constexpr std::int32_t serve_repeat_period_ns = 20'000'000;
 /// that has no time at all.
 constexpr std::chrono::seconds ready_limit{10};
 
-/// What a server says of itself until it is told of its remote. Fast DDS does
-/// not replace data by the same once more, but keeps both, and looks every 20
-/// ms whether the one that it dropped has been acknowledged.
-constexpr const char* unready_announcement = "-";
-
 /// A ROS 2 node may put all its endpoints into one datagram of full size.
 constexpr std::uint32_t max_server_message_bytes = 65500;
 
@@ -48,15 +44,6 @@ participant_settings to_settings(const cell_server_options& options) {
   return result;
 }
 
-auto to_attributes(const remote_server& x) {
-  eprosima::fastdds::rtps::RemoteServerAttributes remote;
-  const auto prefix = server_prefix(x.id);
-  std::copy(prefix.begin(), prefix.end(), remote.guidPrefix.value);
-  remote.metatrafficUnicastLocatorList.push_back(
-      udp_locator(x.address, x.port));
-  return remote;
-}
-
 /// The port that was chosen, or any, if it is free now.
 edge_result<std::uint16_t> chosen_port(const cell_server_options& options) {
   auto bound = udp_socket::bind(options.address, options.port);
@@ -66,11 +53,9 @@ edge_result<std::uint16_t> chosen_port(const cell_server_options& options) {
 }
 
 auto server_attributes(const cell_server_options& options, std::uint16_t port,
-                       std::shared_ptr<route_gate> route) {
+                       std::shared_ptr<discovery_guard> guard) {
   auto settings = to_settings(options);
-  settings.route = std::move(route);
-  if (options.remote)
-    settings.announcement = unready_announcement;
+  settings.guard = std::move(guard);
   auto result = make_attributes(settings, port);
   auto prefix = server_prefix(options.server_id);
   std::copy(prefix.begin(), prefix.end(), result.prefix.value);
@@ -78,6 +63,10 @@ auto server_attributes(const cell_server_options& options, std::uint16_t port,
   discovery.discoveryProtocol = DiscoveryProtocol_t::SERVER;
   discovery.discoveryServer_client_syncperiod = {0, serve_repeat_period_ns};
   return result;
+}
+
+bool is_same(const remote_server& x, const remote_server& y) {
+  return x.address == y.address && x.port == y.port && x.id == y.id;
 }
 
 bool is_end(sighting::kind what) {
@@ -99,16 +88,16 @@ public:
 
   bool open(const cell_server_options& options, std::uint16_t port) {
     port_ = port;
-    if (options.remote) {
-      remote_ = server_prefix(options.remote->id);
-      route_ = std::make_shared<route_gate>(options.remote->address,
-                                            options.remote->port);
-    }
+    guard_ = std::make_shared<discovery_guard>(
+        options.server_id,
+        options.numbers ? options.numbers : std::make_shared<number_reserve>());
     graph_ = options.graph ? options.graph : std::make_shared<ros_graph>();
+    if (options.remote && !prepare_for(*options.remote, options.address))
+      return false;
     participant_ = rtps_participant::create(
-        options.domain_id, server_attributes(options, port, route_),
+        options.domain_id, server_attributes(options, port, guard_),
         [this](const sighting& seen) { on_client(seen); }, graph_);
-    if (participant_ == nullptr || (options.remote && !add_remote(options)))
+    if (participant_ == nullptr || (introducer_ && !learn_words(options)))
       return false;
     greeter_.start();
     return true;
@@ -122,9 +111,38 @@ public:
     return graph_;
   }
 
-  void reach_remote(bool is_there) {
-    if (route_)
-      route_->open(is_there);
+  void set_remote(const remote_server& remote) {
+    const auto before = this->remote();
+    if (!before || is_same(*before, remote))
+      return;
+    lose(before->id);
+    guard_->lives().ignore(remote.id);
+    std::lock_guard<std::mutex> lock{mutex_};
+    remote_ = remote;
+  }
+
+  void meet(std::uint8_t id) {
+    // What has been known from an earlier session would be taken for known.
+    if (is_linked(id))
+      lose(id);
+    guard_->lives().meet(id);
+    if (is_remote(id))
+      introduce();
+  }
+
+  void lose(std::uint8_t id) {
+    if (is_remote(id))
+      introducer_->rest();
+    guard_->lose(id);
+  }
+
+  void end_doubt(std::uint8_t id, const std::string& uuid,
+                 std::chrono::steady_clock::time_point before) {
+    guard_->end_doubt(id, uuid, before);
+  }
+
+  void forget(std::uint8_t id) {
+    guard_->forget(id);
   }
 
   void update_announcement(const std::string& bytes) {
@@ -135,27 +153,76 @@ public:
   void close() {
     greeter_.stop();
     participant_.reset();
+    introducer_.reset();
   }
 
 private:
-  bool add_remote(const cell_server_options& options) {
+  bool prepare_for(const remote_server& remote, const std::string& address) {
+    auto socket = udp_socket::bind(address, 0);
+    if (std::holds_alternative<edge_error>(socket))
+      return false;
+    remote_ = remote;
+    guard_->lives().ignore(remote.id);
+    introducer_ =
+        std::make_unique<introducer>(std::get<udp_socket>(std::move(socket)));
+    return true;
+  }
+
+  bool learn_words(const cell_server_options& options) {
     server_readiness own{*to_socket_address(options.address, port_),
                          [this] { participant_->announce(); }};
-    if (!own.wait(ready_limit))
-      return false;
-    participant_->add_remote(to_attributes(*options.remote),
-                             options.announcement);
-    return true;
+    auto words = own.wait(ready_limit);
+    if (words)
+      introducer_->set_words(*std::move(words));
+    return words.has_value();
+  }
+
+  void introduce() {
+    const auto to = remote();
+    if (const auto at = to_socket_address(to->address, to->port))
+      introducer_->seek(*at);
+  }
+
+  std::optional<remote_server> remote() {
+    std::lock_guard<std::mutex> lock{mutex_};
+    return remote_;
+  }
+
+  bool is_remote(std::uint8_t id) {
+    const auto x = remote();
+    return x && x->id == id;
+  }
+
+  /// Whether the present life of a server is known to Fast DDS.
+  bool is_linked(std::uint8_t id) {
+    std::lock_guard<std::mutex> lock{mutex_};
+    return clients_.count(guard_->lives().present(id)) != 0;
   }
 
   void on_client(const sighting& seen) {
     if (seen.name == probe_name)
       return;
-    if (route_ && seen.prefix == remote_ && is_end(seen.what))
-      route_->open(false);
+    note(seen);
     count(seen);
     if (callback_)
       callback_(seen);
+  }
+
+  void note(const sighting& seen) {
+    const auto id = server_lives::id_of(seen.prefix);
+    const bool is_the_remote =
+        is_remote(id) && seen.prefix == guard_->lives().present(id);
+    if (is_end(seen.what)) {
+      guard_->gone(seen.prefix);
+      // The session goes on, or it would have been lost before.
+      if (is_the_remote)
+        introduce();
+      return;
+    }
+    if (const auto said = decode(seen.announcement))
+      guard_->belongs(seen.prefix, said->uuid);
+    if (is_the_remote)
+      introducer_->rest();
   }
 
   void count(const sighting& seen) {
@@ -171,10 +238,11 @@ private:
   on_sighting callback_;
   std::mutex mutex_; // Guards what follows.
   std::set<guid_prefix> clients_;
+  std::optional<remote_server> remote_;
   herald greeter_;
   std::shared_ptr<ros_graph> graph_;
-  std::shared_ptr<route_gate> route_; // Null: there is no remote server.
-  guid_prefix remote_{};
+  std::shared_ptr<discovery_guard> guard_;
+  std::unique_ptr<introducer> introducer_; // Null: there is no remote server.
   std::unique_ptr<rtps_participant> participant_;
 };
 
@@ -210,8 +278,25 @@ const std::shared_ptr<ros_graph>& cell_server::graph() const {
   return impl_->graph();
 }
 
-void cell_server::reach_remote(bool is_there) {
-  impl_->reach_remote(is_there);
+void cell_server::set_remote(const remote_server& remote) {
+  impl_->set_remote(remote);
+}
+
+void cell_server::meet(std::uint8_t id) {
+  impl_->meet(id);
+}
+
+void cell_server::lose(std::uint8_t id) {
+  impl_->lose(id);
+}
+
+void cell_server::end_doubt(std::uint8_t id, const std::string& uuid,
+                            std::chrono::steady_clock::time_point before) {
+  impl_->end_doubt(id, uuid, before);
+}
+
+void cell_server::forget(std::uint8_t id) {
+  impl_->forget(id);
 }
 
 std::optional<edge_error>

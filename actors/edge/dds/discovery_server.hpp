@@ -1,6 +1,7 @@
 #pragma once
 
 #include "actors/edge/dds/discovery_sighting.hpp"
+#include "actors/edge/dds/lives/number_reserve.hpp"
 #include "actors/edge/dds/ros_graph.hpp"
 #include "actors/edge/io/edge_error.hpp"
 #include "actors/house/limits.hpp"
@@ -33,6 +34,8 @@ struct cell_server_options {
   std::chrono::seconds announcement_period =
       limits::discovery::announcement_period; ///< Shorter than the lease.
   std::optional<remote_server> remote;
+  /// Goes on where an earlier life of this server ended; null: there was none.
+  std::shared_ptr<number_reserve> numbers;
   std::shared_ptr<ros_graph> graph; ///< Null: one of its own.
 };
 
@@ -41,17 +44,20 @@ struct cell_server_options {
 /// and each member one for the programs on its host, whose remote server is the
 /// cell's. It hears programs of its own host at 127.0.0.1, too.
 ///
-/// A remote server that is not there would cost 4.6 kB/s, so nothing is sent to
-/// it unless `reach_remote` has said that it is there.
+/// What is known of another server lasts as long as the session between the two
+/// nodes, whoever of them ends or moves: at its end both `lose` each other, at
+/// the next one they `meet`, and tell each other anew all that they know
+/// (lives/discovery_guard.hpp). Programs do not notice: they go on to be known.
 ///
 /// Fast DDS itself would take 110 ms to tell a new client the announcement.
 /// We send it as soon as a client appears, to all clients, as Fast DDS cannot
 /// do less; so only while there are at most `max_greeted_clients`, and at most
 /// once in `greeting_interval`.
 ///
-/// A killed server (no farewell) that starts again at the same address finds
-/// its clients again as they announce themselves, within their announcement
-/// period; what they do not notice is written at `cell_client`.
+/// A killed server (no farewell) that starts again at the same address, with
+/// the same `numbers`, finds its clients again as they announce themselves,
+/// within their announcement period; what they do not notice is written at
+/// `cell_client`.
 ///
 /// Two servers of one process must not have the same id: Fast DDS would mix
 /// them up.
@@ -81,9 +87,26 @@ public:
   /// What is known of the ends of ROS 2 topics, by remote servers' clients too.
   const std::shared_ptr<ros_graph>& graph() const;
 
-  /// Whether to speak to the remote server. Not at first, nor after its
-  /// farewell or its silence of a lease.
-  void reach_remote(bool is_there);
+  /// Another address or id of the remote server, which is lost first.
+  void set_remote(const remote_server& remote);
+
+  /// The session with the node of server `id` has begun: it is heard, and told
+  /// all. One that had been met before is lost first. Of the remote server
+  /// nothing is heard at first; others are heard unless they are lost.
+  void meet(std::uint8_t id);
+
+  /// The session with it has ended: nothing of it is heard any more. What it
+  /// has told of goes on to be known.
+  void lose(std::uint8_t id);
+
+  /// By now its new life has told of what is there: what it has not told of is
+  /// forgotten, and so is what the node with this UUID had looked for it with
+  /// before `before`.
+  void end_doubt(std::uint8_t id, const std::string& uuid,
+                 std::chrono::steady_clock::time_point before);
+
+  /// Its node is not of the cell any more: all that it has told of ends.
+  void forget(std::uint8_t id);
 
   /// Tells all clients. `schema_violation` when it is too long.
   std::optional<edge_error> update_announcement(const std::string& bytes);

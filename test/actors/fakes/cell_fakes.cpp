@@ -167,6 +167,7 @@ caf::behavior local_parts(caf::event_based_actor* self, fake_site* site,
         return programs_served{"10.0.0.9:" + std::to_string(port)};
       },
       [=](const stop_serving&) { node->served.reset(); },
+      [](const follow_server&) { return caf::ok_atom_v; },
       [=](const use_environment& x) { node->environment = x.environment; },
       [](const announce_presence&) {
         // Nobody else is on this site.

@@ -1,5 +1,7 @@
 #include "actors/edge/dds/rtps/discovery_filter.hpp"
 
+#include "actors/edge/dds/rtps/submessages.hpp"
+
 #include <algorithm>
 #include <array>
 #include <optional>
@@ -8,24 +10,7 @@ namespace roscell {
 
 namespace {
 
-/// Submessage kinds of RTPS 2.3, 9.4.5.1.1, and one of Fast DDS.
-enum submessage : std::uint8_t {
-  pad = 0x01,
-  acknack = 0x06,
-  heartbeat = 0x07,
-  gap = 0x08,
-  info_ts = 0x09,
-  info_dst = 0x0e,
-  data = 0x15,
-  fast_dds_statistics = 0x80,
-};
-
-/// Flags of DATA (9.4.5.3), and the one of INFO_TS that it shares a bit with.
-constexpr std::uint8_t flag_little_endian = 1;
-constexpr std::uint8_t flag_inline_qos = 2;
-constexpr std::uint8_t flag_no_timestamp = 2;
-constexpr std::uint8_t flag_data = 4;
-constexpr std::uint8_t flag_key = 8;
+namespace flag = submessage_flag;
 
 constexpr std::size_t statistics_bytes = 56;
 constexpr std::uint32_t max_set_bits = 256;
@@ -86,8 +71,9 @@ constexpr std::uint32_t liveliness_writer = 0x000200c2;
 bool is_liveliness(wire_cursor in, std::uint8_t flags) {
   constexpr std::size_t least_bytes = 24;
   constexpr std::size_t most_bytes = 512;
-  return (flags & (flag_inline_qos | flag_key)) == 0 && (flags & flag_data) != 0
-         && in.size() >= least_bytes && in.size() <= most_bytes;
+  return (flags & (flag::inline_qos | flag::key)) == 0
+         && (flags & flag::data) != 0 && in.size() >= least_bytes
+         && in.size() <= most_bytes;
 }
 
 /// Reader, writer and sequence number first, then perhaps the inline QoS and
@@ -103,12 +89,12 @@ bool make_data_safe(wire_cursor in, std::uint8_t flags, arrival how) {
     return in.good() && octets_to_qos == 16 && number > 0
            && is_liveliness(in, flags);
   if (!in.good() || octets_to_qos != 16 || number <= 0 || !subject
-      || (flags & flag_key) != 0)
+      || (flags & flag::key) != 0)
     return false;
   parameter_guard guard{*subject, how};
-  if ((flags & flag_inline_qos) != 0 && !guard.make_safe(in))
+  if ((flags & flag::inline_qos) != 0 && !guard.make_safe(in))
     return false;
-  if ((flags & flag_data) == 0)
+  if ((flags & flag::data) == 0)
     return in.at_end() && guard.has_key();
   // The payload says its own byte order: PL_CDR_BE or PL_CDR_LE.
   auto encapsulation = in.big_endian_u32() >> 16;
@@ -118,25 +104,25 @@ bool make_data_safe(wire_cursor in, std::uint8_t flags, arrival how) {
   return guard.make_safe(in) && in.at_end() && guard.has_key();
 }
 
-bool make_submessage_safe(std::uint8_t kind, std::uint8_t flags,
-                          wire_cursor body, bool last, arrival how) {
-  switch (kind) {
-  case pad:
+bool make_submessage_safe(const submessage_view& x, arrival how) {
+  const auto& body = x.body;
+  switch (x.kind) {
+  case submessage_kind::pad:
     return true;
-  case acknack:
+  case submessage_kind::acknack:
     return is_acknack(body);
-  case heartbeat:
+  case submessage_kind::heartbeat:
     return is_heartbeat(body);
-  case gap:
+  case submessage_kind::gap:
     return is_gap(body);
-  case info_ts:
-    return body.size() == ((flags & flag_no_timestamp) != 0 ? 0U : 8U);
-  case info_dst:
+  case submessage_kind::info_ts:
+    return body.size() == ((x.flags & flag::no_timestamp) != 0 ? 0U : 8U);
+  case submessage_kind::info_dst:
     return body.size() == 12;
-  case data:
-    return make_data_safe(body, flags, how);
-  case fast_dds_statistics:
-    return last && body.size() == statistics_bytes;
+  case submessage_kind::data:
+    return make_data_safe(body, x.flags, how);
+  case submessage_kind::fast_dds_statistics:
+    return x.last && body.size() == statistics_bytes;
   default:
     return false;
   }
@@ -145,25 +131,13 @@ bool make_submessage_safe(std::uint8_t kind, std::uint8_t flags,
 } // namespace
 
 bool make_safe(std::uint8_t* datagram, std::size_t size, arrival how) {
-  constexpr std::size_t header_bytes = 20;
   constexpr std::array<std::uint8_t, 5> magic{'R', 'T', 'P', 'S', 2};
-  if (size <= header_bytes || !std::equal(magic.begin(), magic.end(), datagram))
+  if (size <= rtps_header_bytes
+      || !std::equal(magic.begin(), magic.end(), datagram))
     return false;
-  wire_cursor in{datagram + header_bytes, size - header_bytes};
-  while (!in.at_end()) {
-    auto kind = in.u8();
-    auto flags = in.u8();
-    in.little_endian((flags & flag_little_endian) != 0);
-    auto length = in.u16();
-    // Length 0 means "the rest" but in these two, which nobody needs.
-    if (length == 0 && kind != pad && kind != info_ts)
-      return false;
-    auto body = in.take(length);
-    if (!in.good() || length % 4 != 0
-        || !make_submessage_safe(kind, flags, body, in.at_end(), how))
-      return false;
-  }
-  return true;
+  return for_each_submessage(datagram, size, [how](const submessage_view& x) {
+    return x.body.size() % 4 == 0 && make_submessage_safe(x, how);
+  });
 }
 
 } // namespace roscell

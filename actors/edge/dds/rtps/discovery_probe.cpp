@@ -162,15 +162,21 @@ std::vector<std::uint8_t> probe_question(const guid_prefix& self,
                       participant_data(self, reply_to));
 }
 
-std::vector<std::uint8_t> probe_farewell(const guid_prefix& self) {
+std::vector<std::uint8_t> death_notice(const guid_prefix& self,
+                                       std::uint32_t number,
+                                       const guid_prefix& dead) {
   bytes qos;
   put_parameter(qos, parameter::related_sample_identity,
-                sample_identity(self, 2));
-  put_parameter(qos, parameter::key_hash, guid_bytes(self, participant_entity));
+                sample_identity(self, 0));
+  put_parameter(qos, parameter::key_hash, guid_bytes(dead, participant_entity));
   put_parameter(qos, parameter::status_info,
                 {0, 0, 0, 3}); // Disposed, unregistered.
   put_parameter(qos, parameter::sentinel, {});
-  return data_message(self, 1 | 2, 2, qos, {});
+  return data_message(self, 1 | 2, number, qos, {});
+}
+
+std::vector<std::uint8_t> probe_farewell(const guid_prefix& self) {
+  return death_notice(self, 2, self);
 }
 
 std::optional<guid_prefix> probe_answer(const std::uint8_t* datagram,

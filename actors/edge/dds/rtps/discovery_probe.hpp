@@ -29,6 +29,13 @@ constexpr const char* probe_name = "roscell-probe";
 std::vector<std::uint8_t> probe_question(const guid_prefix& self,
                                          const sockaddr_in& reply_to);
 
+/// The prober's message `number`, from 2 on: a participant has ended. Of two
+/// messages about it the one with the higher number of its sample counts, and
+/// this has the lowest: who comes back after all is heard.
+std::vector<std::uint8_t> death_notice(const guid_prefix& self,
+                                       std::uint32_t number,
+                                       const guid_prefix& dead);
+
 /// Takes the introduction back.
 std::vector<std::uint8_t> probe_farewell(const guid_prefix& self);
 

@@ -1,7 +1,6 @@
 #include "actors/edge/dds/rtps/discovery_transport.hpp"
 
 #include "actors/edge/dds/rtps/discovery_filter.hpp"
-#include "dds/participant_ids.hpp"
 
 #include <fastdds/rtps/transport/ChainingTransport.h>
 #include <fastdds/rtps/transport/ChainingTransportDescriptor.h>
@@ -23,13 +22,13 @@ using namespace eprosima::fastdds::rtps;
 
 struct guarded_descriptor : ChainingTransportDescriptor {
   guarded_descriptor(std::shared_ptr<TransportDescriptorInterface> lower,
-                     std::shared_ptr<route_gate> shut_route)
-      : ChainingTransportDescriptor(std::move(lower)),
-        route(std::move(shut_route)) {}
+                     std::shared_ptr<discovery_guard> whose)
+      : ChainingTransportDescriptor(std::move(lower)), guard(std::move(whose)) {
+  }
 
   TransportInterface* create_transport() const override;
 
-  std::shared_ptr<route_gate> route;
+  std::shared_ptr<discovery_guard> guard;
 };
 
 class guarded_transport : public ChainingTransport {
@@ -39,6 +38,28 @@ public:
 
   TransportDescriptorInterface* get_configuration() override {
     return &descriptor_;
+  }
+
+  bool OpenInputChannel(const rtps::Locator_t& at,
+                        TransportReceiverInterface* receiver,
+                        std::uint32_t max_bytes) override {
+    if (!ChainingTransport::OpenInputChannel(at, receiver, max_bytes))
+      return false;
+    // The channel of the messages' port, which is the same one, is asked for
+    // after that of discovery.
+    if (descriptor_.guard && !std::exchange(has_inlet_, true))
+      descriptor_.guard->set_inlet(
+          [at, receiver](const std::vector<std::uint8_t>& message) {
+            receiver->OnDataReceived(
+                message.data(), static_cast<uint32_t>(message.size()), at, at);
+          });
+    return true;
+  }
+
+  bool CloseInputChannel(const rtps::Locator_t& at) override {
+    if (descriptor_.guard)
+      descriptor_.guard->set_inlet({});
+    return ChainingTransport::CloseInputChannel(at);
   }
 
   bool OpenOutputChannel(SendResourceList& senders,
@@ -60,13 +81,17 @@ public:
     {
       std::lock_guard<std::mutex> lock{mutex_};
       for (; *first != *last; ++*first)
-        if (opened_.count(**first) != 0
-            && (!descriptor_.route || descriptor_.route->passes(**first)))
+        if (opened_.count(**first) != 0)
           opened.push_back(**first);
     }
     Locators begin{opened.cbegin()};
     Locators end{opened.cend()};
-    return lower->send(data, size, &begin, &end, timeout);
+    if (!descriptor_.guard)
+      return lower->send(data, size, &begin, &end, timeout);
+    // Fast DDS may send the same bytes again.
+    std::vector<rtps::octet> message(data, data + size);
+    return !descriptor_.guard->let_out(message.data(), message.size())
+           || lower->send(message.data(), size, &begin, &end, timeout);
   }
 
   void receive(TransportReceiverInterface* next, const rtps::octet* data,
@@ -75,12 +100,15 @@ public:
     // The data are in the receiving thread's own buffer.
     auto how = rtps::IPLocator::isMulticast(local) ? arrival::multicast
                                                    : arrival::direct;
-    if (make_safe(const_cast<rtps::octet*>(data), size, how))
+    auto* const message = const_cast<rtps::octet*>(data);
+    if (make_safe(message, size, how)
+        && (!descriptor_.guard || descriptor_.guard->take_in(message, size)))
       next->OnDataReceived(data, size, local, remote);
   }
 
 private:
   guarded_descriptor descriptor_;
+  bool has_inlet_ = false;
   std::mutex mutex_;
   std::set<rtps::Locator_t> opened_;
 };
@@ -90,9 +118,6 @@ TransportInterface* guarded_descriptor::create_transport() const {
 }
 
 } // namespace
-
-route_gate::route_gate(const std::string& address, std::uint16_t port)
-    : to_(udp_locator(address, port)) {}
 
 std::shared_ptr<TransportDescriptorInterface>
 udp_transport(const host_transport_options& options) {
@@ -104,9 +129,9 @@ udp_transport(const host_transport_options& options) {
 
 std::shared_ptr<TransportDescriptorInterface>
 guarded(std::shared_ptr<TransportDescriptorInterface> lower,
-        std::shared_ptr<route_gate> route) {
+        std::shared_ptr<discovery_guard> guard) {
   return std::make_shared<guarded_descriptor>(std::move(lower),
-                                              std::move(route));
+                                              std::move(guard));
 }
 
 } // namespace roscell

@@ -1,7 +1,8 @@
 #include "actors/edge/dds/rtps/server_readiness.hpp"
 
+#include "actors/edge/dds/rtps/submessages.hpp"
+
 #include <algorithm>
-#include <array>
 #include <utility>
 
 #include <poll.h>
@@ -16,6 +17,18 @@ using namespace std::chrono_literals;
 /// Between questions; each is twice as long as the one before.
 constexpr std::chrono::milliseconds first_interval = 2ms;
 constexpr std::chrono::milliseconds max_interval = 250ms;
+
+constexpr std::size_t max_introduction_bytes = 4096;
+
+/// A message without a destination is for whoever gets it (RTPS 2.3, 8.3.7.7).
+void address_to_anybody(std::vector<std::uint8_t>& message) {
+  for_each_submessage(
+      message.data(), message.size(), [](const submessage_view& x) {
+        if (x.kind == submessage_kind::info_dst)
+          std::fill_n(x.body.position(), x.body.size(), std::uint8_t{0});
+        return true;
+      });
+}
 
 std::optional<udp_socket> open_socket(const sockaddr_in& server) {
   auto bound = udp_socket::bind(address_text(server), 0);
@@ -36,7 +49,8 @@ server_readiness::~server_readiness() {
     send(probe_farewell(prefix));
 }
 
-bool server_readiness::wait(std::chrono::milliseconds limit) {
+std::optional<std::vector<std::uint8_t>>
+server_readiness::wait(std::chrono::milliseconds limit) {
   const auto end = clock::now() + limit;
   auto interval = first_interval;
   while (socket_ && clock::now() < end) {
@@ -44,11 +58,11 @@ bool server_readiness::wait(std::chrono::milliseconds limit) {
     asked_.push_back(make_probe_prefix());
     send(probe_question(asked_.back(), socket_->local()));
     announce_(); // Reaches those who asked before.
-    if (hear(std::min(end, clock::now() + interval)))
-      return true;
+    if (auto heard = hear(std::min(end, clock::now() + interval)))
+      return heard;
     interval = std::min(2 * interval, max_interval);
   }
-  return false;
+  return std::nullopt;
 }
 
 void server_readiness::send(const std::vector<std::uint8_t>& bytes) {
@@ -56,19 +70,23 @@ void server_readiness::send(const std::vector<std::uint8_t>& bytes) {
          reinterpret_cast<const sockaddr*>(&server_), sizeof(server_));
 }
 
-bool server_readiness::hear(clock::time_point deadline) {
-  std::array<std::uint8_t, 4096> datagram{};
+std::optional<std::vector<std::uint8_t>>
+server_readiness::hear(clock::time_point deadline) {
+  std::vector<std::uint8_t> datagram(max_introduction_bytes);
   for (;;) {
     const auto left =
         std::chrono::ceil<std::chrono::milliseconds>(deadline - clock::now());
     pollfd waiting{socket_->fd(), POLLIN, 0};
     if (left.count() <= 0
         || ::poll(&waiting, 1, static_cast<int>(left.count())) == 0)
-      return false;
+      return std::nullopt;
     const auto size = recv(socket_->fd(), datagram.data(), datagram.size(), 0);
-    if (size > 0
-        && is_introduction(datagram.data(), static_cast<std::size_t>(size)))
-      return true;
+    if (size <= 0
+        || !is_introduction(datagram.data(), static_cast<std::size_t>(size)))
+      continue;
+    datagram.resize(static_cast<std::size_t>(size));
+    address_to_anybody(datagram);
+    return datagram;
   }
 }
 

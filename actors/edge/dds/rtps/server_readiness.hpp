@@ -12,9 +12,8 @@
 namespace roscell {
 
 /// Waits for a discovery server of this process to have entered itself into
-/// its own database, which Fast DDS leaves to a thread. Until then Fast DDS
-/// 2.9.1 must not know of a remote server: the timer that greets those looks
-/// the server itself up, and ends the process when it is not there.
+/// its own database, which Fast DDS leaves to a thread, and learns with which
+/// words it introduces itself.
 ///
 /// We ask as a client does (discovery_probe.hpp): what the server says of
 /// itself comes from that database.
@@ -24,16 +23,16 @@ public:
   /// itself it takes 110 ms until it does that for a newcomer.
   server_readiness(const sockaddr_in& server, std::function<void()> announce);
 
-  /// Takes the questions back. Whenever somebody leaves, Fast DDS greets the
-  /// remote servers that do not know it yet.
+  /// Takes the questions back.
   ~server_readiness();
 
   server_readiness(const server_readiness&) = delete;
   server_readiness& operator=(const server_readiness&) = delete;
 
-  /// Blocks for `limit` at most; false when the server has not said by then
-  /// who it is.
-  bool wait(std::chrono::milliseconds limit);
+  /// The message with which it introduces itself to anybody. Blocks for `limit`
+  /// at most; none when the server has not said by then who it is.
+  std::optional<std::vector<std::uint8_t>>
+  wait(std::chrono::milliseconds limit);
 
 private:
   using clock = std::chrono::steady_clock;
@@ -41,7 +40,7 @@ private:
   void send(const std::vector<std::uint8_t>& bytes);
 
   /// Until the server has told its own data, or `deadline`.
-  bool hear(clock::time_point deadline);
+  std::optional<std::vector<std::uint8_t>> hear(clock::time_point deadline);
 
   sockaddr_in server_;
   std::function<void()> announce_;

@@ -207,7 +207,7 @@ TEST_CASE("a discovery server registers with its remote when that is there",
   });
   auto server = must_open(with_remote(remote->port(), 1));
   CHECK(clients.entries().empty());
-  server->reach_remote(true);
+  server->meet(1);
   CHECK(clients.wait_for("2"));
 }
 
@@ -220,7 +220,7 @@ TEST_CASE("a discovery server that has registered tells its remote no more",
   });
   relay between{remote->port()};
   auto server = must_open(with_remote(between.port(), 1));
-  server->reach_remote(true);
+  server->meet(1);
   CHECK(between.falls_silent());
   CHECK(clients.wait_for("2"));
 }
@@ -229,5 +229,5 @@ TEST_CASE("a discovery server with a remote starts where no thread gets time",
           "[discovery]") {
   const crowd busy{64};
   for (int i = 0; i < 4; ++i)
-    must_open(with_remote(9, 1))->reach_remote(true);
+    must_open(with_remote(9, 1))->meet(1);
 }

@@ -1,0 +1,35 @@
+#include "actors/cell/state/member_servers.hpp"
+
+#include "actors/house/limits.hpp"
+
+#include <utility>
+
+namespace roscell {
+
+void meet_member_server(coordinator_pointer self, int64_t server_id,
+                        const node_registration& node,
+                        std::function<void()> then) {
+  const auto& discovery = self->state.setup.discovery;
+  if (!discovery || server_id < 0)
+    return then();
+  follow_server wish;
+  wish.server_id = server_id;
+  wish.uuid = node.identity.uuid;
+  wish.tells_anew = node.tells_anew;
+  self->request(discovery, limits::local::part, wish)
+      .then([then](caf::ok_atom) { then(); },
+            [then](const caf::error&) { then(); });
+}
+
+void follow_member_server(coordinator_pointer self, const registry_entry& entry,
+                          server_contact contact) {
+  const auto& discovery = self->state.setup.discovery;
+  if (!discovery || entry.server_id < 0)
+    return;
+  follow_server wish;
+  wish.server_id = entry.server_id;
+  wish.contact = contact;
+  caf::anon_send(discovery, wish);
+}
+
+} // namespace roscell

@@ -1,0 +1,128 @@
+#include "actors/edge/dds/lives/discovery_guard.hpp"
+
+#include "actors/edge/dds/rtps/discovery_probe.hpp"
+
+#include <utility>
+
+#include <arpa/inet.h>
+
+namespace roscell {
+
+namespace {
+
+/// Where nobody listens: who tells of the dead wants no answer.
+sockaddr_in nowhere() {
+  constexpr std::uint16_t discard_port = 9;
+  sockaddr_in result{};
+  result.sin_family = AF_INET;
+  result.sin_port = htons(discard_port);
+  result.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  return result;
+}
+
+} // namespace
+
+discovery_guard::discovery_guard(std::uint8_t own_id,
+                                 std::shared_ptr<number_reserve> numbers)
+    : lives_(own_id), numbers_(server_prefix(own_id), std::move(numbers)) {}
+
+bool discovery_guard::take_in(std::uint8_t* message, std::size_t size) {
+  if (!lives_.take_in(message, size))
+    return false;
+  numbers_.take_in(message, size);
+  const auto news = participants_in(message, size);
+  if (!news.empty())
+    note(sender_of(message), news);
+  return true;
+}
+
+bool discovery_guard::let_out(std::uint8_t* message, std::size_t size) const {
+  if (!lives_.let_out(message, size))
+    return false;
+  numbers_.let_out(message, size);
+  return true;
+}
+
+void discovery_guard::set_inlet(inlet x) {
+  std::lock_guard<std::mutex> lock{inlet_mutex_};
+  inlet_ = std::move(x);
+}
+
+void discovery_guard::belongs(const guid_prefix& who, const std::string& uuid) {
+  std::lock_guard<std::mutex> lock{table_mutex_};
+  table_.belongs(who, uuid);
+}
+
+void discovery_guard::gone(const guid_prefix& who) {
+  std::lock_guard<std::mutex> lock{table_mutex_};
+  table_.gone(who);
+}
+
+void discovery_guard::note(const guid_prefix& from,
+                           const std::vector<participant_news>& news) {
+  std::lock_guard<std::mutex> lock{table_mutex_};
+  for (const auto& x : news) {
+    if (x.ended)
+      continue;
+    if (x.who == from)
+      table_.told_itself(from, std::chrono::steady_clock::now());
+    else if (lives_.is_another_server(from))
+      table_.told_by(server_lives::id_of(from), x.who);
+  }
+}
+
+void discovery_guard::lose(std::uint8_t id) {
+  const auto ended = lives_.present(id);
+  lives_.lose(id);
+  {
+    std::lock_guard<std::mutex> lock{table_mutex_};
+    table_.doubt(id);
+  }
+  bury({ended});
+}
+
+void discovery_guard::end_doubt(std::uint8_t id, const std::string& uuid,
+                                time_point before) {
+  std::vector<guid_prefix> dead;
+  {
+    std::lock_guard<std::mutex> lock{table_mutex_};
+    dead = table_.doubted(id);
+    const auto left = table_.of_node(uuid, before);
+    dead.insert(dead.end(), left.begin(), left.end());
+  }
+  bury(dead);
+}
+
+void discovery_guard::forget(std::uint8_t id) {
+  std::vector<guid_prefix> dead;
+  {
+    std::lock_guard<std::mutex> lock{table_mutex_};
+    dead = table_.told_by(id);
+  }
+  dead.push_back(lives_.present(id));
+  lives_.lose(id);
+  bury(dead);
+}
+
+/// Fast DDS takes the news that a participant has ended from whoever is known
+/// to it, so somebody appears for as long as that takes. With sequence number 0
+/// of the sample, whoever comes back after all is newer than the news of its
+/// end.
+void discovery_guard::bury(const std::vector<guid_prefix>& dead) {
+  if (dead.empty())
+    return;
+  std::lock_guard<std::mutex> lock{inlet_mutex_};
+  if (!inlet_)
+    return;
+  const auto bearer = make_probe_prefix();
+  inlet_(probe_question(bearer, nowhere()));
+  std::uint32_t number = 1; // Of the question.
+  for (const auto& who : dead)
+    inlet_(death_notice(bearer, ++number, who));
+  inlet_(death_notice(bearer, ++number, bearer));
+  std::lock_guard<std::mutex> table_lock{table_mutex_};
+  for (const auto& who : dead)
+    table_.gone(who);
+}
+
+} // namespace roscell

@@ -1,0 +1,75 @@
+#pragma once
+
+#include "actors/edge/dds/lives/number_shift.hpp"
+#include "actors/edge/dds/lives/participant_table.hpp"
+#include "actors/edge/dds/lives/server_lives.hpp"
+#include "actors/edge/dds/rtps/participant_news.hpp"
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+/// INTERNAL to actors/edge/dds.
+namespace roscell {
+
+/// What stands between a discovery server of Fast DDS and the wire, so that
+/// whatever ends and begins again is a new one to those who knew it: the lives
+/// of other servers, the numbers of the own one, and the table of those who
+/// are known. May be used by several threads.
+class discovery_guard {
+public:
+  using time_point = participant_table::time_point;
+
+  /// Gives Fast DDS a message as if it had come.
+  using inlet = std::function<void(const std::vector<std::uint8_t>&)>;
+
+  discovery_guard(std::uint8_t own_id, std::shared_ptr<number_reserve> numbers);
+
+  server_lives& lives() {
+    return lives_;
+  }
+
+  /// Prepares a safe message that has come; false: Fast DDS must not see it.
+  bool take_in(std::uint8_t* message, std::size_t size);
+
+  /// Prepares a message that shall go; false: nobody may see it.
+  bool let_out(std::uint8_t* message, std::size_t size) const;
+
+  /// From now on; empty: the server ends.
+  void set_inlet(inlet x);
+
+  /// Fast DDS knows a participant of the node with this UUID.
+  void belongs(const guid_prefix& who, const std::string& uuid);
+
+  /// Fast DDS does not know it any more.
+  void gone(const guid_prefix& who);
+
+  /// The present life of another server has ended: Fast DDS forgets it, and
+  /// what it has told of comes into doubt.
+  void lose(std::uint8_t id);
+
+  /// Fast DDS forgets what server `id` has told of and is in doubt, and those
+  /// of the node `uuid` that told of themselves before.
+  void end_doubt(std::uint8_t id, const std::string& uuid, time_point before);
+
+  /// Fast DDS forgets server `id` and all that it has told of.
+  void forget(std::uint8_t id);
+
+private:
+  void note(const guid_prefix& from, const std::vector<participant_news>& news);
+  void bury(const std::vector<guid_prefix>& dead);
+
+  server_lives lives_;
+  const number_shift numbers_;
+  std::mutex table_mutex_;
+  participant_table table_;
+  std::mutex inlet_mutex_;
+  inlet inlet_;
+};
+
+} // namespace roscell

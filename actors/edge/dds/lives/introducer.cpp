@@ -1,0 +1,63 @@
+#include "actors/edge/dds/lives/introducer.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include <sys/socket.h>
+
+namespace roscell {
+
+introducer::introducer(udp_socket socket)
+    : socket_(std::move(socket)), thread_([this] { run(); }) {}
+
+introducer::~introducer() {
+  {
+    std::lock_guard<std::mutex> lock{mutex_};
+    closing_ = true;
+  }
+  changed_.notify_one();
+  thread_.join();
+}
+
+void introducer::set_words(std::vector<std::uint8_t> words) {
+  std::lock_guard<std::mutex> lock{mutex_};
+  words_ = std::move(words);
+}
+
+void introducer::seek(const sockaddr_in& server) {
+  {
+    std::lock_guard<std::mutex> lock{mutex_};
+    server_ = server;
+    seeks_ = true;
+    pause_ = std::chrono::milliseconds{0};
+  }
+  changed_.notify_one();
+}
+
+void introducer::rest() {
+  std::lock_guard<std::mutex> lock{mutex_};
+  seeks_ = false;
+}
+
+void introducer::run() {
+  std::unique_lock<std::mutex> lock{mutex_};
+  while (!closing_) {
+    if (!seeks_) {
+      changed_.wait(lock, [this] { return closing_ || seeks_; });
+      continue;
+    }
+    if (pause_ > std::chrono::milliseconds{0}) {
+      // Woken early by whoever closes, or seeks anew at once.
+      changed_.wait_for(lock, pause_, [this] {
+        return closing_ || pause_ == std::chrono::milliseconds{0};
+      });
+      if (closing_ || !seeks_)
+        continue;
+    }
+    sendto(socket_.fd(), words_.data(), words_.size(), MSG_NOSIGNAL,
+           reinterpret_cast<const sockaddr*>(&server_), sizeof(server_));
+    pause_ = std::clamp(2 * pause_, first_pause, longest_pause);
+  }
+}
+
+} // namespace roscell

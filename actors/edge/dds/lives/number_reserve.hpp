@@ -1,0 +1,59 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+
+/// INTERNAL to actors/edge/dds.
+namespace roscell {
+
+/// Numbers that no earlier life of this node's discovery server has used.
+///
+/// Who hears a server remembers by its GUID the last sequence number and the
+/// last counts that it has heard, and takes lower ones for repetitions: a
+/// server that began at 1 again would not be heard by programs that have
+/// outlived its process until it had said as much as the one before. A file
+/// says what has been set aside so far; blocks are written before they are
+/// used, so that a lost power supply repeats none. May be used by several
+/// threads.
+class number_reserve {
+public:
+  /// Who hears a server for the first time goes over all numbers below the
+  /// present ones, so few of these are set aside at a time.
+  static constexpr std::int64_t sequence_block = 1024;
+  static constexpr std::int64_t count_block = 65536;
+
+  /// As after this file, in which a later one will look; empty: there is none,
+  /// and each life begins at 1. `on_trouble` gets, on any thread, why the file
+  /// cannot be written.
+  explicit number_reserve(
+      std::filesystem::path file = {},
+      std::function<void(const std::string&)> on_trouble = {});
+
+  /// A server begins: its sequence numbers are above the result.
+  std::int64_t begin_life();
+
+  /// It uses this sequence number now.
+  void use_sequence(std::int64_t number);
+
+  /// A count above all that were ever given.
+  std::uint32_t next_count();
+
+private:
+  void read();
+  void write();
+
+  const std::filesystem::path file_;
+  const std::function<void(const std::string&)> on_trouble_;
+  std::mutex mutex_;                           // Guards what is written.
+  std::atomic<std::int64_t> sequences_end_{0}; // Set aside up to here.
+  std::atomic<std::int64_t> counts_end_{0};
+  std::atomic<std::int64_t> highest_sequence_{0};
+  std::atomic<std::int64_t> highest_count_{0};
+};
+
+} // namespace roscell

@@ -1,0 +1,62 @@
+#include "actors/edge/dds/lives/participant_table.hpp"
+
+namespace roscell {
+
+void participant_table::told_by(std::uint8_t id, const guid_prefix& who) {
+  // Who tells of itself needs nobody else.
+  if (selves_.count(who) != 0)
+    return;
+  if (told_.size() < most || told_.count(who) != 0)
+    told_[who] = {id, false};
+}
+
+void participant_table::told_itself(const guid_prefix& who, time_point now) {
+  told_.erase(who);
+  if (selves_.size() < most)
+    selves_.emplace(who, self_told{{}, now});
+}
+
+void participant_table::belongs(const guid_prefix& who,
+                                const std::string& uuid) {
+  const auto x = selves_.find(who);
+  if (x != selves_.end())
+    x->second.uuid = uuid;
+}
+
+void participant_table::gone(const guid_prefix& who) {
+  told_.erase(who);
+  selves_.erase(who);
+}
+
+void participant_table::doubt(std::uint8_t id) {
+  for (auto& [who, x] : told_)
+    if (x.id == id)
+      x.doubted = true;
+}
+
+std::vector<guid_prefix> participant_table::doubted(std::uint8_t id) const {
+  std::vector<guid_prefix> result;
+  for (const auto& [who, x] : told_)
+    if (x.id == id && x.doubted)
+      result.push_back(who);
+  return result;
+}
+
+std::vector<guid_prefix> participant_table::told_by(std::uint8_t id) const {
+  std::vector<guid_prefix> result;
+  for (const auto& [who, x] : told_)
+    if (x.id == id)
+      result.push_back(who);
+  return result;
+}
+
+std::vector<guid_prefix> participant_table::of_node(const std::string& uuid,
+                                                    time_point before) const {
+  std::vector<guid_prefix> result;
+  for (const auto& [who, x] : selves_)
+    if (!uuid.empty() && x.uuid == uuid && x.since < before)
+      result.push_back(who);
+  return result;
+}
+
+} // namespace roscell

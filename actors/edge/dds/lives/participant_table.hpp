@@ -1,0 +1,69 @@
+#pragma once
+
+#include "dds/server_ids.hpp"
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+/// INTERNAL to actors/edge/dds.
+namespace roscell {
+
+/// Through whom this node's discovery server knows the participants that it
+/// knows, and which of them are in doubt. The diagram is in docs/protocols.md.
+///
+/// Fast DDS forgets nobody whom another server has told of: if that one ends
+/// without a farewell, what it told of stays for ever. Here such participants
+/// come into doubt: they go on, because programs outlive a node that ends. The
+/// server's next life tells of those that are there, which ends the doubt.
+class participant_table {
+public:
+  using time_point = std::chrono::steady_clock::time_point;
+
+  /// More than these are not remembered.
+  static constexpr std::size_t most = 4096;
+
+  /// Server `id` has told of it.
+  void told_by(std::uint8_t id, const guid_prefix& who);
+
+  /// It has told of itself.
+  void told_itself(const guid_prefix& who, time_point now);
+
+  /// It says that it is of the node with this UUID.
+  void belongs(const guid_prefix& who, const std::string& uuid);
+
+  /// It is not known any more.
+  void gone(const guid_prefix& who);
+
+  /// All that server `id` has told of is in doubt.
+  void doubt(std::uint8_t id);
+
+  /// Of server `id`, what is in doubt.
+  std::vector<guid_prefix> doubted(std::uint8_t id) const;
+
+  /// All that server `id` has told of.
+  std::vector<guid_prefix> told_by(std::uint8_t id) const;
+
+  /// Those of a node that told of themselves before.
+  std::vector<guid_prefix> of_node(const std::string& uuid,
+                                   time_point before) const;
+
+private:
+  struct teller {
+    std::uint8_t id = 0;
+    bool doubted = false;
+  };
+  struct self_told {
+    std::string uuid;
+    time_point since;
+  };
+
+  std::map<guid_prefix, teller> told_;
+  std::map<guid_prefix, self_told> selves_;
+};
+
+} // namespace roscell

@@ -1,0 +1,63 @@
+#pragma once
+
+#include "dds/server_ids.hpp"
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+
+/// INTERNAL to actors/edge/dds.
+namespace roscell {
+
+/// Which life of each other discovery server this one speaks with.
+///
+/// A discovery server has the same GUID prefix in every life, because programs
+/// are told it in ROS_DISCOVERY_SERVER. Fast DDS keeps by that prefix what the
+/// other one has acknowledged, and so takes a new process for the old one, and
+/// tells it nothing of what the old one knew. So what comes from another server
+/// is given the prefix of its present life before Fast DDS sees it, and what
+/// goes to it has the one that it knows again: to Fast DDS each life is another
+/// participant.
+///
+/// A life is four bytes instead of the last four of the prefix; the first one
+/// has those that are on the wire. May be used by several threads.
+class server_lives {
+public:
+  explicit server_lives(std::uint8_t own) : own_(own) {}
+
+  /// As Fast DDS knows the present life of server `id`.
+  guid_prefix present(std::uint8_t id) const;
+
+  /// The server with a prefix of any life; the own one's is not among them.
+  static std::uint8_t id_of(const guid_prefix& prefix) {
+    return prefix[2];
+  }
+  bool is_another_server(const guid_prefix& prefix) const;
+
+  /// Its present life has ended, and nothing of it is heard from now on.
+  void lose(std::uint8_t id);
+
+  /// It is heard, from now on.
+  void meet(std::uint8_t id);
+
+  /// Nothing is heard of it, but its life goes on.
+  void ignore(std::uint8_t id);
+
+  /// Prepares a datagram that has come; false: it is of one that is not heard.
+  bool take_in(std::uint8_t* datagram, std::size_t size) const;
+
+  /// Prepares a datagram that shall go; false: it is for a life that has ended.
+  bool let_out(std::uint8_t* datagram, std::size_t size) const;
+
+private:
+  struct peer {
+    std::atomic<std::uint32_t> life{0};
+    std::atomic<bool> heard{true};
+  };
+
+  const std::uint8_t own_;
+  std::array<peer, 256> peers_;
+};
+
+} // namespace roscell

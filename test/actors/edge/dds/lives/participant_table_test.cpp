@@ -1,0 +1,74 @@
+#include "actors/edge/dds/lives/participant_table.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace roscell;
+using namespace std::chrono_literals;
+
+namespace {
+
+guid_prefix nth(unsigned n) {
+  return {1, 0x0f, static_cast<std::uint8_t>(n >> 16),
+          static_cast<std::uint8_t>(n >> 8), static_cast<std::uint8_t>(n)};
+}
+
+using found = std::vector<guid_prefix>;
+const participant_table::time_point start{};
+
+} // namespace
+
+TEST_CASE("what a server that is lost has told of is in doubt until it is told "
+          "of again") {
+  participant_table table;
+  for (unsigned n = 1; n <= 3; ++n)
+    table.told_by(7, nth(n));
+  table.told_by(8, nth(4));
+  CHECK(table.doubted(7).empty());
+  table.doubt(7);
+  CHECK(table.doubted(7) == found{nth(1), nth(2), nth(3)});
+  CHECK(table.doubted(8).empty());
+  table.told_by(7, nth(2));
+  CHECK(table.doubted(7) == found{nth(1), nth(3)});
+  table.told_by(8, nth(1)); // It has gone to another host.
+  CHECK(table.doubted(7) == found{nth(3)});
+  table.told_itself(nth(3), start);
+  CHECK(table.doubted(7).empty());
+  CHECK(table.told_by(7) == found{nth(2)});
+}
+
+TEST_CASE("who tells of itself is not known by what another server tells") {
+  participant_table table;
+  table.told_itself(nth(1), start);
+  table.told_by(7, nth(1));
+  table.doubt(7);
+  CHECK(table.doubted(7).empty());
+  table.gone(nth(1));
+  table.told_by(7, nth(1));
+  CHECK(table.told_by(7) == found{nth(1)});
+}
+
+TEST_CASE("of a node those are found that told of themselves before") {
+  participant_table table;
+  table.told_itself(nth(1), start + 1s);
+  table.told_itself(nth(2), start + 2s);
+  table.told_itself(nth(3), start + 1s);
+  table.told_itself(nth(4), start + 1s); // Says nothing of a node.
+  table.belongs(nth(1), "a");
+  table.belongs(nth(2), "a");
+  table.belongs(nth(3), "b");
+  CHECK(table.of_node("a", start + 2s) == found{nth(1)});
+  CHECK(table.of_node("a", start + 3s) == found{nth(1), nth(2)});
+  CHECK(table.of_node("", start + 3s).empty());
+  table.gone(nth(1));
+  CHECK(table.of_node("a", start + 2s).empty());
+}
+
+TEST_CASE("a flood of participants costs a bounded table") {
+  participant_table table;
+  for (unsigned n = 0; n < participant_table::most + 10; ++n)
+    table.told_by(7, nth(n));
+  CHECK(table.told_by(7).size() == participant_table::most);
+  // Those that are known can still be told of.
+  table.told_by(8, nth(0));
+  CHECK(table.told_by(8) == found{nth(0)});
+}

@@ -1,0 +1,114 @@
+#include "actors/edge/dds/lives/server_lives.hpp"
+
+#include "actors/edge/dds/rtps/discovery_probe.hpp"
+#include "actors/edge/dds/rtps/participant_news.hpp"
+#include "actors/edge/dds/rtps/submessages.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <vector>
+
+using namespace roscell;
+
+namespace {
+
+constexpr std::uint8_t own = 3;
+constexpr std::uint8_t other = 7;
+
+/// Server `id` tells of its own end.
+std::vector<std::uint8_t> word_of(std::uint8_t id) {
+  return death_notice(server_prefix(id), 5, server_prefix(id));
+}
+
+/// For the participant with this prefix alone.
+std::vector<std::uint8_t> addressed(std::vector<std::uint8_t> message,
+                                    const guid_prefix& to) {
+  std::vector<std::uint8_t> part{0x0e, 1, 12, 0};
+  part.insert(part.end(), to.begin(), to.end());
+  message.insert(message.begin() + rtps_header_bytes, part.begin(), part.end());
+  return message;
+}
+
+guid_prefix key_in(std::vector<std::uint8_t>& message) {
+  const auto news = participants_in(message.data(), message.size());
+  REQUIRE(news.size() == 1);
+  return news.front().who;
+}
+
+} // namespace
+
+TEST_CASE("each life of another server is another participant") {
+  server_lives lives{own};
+  std::vector<guid_prefix> seen;
+  for (int life = 0; life < 4; ++life) {
+    auto message = word_of(other);
+    REQUIRE(lives.take_in(message.data(), message.size()));
+    const auto known_as = sender_of(message.data());
+    CHECK(known_as == lives.present(other));
+    CHECK(key_in(message) == known_as);
+    CHECK(lives.is_another_server(known_as));
+    CHECK(server_lives::id_of(known_as) == other);
+    CHECK(std::count(seen.begin(), seen.end(), known_as) == 0);
+    seen.push_back(known_as);
+    lives.lose(other);
+    lives.meet(other);
+  }
+}
+
+TEST_CASE("on the wire a server has the same prefix in all its lives") {
+  server_lives lives{own};
+  for (int life = 0; life < 3; ++life) {
+    const auto inside = lives.present(other);
+    auto message = death_notice(server_prefix(own), 5, inside);
+    REQUIRE(lives.let_out(message.data(), message.size()));
+    CHECK(key_in(message) == server_prefix(other));
+    lives.lose(other);
+  }
+}
+
+TEST_CASE("the own prefix is never changed") {
+  server_lives lives{own};
+  lives.lose(own);
+  auto message = word_of(own);
+  CHECK(lives.let_out(message.data(), message.size()));
+  CHECK(message == word_of(own));
+  CHECK_FALSE(lives.is_another_server(server_prefix(own)));
+}
+
+TEST_CASE("nothing is heard of a lost server until it is met") {
+  server_lives lives{own};
+  lives.lose(other);
+  auto message = word_of(other);
+  CHECK_FALSE(lives.take_in(message.data(), message.size()));
+  auto neighbour = word_of(other + 1);
+  CHECK(lives.take_in(neighbour.data(), neighbour.size()));
+  lives.meet(other);
+  message = word_of(other);
+  CHECK(lives.take_in(message.data(), message.size()));
+}
+
+TEST_CASE("nothing goes to a life that has ended") {
+  server_lives lives{own};
+  const auto former = lives.present(other);
+  lives.lose(other);
+  lives.meet(other);
+  auto late = addressed(word_of(own), former);
+  CHECK_FALSE(lives.let_out(late.data(), late.size()));
+  auto fresh = addressed(word_of(own), lives.present(other));
+  REQUIRE(lives.let_out(fresh.data(), fresh.size()));
+  CHECK(fresh == addressed(word_of(own), server_prefix(other)));
+}
+
+TEST_CASE("who is no discovery server goes through as it is") {
+  server_lives lives{own};
+  lives.lose(other);
+  const auto who = make_probe_prefix();
+  const auto message = death_notice(who, 5, who);
+  auto came = message;
+  CHECK(lives.take_in(came.data(), came.size()));
+  CHECK(came == message);
+  auto goes = message;
+  CHECK(lives.let_out(goes.data(), goes.size()));
+  CHECK(goes == message);
+  CHECK_FALSE(lives.is_another_server(who));
+}

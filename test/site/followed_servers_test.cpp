@@ -1,0 +1,95 @@
+#include "messages/failure.hpp"
+#include "test/site/watch/site_watch.hpp"
+
+/// What a coordinator's discovery server is told of those of its members, and
+/// they of it.
+namespace {
+
+using namespace roscell;
+using namespace roscell::test;
+
+struct cell_of_two {
+  virtual_time clock;
+  site place{clock, 1};
+  site_party& base = place.add_coordinator("c-0");
+  site_party& arm = place.add_node(base.discovery_server);
+
+  cell_of_two() {
+    for (auto& x : place.parties)
+      place.start(*x);
+    place.pass(20s);
+    REQUIRE(complaint(place).empty());
+    REQUIRE(arm.status().standing == node_state::member);
+  }
+
+  /// What was told since the last time, oldest first.
+  std::vector<server_contact> told() {
+    std::vector<server_contact> result;
+    for (const auto& x : base.followed)
+      result.push_back(x.contact);
+    base.followed.clear();
+    return result;
+  }
+};
+
+using contacts = std::vector<server_contact>;
+
+TEST_CASE("a member's discovery server is met at its registration, by id and "
+          "UUID",
+          "[servers]") {
+  cell_of_two x;
+  REQUIRE(x.base.followed.size() == 1);
+  const auto met = x.base.followed.front();
+  CHECK(met.contact == server_contact::met);
+  CHECK(met.server_id
+        == x.base.cell_state().registry.find_uuid(x.arm.uuid)->server_id);
+  CHECK(met.uuid == x.arm.uuid);
+  CHECK(met.tells_anew);
+  REQUIRE(x.arm.served);
+  CHECK(x.arm.served->remote_is_there);
+  CHECK(x.arm.served->tells_anew);
+}
+
+TEST_CASE("both discovery servers lose each other with the session and meet "
+          "with the next",
+          "[servers]") {
+  cell_of_two x;
+  x.told();
+  x.place.block(x.base.index, x.arm.index);
+  x.place.pass(20s);
+  CHECK(x.told() == contacts{server_contact::lost});
+  CHECK_FALSE(x.arm.served->remote_is_there);
+  x.place.heal_all();
+  x.place.pass(60s);
+  CHECK(x.told() == contacts{server_contact::met});
+  CHECK(x.arm.served->remote_is_there);
+}
+
+TEST_CASE("what a released node's discovery server has told of ends",
+          "[servers]") {
+  cell_of_two x;
+  x.told();
+  node_release wish;
+  wish.node = x.arm.name;
+  const auto reply = x.clock.ask<node_released>(x.base.coordinator, wish);
+  x.place.pass(20s);
+  REQUIRE(*reply);
+  REQUIRE(**reply);
+  const auto told = x.told();
+  REQUIRE_FALSE(told.empty());
+  CHECK(told.back() == server_contact::gone);
+}
+
+TEST_CASE("a coordinator that starts anew meets its members anew",
+          "[servers]") {
+  cell_of_two x;
+  x.told();
+  x.place.kill(x.base);
+  x.place.pass(2s);
+  x.place.start(x.base);
+  x.place.pass(60s);
+  CHECK(x.told() == contacts{server_contact::met});
+  CHECK(x.arm.served->remote_is_there);
+}
+
+} // namespace
