@@ -88,9 +88,7 @@ void ask_life(self_pointer self) {
 void pass_on(self_pointer self);
 
 void on_handled(self_pointer self) {
-  auto& st = self->state;
-  st.times->add(std::chrono::steady_clock::now() - st.frame_begun);
-  st.busy = false;
+  self->state.busy = false;
   pass_on(self);
 }
 
@@ -105,11 +103,16 @@ void pass_on(self_pointer self) {
   st.busy = true;
   st.frame_begun = std::chrono::steady_clock::now();
   self->request(st.skill, limits::instance::watchdog, std::move(*next))
-      .then([self] { on_handled(self); },
-            [self](const caf::error&) {
-              ++self->state.failed;
-              on_handled(self);
-            });
+      .then(
+          [self] {
+            auto& now = self->state;
+            now.times->add(std::chrono::steady_clock::now() - now.frame_begun);
+            on_handled(self);
+          },
+          [self](const caf::error&) {
+            ++self->state.failed;
+            on_handled(self);
+          });
 }
 
 void on_ready(self_pointer self) {

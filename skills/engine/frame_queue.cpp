@@ -19,7 +19,7 @@ bool frame_queue::push(frame input, when_full policy) {
     return false;
   while (!has_room(l, bytes)) {
     take_front(l);
-    ++dropped_;
+    ++l.dropped;
   }
   l.bytes += bytes;
   l.frames.push_back(std::move(input));
@@ -69,15 +69,17 @@ void frame_queue::close() {
 void frame_queue::discard() {
   std::lock_guard guard{mutex_};
   closed_ = true;
-  for (auto& l : lanes_)
-    l = lane{};
+  for (auto& l : lanes_) {
+    l.frames.clear();
+    l.bytes = 0;
+  }
   room_.notify_all();
   filled_.notify_all();
 }
 
-std::uint64_t frame_queue::dropped() const {
+std::uint64_t frame_queue::dropped(std::size_t port) const {
   std::lock_guard guard{mutex_};
-  return dropped_;
+  return lanes_.at(port).dropped;
 }
 
 bool frame_queue::has_room(const lane& l, std::size_t bytes) const {

@@ -44,13 +44,14 @@ public:
   /// Takes no more frames and throws away, uncounted, those inside.
   void discard();
 
-  /// How many frames were dropped for newer ones.
-  std::uint64_t dropped() const;
+  /// How many frames of lane `port` were dropped for newer ones.
+  std::uint64_t dropped(std::size_t port) const;
 
 private:
   struct lane {
     std::deque<frame> frames;
     std::size_t bytes = 0;
+    std::uint64_t dropped = 0;
   };
 
   bool has_room(const lane& l, std::size_t bytes) const;
@@ -64,7 +65,6 @@ private:
   std::condition_variable filled_;
   std::vector<lane> lanes_;
   std::size_t turn_ = 0;
-  std::uint64_t dropped_ = 0;
   std::function<void()> interposed_;
   bool closed_ = false;
 };

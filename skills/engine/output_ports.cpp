@@ -3,6 +3,7 @@
 #include "roscell/skill/errors.hpp"
 
 #include <stdexcept>
+#include <utility>
 
 namespace roscell::engine {
 
@@ -19,6 +20,7 @@ void output_ports::open() {
 void output_ports::begin(const frame& input) {
   input_ = &input;
   emitted_ = 0;
+  excuse_.clear();
   write_time_ = {};
 }
 
@@ -54,6 +56,10 @@ void output_ports::write(frame result, std::size_t number) {
   const auto age = std::chrono::system_clock::now() - result.time;
   if (age >= age.zero())
     ages_.add(age);
+}
+
+void output_ports::explain(std::string reason) {
+  excuse_ = std::move(reason);
 }
 
 void output_ports::fill_in(frame& result, port& target) {

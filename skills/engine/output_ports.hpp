@@ -31,6 +31,16 @@ public:
   /// until the next call.
   void begin(const frame& input);
 
+  /// How many frames have been emitted since `begin`.
+  std::size_t emitted() const noexcept {
+    return emitted_;
+  }
+
+  /// What has been said since `begin` of why nothing comes of the input.
+  const std::string& excuse() const noexcept {
+    return excuse_;
+  }
+
   /// Time spent in output handlers since `begin`.
   std::chrono::steady_clock::duration write_time() const noexcept {
     return write_time_;
@@ -59,12 +69,14 @@ private:
   };
 
   void write(frame result, std::size_t number) override;
+  void explain(std::string reason) override;
   void fill_in(frame& result, port& target);
 
   stream_meters& meters_;
   std::vector<port> ports_;
   const frame* input_ = nullptr;
   std::size_t emitted_ = 0;
+  std::string excuse_;
   std::chrono::steady_clock::duration write_time_{};
   processing_times ages_;
   std::string failure_;

@@ -2,8 +2,10 @@
 
 #include "skills/engine/life/frame_words.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cstring>
+#include <initializer_list>
 #include <utility>
 
 namespace roscell::engine {
@@ -26,6 +28,20 @@ void check_no_loop(const environment& env) {
                           + "' is both an input and an output of this step; "
                             "give the output an endpoint of its own");
 }
+
+std::vector<std::string> data_types_of(const std::vector<stream>& streams) {
+  std::vector<std::string> result;
+  for (const auto& x : streams)
+    result.push_back(x.data_type);
+  return result;
+}
+
+/// A node reads of no more, in either direction.
+constexpr std::size_t most_counted = 16;
+
+/// And no more bytes of a remark. What an author says has any length, and a
+/// datagram that is too long is not read at all.
+constexpr std::size_t most_remark_bytes = 256;
 
 } // namespace
 
@@ -62,8 +78,9 @@ primitive_base_engine::primitive_base_engine(const registry& parts,
       max_failures_(env.parameters.count("max_failures", 10, 1, 1'000'000'000)),
       queue_(env.inputs.size(), queue_limits(env.parameters)),
       alive_(env.watchdog.value_or(std::chrono::hours{24})),
-      socket_(env.notify_socket), meters_(env.inputs.size(), env.outputs.size(),
-                                          stream_meters::clock::now()) {
+      socket_(env.notify_socket), work_(data_types_of(env.inputs)),
+      meters_(env.inputs.size(), env.outputs.size(),
+              stream_meters::clock::now()) {
   // nop
 }
 
@@ -95,7 +112,14 @@ void primitive_base_engine::request_stop() {
 
 std::string primitive_base_engine::status() const {
   using namespace std::chrono;
-  auto result = frame_words(times_, queue_.dropped(), failed_.load());
+  std::uint64_t dropped = 0;
+  std::uint64_t failed = 0;
+  for (std::size_t i = 0; i < env_.inputs.size(); ++i)
+    if (work_.is_main(i)) {
+      dropped += queue_.dropped(i);
+      failed += work_.failed(i);
+    }
+  auto result = frame_words(work_.main_times(), dropped, failed);
   if (const auto& ages = outputs_.ages(); ages.count() > 0) {
     const auto median = duration_cast<microseconds>(ages.quantile(0.5));
     result += " age_us=" + std::to_string(median.count());
@@ -103,8 +127,42 @@ std::string primitive_base_engine::status() const {
   return result;
 }
 
+std::string primitive_base_engine::frame_counts() const {
+  using namespace std::chrono;
+  std::string result;
+  const auto add = [&](const char* direction, std::size_t number,
+                       std::initializer_list<std::uint64_t> counts) {
+    result += (result.empty() ? "" : ";") + std::string{direction}
+              + std::to_string(number);
+    for (const auto count : counts)
+      result += " " + std::to_string(count);
+  };
+  for (std::size_t i = 0; i < std::min(env_.inputs.size(), most_counted); ++i) {
+    const auto& times = work_.times(i);
+    const auto median = duration_cast<microseconds>(times.quantile(0.5));
+    add("input:", i,
+        {meters_.total_in(i), times.count(), work_.failed(i), queue_.dropped(i),
+         static_cast<std::uint64_t>(median.count())});
+  }
+  for (std::size_t i = 0; i < std::min(env_.outputs.size(), most_counted); ++i)
+    add("output:", i, {meters_.total_out(i)});
+  return result;
+}
+
+std::string primitive_base_engine::told_status() const {
+  auto result = "STATUS=" + status() + "\nROSCELL_FRAMES=" + frame_counts();
+  if (auto words = remark(); !words.empty()) {
+    words.resize(std::min(words.size(), most_remark_bytes));
+    // A datagram has one line for each thing.
+    std::replace(words.begin(), words.end(), '\n', ' ');
+    result += "\nROSCELL_REMARK=" + words;
+  }
+  return result;
+}
+
 void primitive_base_engine::make_parts() {
   executor_ = parts_.make_executor(env_);
+  work_.set_main(executor_->main_input_);
   for (const auto& config : env_.outputs)
     outputs_.add(config, parts_.make_output({config, env_.parameters, say_}));
   for (const auto& config : env_.inputs) {
@@ -129,7 +187,7 @@ void primitive_base_engine::report_ready() {
     say_("cannot report READY=1 to NOTIFY_SOCKET '" + env_.notify_socket
          + "': " + std::strerror(error)
          + "; the skill runs, but the node may not notice");
-  heartbeat::words words{[this] { return status(); }, nullptr};
+  heartbeat::words words{[this] { return told_status(); }, nullptr};
   if (env_.health)
     words.streams = [this](stream_meters::clock::time_point now) {
       return meters_.take_text(now);
@@ -161,11 +219,8 @@ exit_code primitive_base_engine::move_frames() {
     handle(*input);
     if (!outputs_.failure().empty())
       return exit_code::stream_failed;
-    if (failed_in_row_ >= max_failures_) {
-      say_("giving up after " + std::to_string(failed_in_row_)
-           + " failures in a row; see parameter 'max_failures'");
+    if (gives_up(input->port))
       return exit_code::executor_failed;
-    }
   }
   return input_failed_ ? exit_code::stream_failed : exit_code::done;
 }
@@ -174,9 +229,15 @@ void primitive_base_engine::handle(const frame& input) {
   auto start = liveness::clock::now();
   alive_.work_begins(start);
   outputs_.begin(input);
-  call_process(input);
-  auto spent = liveness::clock::now() - start;
-  times_.add(spent - outputs_.write_time());
+  const auto failure = call_process(input);
+  const auto spent = liveness::clock::now() - start;
+  const bool failed = !failure.empty();
+  work_.add(input.port,
+            {spent - outputs_.write_time(), failed, outputs_.emitted(),
+             failed ? failure : outputs_.excuse()});
+  // An output that broke is reported once, at the end.
+  if (failed && outputs_.failure().empty())
+    say_failure(input, failure);
   work_has_ended();
 }
 
@@ -199,28 +260,38 @@ void primitive_base_engine::pass_on_wish() {
   work_has_ended();
 }
 
-void primitive_base_engine::call_process(const frame& input) {
-  std::string reason;
+std::string primitive_base_engine::call_process(const frame& input) {
   try {
     executor_->process(input, outputs_);
-    failed_in_row_ = 0;
-    return;
+    return {};
   } catch (...) {
-    reason = current_error();
+    const auto reason = current_error();
+    return reason.empty() ? "an error without a word" : reason;
   }
-  ++failed_;
-  ++failed_in_row_;
-  // An output that broke is reported once, at the end.
-  if (outputs_.failure().empty())
-    say_("frame '" + input.name + "' failed (" + std::to_string(failed_in_row_)
-         + " in a row): " + reason);
+}
+
+void primitive_base_engine::say_failure(const frame& input,
+                                        const std::string& reason) const {
+  say_("frame '" + input.name + "' failed ("
+       + std::to_string(work_.failed_in_row(input.port))
+       + " in a row): " + reason);
+}
+
+bool primitive_base_engine::gives_up(std::size_t input) const {
+  const auto failed = work_.failed_in_row(input);
+  if (failed < max_failures_)
+    return false;
+  say_("giving up after " + std::to_string(failed)
+       + " failures in a row at input '" + env_.inputs[input].endpoint
+       + "'; see parameter 'max_failures'");
+  return true;
 }
 
 exit_code primitive_base_engine::finish(exit_code so_far) {
   request_stop();
   heartbeat_.reset();
   if (so_far == exit_code::done)
-    socket_.send("STOPPING=1\nSTATUS=" + status());
+    socket_.send("STOPPING=1\n" + told_status());
   try {
     executor_->release();
   } catch (...) {

@@ -4,9 +4,9 @@
 #include "roscell/skill/registry.hpp"
 #include "skills/engine/frame_queue.hpp"
 #include "skills/engine/life/heartbeat.hpp"
+#include "skills/engine/life/input_work.hpp"
 #include "skills/engine/life/liveness.hpp"
 #include "skills/engine/life/notify_socket.hpp"
-#include "skills/engine/life/processing_times.hpp"
 #include "skills/engine/life/stream_meters.hpp"
 #include "skills/engine/output_ports.hpp"
 
@@ -29,7 +29,7 @@ namespace roscell::engine {
 /// |---|---|---|
 /// | queue_length | 8 | frames of one input that may wait for the executor |
 /// | queue_mib | 64 | their size together; a single frame may be larger |
-/// | max_failures | 10 | calls of `process` in a row that may fail |
+/// | max_failures | 10 | frames of one input in a row that may fail |
 class primitive_base_engine {
 public:
   /// Both arguments must outlive the engine. `say` gets one line at a time,
@@ -52,11 +52,23 @@ public:
   void want_safety();
 
   /// For instance `frames=120 dropped=0 failed=0 median_us=85 p99_us=210
-  /// times_us=10900 times=119,1,0,0,0,0,0,0,0,0,0 age_us=4200`: frames
-  /// processed, dropped before that, failed among the processed ones, and the
-  /// times that `process` took without its output. May be called from any
-  /// thread.
+  /// times_us=10900 times=119,1,0,0,0,0,0,0,0,0,0 age_us=4200`: of the input
+  /// that the skill works on, frames processed, dropped before that, failed,
+  /// and the times that `process` took without its output. May be called from
+  /// any thread.
   std::string status() const;
+
+  /// What has gone through each stream, as a node reads it in ROSCELL_FRAMES:
+  /// "input:0 120 118 2 0 85;output:0 118": frames that have come, were
+  /// processed, failed, were dropped, and the median time in microseconds; and
+  /// those that were written. May be called from any thread.
+  std::string frame_counts() const;
+
+  /// One sentence where nothing comes of many frames, see `input_work`; a step
+  /// without outputs has none. May be called from any thread.
+  std::string remark() const {
+    return env_.outputs.empty() ? "" : work_.remark();
+  }
 
 private:
   struct input_port;
@@ -68,7 +80,10 @@ private:
   void run_input(input_port& input);
   exit_code move_frames();
   void handle(const frame& input);
-  void call_process(const frame& input);
+  std::string call_process(const frame& input);
+  void say_failure(const frame& input, const std::string& reason) const;
+  bool gives_up(std::size_t input) const;
+  std::string told_status() const;
   void pass_on_wish();
   void work_has_ended();
   exit_code finish(exit_code so_far);
@@ -81,7 +96,7 @@ private:
   frame_queue queue_;
   liveness alive_;
   notify_socket socket_;
-  processing_times times_;
+  input_work work_;
   stream_meters meters_;
   std::vector<std::unique_ptr<input_port>> inputs_;
   std::unique_ptr<executor> executor_;
@@ -89,8 +104,6 @@ private:
   std::optional<heartbeat> heartbeat_;
   std::atomic<std::size_t> open_inputs_{0};
   std::atomic<bool> input_failed_{false};
-  std::atomic<std::uint64_t> failed_{0};
-  std::uint64_t failed_in_row_ = 0;
 };
 
 } // namespace roscell::engine

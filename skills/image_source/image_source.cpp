@@ -117,7 +117,7 @@ void image_source::process_file(const engine::frame& input, camera& eye,
     picture = vision::decode_picture(input.payload, format_);
   } catch (const vision::image_error& e) {
     broken_files_.skip(input.name, e.what());
-    return;
+    return output.give_nothing("'" + input.name + "': " + e.what());
   }
   ros2::std_msgs::header header{ros2::to_time(std::chrono::system_clock::now()),
                                 frame_id_};

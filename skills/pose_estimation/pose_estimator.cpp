@@ -109,6 +109,9 @@ void pose_estimator::add_sources(const engine::environment& env) {
   for (std::size_t i = 0; i < env.inputs.size(); ++i)
     if (!is_camera_info(env.inputs[i]))
       add_source(env, i, source_of_port_[i] < infos);
+  const auto image =
+      std::find_if_not(env.inputs.begin(), env.inputs.end(), is_camera_info);
+  set_main_input(static_cast<std::size_t>(image - env.inputs.begin()));
   auto count = sources_.size();
   typed_outputs transforms{env.outputs, ros2::tf2_msgs::tf_message::type_name,
                            count};
@@ -168,7 +171,7 @@ void pose_estimator::process_file(const engine::frame& input,
     picture = vision::decode_picture(input.payload, format_for(source));
   } catch (const vision::image_error& e) {
     broken_files_.skip(input.name, e.what());
-    return;
+    return output.give_nothing("'" + input.name + "': " + e.what());
   }
   process_image(view(picture, {ros2::to_time(input.time), frame_id_}), input,
                 output);

@@ -68,9 +68,9 @@ void raw_camera::calibrate(const camera_info& info) {
 bool raw_camera::is_ready_for(std::uint32_t width, std::uint32_t height) {
   if (!info_ && ++early_images_ < patient_images)
     return false;
-  auto problem = problem_with(width, height);
-  complaint_.update(problem);
-  return problem.empty();
+  problem_ = problem_with(width, height);
+  complaint_.update(problem_);
+  return problem_.empty();
 }
 
 std::string raw_camera::problem_with(std::uint32_t width,

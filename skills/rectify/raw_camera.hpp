@@ -21,6 +21,12 @@ public:
   /// Whether images of this size can be rectified.
   bool is_ready_for(std::uint32_t width, std::uint32_t height);
 
+  /// Why images were not ready when it was asked last; empty: they were, or it
+  /// is too early to tell.
+  const std::string& problem() const {
+    return problem_;
+  }
+
   /// The map for images that `is_ready_for` has accepted; null when they have
   /// no distortion and so are rectified already. Made anew only for another
   /// calibration.
@@ -41,6 +47,7 @@ private:
   std::string fault_;
   std::optional<pixel_map> map_;
   vision::complaint complaint_;
+  std::string problem_;
   unsigned early_images_ = 0;
 };
 

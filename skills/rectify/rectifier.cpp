@@ -57,6 +57,7 @@ rectifier::rectifier(const engine::environment& env,
                         "CameraInfo");
   typed_outputs to_images{env.outputs, image::type_name, images.size()};
   typed_outputs to_infos{env.outputs, camera_info::type_name, images.size()};
+  set_main_input(images.front());
   source_of_port_.resize(env.inputs.size());
   for (std::size_t k = 0; k < images.size(); ++k) {
     source_of_port_[images[k]] = k;
@@ -82,7 +83,7 @@ void rectifier::process_image(const engine::frame& input, source& from,
                               engine::emitter& output) {
   auto raw = ros2::view_image(input.payload);
   if (!from.camera.is_ready_for(raw.width, raw.height))
-    return;
+    return output.give_nothing(from.camera.problem());
   if (from.images != typed_outputs::none) {
     const auto* map = from.camera.map();
     output.emit(map == nullptr ? input.payload : rectified(raw, *map),

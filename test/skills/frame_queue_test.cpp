@@ -32,7 +32,7 @@ TEST_CASE("a full queue drops its oldest frame for a live input") {
   frame_queue queue{1, two_frames};
   for (const auto* payload : {"a", "b", "c", "d"})
     CHECK(queue.push(make(payload), when_full::drop_oldest));
-  CHECK(queue.dropped() == 2);
+  CHECK(queue.dropped(0) == 2);
   CHECK(next(queue) == "c");
   CHECK(next(queue) == "d");
 }
@@ -48,7 +48,7 @@ TEST_CASE("a full queue holds a waiting input back and loses nothing") {
     REQUIRE(next(queue) == std::to_string(i));
   producer.join();
   CHECK(next(queue) == "closed");
-  CHECK(queue.dropped() == 0);
+  CHECK(queue.dropped(0) == 0);
 }
 
 TEST_CASE("an input that waits for room returns when the queue stops") {
@@ -66,12 +66,12 @@ TEST_CASE("an input that waits for room returns when the queue stops") {
 TEST_CASE("a queue is bounded in bytes, but a large frame passes alone") {
   frame_queue queue{1, {100, 10}};
   CHECK(queue.push(make("12345678901234567890"), when_full::drop_oldest));
-  CHECK(queue.dropped() == 0);
+  CHECK(queue.dropped(0) == 0);
   CHECK(queue.push(make("123456"), when_full::drop_oldest));
   CHECK(queue.push(make("1234"), when_full::drop_oldest));
-  CHECK(queue.dropped() == 1);
+  CHECK(queue.dropped(0) == 1);
   CHECK(queue.push(make("1"), when_full::drop_oldest));
-  CHECK(queue.dropped() == 2);
+  CHECK(queue.dropped(0) == 2);
   CHECK(next(queue) == "1234");
   CHECK(next(queue) == "1");
 }
@@ -97,7 +97,7 @@ TEST_CASE("a closed queue hands out what it holds, a discarded one does not") {
   discarded.push(make("a"), when_full::wait);
   discarded.discard();
   CHECK(next(discarded) == "closed");
-  CHECK(discarded.dropped() == 0);
+  CHECK(discarded.dropped(0) == 0);
 }
 
 TEST_CASE("what is interposed is done by who takes frames, before the next "
@@ -127,4 +127,12 @@ TEST_CASE("nothing is interposed once a queue is closed") {
   queue.close();
   queue.interpose([] { FAIL("it is done"); });
   CHECK(next(queue) == "closed");
+}
+
+TEST_CASE("frames that are dropped count for their input") {
+  frame_queue queue{2, two_frames};
+  for (const auto* payload : {"a", "b", "c"})
+    queue.push(make(payload, 1), when_full::drop_oldest);
+  CHECK(queue.dropped(0) == 0);
+  CHECK(queue.dropped(1) == 1);
 }

@@ -57,7 +57,8 @@ TEST_CASE("the heart beats with READY, WATCHDOG and now and then a status") {
   notify_socket skill{folder / "notify"};
   liveness alive{20ms};
   safe_state untold;
-  heartbeat beat{skill, alive, untold, {[] { return "frames=1"; }, nullptr}};
+  heartbeat beat{
+      skill, alive, untold, {[] { return "STATUS=frames=1"; }, nullptr}};
   CHECK(node.receive() == "READY=1\nWATCHDOG=1");
   CHECK(node.receive() == "READY=1\nWATCHDOG=1");
   CHECK(node.wait_for("STATUS") == "READY=1\nWATCHDOG=1\nSTATUS=frames=1");
@@ -169,10 +170,11 @@ TEST_CASE("a heart that tells of streams beats every second or faster") {
   liveness alive{1h};
   safe_state untold;
   const auto begin = liveness::clock::now();
-  heartbeat beat{skill,
-                 alive,
-                 untold,
-                 {[] { return "s"; }, [](auto) { return "input:0 1 0"; }}};
+  heartbeat beat{
+      skill,
+      alive,
+      untold,
+      {[] { return "STATUS=s"; }, [](auto) { return "input:0 1 0"; }}};
   CHECK(node.receive()
         == "READY=1\nWATCHDOG=1\nROSCELL_STREAMS=input:0 1 0\nSTATUS=s");
   CHECK(liveness::clock::now() - begin < 5s);

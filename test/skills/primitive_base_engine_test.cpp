@@ -10,6 +10,8 @@
 using namespace roscell::engine;
 using namespace roscell::test;
 using Catch::Matchers::Contains;
+using Catch::Matchers::EndsWith;
+using Catch::Matchers::StartsWith;
 
 namespace {
 
@@ -73,19 +75,26 @@ struct recorder : output_handler {
   stream config;
 };
 
-/// Emits its input; fails at payloads that the parameter `bad` contains.
+/// Emits its input; fails at payloads that the parameter `bad` contains, of the
+/// data type `of` if that is said.
 struct repeater : executor {
   repeater(journal& j, const environment& env)
       : log(j), bad(env.parameters.text("bad", "")),
+        of(env.parameters.text("of", "")),
+        excuse(env.parameters.text("excuse", "")),
         times(env.parameters.count("times", 1, 0, 9)),
         port(env.parameters.count("port", 0, 0, 9)) {
+    set_main_input(env.parameters.count("main", 0, 0, 9));
     if (bad == "constructor")
       throw std::runtime_error("no model file");
   }
 
   void process(const frame& input, emitter& output) override {
-    if (bad.find(input.payload) != std::string::npos)
+    if ((bad == "all" || bad.find(input.payload) != std::string::npos)
+        && (of.empty() || of == input.data_type))
       throw std::runtime_error("bad frame");
+    if (!excuse.empty())
+      output.give_nothing(excuse);
     for (std::uint64_t i = 0; i < times; ++i)
       output.emit(input.payload, port);
   }
@@ -98,6 +107,8 @@ struct repeater : executor {
 
   journal& log;
   std::string bad;
+  std::string of;
+  std::string excuse;
   std::uint64_t times;
   std::size_t port;
 };
@@ -152,6 +163,8 @@ struct fixture {
                                  }};
     auto result = engine.run();
     status = engine.status();
+    frames = engine.frame_counts();
+    remark = engine.remark();
     return result;
   }
 
@@ -159,6 +172,8 @@ struct fixture {
   environment env;
   journal log;
   std::string status;
+  std::string frames;
+  std::string remark;
 };
 
 } // namespace
@@ -199,7 +214,76 @@ TEST_CASE_METHOD(fixture,
   CHECK(run({{"bad", "2"}}) == exit_code::done);
   CHECK(log.text == "open 1 3 release close");
   CHECK(log.said == "frame 'n2' failed (1 in a row): bad frame\n");
-  CHECK_THAT(status, Contains("frames=3 dropped=0 failed=1"));
+}
+
+TEST_CASE_METHOD(fixture, "a frame that fails is no work done") {
+  CHECK(run({{"bad", "2"}}) == exit_code::done);
+  CHECK_THAT(status, Contains("frames=2 dropped=0 failed=1"));
+  CHECK_THAT(frames, StartsWith("input:0 3 2 1 0 "));
+  CHECK_THAT(frames, EndsWith(";output:0 2"));
+}
+
+TEST_CASE_METHOD(fixture, "an input that always fails ends the skill whatever "
+                          "the others bring") {
+  env.inputs = {{"finite", "200", "image"}, {"finite", "200", "info"}};
+  CHECK(run({{"bad", "all"}, {"of", "image"}, {"max_failures", 20}})
+        == exit_code::executor_failed);
+  CHECK_THAT(log.said,
+             Contains("giving up after 20 failures in a row at input '200'"));
+}
+
+TEST_CASE_METHOD(fixture, "failures of several inputs are not added up") {
+  env.inputs = {{"finite", "2", "a"}, {"finite", "2", "b"}};
+  CHECK(run({{"bad", "12"}, {"max_failures", 3}}) == exit_code::done);
+}
+
+TEST_CASE_METHOD(fixture, "a skill's frames are those of its first input and "
+                          "of others of that data type") {
+  env.inputs = {{"finite", "3", "image"},
+                {"finite", "5", "info"},
+                {"finite", "2", "image"}};
+  CHECK(run() == exit_code::done);
+  CHECK_THAT(status, StartsWith("frames=5 "));
+  CHECK_THAT(frames, Contains("input:0 3 3 0 0 ")
+                         && Contains(";input:1 5 5 0 0 ")
+                         && Contains(";input:2 2 2 0 0 "));
+}
+
+TEST_CASE_METHOD(fixture, "an executor may say which input it works on") {
+  env.inputs = {{"finite", "5", "info"}, {"finite", "3", "image"}};
+  CHECK(run({{"main", 1}}) == exit_code::done);
+  CHECK_THAT(status, StartsWith("frames=3 "));
+}
+
+TEST_CASE_METHOD(fixture, "a skill of whose frames nothing comes says so, with "
+                          "its reason") {
+  env.inputs[0].endpoint = "12";
+  CHECK(run({{"times", 0}, {"excuse", "no CameraInfo has come"}})
+        == exit_code::done);
+  CHECK(remark == "12 frames in, none out: no CameraInfo has come");
+  CHECK(run({{"times", 0}}) == exit_code::done);
+  CHECK(remark == "12 frames in, none out");
+  CHECK(run() == exit_code::done);
+  CHECK(remark.empty());
+}
+
+TEST_CASE_METHOD(fixture, "a few frames of which nothing comes say nothing") {
+  env.inputs[0].endpoint = "9";
+  CHECK(run({{"times", 0}, {"excuse", "too early"}}) == exit_code::done);
+  CHECK(remark.empty());
+}
+
+TEST_CASE_METHOD(fixture, "a skill without outputs is not blamed for that") {
+  env.inputs[0].endpoint = "12";
+  env.outputs.clear();
+  CHECK(run({{"times", 0}}) == exit_code::done);
+  CHECK(remark.empty());
+}
+
+TEST_CASE_METHOD(fixture, "a skill all of whose frames fail says why") {
+  env.inputs[0].endpoint = "12";
+  CHECK(run({{"bad", "all"}, {"max_failures", 99}}) == exit_code::done);
+  CHECK(remark == "12 frames in, none out: bad frame");
 }
 
 TEST_CASE_METHOD(fixture, "too many failures in a row end the skill") {
@@ -279,6 +363,21 @@ TEST_CASE_METHOD(fixture, "an engine tells its node of its start and its end") {
   CHECK(node.receive() == "READY=1");
   CHECK_THAT(node.receive().value_or(""),
              Contains("STOPPING=1\nSTATUS=frames=3 "));
+}
+
+TEST_CASE_METHOD(fixture, "a node is told of the frames of each stream, and in "
+                          "one short line why nothing comes of them") {
+  temp_folder folder;
+  notify_receiver node{folder / "notify"};
+  env.notify_socket = folder / "notify";
+  env.inputs[0].endpoint = "12";
+  CHECK(run({{"times", 0}, {"excuse", "a\nb" + std::string(5000, 'x')}})
+        == exit_code::done);
+  CHECK(node.receive() == "READY=1");
+  const auto last = node.receive().value_or("");
+  CHECK_THAT(last, Contains("\nROSCELL_FRAMES=input:0 12 12 0 0 "));
+  CHECK_THAT(last, Contains("\nROSCELL_REMARK=12 frames in, none out: a bxxx"));
+  CHECK(last.size() < 1000);
 }
 
 TEST_CASE_METHOD(fixture, "a skill that cannot start is never ready") {

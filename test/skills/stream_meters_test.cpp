@@ -73,3 +73,11 @@ TEST_CASE("no more streams are told than a node reads") {
   CHECK(text.find("output:15 ") != std::string::npos);
   CHECK(text.find(":16 ") == std::string::npos);
 }
+
+TEST_CASE("all frames of a stream are counted, whoever takes figures") {
+  stream_meter meter{start};
+  meter.count(start);
+  meter.take(start + 1s);
+  meter.count(start + 2s);
+  CHECK(meter.total() == 2);
+}

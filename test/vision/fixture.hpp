@@ -35,11 +35,15 @@ const std::string photo_folder =
 const std::string photo = photo_folder + "/33369213973_9d9bb4cc96_c.jpg";
 const std::string photo_truth = photo_folder + "/33369213973_9d9bb4cc96_c.txt";
 
-/// Keeps all that an executor emits, by port.
+/// Keeps all that an executor emits, by port, and why it gives nothing.
 class collecting_emitter : public engine::emitter {
 public:
   const std::vector<engine::frame>& of(std::size_t port) {
     return frames_[port];
+  }
+
+  const std::vector<std::string>& excuses() const {
+    return excuses_;
   }
 
 private:
@@ -47,7 +51,12 @@ private:
     frames_[port].push_back(std::move(result));
   }
 
+  void explain(std::string reason) override {
+    excuses_.push_back(std::move(reason));
+  }
+
   std::map<std::size_t, std::vector<engine::frame>> frames_;
+  std::vector<std::string> excuses_;
 };
 
 /// Keeps what is said to people.

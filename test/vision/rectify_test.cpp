@@ -276,6 +276,20 @@ TEST_CASE("a camera that gives nothing to rectify by is said once") {
              Contains("320 x 480") && Contains("640 x 480"));
 }
 
+TEST_CASE("of each image that is left out the reason is given") {
+  bench b;
+  auto message = noise("mono8", 1);
+  for (auto i = 0; i < 6; ++i)
+    b.see(message);
+  REQUIRE(b.out.excuses().size() == 6);
+  // It may yet come.
+  CHECK(b.out.excuses()[0].empty());
+  CHECK_THAT(b.out.excuses()[5], Contains("no CameraInfo has come"));
+  b.calibrate(camera_with("plumb_bob", bent));
+  b.see(message);
+  CHECK(b.out.excuses().size() == 6);
+}
+
 TEST_CASE("images follow when the calibration has come or was mended") {
   bench b;
   auto message = noise("mono8", 1);

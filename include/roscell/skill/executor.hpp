@@ -29,8 +29,19 @@ public:
     write(std::move(result), port);
   }
 
+  /// Says, in a sentence without a full stop, why nothing comes of this frame,
+  /// where something should: "no CameraInfo has come". Who looks at the skill
+  /// reads the last one as soon as nothing has come of some frames in a row.
+  void give_nothing(std::string reason) {
+    explain(std::move(reason));
+  }
+
 private:
   virtual void write(frame result, std::size_t port) = 0;
+
+  virtual void explain(std::string /*reason*/) {
+    // Who only keeps results need not care.
+  }
 };
 
 /// The work of a skill: the one class that its author writes. All calls come
@@ -42,9 +53,10 @@ public:
   virtual ~executor() = default;
 
   /// Handles one frame and emits any number of results. An exception is
-  /// reported and counted, and the next frame follows; too many in a row end
-  /// the skill (parameter `max_failures`). A call that lasts longer than the
-  /// watchdog period counts as hung.
+  /// reported and counted, and the next frame follows; too many in a row of one
+  /// input, whatever the others bring, end the skill (parameter
+  /// `max_failures`). A call that lasts longer than the watchdog period counts
+  /// as hung.
   virtual void process(const frame& input, emitter& output) = 0;
 
   /// Gives back what the executor holds. Called once, after the last
@@ -71,10 +83,19 @@ protected:
     safety_.set(safe);
   }
 
+  /// Says which input the skill works on, counted from 0; the others only help
+  /// it, as CameraInfo helps with images. The skill's frames, rate and latency
+  /// are those of this input and of those of the same data type. To be called
+  /// in the constructor; without it that is the first input.
+  void set_main_input(std::size_t number) noexcept {
+    main_input_ = number;
+  }
+
 private:
   friend class primitive_base_engine;
 
   safe_state safety_;
+  std::size_t main_input_ = 0;
 };
 
 } // namespace roscell::engine

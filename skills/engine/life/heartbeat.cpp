@@ -131,7 +131,7 @@ void heartbeat::beat(time_point now) {
   }
   if (now - last_status_ >= std::chrono::seconds{1}) {
     last_status_ = now;
-    state += "\nSTATUS=" + words_.status();
+    state += "\n" + words_.status();
   }
   socket_.send(state);
 }

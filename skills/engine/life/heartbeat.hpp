@@ -22,7 +22,7 @@ class heartbeat {
 public:
   /// What goes along with a beat; each is called from the heartbeat's thread.
   struct words {
-    /// A one-line status for people and for the node.
+    /// "STATUS=..." for people and for the node, and lines that go along.
     std::function<std::string()> status;
     /// What the streams do, see stream_meters; empty: nobody wants to know.
     /// With it there is a beat at least every second.

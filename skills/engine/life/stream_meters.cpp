@@ -45,8 +45,14 @@ void add_figures(std::string& text, const char* direction,
 
 void stream_meter::count(clock::time_point now) {
   std::lock_guard guard{mutex_};
+  ++total_;
   ++frames_;
   last_ = now;
+}
+
+std::uint64_t stream_meter::total() const {
+  std::lock_guard guard{mutex_};
+  return total_;
 }
 
 stream_meter::figure stream_meter::take(clock::time_point now) {

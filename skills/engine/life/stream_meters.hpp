@@ -28,13 +28,17 @@ public:
 
   void count(clock::time_point now);
 
+  /// All frames.
+  std::uint64_t total() const;
+
   /// The rate of the frames since the figure before. It is taken from one frame
   /// to another, so that a slow stream has one rate whenever it is asked for;
   /// where no frame has come the rate is what it can be at most, given the age.
   figure take(clock::time_point now);
 
 private:
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
+  std::uint64_t total_ = 0;
   std::uint64_t frames_ = 0; ///< Since the figure before.
   std::optional<clock::time_point> last_;
   clock::time_point counted_to_; ///< The last frame of the figure before.
@@ -54,6 +58,14 @@ public:
 
   stream_meter& output(std::size_t number) {
     return outputs_[number];
+  }
+
+  std::uint64_t total_in(std::size_t number) const {
+    return inputs_[number].total();
+  }
+
+  std::uint64_t total_out(std::size_t number) const {
+    return outputs_[number].total();
   }
 
   /// What they have measured, as a node reads it in ROSCELL_STREAMS:
