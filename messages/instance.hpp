@@ -101,8 +101,36 @@ constexpr bool is_live(instance_state state) {
 constexpr std::array<double, 10> latency_bounds_ms{1,  2,   5,   10,  20,
                                                    50, 100, 200, 500, 1000};
 
+/// What has gone through one end of a data stream of an instance since it was
+/// started, as its skill has counted it. Negative: not known.
+struct stream_count {
+  std::string end;        ///< As in `stream_figure`.
+  int64_t frames = 0;     ///< That have come in, or gone out.
+  int64_t processed = -1; ///< Of an input: those, without what failed.
+  int64_t failed = 0;     ///< Of an input.
+  int64_t dropped = 0;    ///< Of an input: they came too fast.
+  double latency_ms = -1; ///< Of an input: median time to process one.
+  double rate_hz = -1;    ///< Of `frames`, between the last two words.
+  double quiet_s = -1;    ///< For so long there has been no frame.
+  /// For so long there have been three frames in each ten seconds, or more.
+  double steady_s = -1;
+
+  static constexpr auto fields() {
+    return field_list{required("end", &stream_count::end),
+                      required("frames", &stream_count::frames),
+                      optional("processed", &stream_count::processed),
+                      optional("failed", &stream_count::failed),
+                      optional("dropped", &stream_count::dropped),
+                      optional("latency_ms", &stream_count::latency_ms),
+                      optional("rate_hz", &stream_count::rate_hz),
+                      optional("quiet_s", &stream_count::quiet_s),
+                      optional("steady_s", &stream_count::steady_s)};
+  }
+};
+
 /// What an instance has done, as its skill tells in its status. Negative: not
-/// known.
+/// known. Where a skill has several inputs, frames and their times are those of
+/// the input that it works on.
 struct instance_figures {
   int64_t frames = -1;    ///< Processed since it was started.
   double rate_hz = -1;    ///< Frames a second between its last two words.
@@ -115,6 +143,8 @@ struct instance_figures {
   /// Median time from the stamp of a frame, which its sensor gave it, to the
   /// output of what came of it; by the clocks of both hosts.
   double age_ms = -1;
+  std::vector<stream_count> streams; ///< Inputs before outputs.
+  std::string remark; ///< Why nothing comes of its frames; empty: it does.
 
   static constexpr auto fields() {
     return field_list{
@@ -124,7 +154,9 @@ struct instance_figures {
         optional("latency_ms", &instance_figures::latency_ms),
         optional("latency_counts", &instance_figures::latency_counts),
         optional("latency_sum_ms", &instance_figures::latency_sum_ms),
-        optional("age_ms", &instance_figures::age_ms)};
+        optional("age_ms", &instance_figures::age_ms),
+        optional("streams", &instance_figures::streams),
+        optional("remark", &instance_figures::remark)};
   }
 };
 

@@ -165,6 +165,8 @@ void on_changed(container_supervisor_self self, const instance_row& row) {
   if (x->removing && row.unsafe_since_unix_ms > 0)
     on_removal_waits(self, x->row);
   if (row.state == instance_state::running) {
+    if (before.state != instance_state::running)
+      x->figures.begin_run();
     x->deaths = 0;
     for (auto& promise : std::exchange(x->deployers, {}))
       promise.deliver(instance_deployed{x->row});
@@ -180,7 +182,7 @@ void on_notified(container_supervisor_self self,
     return;
   if (!fact.status.empty()) {
     x->row.status = fact.status;
-    x->figures.hear(fact.status, self->clock().now());
+    x->figures.hear(fact.status, self->clock().now(), fact.frames, fact.remark);
     x->row.figures = x->figures.known();
   }
   if (fact.safe != safe_word::untold)

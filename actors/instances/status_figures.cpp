@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace roscell {
@@ -93,9 +94,13 @@ instance_figures figures_in(std::string_view status) {
   return result;
 }
 
-void figures_book::hear(std::string_view status, time_point now) {
+void figures_book::hear(std::string_view status, time_point now,
+                        std::vector<stream_count> streams, std::string remark) {
   const auto rate = known_.rate_hz;
   known_ = figures_in(status);
+  streams_.hear(streams, now);
+  known_.streams = std::move(streams);
+  known_.remark = std::move(remark);
   if (known_.frames < 0) {
     counted_.reset();
     return;

@@ -1,10 +1,13 @@
 #pragma once
 
+#include "actors/instances/life/stream_book.hpp"
 #include "messages/instance.hpp"
 
 #include <chrono>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace roscell {
 
@@ -20,9 +23,16 @@ class figures_book {
 public:
   using time_point = std::chrono::steady_clock::time_point;
 
-  /// Takes one status line. Those that follow within half a second count as
-  /// one, so that a late word makes no rate of its own.
-  void hear(std::string_view status, time_point now);
+  /// Takes one status line, and what has been told with it: the counts of its
+  /// streams and why nothing comes of its frames. Those that follow within half
+  /// a second count as one, so that a late word makes no rate of its own.
+  void hear(std::string_view status, time_point now,
+            std::vector<stream_count> streams = {}, std::string remark = {});
+
+  /// The program has been started anew: its streams begin to be quiet now.
+  void begin_run() {
+    streams_ = {};
+  }
 
   const instance_figures& known() const {
     return known_;
@@ -36,6 +46,7 @@ private:
 
   instance_figures known_;
   std::optional<count> counted_; ///< What the next rate is measured from.
+  stream_book streams_;
 };
 
 } // namespace roscell

@@ -208,6 +208,8 @@ struct instance_notified {
   bool heard = false;    ///< Answers `hear_container`; may say nothing else.
   safe_word safe = safe_word::untold; ///< ROSCELL_SAFE=0 or 1
   std::vector<stream_figure> streams; ///< ROSCELL_STREAMS=...
+  std::vector<stream_count> frames;   ///< ROSCELL_FRAMES=...
+  std::string remark;                 ///< ROSCELL_REMARK=...
 
   static constexpr auto fields() {
     return field_list{required("instance", &instance_notified::instance),
@@ -217,7 +219,9 @@ struct instance_notified {
                       required("status", &instance_notified::status),
                       required("heard", &instance_notified::heard),
                       required("safe", &instance_notified::safe),
-                      required("streams", &instance_notified::streams)};
+                      required("streams", &instance_notified::streams),
+                      required("frames", &instance_notified::frames),
+                      required("remark", &instance_notified::remark)};
   }
 };
 

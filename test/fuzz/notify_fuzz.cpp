@@ -14,6 +14,12 @@ bool is_sound(const roscell::stream_figure& x) {
          && std::isfinite(x.age_s) && x.age_s >= -1;
 }
 
+bool is_sound(const roscell::stream_count& x) {
+  return (x.end.rfind("input:", 0) == 0 || x.end.rfind("output:", 0) == 0)
+         && x.end.size() <= 9 && x.frames >= 0 && x.failed >= 0
+         && x.dropped >= 0 && x.latency_ms >= -1 && x.latency_ms <= 1e9;
+}
+
 } // namespace
 
 /// Whatever a program says, its status is one short line of valid UTF-8, and
@@ -27,8 +33,12 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, size_t size) {
       || valid_utf8(words.status) != words.status
       || unfinished_utf8(words.status) != 0)
     std::abort();
+  const auto sound = [](const auto& x) { return is_sound(x); };
   if (words.streams.size() > max_told_streams
-      || !std::all_of(words.streams.begin(), words.streams.end(), is_sound))
+      || !std::all_of(words.streams.begin(), words.streams.end(), sound)
+      || words.frames.size() > max_told_streams
+      || !std::all_of(words.frames.begin(), words.frames.end(), sound)
+      || words.remark.size() > max_remark_bytes)
     std::abort();
   const auto text = valid_utf8(bytes);
   if (valid_utf8(text) != text || unfinished_utf8(bytes) > 3)

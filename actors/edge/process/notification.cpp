@@ -11,13 +11,13 @@ namespace roscell {
 
 namespace {
 
-std::string status_line(std::string_view bytes) {
-  bytes = bytes.substr(0, max_status_bytes);
+std::string words_of(std::string_view bytes, size_t most) {
+  bytes = bytes.substr(0, most);
   bytes.remove_suffix(unfinished_utf8(bytes));
   auto result = valid_utf8(bytes);
   // Replacements are longer than what they replace.
-  if (result.size() > max_status_bytes) {
-    result.resize(max_status_bytes);
+  if (result.size() > most) {
+    result.resize(most);
     result.resize(result.size() - unfinished_utf8(result));
   }
   std::replace_if(result.begin(), result.end(), is_control, ' ');
@@ -27,6 +27,8 @@ std::string status_line(std::string_view bytes) {
 void read_line(std::string_view line, notification& result) {
   constexpr std::string_view status = "STATUS=";
   constexpr std::string_view streams = "ROSCELL_STREAMS=";
+  constexpr std::string_view frames = "ROSCELL_FRAMES=";
+  constexpr std::string_view remark = "ROSCELL_REMARK=";
   if (line == "READY=1")
     result.ready = true;
   else if (line == "WATCHDOG=1")
@@ -38,9 +40,13 @@ void read_line(std::string_view line, notification& result) {
   else if (line == "ROSCELL_SAFE=0")
     result.safe = safe_word::unsafe;
   else if (line.substr(0, status.size()) == status)
-    result.status = status_line(line.substr(status.size()));
+    result.status = words_of(line.substr(status.size()), max_status_bytes);
   else if (line.substr(0, streams.size()) == streams)
     result.streams = read_streams(line.substr(streams.size()));
+  else if (line.substr(0, frames.size()) == frames)
+    result.frames = read_frames(line.substr(frames.size()));
+  else if (line.substr(0, remark.size()) == remark)
+    result.remark = words_of(line.substr(remark.size()), max_remark_bytes);
 }
 
 } // namespace
@@ -62,8 +68,12 @@ void merge(notification& before, notification later) {
   before.ready = before.ready || later.ready;
   before.alive = before.alive || later.alive;
   before.stopping = before.stopping || later.stopping;
-  if (!later.status.empty())
+  // What goes along with a status says nothing without it.
+  if (!later.status.empty()) {
     before.status = std::move(later.status);
+    before.frames = std::move(later.frames);
+    before.remark = std::move(later.remark);
+  }
   if (later.safe != safe_word::untold)
     before.safe = later.safe;
   if (!later.streams.empty())

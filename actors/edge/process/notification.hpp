@@ -1,6 +1,6 @@
 #pragma once
 
-#include "messages/life.hpp"
+#include "messages/instance.hpp"
 
 #include <string>
 #include <string_view>
@@ -19,6 +19,12 @@ struct notification {
   /// separated by ";". END is "input:N" or "output:N", RATE in Hz, AGE in
   /// seconds, or "-" where there was no frame yet.
   std::vector<stream_figure> streams;
+  /// ROSCELL_FRAMES=, what has gone through its data streams, whole numbers
+  /// separated by ";": "input:N RECEIVED PROCESSED FAILED DROPPED MEDIAN_US"
+  /// and "output:N WRITTEN". It goes along with a status, as does
+  /// ROSCELL_REMARK=, why nothing comes of its frames.
+  std::vector<stream_count> frames;
+  std::string remark;
 };
 
 /// Longest datagram that is read; longer ones are ignored whole.
@@ -27,6 +33,9 @@ constexpr size_t max_notification_bytes = 4096;
 /// Longest status that is kept, in bytes: all figures of a skill, however
 /// large.
 constexpr size_t max_status_bytes = 512;
+
+/// Longest remark that is kept, in bytes.
+constexpr size_t max_remark_bytes = 256;
 
 /// A line that tells of more streams is ignored: a step has at most 16 inputs
 /// and as many outputs.

@@ -3,6 +3,7 @@
 #include "actors/edge/process/notification.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -52,17 +53,73 @@ std::optional<stream_figure> read_stream(std::string_view text) {
   return stream_figure{std::string{end}, *rate_hz, *age_s};
 }
 
+/// The numbers that follow in `text`, if these are as many as wanted.
+template <size_t Wanted>
+std::optional<std::array<int64_t, Wanted>> counts_in(std::string_view text) {
+  // The largest that JSON carries exactly.
+  constexpr int64_t most = 9'007'199'254'740'991;
+  std::array<int64_t, Wanted> result{};
+  for (auto& value : result) {
+    const auto word = take_until(text, ' ');
+    const auto* end = word.data() + word.size();
+    const auto [rest, error] = std::from_chars(word.data(), end, value);
+    if (error != std::errc{} || rest != end || value < 0 || value > most)
+      return std::nullopt;
+  }
+  return text.empty() ? std::optional{result} : std::nullopt;
+}
+
+/// "input:0 118 115 3 0 850", "output:0 115"
+std::optional<stream_count> read_count(std::string_view text) {
+  constexpr double us_in_ms = 1000;
+  constexpr double most_ms = 1e9;
+  stream_count result;
+  result.end = take_until(text, ' ');
+  if (!names_end(result.end))
+    return std::nullopt;
+  if (result.end[0] == 'o') {
+    const auto written = counts_in<1>(text);
+    if (!written)
+      return std::nullopt;
+    result.frames = written->front();
+    return result;
+  }
+  const auto told = counts_in<5>(text);
+  if (!told)
+    return std::nullopt;
+  result.frames = (*told)[0];
+  result.processed = (*told)[1];
+  result.failed = (*told)[2];
+  result.dropped = (*told)[3];
+  // A median of no frames is none.
+  if (result.processed > 0)
+    result.latency_ms =
+        std::min(static_cast<double>((*told)[4]) / us_in_ms, most_ms);
+  return result;
+}
+
+/// All parts of a line, or none.
+template <class T>
+std::vector<T> read_all(std::string_view text,
+                        std::optional<T> (*read)(std::string_view)) {
+  std::vector<T> result;
+  while (!text.empty()) {
+    auto part = read(take_until(text, ';'));
+    if (!part || result.size() == max_told_streams)
+      return {};
+    result.push_back(std::move(*part));
+  }
+  return result;
+}
+
 } // namespace
 
 std::vector<stream_figure> read_streams(std::string_view text) {
-  std::vector<stream_figure> result;
-  while (!text.empty()) {
-    auto figure = read_stream(take_until(text, ';'));
-    if (!figure || result.size() == max_told_streams)
-      return {};
-    result.push_back(std::move(*figure));
-  }
-  return result;
+  return read_all(text, read_stream);
+}
+
+std::vector<stream_count> read_frames(std::string_view text) {
+  return read_all(text, read_count);
 }
 
 } // namespace roscell

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "messages/life.hpp"
+#include "messages/instance.hpp"
 
 #include <string_view>
 #include <vector>
@@ -10,5 +10,8 @@ namespace roscell {
 /// Reads what follows ROSCELL_STREAMS=, see `notification`. Empty when a part
 /// of it makes no sense: of a line that is broken no figure can be trusted.
 std::vector<stream_figure> read_streams(std::string_view text);
+
+/// Reads what follows ROSCELL_FRAMES=, in the same way.
+std::vector<stream_count> read_frames(std::string_view text);
 
 } // namespace roscell

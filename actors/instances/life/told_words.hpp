@@ -10,8 +10,8 @@ namespace roscell {
 /// What a program has said at its NOTIFY_SOCKET, as its supervisor is told.
 inline instance_notified told_words(const std::string& instance,
                                     const notification& x, bool heard) {
-  return {instance, x.ready, x.alive, x.stopping,
-          x.status, heard,   x.safe,  x.streams};
+  return {instance, x.ready, x.alive,   x.stopping, x.status,
+          heard,    x.safe,  x.streams, x.frames,   x.remark};
 }
 
 } // namespace roscell

@@ -109,4 +109,32 @@ TEST_CASE("A program that begins anew has no rate at first",
   CHECK(book.known() == instance_figures{});
 }
 
+TEST_CASE("What goes along with a status is known until the next one",
+          "[status_figures]") {
+  figures_book book;
+  std::vector<stream_count> told(1);
+  told[0].end = "input:0";
+  told[0].frames = 10;
+  book.hear("frames=10", time_zero, told, "none out");
+  told[0].frames = 30;
+  book.hear("frames=10", time_zero + 4s, told, "none out");
+  REQUIRE(book.known().streams.size() == 1);
+  CHECK(book.known().streams[0].rate_hz == Approx(5));
+  CHECK(book.known().remark == "none out");
+  book.hear("frames=12", time_zero + 8s);
+  CHECK(book.known().streams.empty());
+  CHECK(book.known().remark.empty());
+}
+
+TEST_CASE("A run's streams have not been quiet before it began",
+          "[status_figures]") {
+  figures_book book;
+  std::vector<stream_count> told(1);
+  told[0].end = "input:0";
+  book.hear("frames=0", time_zero, told);
+  book.begin_run();
+  book.hear("frames=0", time_zero + 30s, told);
+  CHECK(book.known().streams[0].quiet_s == 0);
+}
+
 } // namespace roscell::test

@@ -85,6 +85,52 @@ TEST_CASE("of a line about streams that is broken nothing is believed") {
   CHECK(parse_notification(many + good).streams.empty());
 }
 
+TEST_CASE("a program tells what has gone through its streams") {
+  const auto told = parse_notification(
+      "ROSCELL_FRAMES=input:0 118 115 3 2 850;input:1 9 0 9 0 0;output:0 115\n"
+      "ROSCELL_REMARK=118 frames in, none out: \x01 why");
+  REQUIRE(told.frames.size() == 3);
+  CHECK(told.frames[0].end == "input:0");
+  CHECK(told.frames[0].frames == 118);
+  CHECK(told.frames[0].processed == 115);
+  CHECK(told.frames[0].failed == 3);
+  CHECK(told.frames[0].dropped == 2);
+  CHECK(told.frames[0].latency_ms == Approx(0.85));
+  CHECK(told.frames[1].latency_ms < 0);
+  CHECK(told.frames[2].end == "output:0");
+  CHECK(told.frames[2].frames == 115);
+  CHECK(told.frames[2].processed < 0);
+  CHECK(told.remark == "118 frames in, none out:   why");
+}
+
+TEST_CASE("of counts that are broken none is trusted") {
+  const std::string good = "output:0 7";
+  for (const std::string text :
+       {"", "output:0", "output:0 -1", "output:0 x", "output:0 1 2",
+        "output:100 1", "input:0 1 2 3 4", "input:0 1 2 3 4 5 6", "middle:0 1",
+        "output:0 9007199254740992", "output:0 1.5"})
+    CHECK(
+        parse_notification("ROSCELL_FRAMES=" + good + ";" + text).frames.size()
+        == (text.empty() ? 1 : 0));
+  std::string many = "ROSCELL_FRAMES=";
+  for (size_t i = 0; i <= max_told_streams; ++i)
+    many += good + ";";
+  CHECK(parse_notification(many).frames.empty());
+}
+
+TEST_CASE("a remark is bounded, and gone with the next status without one") {
+  auto before = parse_notification("STATUS=a\nROSCELL_FRAMES=output:0 1\n"
+                                   "ROSCELL_REMARK="
+                                   + std::string(3000, 'x'));
+  CHECK(before.remark.size() == max_remark_bytes);
+  merge(before, parse_notification("WATCHDOG=1"));
+  CHECK(before.frames.size() == 1);
+  CHECK_FALSE(before.remark.empty());
+  merge(before, parse_notification("STATUS=b"));
+  CHECK(before.frames.empty());
+  CHECK(before.remark.empty());
+}
+
 TEST_CASE("merged notifications keep the last word on safety and streams") {
   auto before = parse_notification("ROSCELL_SAFE=0\n"
                                    "ROSCELL_STREAMS=input:0 1 2;input:1 1 2");
