@@ -1,5 +1,6 @@
 #include "actors/cell/cell_figures.hpp"
 
+#include "actors/cell/streams/cell_streams.hpp"
 #include "actors/cell/tasks/task_views.hpp"
 #include "actors/house/limits.hpp"
 
@@ -17,7 +18,8 @@ namespace {
 
 /// A question to several nodes, until all have answered.
 struct figures_tally {
-  size_t open = 1; ///< The asker itself, until it has asked all.
+  size_t open = 1;            ///< The asker itself, until it has asked all.
+  std::set<std::string> told; ///< The nodes that have answered.
   std::function<void()> on_all;
 
   void finish_one() {
@@ -34,6 +36,7 @@ void ask_node(coordinator_pointer self, const registry_entry& entry,
       .then(
           [=](const figures_report& report) {
             self->state.deployments.tell_words(node, report.instances);
+            tally->told.insert(node);
             tally->finish_one();
           },
           [=](const caf::error&) {
@@ -45,7 +48,11 @@ void ask_node(coordinator_pointer self, const registry_entry& entry,
 void ask_nodes(coordinator_pointer self, const std::set<std::string>& nodes,
                std::function<void()> on_all) {
   auto tally = std::make_shared<figures_tally>();
-  tally->on_all = std::move(on_all);
+  // It must not hold itself.
+  tally->on_all = [self, known = tally.get(), on_all = std::move(on_all)] {
+    judge_streams(self, known->told);
+    on_all();
+  };
   for (const auto& node : nodes) {
     const auto* entry = self->state.registry.find_name(node);
     if (entry && entry->agent)
@@ -96,6 +103,7 @@ cell_measured measured(const cell_coordinator_state& st) {
     for (auto& x : st.deployments.measures_on(name, away)) {
       if (away && is_live(x.state))
         x.figures = {};
+      x.health = health_of(st, x.instance, x.state, x.health);
       result.instances.push_back(std::move(x));
     }
     node.resources.name = name;

@@ -48,6 +48,7 @@ struct instance_measures {
   instance_state state = instance_state::pending;
   int64_t restarts = 0;
   instance_figures figures;
+  instance_health health = instance_health::good;
 
   static constexpr auto fields() {
     return field_list{required("instance", &instance_measures::instance),
@@ -56,13 +57,14 @@ struct instance_measures {
                       required("node", &instance_measures::node),
                       required("state", &instance_measures::state),
                       required("restarts", &instance_measures::restarts),
-                      required("figures", &instance_measures::figures)};
+                      required("figures", &instance_measures::figures),
+                      required("health", &instance_measures::health)};
   }
 };
 
 inline instance_measures measures_of(const instance_row& row) {
   return {row.spec.instance, row.spec.task, row.spec.step, row.node,
-          row.state,         row.restarts,  row.figures};
+          row.state,         row.restarts,  row.figures,   row.health};
 }
 
 /// Tasks that are in one state.

@@ -150,6 +150,14 @@ std::set<std::string> deployment_book::nodes_with_live() const {
   return result;
 }
 
+std::vector<const instance_row*> deployment_book::all_told() const {
+  std::vector<const instance_row*> result;
+  for (const auto& [node, rows] : told_)
+    for (const auto& [id, row] : rows)
+      result.push_back(&row);
+  return result;
+}
+
 std::vector<instance_row>
 deployment_book::rows_on(const std::string& node) const {
   std::vector<instance_row> result;
@@ -205,7 +213,7 @@ deployment_book::measures_on(const std::string& node, bool untold) const {
         const auto& row = known ? *known : unknown;
         result.push_back({x.spec.instance, x.spec.task, x.spec.step, node,
                           x.end ? x.end->state : row.state, row.restarts,
-                          row.figures});
+                          row.figures, row.health});
       },
       [&](const auto& row) { result.push_back(measures_of(row)); });
   return result;

@@ -96,6 +96,9 @@ public:
   /// Names of the nodes that have told of live instances.
   std::set<std::string> nodes_with_live() const;
 
+  /// All rows that nodes have told, until they tell others.
+  std::vector<const instance_row*> all_told() const;
+
   /// The rows of a node as it has told them, in the order of their ids.
   std::vector<instance_row> rows_on(const std::string& node) const;
 

@@ -11,6 +11,7 @@
 #include "actors/cell/books/task_book.hpp"
 #include "actors/cell/books/transfer_book.hpp"
 #include "actors/cell/moves/rebalance_book.hpp"
+#include "actors/cell/streams/stream_watch.hpp"
 #include "actors/cell/tasks/task_desk.hpp"
 #include "actors/edge/dds/ros_graph.hpp"
 #include "actors/house/alarm.hpp"
@@ -75,6 +76,7 @@ struct cell_coordinator_state {
   cell_registry registry;
   task_book tasks;
   deployment_book deployments;
+  stream_watch streams;
   task_desk desk;
   history_book history;
   loss_book losses;

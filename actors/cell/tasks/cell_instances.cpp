@@ -3,6 +3,7 @@
 #include "actors/cell/moves/lost_steps.hpp"
 #include "actors/cell/moves/rebalancing.hpp"
 #include "actors/cell/state/task_story.hpp"
+#include "actors/cell/streams/cell_streams.hpp"
 #include "actors/cell/tasks/task_endings.hpp"
 #include "actors/cell/tasks/task_removals.hpp"
 #include "actors/house/limits.hpp"
@@ -94,8 +95,11 @@ std::optional<std::string> node_of_sender(coordinator_pointer self) {
   return result;
 }
 
-void tell_change(coordinator_pointer self, const instance_row& x,
+} // namespace
+
+void tell_change(coordinator_pointer self, instance_row x,
                  const std::string& node) {
+  add_verdict(self->state, x);
   json data{{"task", x.spec.task},
             {"step", x.spec.step},
             {"node", node},
@@ -116,8 +120,6 @@ void tell_change(coordinator_pointer self, const instance_row& x,
     data["waits"] = x.waits;
   tell_of_task(self, "instance_changed", x.spec.task, x.spec.instance, data);
 }
-
-} // namespace
 
 void reconcile_own_node(coordinator_pointer self) {
   const auto& st = self->state;
@@ -179,6 +181,8 @@ void on_instance_changed(coordinator_pointer self,
     st.deployments.tell(*node, x);
   else
     st.deployments.forget_told(*node, id);
+  if (x.state != instance_state::running)
+    st.streams.forget(id);
   tell_change(self, x, *node);
   watch_moved(self, x);
   if (!is_live(x.state))

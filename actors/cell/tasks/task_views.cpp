@@ -1,6 +1,7 @@
 #include "actors/cell/tasks/task_views.hpp"
 
 #include "actors/cell/moves/lost_steps.hpp"
+#include "actors/cell/streams/cell_streams.hpp"
 
 #include "messages/failure.hpp"
 
@@ -23,6 +24,8 @@ instance_row shown(const cell_coordinator_state& st, instance_row row) {
   }
   if (row.unknown_since_unix_ms > 0)
     row.waits = wait_of_lost(st, row);
+  else
+    add_verdict(st, row);
   return row;
 }
 
@@ -37,7 +40,9 @@ bool is_healthy(const cell_coordinator_state& st, const deployment& x) {
   if (row->state == instance_state::stopped)
     return row->exit_code == 0;
   return row->state == instance_state::running
-         && row->health == instance_health::good && is_present(st, x.node);
+         && health_of(st, x.spec.instance, row->state, row->health)
+                == instance_health::good
+         && is_present(st, x.node);
 }
 
 task_state state_now(const cell_coordinator_state& st, const std::string& task,

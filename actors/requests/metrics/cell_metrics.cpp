@@ -87,6 +87,27 @@ void write_states(const std::vector<labelled_instance>& rows, exposition& to) {
   }
 }
 
+void write_starved(const std::vector<labelled_instance>& rows, exposition& to) {
+  to.gauge("roscell_instance_starved",
+           "1 if an input gets too little, or nothing of what is sent.");
+  write_each(rows, to, [](const auto& x) {
+    if (x.state != instance_state::running)
+      return -1;
+    return x.health == instance_health::starved ? 1 : 0;
+  });
+}
+
+void write_inputs(const std::vector<labelled_instance>& rows, exposition& to) {
+  to.counter("roscell_instance_failed_frames",
+             "Frames at which its skill has failed, of all inputs.");
+  write_each(rows, to, [](const auto& x) {
+    int64_t failed = x.figures.streams.empty() ? -1 : 0;
+    for (const auto& stream : x.figures.streams)
+      failed += stream.failed;
+    return static_cast<double>(failed);
+  });
+}
+
 void write_latencies(const std::vector<labelled_instance>& rows,
                      exposition& to) {
   std::vector<double> bounds_s;
@@ -145,6 +166,7 @@ void write_instances(const std::vector<instance_measures>& instances,
                      exposition& to) {
   const auto rows = labelled(instances);
   write_states(rows, to);
+  write_starved(rows, to);
   to.counter("roscell_instance_restarts",
              "How often its node has started it again.");
   write_each(rows, to,
@@ -158,6 +180,7 @@ void write_instances(const std::vector<instance_measures>& instances,
   write_each(rows, to, [](const auto& x) {
     return static_cast<double>(x.figures.dropped);
   });
+  write_inputs(rows, to);
   to.gauge("roscell_instance_median_latency_seconds",
            "Median time in which its skill processes a frame.");
   write_each(rows, to,

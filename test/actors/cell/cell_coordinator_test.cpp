@@ -273,6 +273,48 @@ TEST_CASE_METHOD(paper_cell,
   }
 }
 
+TEST_CASE_METHOD(paper_cell,
+                 "A reader that gets nothing although its writer sends is "
+                 "starved, without a bound",
+                 "[cell_coordinator]") {
+  auto& arm = add("arm");
+  auto& belt = add("belt");
+  request(
+      echo_task("t", {echo_step("s0", 1, "arm"), echo_step("s1", 1, "belt")}));
+  auto& reader = arm.running.begin()->second;
+  auto& writer = belt.running.begin()->second;
+  writer.spec.output = {{"ros2", "/a", "std_msgs/msg/String"}};
+  reader.spec.input = writer.spec.output;
+  writer.figures.streams.resize(1);
+  writer.figures.streams[0].end = "output:0";
+  writer.figures.streams[0].steady_s = 20;
+  reader.figures.streams.resize(1);
+  reader.figures.streams[0].end = "input:0";
+  reader.figures.streams[0].quiet_s = 20;
+  arm.tell(reader);
+  belt.tell(writer);
+  time.settle();
+  CHECK(state_of_task(*this, "t") == "running");
+  const auto shown =
+      request({{"type", "instance_query"}, {"instance", reader.spec.instance}});
+  CHECK(shown.at("instances")[0].at("health") == "starved");
+  CHECK(
+      shown.at("instances")[0]
+          .at("health_reason")
+          .get<std::string>()
+          .find("input '/a' has had no frame at all, though step 's1' on node "
+                "'belt' goes on sending")
+      == 0);
+  CHECK(state_of_task(*this, "t") == "degraded");
+  CHECK(count("instance_starved") == 1);
+  CHECK(count("instance_recovered") == 0);
+  reader.figures.streams[0].quiet_s = 0;
+  request({{"type", "instance_query"}});
+  CHECK(state_of_task(*this, "t") == "running");
+  CHECK(count("instance_starved") == 1);
+  CHECK(count("instance_recovered") == 1);
+}
+
 TEST_CASE_METHOD(paper_cell, "A task is degraded while a node of it is away",
                  "[cell_coordinator]") {
   auto& arm = add("arm");

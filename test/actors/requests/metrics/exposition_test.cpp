@@ -109,6 +109,8 @@ TEST_CASE("what nobody knows of an instance is left out", "[metrics]") {
   write_instances({row}, text);
   const auto whole = text.finish();
   CHECK(has(whole, "state=\"running\"} 1\n"));
+  CHECK(has(whole, "roscell_instance_starved{instance_id=\"t-a-1\""));
+  CHECK_FALSE(has(whole, "roscell_instance_failed_frames_total{"));
   CHECK(has(whole, "roscell_instance_restarts_total{instance_id=\"t-a-1\""));
   CHECK_FALSE(has(whole, "roscell_instance_frames_total{"));
 }

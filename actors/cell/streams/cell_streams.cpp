@@ -1,0 +1,58 @@
+#include "actors/cell/streams/cell_streams.hpp"
+
+#include "actors/cell/tasks/cell_instances.hpp"
+#include "actors/house/limits.hpp"
+#include "schemas/utf8.hpp"
+
+#include <string>
+
+namespace roscell {
+
+namespace {
+
+/// A topic's name may be cut in the middle of a letter.
+std::string bounded(const std::string& reason) {
+  return valid_utf8(reason.substr(0, limits::instance::reason_bytes));
+}
+
+void tell_verdict(coordinator_pointer self, const std::string& instance) {
+  const auto& st = self->state;
+  const auto row = st.deployments.find_row(instance);
+  if (!row)
+    return;
+  const auto* reason = st.streams.reason_of(instance);
+  json data{{"task", row->spec.task}, {"step", row->spec.step}};
+  if (reason)
+    data["reason"] = bounded(*reason);
+  st.context.tell(reason ? "instance_starved" : "instance_recovered", instance,
+                  data);
+  tell_change(self, *row, row->node);
+}
+
+} // namespace
+
+void judge_streams(coordinator_pointer self,
+                   const std::set<std::string>& told) {
+  auto& st = self->state;
+  for (const auto& instance : st.streams.judge(st.deployments.all_told(), told))
+    tell_verdict(self, instance);
+}
+
+instance_health health_of(const cell_coordinator_state& st,
+                          const std::string& instance, instance_state state,
+                          instance_health told) {
+  return told == instance_health::good && state == instance_state::running
+                 && st.streams.reason_of(instance) != nullptr
+             ? instance_health::starved
+             : told;
+}
+
+void add_verdict(const cell_coordinator_state& st, instance_row& row) {
+  const auto health = health_of(st, row.spec.instance, row.state, row.health);
+  if (health == row.health)
+    return;
+  row.health = health;
+  row.health_reason = bounded(*st.streams.reason_of(row.spec.instance));
+}
+
+} // namespace roscell

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "actors/cell/state/coordinator_state.hpp"
+
+#include <set>
+#include <string>
+
+/// What the CELL COORDINATOR makes of the figures that nodes tell: an instance
+/// that gets nothing although its writer sends is starved, whether its step
+/// asks for bounds or not. Nothing is sent for it: it is judged whenever
+/// somebody has had the nodes asked. See `stream_watch`.
+namespace roscell {
+
+/// These nodes have just told what their skills say. What has changed is told
+/// as an event.
+void judge_streams(coordinator_pointer self, const std::set<std::string>& told);
+
+/// The health of an instance by its node's word, and by its streams.
+void add_verdict(const cell_coordinator_state& st, instance_row& row);
+instance_health health_of(const cell_coordinator_state& st,
+                          const std::string& instance, instance_state state,
+                          instance_health told);
+
+} // namespace roscell

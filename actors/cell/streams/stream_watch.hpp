@@ -1,0 +1,45 @@
+#pragma once
+
+#include "messages/instance.hpp"
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace roscell {
+
+/// Which instances have an input that gets nothing although its writer goes on
+/// sending. Pure, and no larger than what it is asked to judge.
+///
+/// Both ends of a stream are compared by what their skills have counted: the
+/// writer what it has written, the reader what has reached it, before anything
+/// waits or is dropped there. A reader that is busy is not starved. A writer
+/// counts once it has sent three frames in each ten seconds for ten seconds:
+/// the words of both ends may be some seconds apart. Streams are those of ROS 2
+/// topics between steps of one task.
+class stream_watch {
+public:
+  /// What a reader must have had nothing for, and a writer have sent for.
+  static constexpr double long_enough_s = 10;
+
+  /// Judges all that is known now. An instance on a node that is not among
+  /// `told`, or with an input that is written there, is judged as before:
+  /// nobody knows its figures. Returns the instances of which the judgement has
+  /// changed; those that do not run are forgotten without a word.
+  std::vector<std::string> judge(const std::vector<const instance_row*>& rows,
+                                 const std::set<std::string>& told);
+
+  /// One sentence, or null if the instance is not starved.
+  const std::string* reason_of(const std::string& instance) const;
+
+  /// It does not run any more.
+  void forget(const std::string& instance) {
+    reasons_.erase(instance);
+  }
+
+private:
+  std::map<std::string, std::string> reasons_; ///< By instance.
+};
+
+} // namespace roscell

@@ -1,0 +1,146 @@
+#include "actors/cell/streams/stream_watch.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace roscell;
+using Catch::Matchers::Contains;
+
+namespace {
+
+using names = std::vector<std::string>;
+
+const io_endpoint watched_topic{"ros2", "/image", "sensor_msgs/msg/Image"};
+
+/// A step that writes a topic and one that reads it, each on its node.
+struct watched_pair {
+  watched_pair() {
+    for (auto* row : {&writer, &reader}) {
+      row->spec.task = "t";
+      row->state = instance_state::running;
+    }
+    writer.spec.instance = writer.spec.step = "camera";
+    writer.node = "belt";
+    writer.spec.output = {watched_topic};
+    writer.figures.streams = {count("output:0", 500)};
+    writer.figures.streams[0].steady_s = 12;
+    reader.spec.instance = reader.spec.step = "poses";
+    reader.node = "arm";
+    reader.spec.input = {watched_topic};
+    reader.figures.streams = {count("input:0", 100)};
+    reader.figures.streams[0].quiet_s = 14.5;
+  }
+
+  static stream_count count(const std::string& end, int64_t frames) {
+    stream_count result;
+    result.end = end;
+    result.frames = frames;
+    return result;
+  }
+
+  names judge(const std::set<std::string>& told = {"arm", "belt"}) {
+    return watch.judge({&writer, &reader}, told);
+  }
+
+  bool is_starved() const {
+    return watch.reason_of("poses") != nullptr;
+  }
+
+  instance_row writer;
+  instance_row reader;
+  stream_watch watch;
+};
+
+} // namespace
+
+TEST_CASE_METHOD(watched_pair, "a reader that gets nothing of what its writer "
+                               "goes on sending is starved") {
+  CHECK(judge() == names{"poses"});
+  REQUIRE(is_starved());
+  CHECK_THAT(*watch.reason_of("poses"),
+             Contains("input '/image' has had no frame for 14 s")
+                 && Contains("step 'camera' on node 'belt' goes on sending"));
+  CHECK_FALSE(watch.reason_of("camera"));
+  // It is said once.
+  CHECK(judge().empty());
+  SECTION("until it gets something") {
+    reader.figures.streams[0].quiet_s = 0;
+    CHECK(judge() == names{"poses"});
+    CHECK_FALSE(is_starved());
+  }
+  SECTION("or does not run") {
+    reader.state = instance_state::backing_off;
+    CHECK(judge().empty());
+    CHECK_FALSE(is_starved());
+  }
+  SECTION("or is forgotten") {
+    watch.forget("poses");
+    CHECK_FALSE(is_starved());
+  }
+  SECTION("or its writer sends no more") {
+    writer.figures.streams[0].steady_s = -1;
+    CHECK(judge() == names{"poses"});
+  }
+}
+
+TEST_CASE_METHOD(watched_pair, "a reader that never had a frame is told so") {
+  reader.figures.streams[0].frames = 0;
+  judge();
+  REQUIRE(is_starved());
+  CHECK_THAT(*watch.reason_of("poses"), Contains("has had no frame at all"));
+}
+
+TEST_CASE_METHOD(watched_pair, "a reader is not starved before it is certain") {
+  SECTION("it has not been quiet for long") {
+    reader.figures.streams[0].quiet_s = 9;
+  }
+  SECTION("its writer has not sent for long") {
+    writer.figures.streams[0].steady_s = 9;
+  }
+  SECTION("its skill tells nothing of its streams") {
+    reader.figures.streams.clear();
+  }
+  SECTION("its writer's skill does not") {
+    writer.figures.streams.clear();
+  }
+  SECTION("its writer does not run") {
+    writer.state = instance_state::starting;
+  }
+  SECTION("its writer is of another task") {
+    writer.spec.task = "u";
+  }
+  SECTION("the topic is another one") {
+    writer.spec.output[0].endpoint = "/other";
+  }
+  SECTION("it reads a file") {
+    writer.spec.output[0].protocol = "file";
+    reader.spec.input[0].protocol = "file";
+  }
+  CHECK(judge().empty());
+  CHECK_FALSE(is_starved());
+}
+
+TEST_CASE_METHOD(watched_pair, "what a node has not told is judged as before") {
+  SECTION("of a reader") {
+    CHECK(judge({"belt"}).empty());
+    CHECK_FALSE(is_starved());
+    judge();
+    reader.figures = {};
+    CHECK(judge({"belt"}).empty());
+    CHECK(is_starved());
+  }
+  SECTION("of its writer") {
+    CHECK(judge({"arm"}).empty());
+    judge();
+    writer.figures = {};
+    CHECK(judge({"arm"}).empty());
+    CHECK(is_starved());
+  }
+}
+
+TEST_CASE_METHOD(watched_pair, "one of several writers is enough") {
+  auto other = writer;
+  other.spec.instance = other.spec.step = "camera-2";
+  other.figures.streams[0].steady_s = -1;
+  watch.judge({&other, &writer, &reader}, {"arm", "belt"});
+  CHECK(is_starved());
+}
