@@ -68,6 +68,28 @@ TEST_CASE("a graph shows steps, nodes, streams and figures", "[tools]") {
                   "sensor_msgs/msg/Image\n"));
 }
 
+TEST_CASE("a graph shows what arrives at each reader", "[tools]") {
+  auto graph = sample_graph();
+  stream_count out;
+  out.end = "output:0";
+  out.rate_hz = 9;
+  graph.steps[0].figures.streams = {out};
+  stream_count in;
+  in.end = "input:0";
+  in.frames = 7;
+  in.failed = 2;
+  in.rate_hz = 8;
+  graph.steps[1].figures.streams = {in};
+  const auto text = graph_view(graph, {});
+  CHECK(has(text, "│ /image  Image  9 Hz\n"));
+  CHECK(has(text, "AT ITS READER"));
+  CHECK(has(text, "  8 Hz, 7 frames, 2 failed\n"));
+  const auto document = graph_json(graph);
+  CHECK(document.at("streams").at(1).at("written").at("rate_hz") == 9);
+  CHECK(document.at("streams").at(1).at("read").at("failed") == 2);
+  CHECK(document.at("streams").at(0).at("written").is_null());
+}
+
 TEST_CASE("a step whose node is away is not shown as running", "[tools]") {
   auto lost = step("camera", {}, {image});
   lost.unknown_since_unix_ms = 1000;

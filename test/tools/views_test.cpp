@@ -270,6 +270,50 @@ TEST_CASE("an instance's row shows what its skill tells in figures",
   CHECK(has(instances_view({{row}}, at(2000)), " 0 Hz "));
 }
 
+namespace {
+
+/// Of a skill that cannot use its images, with what goes through its streams.
+instance_row barren_instance() {
+  auto row = sample_instance();
+  row.spec.input = {{"ros2", "/image", "sensor_msgs/msg/Image"},
+                    {"ros2", "/info", "sensor_msgs/msg/CameraInfo"}};
+  row.spec.output = {{"ros2", "/tf", "tf2_msgs/msg/TFMessage"}};
+  row.figures.frames = 118;
+  row.figures.remark = "118 frames in, none out: no CameraInfo has come";
+  stream_count image;
+  image.end = "input:0";
+  image.frames = 121;
+  image.rate_hz = 10;
+  image.failed = 3;
+  image.latency_ms = 0.25;
+  stream_count info;
+  info.end = "input:1";
+  row.figures.streams = {image, info};
+  return row;
+}
+
+} // namespace
+
+TEST_CASE("an instance of whose frames nothing comes says so wherever it is "
+          "listed",
+          "[tools]") {
+  const auto row = barren_instance();
+  const auto words = row.figures.remark;
+  CHECK(has(instances_view({{row}}, at(2000)), "  " + words + "\n"));
+  const task_description tasks{{{"t", task_state::running, 0, 0, {row}}}};
+  CHECK(has(tasks_view(tasks, at(2000)), "  poses: " + words + "\n"));
+  CHECK(has(task_view(tasks, at(2000)), "  " + words + "\n"));
+}
+
+TEST_CASE("each stream's figures are shown when all is wanted", "[tools]") {
+  auto style = at(2000);
+  CHECK_FALSE(has(instances_view({{barren_instance()}}, style), "/image"));
+  style.text.tables.wide = true;
+  CHECK(has(instances_view({{barren_instance()}}, style),
+            "  in /image 10 Hz, 121 frames, 3 failed, 0.25 ms; in /info 0 "
+            "frames\n"));
+}
+
 TEST_CASE("an instance's id is the first column", "[tools]") {
   // The bash completion takes it from there.
   const auto text = instances_view({{sample_instance()}}, at(2000));

@@ -91,6 +91,9 @@ TEST_CASE("instances that fail, starve or drop frames are told", "[doctor]") {
   CHECK(judge_instances({row})[0].how == judgement::ok);
   row.figures.dropped = 300;
   CHECK_THAT(judge_instances({row})[0].seen, Contains("dropped 300 frames"));
+  row.figures.remark = "1000 frames in, none out";
+  CHECK_THAT(judge_instances({row})[0].seen,
+             Contains("gives nothing: 1000 frames in, none out"));
   row.health = instance_health::starved;
   CHECK_THAT(judge_instances({row})[0].seen, Contains("starved"));
   row.unknown_since_unix_ms = 1;

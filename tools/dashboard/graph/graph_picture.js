@@ -85,7 +85,7 @@ export class GraphPicture {
     setText(parts.state, spoken(state));
     const words = [figures.latency_ms === undefined ? '' : milliseconds(figures.latency_ms), figures.dropped ? `${figures.dropped} dropped` : ''];
     setText(parts.figures, words.filter(Boolean).map((x) => ` · ${x}`).join(''));
-    setText(parts.title, `${row.spec.step}: ${spoken(state)} on ${row.node}. ${row.reason ?? row.health_reason ?? ''}`);
+    setText(parts.title, `${row.spec.step}: ${spoken(state)} on ${row.node}. ${row.reason ?? row.health_reason ?? figures.remark ?? ''}`);
   }
 
   makeArrow(arrow) {

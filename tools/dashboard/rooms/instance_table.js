@@ -29,7 +29,7 @@ export class InstanceTable {
       { title: 'State', order: instanceState, make: (cell) => cell.appendChild(stateMark('unknown')),
         update: (cell, x, mark) => {
           updateState(mark, instanceState(x));
-          setAttribute(mark, 'title', x.reason ?? x.health_reason ?? null);
+          setAttribute(mark, 'title', x.reason ?? x.health_reason ?? figures(x).remark ?? null);
         } },
       { title: 'Node', key: 'node', order: (x) => x.node, text: (x) => x.node },
       { title: 'Skill', class: 'minor', order: (x) => x.spec.operation, text: (x) => `${x.spec.operation} / ${x.spec.model}` },

@@ -11,7 +11,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include <map>
 #include <memory>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -21,6 +23,8 @@ namespace {
 
 /// A coordinator answers at once.
 constexpr std::chrono::seconds view_limit{10};
+
+constexpr const char* tasks_path = "/v1/tasks";
 
 /// What one of these commands asks and how it shows the answer.
 struct subject {
@@ -62,7 +66,7 @@ const subject subjects[] = {
      "A member asks its coordinator.\n\nExamples:\n  roscell tasks --watch\n"
      "  roscell tasks fleet-poses -o json",
      "TASK",
-     "/v1/tasks",
+     tasks_path,
      {"tasks"},
      view_of<task_description, tasks_view>,
      view_of<task_description, task_view>},
@@ -104,17 +108,25 @@ std::string json_text(const show_options& options, const json& things) {
   return lines;
 }
 
-/// A task as it is asked for by name: with what its instances say now, which
-/// only their nodes know.
-json with_figures(const node_client& node, json reply,
-                  const std::string& name) {
+/// Tasks, one if it is named, with what their instances say now, which only
+/// their nodes know. They are asked first: what they say may show that a task
+/// is not well.
+json tasks_now(const node_client& node, const std::string& path,
+               const std::string& name) {
   instance_query query;
   query.task = name;
-  const auto rows = node.ask(message_json(query), view_limit)
-                        .value("instances", json::array());
-  if (auto tasks = reply.find("tasks");
-      tasks != reply.end() && tasks->size() == 1)
-    tasks->front()["instances"] = rows;
+  std::map<std::string, json> rows;
+  for (auto& row : node.ask(message_json(query), view_limit)
+                       .value("instances", json::array()))
+    rows[row.at("spec").at("instance").get<std::string>()] = std::move(row);
+  auto reply = node.get(path);
+  for (auto& task : reply.at("tasks"))
+    for (auto& row : task.at("instances")) {
+      const auto known =
+          rows.find(row.at("spec").at("instance").get<std::string>());
+      if (known != rows.end())
+        row = std::move(known->second);
+    }
   return reply;
 }
 
@@ -130,11 +142,8 @@ int show_subject(const subject& what, const show_options& options) {
   return show(
       options, node,
       [&] {
-        auto reply = node.get(path);
-        return what.one != nullptr && !options.argument.empty()
-                       && reply.contains("tasks")
-                   ? with_figures(node, std::move(reply), options.argument)
-                   : reply;
+        return what.path == tasks_path ? tasks_now(node, path, options.argument)
+                                       : node.get(path);
       },
       [&](const json& reply) {
         const bool one = what.one != nullptr && !options.argument.empty();

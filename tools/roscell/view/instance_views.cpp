@@ -39,7 +39,8 @@ std::string instances_view(const instance_description& instances,
            {"DATA AGE", align::right, 2},
            {"DEPLOYMENT", align::left, 7},
            {"EXIT", align::right, 3},
-           {"REMARK", align::left, 4}},
+           {"REMARK", align::left, 4},
+           {"STREAMS", align::left, only_wide}},
           {}};
   for (const auto& row : instances.instances) {
     const auto& x = row.figures;
@@ -49,7 +50,7 @@ std::string instances_view(const instance_description& instances,
          figure(x.rate_hz, 1, " Hz"), count_text(x.dropped),
          figure(x.latency_ms, 2, " ms"), figure(x.age_ms, 1, " ms"),
          row.spec.model + "/" + row.spec.deployment, exit_text(row.exit_code),
-         remark(row, style.now_unix_ms)});
+         remark(row, style.now_unix_ms), streams_text(row)});
   }
   return or_nothing(t, "instances", style);
 }

@@ -3,6 +3,8 @@
 #include "tools/roscell/view/format.hpp"
 
 #include <algorithm>
+#include <string>
+#include <vector>
 
 namespace roscell::cli {
 
@@ -23,6 +25,11 @@ std::string state_text(const instance_row& row) {
                  || row.state != instance_state::running
              ? to_string(row.state)
              : to_string(row.state) + ", " + to_string(row.health);
+}
+
+bool runs_well(const instance_row& row) {
+  return !is_unknown(row) && row.state == instance_state::running
+         && row.health == instance_health::good && row.figures.remark.empty();
 }
 
 std::string since_text(const instance_row& row, const view_style& style) {
@@ -56,6 +63,15 @@ std::string safety_words(const instance_row& row) {
 
 namespace {
 
+const stream_count* count_at(const instance_row& row, const char* direction,
+                             size_t number) {
+  const auto end = direction + std::to_string(number);
+  const auto& all = row.figures.streams;
+  const auto i = std::find_if(all.begin(), all.end(),
+                              [&](const auto& x) { return x.end == end; });
+  return i == all.end() ? nullptr : &*i;
+}
+
 std::string next_start_text(const instance_row& row, int64_t now_unix_ms) {
   if (row.next_start_unix_ms == 0)
     return row.waits;
@@ -76,12 +92,52 @@ std::string remark(const instance_row& row, int64_t now_unix_ms) {
     return next_start_text(row, now_unix_ms) + "; " + row.reason;
   if (row.health != instance_health::good)
     return row.health_reason;
+  if (row.state == instance_state::running && !row.figures.remark.empty())
+    return row.figures.remark;
   if (!row.reason.empty())
     return row.reason;
   if (!row.trouble.empty())
     return row.trouble;
   // The columns say it better.
   return row.figures == instance_figures{} ? row.status : "";
+}
+
+const stream_count* input_count(const instance_row& row, size_t number) {
+  return count_at(row, "input:", number);
+}
+
+const stream_count* output_count(const instance_row& row, size_t number) {
+  return count_at(row, "output:", number);
+}
+
+std::string stream_text(const stream_count* count) {
+  if (count == nullptr)
+    return {};
+  std::vector<std::string> words;
+  if (count->rate_hz >= 0)
+    words.push_back(format_number(count->rate_hz, 1) + " Hz");
+  words.push_back(std::to_string(count->frames) + " frames");
+  if (count->failed > 0)
+    words.push_back(std::to_string(count->failed) + " failed");
+  if (count->dropped > 0)
+    words.push_back(std::to_string(count->dropped) + " dropped");
+  if (count->latency_ms >= 0)
+    words.push_back(format_number(count->latency_ms, 2) + " ms");
+  return joined(words, ", ");
+}
+
+std::string streams_text(const instance_row& row) {
+  std::vector<std::string> words;
+  const auto add = [&](const char* direction, const io_endpoint& end,
+                       const stream_count* count) {
+    if (count != nullptr)
+      words.push_back(direction + end.endpoint + " " + stream_text(count));
+  };
+  for (size_t i = 0; i < row.spec.input.size(); ++i)
+    add("in ", row.spec.input[i], input_count(row, i));
+  for (size_t i = 0; i < row.spec.output.size(); ++i)
+    add("out ", row.spec.output[i], output_count(row, i));
+  return joined(words, "; ");
 }
 
 std::string figure(double value, int decimals, const char* unit) {

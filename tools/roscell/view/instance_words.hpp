@@ -19,6 +19,10 @@ bool is_unknown(const instance_row& row);
 /// What a node that is away runs is not known, whatever it ran before.
 std::string state_text(const instance_row& row);
 
+/// Nothing need be said of it: it runs, with what it needs, and gives
+/// something.
+bool runs_well(const instance_row& row);
+
 /// For how long it has been so, or has not been known.
 std::string since_text(const instance_row& row, const view_style& style);
 
@@ -31,6 +35,18 @@ std::string safety_words(const instance_row& row);
 /// What stands behind an instance's state: why it is not known at present, why
 /// it ended, for what it waits, or what it says.
 std::string remark(const instance_row& row, int64_t now_unix_ms);
+
+/// What one end of a stream does: "10 Hz, 118 frames, 3 failed, 0.85 ms";
+/// empty for null.
+std::string stream_text(const stream_count* count);
+
+/// The count of an input or output of an instance by its number; null if its
+/// skill does not tell it.
+const stream_count* input_count(const instance_row& row, size_t number);
+const stream_count* output_count(const instance_row& row, size_t number);
+
+/// What each stream does: "in /image 10 Hz, 118 frames; out /tf 10 Hz, ...".
+std::string streams_text(const instance_row& row);
 
 /// Nothing for a negative value, which is not known.
 std::string figure(double value, int decimals, const char* unit);

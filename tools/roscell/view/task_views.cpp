@@ -49,11 +49,20 @@ std::string waits_of(const task_row& task, const view_style& style) {
 
 /// Why a step does not simply run; what it waits for stands beside its task.
 std::string step_remark(const instance_row& row, int64_t now_unix_ms) {
-  const bool runs_well = row.state == instance_state::running
-                         && row.health == instance_health::good;
   const bool has_finished =
       row.state == instance_state::stopped && row.exit_code == 0;
-  return runs_well || has_finished ? "" : remark(row, now_unix_ms);
+  return runs_well(row) || has_finished ? "" : remark(row, now_unix_ms);
+}
+
+/// What the steps of a task say that run and do not do well: "rectify: 118
+/// frames in, none out". What is wrong with others follows from the state.
+std::string words_of_running(const task_row& task, const view_style& style) {
+  std::vector<std::string> words;
+  for (const auto& row : task.instances)
+    if (row.state == instance_state::running && !is_unknown(row)
+        && !runs_well(row))
+      words.push_back(row.spec.step + ": " + remark(row, style.now_unix_ms));
+  return joined(words, "; ");
 }
 
 } // namespace
@@ -67,8 +76,11 @@ std::string tasks_view(const task_description& tasks, const view_style& style) {
           {}};
   bool any_ended = false;
   bool any_waits = false;
+  bool any_words = false;
   for (const auto& row : tasks.tasks) {
     const auto waits = waits_of(row, style);
+    const auto words = words_of_running(row, style);
+    any_words = any_words || !words.empty();
     any_ended = any_ended || row.ended_unix_ms > 0;
     any_waits = any_waits || !waits.empty();
     std::set<std::string> nodes;
@@ -80,13 +92,15 @@ std::string tasks_view(const task_description& tasks, const view_style& style) {
                       row.ended_unix_ms > 0 ? format_since(
                           row.submitted_unix_ms, row.ended_unix_ms)
                                             : "",
-                      waits});
+                      waits, words});
   }
   // The cells of a row are cut to the number of columns.
-  if (any_ended || any_waits)
+  if (any_ended || any_waits || any_words)
     t.columns.push_back({"TOOK", align::right, 2});
-  if (any_waits)
+  if (any_waits || any_words)
     t.columns.push_back({"WAITS", align::left, 1});
+  if (any_words)
+    t.columns.push_back({"REMARK", align::left, 1});
   return or_nothing(t, "tasks", style);
 }
 

@@ -97,6 +97,9 @@ findings judge_instance(const instance_row& row) {
     return {{judgement::warning,
              name + " is " + to_string(row.health) + ": " + row.health_reason,
              "what reads its outputs gets too little", logs}};
+  if (row.state == instance_state::running && !row.figures.remark.empty())
+    return {{judgement::warning, name + " gives nothing: " + row.figures.remark,
+             "what reads its outputs gets nothing", logs}};
   if (drops_many(row.figures))
     return {{judgement::warning,
              name + " has dropped " + std::to_string(row.figures.dropped)

@@ -17,8 +17,7 @@ bool runs(const instance_row& row) {
 /// The first step that does not simply run, and why.
 std::string remark_of(const task_row& task, int64_t now_unix_ms) {
   for (const auto& row : task.instances) {
-    const bool is_well =
-        runs(row) && row.health == instance_health::good && row.waits.empty();
+    const bool is_well = runs_well(row) && row.waits.empty();
     const bool has_finished =
         row.state == instance_state::stopped && row.exit_code == 0;
     if (is_well || has_finished)

@@ -25,6 +25,8 @@ bool is_bad(const instance_row& row) {
          && (row.state == instance_state::failed
              || row.state == instance_state::backing_off
              || row.health != instance_health::good || !row.trouble.empty()
+             || (row.state == instance_state::running
+                 && !row.figures.remark.empty())
              || row.unsafe_since_unix_ms != 0);
 }
 

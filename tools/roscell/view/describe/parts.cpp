@@ -66,12 +66,20 @@ table instances_table(const std::vector<instance_row>& rows,
   return t;
 }
 
-table ports_table(const instance_spec& spec) {
+table ports_table(const instance_row& row) {
   table t{{{"PORT"}, {"ENDPOINT"}, {"PROTOCOL"}, {"TYPE", align::left, 1}}, {}};
-  for (const auto& x : spec.input)
-    t.rows.push_back({"in", x.endpoint, x.protocol, x.data_type});
-  for (const auto& x : spec.output)
-    t.rows.push_back({"out", x.endpoint, x.protocol, x.data_type});
+  const auto add = [&](const char* port, const io_endpoint& x,
+                       const stream_count* count) {
+    t.rows.push_back(
+        {port, x.endpoint, x.protocol, x.data_type, stream_text(count)});
+  };
+  for (size_t i = 0; i < row.spec.input.size(); ++i)
+    add("in", row.spec.input[i], input_count(row, i));
+  for (size_t i = 0; i < row.spec.output.size(); ++i)
+    add("out", row.spec.output[i], output_count(row, i));
+  // The cells of a row are cut to the number of columns.
+  if (!row.figures.streams.empty())
+    t.columns.push_back({"FIGURES", align::left, 2});
   return t;
 }
 

@@ -16,8 +16,8 @@ table events_table(const std::vector<event>& events, const view_style& style);
 table instances_table(const std::vector<instance_row>& rows,
                       const view_style& style);
 
-/// A row for each stream: whether it goes in or out, and where.
-table ports_table(const instance_spec& spec);
+/// A row for each stream: whether it goes in or out, where, and what it does.
+table ports_table(const instance_row& row);
 
 /// A row for each parameter of an instance.
 table parameters_table(const std::string& parameters);

@@ -106,7 +106,7 @@ void describe_task(page& out, const known_cell& known, const std::string& name,
     out.section("Step " + printable(x.spec.step) + ": "
                     + printable(x.spec.operation + " " + x.spec.model + "/"
                                 + x.spec.deployment),
-                ports_table(x.spec));
+                ports_table(x));
     if (auto parameters = parameters_table(x.spec.parameters);
         !parameters.rows.empty())
       out.section("Parameters of step " + printable(x.spec.step), parameters);
@@ -125,6 +125,7 @@ void describe_instance(page& out, const known_cell& known,
   out.fact("State", state_words(row, style));
   out.fact("Reason", row.reason);
   out.fact("Health", row.health_reason);
+  out.fact("Gives nothing", row.figures.remark);
   out.fact("May be ended", safety_words(row));
   out.fact("Waits", row.waits);
   out.fact("Exit code", row.exit_code < 0 ? "" : std::to_string(row.exit_code));
@@ -140,7 +141,7 @@ void describe_instance(page& out, const known_cell& known,
   out.fact("GPU", spec.gpu < 0 ? "" : std::to_string(spec.gpu));
   out.fact("Container", row.container);
   out.fact("Image", row.image);
-  out.section("Ports", ports_table(spec));
+  out.section("Ports", ports_table(row));
   out.section("Parameters", parameters_table(spec.parameters));
   table environment{{{"VARIABLE"}, {"VALUE"}}, {}};
   for (const auto& [key, value] : spec.environment)

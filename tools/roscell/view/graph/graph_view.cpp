@@ -2,6 +2,7 @@
 
 #include "tools/roscell/view/format.hpp"
 #include "tools/roscell/view/graph/drawing.hpp"
+#include "tools/roscell/view/instance_words.hpp"
 
 #include <map>
 #include <utility>
@@ -17,15 +18,14 @@ std::string short_type(const std::string& type) {
   return type.substr(type.rfind('/') + 1);
 }
 
+/// That of the output, or of its step where no output is counted by itself.
 std::string rate_of(const task_graph& graph, const graph_stream& x) {
   if (!x.from)
     return {};
-  const auto rate = graph.steps[*x.from].figures.rate_hz;
-  return rate < 0 ? "" : format_number(rate, 1) + " Hz";
-}
-
-std::string state_text(const instance_row& step) {
-  return step.unknown_since_unix_ms == 0 ? to_string(step.state) : "unknown";
+  const auto* written = written_of(graph, x);
+  const auto rate =
+      written ? written->rate_hz : graph.steps[*x.from].figures.rate_hz;
+  return figure(rate, 1, " Hz");
 }
 
 std::vector<std::string> box_of(const task_graph& graph, size_t i) {
@@ -74,11 +74,22 @@ std::string streams_view(const task_graph& graph, const view_style& style) {
            {"PROTOCOL", align::left, 4},
            {"TYPE", align::left, 3}},
           {}};
-  for (const auto& x : graph.streams)
+  bool any_read = false;
+  for (const auto& x : graph.streams) {
+    const auto* read = read_of(graph, x);
+    any_read = any_read || read != nullptr;
     t.rows.push_back({x.what.endpoint, end_name(graph, x.from),
                       end_name(graph, x.to), rate_of(graph, x), x.what.protocol,
-                      x.what.data_type});
+                      x.what.data_type, stream_text(read)});
+  }
+  // The cells of a row are cut to the number of columns.
+  if (any_read)
+    t.columns.push_back({"AT ITS READER", align::left, 2});
   return t.rows.empty() ? "" : t.render(style.text);
+}
+
+json count_json(const stream_count* count) {
+  return count ? json(*count) : json(nullptr);
 }
 
 json end_json(const task_graph& graph, const std::optional<size_t>& x) {
@@ -108,7 +119,7 @@ json graph_json(const task_graph& graph) {
                      {"model", x.spec.model},
                      {"deployment", x.spec.deployment},
                      {"node", x.node},
-                     {"state", state_text(x)},
+                     {"state", is_unknown(x) ? "unknown" : to_string(x.state)},
                      {"figures", x.figures}});
   json streams = json::array();
   for (const auto& x : graph.streams)
@@ -116,7 +127,9 @@ json graph_json(const task_graph& graph) {
                        {"protocol", x.what.protocol},
                        {"data_type", x.what.data_type},
                        {"from", end_json(graph, x.from)},
-                       {"to", end_json(graph, x.to)}});
+                       {"to", end_json(graph, x.to)},
+                       {"written", count_json(written_of(graph, x))},
+                       {"read", count_json(read_of(graph, x))}});
   return {{"name", graph.task}, {"steps", steps}, {"streams", streams}};
 }
 

@@ -1,6 +1,7 @@
 #include "tools/roscell/view/graph/task_graph.hpp"
 
 #include "tools/roscell/view/format.hpp"
+#include "tools/roscell/view/instance_words.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -16,6 +17,12 @@ bool is_same(const io_endpoint& x, const io_endpoint& y) {
 bool has(const std::vector<io_endpoint>& all, const io_endpoint& what) {
   return std::any_of(all.begin(), all.end(),
                      [&](const auto& x) { return is_same(x, what); });
+}
+
+size_t place_of(const std::vector<io_endpoint>& all, const io_endpoint& what) {
+  const auto i = std::find_if(all.begin(), all.end(),
+                              [&](const auto& x) { return is_same(x, what); });
+  return static_cast<size_t>(i - all.begin());
 }
 
 void add_outputs(task_graph& graph, size_t from) {
@@ -77,6 +84,20 @@ task_graph graph_of(const std::string& task, std::vector<instance_row> steps) {
     add_outputs(result, i);
   }
   return result;
+}
+
+const stream_count* written_of(const task_graph& graph, const graph_stream& x) {
+  if (!x.from)
+    return nullptr;
+  const auto& step = graph.steps[*x.from];
+  return output_count(step, place_of(step.spec.output, x.what));
+}
+
+const stream_count* read_of(const task_graph& graph, const graph_stream& x) {
+  if (!x.to)
+    return nullptr;
+  const auto& step = graph.steps[*x.to];
+  return input_count(step, place_of(step.spec.input, x.what));
 }
 
 std::string figures_text(const instance_figures& figures) {

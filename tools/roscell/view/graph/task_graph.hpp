@@ -23,6 +23,11 @@ struct task_graph {
   std::vector<graph_stream> streams;
 };
 
+/// What the writer and the reader of a stream have counted of it; null if there
+/// is none, or it does not tell.
+const stream_count* written_of(const task_graph& graph, const graph_stream& x);
+const stream_count* read_of(const task_graph& graph, const graph_stream& x);
+
 /// An output of one step is the input of another where protocol and endpoint
 /// are the same.
 task_graph graph_of(const std::string& task, std::vector<instance_row> steps);
