@@ -90,6 +90,16 @@ caf::result<figures_collected> collect_all_figures(coordinator_pointer self) {
   return promise;
 }
 
+void look_at_streams(coordinator_pointer self, const std::string& task) {
+  std::set<std::string> nodes;
+  for (const auto& row : self->state.deployments.rows_of(task))
+    if (is_live(row.state))
+      nodes.insert(row.node);
+  ask_nodes(self, nodes, [] {
+    // Nobody waits for it.
+  });
+}
+
 cell_measured measured(const cell_coordinator_state& st) {
   cell_measured result;
   for (auto& node : st.registry.rows()) {

@@ -2,6 +2,8 @@
 
 #include "actors/cell/state/coordinator_state.hpp"
 
+#include <string>
+
 /// What skills say of themselves, from all nodes of a cell. It is asked for
 /// when somebody wants to see it: members at rest send nothing.
 namespace roscell {
@@ -15,6 +17,9 @@ describe_instances_now(coordinator_pointer self, const instance_query& query);
 
 /// The same for all instances, without telling it.
 caf::result<figures_collected> collect_all_figures(coordinator_pointer self);
+
+/// Has the nodes of a task asked, so that its streams are judged.
+void look_at_streams(coordinator_pointer self, const std::string& task);
 
 /// What is known of the cell, as numbers.
 cell_measured measured(const cell_coordinator_state& st);

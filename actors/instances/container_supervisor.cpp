@@ -175,16 +175,25 @@ void on_changed(container_supervisor_self self, const instance_row& row) {
   }
 }
 
+/// What its skill says, and what the cell has to know of it unasked.
+void hear_status(container_supervisor_self self, supervised_instance& x,
+                 const instance_notified& fact) {
+  const auto now = self->clock().now();
+  x.row.status = fact.status;
+  x.figures.hear(fact.status, now, fact.frames, fact.remark);
+  x.row.figures = x.figures.known();
+  if (x.row.state == instance_state::running && x.quiet.hear(x.row, now)
+      && self->state.listener)
+    self->send(self->state.listener, instance_changed{x.row});
+}
+
 void on_notified(container_supervisor_self self,
                  const instance_notified& fact) {
   auto* x = find_instance(self, fact.instance);
   if (x == nullptr || !x->actor)
     return;
-  if (!fact.status.empty()) {
-    x->row.status = fact.status;
-    x->figures.hear(fact.status, self->clock().now(), fact.frames, fact.remark);
-    x->row.figures = x->figures.known();
-  }
+  if (!fact.status.empty())
+    hear_status(self, *x, fact);
   if (fact.safe != safe_word::untold)
     x->row.safe = fact.safe;
   self->send(x->actor, fact);

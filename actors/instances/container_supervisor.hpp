@@ -1,6 +1,7 @@
 #pragma once
 
 #include "actors/house/house.hpp"
+#include "actors/instances/life/quiet_notice.hpp"
 #include "actors/instances/skill_catalogue.hpp"
 #include "actors/instances/status_figures.hpp"
 #include "messages/messages.hpp"
@@ -37,6 +38,7 @@ struct container_supervisor_config {
 struct supervised_instance {
   instance_row row;
   figures_book figures;       ///< What its skill has told.
+  quiet_notice quiet;         ///< What of it the cell has been told.
   skill_instance_actor actor; ///< Null once the instance has ended.
   std::vector<caf::typed_response_promise<instance_deployed>> deployers;
   bool removing = false;

@@ -4,6 +4,7 @@
 #include "actors/house/limits.hpp"
 #include "schemas/utf8.hpp"
 
+#include <algorithm>
 #include <string>
 
 namespace roscell {
@@ -36,6 +37,16 @@ void judge_streams(coordinator_pointer self,
   auto& st = self->state;
   for (const auto& instance : st.streams.judge(st.deployments.all_told(), told))
     tell_verdict(self, instance);
+}
+
+bool is_doubtful(const cell_coordinator_state& st, const instance_row& row) {
+  const auto& streams = row.figures.streams;
+  return row.state == instance_state::running
+         && (st.streams.reason_of(row.spec.instance) != nullptr
+             || std::any_of(streams.begin(), streams.end(), [](const auto& x) {
+                  return x.end.rfind("input:", 0) == 0
+                         && x.quiet_s >= stream_watch::long_enough_s;
+                }));
 }
 
 instance_health health_of(const cell_coordinator_state& st,

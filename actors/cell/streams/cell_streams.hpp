@@ -7,13 +7,17 @@
 
 /// What the CELL COORDINATOR makes of the figures that nodes tell: an instance
 /// that gets nothing although its writer sends is starved, whether its step
-/// asks for bounds or not. Nothing is sent for it: it is judged whenever
-/// somebody has had the nodes asked. See `stream_watch`.
+/// asks for bounds or not. It is judged whenever somebody has had the nodes
+/// asked, and when a node has told that an input is silent. See `stream_watch`.
 namespace roscell {
 
 /// These nodes have just told what their skills say. What has changed is told
 /// as an event.
 void judge_streams(coordinator_pointer self, const std::set<std::string>& told);
+
+/// Whether what a node has told unasked of an instance may change its
+/// judgement.
+bool is_doubtful(const cell_coordinator_state& st, const instance_row& row);
 
 /// The health of an instance by its node's word, and by its streams.
 void add_verdict(const cell_coordinator_state& st, instance_row& row);

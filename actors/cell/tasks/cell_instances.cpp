@@ -1,5 +1,6 @@
 #include "actors/cell/tasks/cell_instances.hpp"
 
+#include "actors/cell/cell_figures.hpp"
 #include "actors/cell/moves/lost_steps.hpp"
 #include "actors/cell/moves/rebalancing.hpp"
 #include "actors/cell/state/task_story.hpp"
@@ -95,6 +96,16 @@ std::optional<std::string> node_of_sender(coordinator_pointer self) {
   return result;
 }
 
+/// Only what a skill says has changed, which no event tells.
+bool differs_in_words_only(const instance_row* before, instance_row now) {
+  if (before == nullptr || before->figures == now.figures)
+    return false;
+  now.figures = before->figures;
+  now.status = before->status;
+  now.node = before->node;
+  return *before == now;
+}
+
 } // namespace
 
 void tell_change(coordinator_pointer self, instance_row x,
@@ -177,13 +188,17 @@ void on_instance_changed(coordinator_pointer self,
   const auto node = node_of_sender(self);
   if (!node)
     return;
+  const bool news = !differs_in_words_only(st.deployments.told(*node, id), x);
   if (is_wanted(st, id, *node) || is_live(x.state))
     st.deployments.tell(*node, x);
   else
     st.deployments.forget_told(*node, id);
   if (x.state != instance_state::running)
     st.streams.forget(id);
-  tell_change(self, x, *node);
+  if (news)
+    tell_change(self, x, *node);
+  if (is_doubtful(st, x))
+    look_at_streams(self, x.spec.task);
   watch_moved(self, x);
   if (!is_live(x.state))
     on_instance_gone(self, *node, id);

@@ -315,6 +315,39 @@ TEST_CASE_METHOD(paper_cell,
   CHECK(count("instance_recovered") == 1);
 }
 
+TEST_CASE_METHOD(paper_cell,
+                 "A node that tells of a silent input has its writer asked",
+                 "[cell_coordinator]") {
+  auto& arm = add("arm");
+  auto& belt = add("belt");
+  request(
+      echo_task("t", {echo_step("s0", 1, "arm"), echo_step("s1", 1, "belt")}));
+  auto& reader = arm.running.begin()->second;
+  auto& writer = belt.running.begin()->second;
+  writer.spec.output = {{"ros2", "/a", "std_msgs/msg/String"}};
+  reader.spec.input = writer.spec.output;
+  arm.tell(reader);
+  belt.tell(writer);
+  time.settle();
+  writer.figures.streams.resize(1);
+  writer.figures.streams[0].end = "output:0";
+  writer.figures.streams[0].steady_s = 20;
+  reader.figures.streams.resize(1);
+  reader.figures.streams[0].end = "input:0";
+  reader.figures.streams[0].quiet_s = 30;
+  const auto before = count("instance_changed");
+  arm.tell(reader);
+  time.settle();
+  CHECK(count("instance_starved") == 1);
+  // The words of a skill are no change, the judgement is one.
+  CHECK(count("instance_changed") == before + 1);
+  reader.figures.streams[0].quiet_s = 0;
+  arm.tell(reader);
+  time.settle();
+  CHECK(count("instance_recovered") == 1);
+  CHECK(state_of_task(*this, "t") == "running");
+}
+
 TEST_CASE_METHOD(paper_cell, "A task is degraded while a node of it is away",
                  "[cell_coordinator]") {
   auto& arm = add("arm");

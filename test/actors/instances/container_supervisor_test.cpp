@@ -392,6 +392,35 @@ TEST_CASE("the listener hears of each state once") {
         == words{"pending", "building", "starting", "running"});
 }
 
+TEST_CASE("the listener hears once that an input is silent, and of its end") {
+  supervisor_bench b;
+  b.start();
+  auto spec = echo_spec(b.catalogue.hash, "i", "t");
+  spec.input = {{"ros2", "/a", "std_msgs/msg/String"}};
+  b.ask<instance_deployed>(b.supervisor, instance_deployment{spec});
+  b.settle();
+  instance_notified said{"i", true, true, false, "frames=0", false};
+  said.frames.resize(1);
+  said.frames[0].end = "input:0";
+  const auto say = [&](std::chrono::seconds pause) {
+    for (auto passed = 0s; passed < pause; passed += 4s) {
+      b.advance(4s);
+      caf::anon_send(b.supervisor, said);
+      b.settle();
+    }
+  };
+  say(4s);
+  const auto begun = b.told->states().size();
+  say(24s);
+  CHECK(b.told->states().size() == begun);
+  say(60s);
+  CHECK(b.told->states().size() == begun + 1);
+  CHECK(b.row("i").figures.streams.at(0).quiet_s >= 30);
+  said.frames[0].frames = 1;
+  say(60s);
+  CHECK(b.told->states().size() == begun + 2);
+}
+
 TEST_CASE("the log of an instance is the runtime's, of others there is none") {
   supervisor_bench b;
   b.start();
