@@ -11,6 +11,7 @@
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace roscell {
 
@@ -61,6 +62,15 @@ void ask_nodes(coordinator_pointer self, const std::set<std::string>& nodes,
   tally->finish_one();
 }
 
+/// Where some of these run.
+std::set<std::string> live_nodes(const std::vector<instance_row>& rows) {
+  std::set<std::string> result;
+  for (const auto& row : rows)
+    if (is_live(row.state))
+      result.insert(row.node);
+  return result;
+}
+
 } // namespace
 
 caf::result<instance_description>
@@ -68,10 +78,11 @@ describe_instances_now(coordinator_pointer self, const instance_query& query) {
   auto known = describe_instances(self->state, query);
   if (!known)
     return std::move(known.error());
-  std::set<std::string> nodes;
-  for (const auto& row : known->instances)
-    if (is_live(row.state))
-      nodes.insert(row.node);
+  auto nodes = live_nodes(known->instances);
+  // The other ends of its streams are known together with its own.
+  if (!query.instance.empty())
+    nodes.merge(live_nodes(
+        self->state.deployments.rows_of(known->instances.front().spec.task)));
   auto promise = self->make_response_promise<instance_description>();
   ask_nodes(self, nodes, [=]() mutable {
     auto result = describe_instances(self->state, query);
@@ -91,11 +102,7 @@ caf::result<figures_collected> collect_all_figures(coordinator_pointer self) {
 }
 
 void look_at_streams(coordinator_pointer self, const std::string& task) {
-  std::set<std::string> nodes;
-  for (const auto& row : self->state.deployments.rows_of(task))
-    if (is_live(row.state))
-      nodes.insert(row.node);
-  ask_nodes(self, nodes, [] {
+  ask_nodes(self, live_nodes(self->state.deployments.rows_of(task)), [] {
     // Nobody waits for it.
   });
 }

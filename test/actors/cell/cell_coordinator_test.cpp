@@ -285,15 +285,15 @@ TEST_CASE_METHOD(paper_cell,
   auto& writer = belt.running.begin()->second;
   writer.spec.output = {{"ros2", "/a", "std_msgs/msg/String"}};
   reader.spec.input = writer.spec.output;
+  arm.tell(reader);
+  belt.tell(writer);
+  time.settle();
   writer.figures.streams.resize(1);
   writer.figures.streams[0].end = "output:0";
   writer.figures.streams[0].steady_s = 20;
   reader.figures.streams.resize(1);
   reader.figures.streams[0].end = "input:0";
   reader.figures.streams[0].quiet_s = 20;
-  arm.tell(reader);
-  belt.tell(writer);
-  time.settle();
   CHECK(state_of_task(*this, "t") == "running");
   const auto shown =
       request({{"type", "instance_query"}, {"instance", reader.spec.instance}});
