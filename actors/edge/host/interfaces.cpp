@@ -57,13 +57,7 @@ bool is_hardware(const std::string& name) {
 }
 
 auto rank(const interface_address& x) {
-  return std::make_tuple(x.loopback, !x.hardware, std::cref(x.name),
-                         std::cref(x.address));
-}
-
-void sort_stably(std::vector<interface_address>& all) {
-  std::sort(all.begin(), all.end(),
-            [](auto& x, auto& y) { return rank(x) < rank(y); });
+  return std::make_tuple(x.loopback, !x.hardware, std::cref(x.name));
 }
 
 interface_address link_only(const std::string& name, const std::string& mac) {
@@ -85,6 +79,11 @@ std::string usable_name(std::string_view hostname) {
 
 } // namespace
 
+void order_interfaces(std::vector<interface_address>& all) {
+  std::stable_sort(all.begin(), all.end(),
+                   [](auto& x, auto& y) { return rank(x) < rank(y); });
+}
+
 std::vector<interface_address> list_interfaces() {
   auto head = read_ifaddrs();
   auto macs = macs_of(head.get());
@@ -100,7 +99,7 @@ std::vector<interface_address> list_interfaces() {
     one.loopback = (i->ifa_flags & IFF_LOOPBACK) != 0;
     result.push_back(std::move(one));
   }
-  sort_stably(result);
+  order_interfaces(result);
   return result;
 }
 
@@ -147,7 +146,7 @@ std::string mac_node_name(std::string_view chosen) {
     if (std::none_of(all.begin(), all.end(),
                      [&name = name](auto& x) { return x.name == name; }))
       all.push_back(link_only(name, mac));
-  sort_stably(all);
+  order_interfaces(all);
   std::array<char, 256> hostname{};
   if (gethostname(hostname.data(), hostname.size() - 1) != 0)
     hostname[0] = '\0';

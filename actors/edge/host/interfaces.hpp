@@ -17,16 +17,21 @@ struct interface_address {
   bool hardware = false; ///< A device of this machine, no bridge or tunnel.
 };
 
-/// All IPv4 addresses of this host, those of hardware first, loopback last,
-/// each group ordered by name and address, so that the order is the same after
-/// a restart.
+/// Puts interfaces of hardware first, loopback last, each group ordered by
+/// name, so that the order is the same after a restart. Addresses of one
+/// interface stay as they are.
+void order_interfaces(std::vector<interface_address>& all);
+
+/// All IPv4 addresses of this host, in that order; those of one interface as
+/// the kernel has them: the primary one, which packets leave with, before those
+/// that were added to it.
 std::vector<interface_address> list_interfaces();
 
 /// "eth0 10.0.0.5, lo 127.0.0.1", for messages to a person.
 std::string describe_interfaces(const std::vector<interface_address>& all);
 
-/// The address meant by `text`: an interface's name, then its first address,
-/// or one of this host's addresses. Anything else is refused with
+/// The address meant by `text`: an interface's name, then its primary
+/// address, or one of this host's addresses. Anything else is refused with
 /// `unreachable`, and the hint lists what there is.
 edge_result<interface_address>
 resolve_interface(std::string_view text,

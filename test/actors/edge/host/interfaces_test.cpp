@@ -23,6 +23,24 @@ TEST_CASE("an interface is found by its name or its address", "[interfaces]") {
   }
 }
 
+TEST_CASE("an interface means its primary address, not its smallest",
+          "[interfaces]") {
+  std::vector<interface_address> all{
+      {"lo", "127.0.0.1", "", true, false},
+      {"eth1", "10.0.0.50", "0242ac110003", false, true},
+      {"eth1", "10.0.0.100", "0242ac110003", false, true},
+      {"eth1", "10.0.0.2", "0242ac110003", false, true},
+      {"eth0", "192.168.1.7", "0242ac110002", false, true},
+  };
+  order_interfaces(all);
+  CHECK(describe_interfaces(all)
+        == "eth0 192.168.1.7, eth1 10.0.0.50, eth1 10.0.0.100, "
+           "eth1 10.0.0.2, lo 127.0.0.1");
+  const auto found = resolve_interface("eth1", all);
+  REQUIRE(std::holds_alternative<interface_address>(found));
+  CHECK(std::get<interface_address>(found).address == "10.0.0.50");
+}
+
 TEST_CASE("an unknown interface is refused with a list of what there is",
           "[interfaces]") {
   for (const char* text : {"eth1", "10.0.0.6", "", "10.0.0.5 "}) {
