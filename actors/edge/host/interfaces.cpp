@@ -97,10 +97,22 @@ std::vector<interface_address> list_interfaces() {
     auto* in = reinterpret_cast<const sockaddr_in*>(i->ifa_addr);
     one.address = inet_ntop(AF_INET, &in->sin_addr, text.data(), text.size());
     one.loopback = (i->ifa_flags & IFF_LOOPBACK) != 0;
+    one.carrier = (i->ifa_flags & IFF_RUNNING) != 0;
     result.push_back(std::move(one));
   }
   order_interfaces(result);
   return result;
+}
+
+std::vector<host_link> list_links() {
+  const auto head = read_ifaddrs();
+  std::map<std::string, host_link> result;
+  for (auto* i = head.get(); i != nullptr; i = i->ifa_next)
+    result[i->ifa_name] = {i->ifa_name, (i->ifa_flags & IFF_UP) != 0};
+  std::vector<host_link> links;
+  for (auto& [name, link] : result)
+    links.push_back(std::move(link));
+  return links;
 }
 
 std::string describe_interfaces(const std::vector<interface_address>& all) {

@@ -15,6 +15,14 @@ struct interface_address {
   std::string mac;       ///< "0242ac110002", empty if it has none.
   bool loopback = false; ///< The address never leaves this host.
   bool hardware = false; ///< A device of this machine, no bridge or tunnel.
+  /// Packets can leave: a cable is in, or a radio has found its network.
+  bool carrier = true;
+};
+
+/// A network interface, whether it is up or not, with an address or not.
+struct host_link {
+  std::string name;
+  bool up = false;
 };
 
 /// Puts interfaces of hardware first, loopback last, each group ordered by
@@ -26,6 +34,9 @@ void order_interfaces(std::vector<interface_address>& all);
 /// the kernel has them: the primary one, which packets leave with, before those
 /// that were added to it.
 std::vector<interface_address> list_interfaces();
+
+/// All interfaces of this host, in the order of their names.
+std::vector<host_link> list_links();
 
 /// "eth0 10.0.0.5, lo 127.0.0.1", for messages to a person.
 std::string describe_interfaces(const std::vector<interface_address>& all);
