@@ -145,14 +145,28 @@ void end_children(node_pointer self) {
     self->send_exit(*i, caf::exit_reason::user_shutdown);
 }
 
-void stop(node_pointer self) {
+/// No new requests; those in progress are told while they can be answered.
+/// False if it is stopping already.
+bool begin_to_stop(node_pointer self) {
   auto& st = self->state;
   if (std::exchange(st.stopping, true))
-    return;
+    return false;
   st.parts.context.tell("node_stopping", st.parts.identity.name);
-  // No new requests; those in progress are told while they can be answered.
   st.parts.edges->sockets.http->stop([] {});
   self->send_exit(st.parts.router, caf::exit_reason::user_shutdown);
+  return true;
+}
+
+/// Its cell is told nothing, as if it had crashed, and so keeps its row.
+void halt(node_pointer self) {
+  if (begin_to_stop(self))
+    end_children(self);
+}
+
+void stop(node_pointer self) {
+  if (!begin_to_stop(self))
+    return;
+  const auto& st = self->state;
   const auto& membership = st.parts.services->membership;
   if (!membership)
     return end_children(self);
@@ -183,6 +197,7 @@ node_actor::behavior_type node(node_pointer self, const node_parts& parts) {
   self->state.open_children = parts.children.size();
   self->set_down_handler(
       [self](const caf::down_msg& down) { on_child_down(self, down); });
+  self->set_exit_handler([self](const caf::exit_msg&) { halt(self); });
   parts.context.tell(
       "node_started", parts.identity.name,
       {{"address", parts.identity.address}, {"runtime", parts.config.runtime}});

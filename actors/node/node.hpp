@@ -41,9 +41,11 @@ struct node_state_data {
 
 using node_pointer = node_actor::stateful_pointer<node_state_data>;
 
-/// The NODE. Messages: messages/inside/requests.hpp. It ends after its
-/// children, which use its sockets. A child that dies takes the node with it:
-/// whoever runs it starts it again, and it finds its instances.
+/// The NODE. Messages: messages/inside/requests.hpp. An exit message ends it as
+/// `stop_node` does, but without leaving its cell, which expects it back with
+/// its instances. It ends after its children, which use its sockets. A child
+/// that dies takes the node with it: whoever runs it starts it again, and it
+/// finds its instances.
 node_actor::behavior_type node(node_pointer self, const node_parts& parts);
 
 } // namespace roscell

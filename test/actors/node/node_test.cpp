@@ -134,4 +134,18 @@ TEST_CASE_METHOD(node_fixture,
   CHECK_FALSE(*end);
 }
 
+TEST_CASE_METHOD(node_fixture,
+                 "A node that is to be made anew does not leave its cell",
+                 "[node]") {
+  add_membership();
+  start();
+  caf::anon_send_exit(actor, caf::exit_reason::user_shutdown);
+  time.settle();
+  CHECK(leaving.empty());
+  CHECK(closed);
+  CHECK(router_end);
+  REQUIRE(end);
+  CHECK_FALSE(*end);
+}
+
 } // namespace roscell::test

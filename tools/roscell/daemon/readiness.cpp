@@ -19,8 +19,13 @@ readiness::readiness(int fd) : fd_{fd} {
   }
 }
 
+void readiness::waiting(const std::string& why) {
+  waited_ = true;
+  notify("READY=1\nSTATUS=" + why);
+}
+
 void readiness::ready() {
-  notify("READY=1");
+  notify(std::exchange(waited_, false) ? "READY=1\nSTATUS=" : "READY=1");
   if (fd_ < 0)
     return;
   constexpr char line[] = "READY=1\n";

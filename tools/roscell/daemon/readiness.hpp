@@ -14,6 +14,12 @@ public:
   explicit readiness(int fd);
 
   void ready();
+
+  /// The node cannot start yet. The manager is shown why, and goes on with its
+  /// boot: it would end a service that takes too long to be ready. The reader
+  /// hears of it no earlier than of a node that can be asked.
+  void waiting(const std::string& why);
+
   void stopping();
 
 private:
@@ -21,6 +27,7 @@ private:
 
   std::string socket_;
   int fd_;
+  bool waited_ = false;
 };
 
 } // namespace roscell::cli

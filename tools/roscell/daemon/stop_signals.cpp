@@ -7,6 +7,7 @@
 #include <sys/signalfd.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <csignal>
 
@@ -39,19 +40,31 @@ stop_signals::~stop_signals() {
 }
 
 stop_signals::cause stop_signals::wait() {
-  return poll_once(-1);
+  return poll_once(-1, -1);
 }
 
 stop_signals::cause stop_signals::wait_for(std::chrono::milliseconds limit) {
-  return poll_once(static_cast<int>(limit.count()));
+  return poll_once(-1, static_cast<int>(limit.count()));
+}
+
+stop_signals::cause stop_signals::wait_with(int fd,
+                                            std::optional<time_point> until) {
+  using namespace std::chrono;
+  if (!until)
+    return poll_once(fd, -1);
+  // Rounded up: what is due then is to be due afterwards.
+  const auto left = ceil<milliseconds>(*until - steady_clock::now());
+  return poll_once(fd, static_cast<int>(std::max(left, 0ms).count()));
 }
 
 void stop_signals::end() {
   eventfd_write(event_fd_, 1);
 }
 
-stop_signals::cause stop_signals::poll_once(int timeout_ms) {
-  std::array<pollfd, 2> fds{{{event_fd_, POLLIN, 0}, {signal_fd_, POLLIN, 0}}};
+stop_signals::cause stop_signals::poll_once(int fd, int timeout_ms) {
+  // A negative descriptor is passed over.
+  std::array<pollfd, 3> fds{
+      {{event_fd_, POLLIN, 0}, {signal_fd_, POLLIN, 0}, {fd, POLLIN, 0}}};
   if (poll(fds.data(), fds.size(), timeout_ms) <= 0)
     return cause::timeout;
   if (fds[0].revents != 0) {
@@ -59,6 +72,8 @@ stop_signals::cause stop_signals::poll_once(int timeout_ms) {
     eventfd_read(event_fd_, &ends);
     return cause::ended;
   }
+  if (fds[1].revents == 0)
+    return cause::news;
   signalfd_siginfo taken{};
   const auto n = read(signal_fd_, &taken, sizeof taken);
   return n > 0 ? cause::signal : cause::timeout;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <optional>
 
 namespace roscell::cli {
 
@@ -8,7 +9,9 @@ namespace roscell::cli {
 /// Blocks both signals for the calling thread and those it makes later.
 class stop_signals {
 public:
-  enum class cause { signal, ended, timeout };
+  using time_point = std::chrono::steady_clock::time_point;
+
+  enum class cause { signal, ended, news, timeout };
 
   stop_signals();
   ~stop_signals();
@@ -19,11 +22,14 @@ public:
   cause wait();
   cause wait_for(std::chrono::milliseconds limit);
 
+  /// The same until `until`, or without end; `news` where `fd` can be read.
+  cause wait_with(int fd, std::optional<time_point> until);
+
   /// What is waited for has ended by itself; from any thread. Ends one wait.
   void end();
 
 private:
-  cause poll_once(int timeout_ms);
+  cause poll_once(int fd, int timeout_ms);
 
   int signal_fd_;
   int event_fd_;

@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <fcntl.h>
 #include <sys/socket.h>
 #include <sys/un.h>
 #include <unistd.h>
@@ -68,6 +69,23 @@ TEST_CASE("a service manager hears of start and stop", "[tools]") {
     node.stopping();
     CHECK(systemd.heard() == "STOPPING=1");
   }
+}
+
+TEST_CASE("a service manager does not wait for a node that waits", "[tools]") {
+  manager systemd{"@roscell-test-" + std::to_string(getpid())};
+  std::array<int, 2> ends{};
+  REQUIRE(pipe2(ends.data(), O_NONBLOCK) == 0);
+  readiness node{ends[1]};
+  node.waiting("waits for eth0");
+  CHECK(systemd.heard() == "READY=1\nSTATUS=waits for eth0");
+  char nothing = 0;
+  CHECK(read(ends[0], &nothing, 1) < 0);
+  node.ready();
+  CHECK(systemd.heard() == "READY=1\nSTATUS=");
+  CHECK(read(ends[0], &nothing, 1) == 1);
+  node.ready();
+  CHECK(systemd.heard() == "READY=1");
+  close(ends[0]);
 }
 
 TEST_CASE("no child can speak in the node's name", "[tools]") {

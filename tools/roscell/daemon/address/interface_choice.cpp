@@ -1,0 +1,108 @@
+#include "tools/roscell/daemon/address/interface_choice.hpp"
+
+#include "tools/roscell/exit_code.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <iostream>
+
+#include <arpa/inet.h>
+#include <net/if.h>
+#include <unistd.h>
+
+namespace roscell::cli {
+
+namespace {
+
+/// The number in `text`, from 1 to `most`; 0 if it is none.
+size_t parse_choice(const std::string& text, size_t most) {
+  size_t choice = 0;
+  const auto* end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, choice);
+  return error == std::errc{} && rest == end && choice <= most ? choice : 0;
+}
+
+/// Linux takes no other names; the interface itself may come later.
+bool may_be_name(const std::string& text) {
+  return text.size() < IFNAMSIZ
+         && std::none_of(text.begin(), text.end(), [](unsigned char c) {
+              return c == '/' || std::isspace(c) != 0;
+            });
+}
+
+std::string describe_links(const std::vector<interface_address>& all,
+                           const std::vector<host_link>& links) {
+  std::vector<interface_address> named = all;
+  for (const auto& link : links)
+    if (std::none_of(all.begin(), all.end(),
+                     [&](const auto& x) { return x.name == link.name; })) {
+      interface_address one;
+      one.name = link.name;
+      one.address = link.up ? "(no IPv4 address)" : "(down)";
+      named.push_back(one);
+    }
+  return describe_interfaces(named);
+}
+
+} // namespace
+
+interface_address ask_for_interface(const std::vector<interface_address>& all,
+                                    std::istream& answers, std::ostream& out) {
+  out << "Which network interface connects this node to its cell?\n";
+  for (size_t i = 0; i < all.size(); ++i)
+    out << "  " << i + 1 << "  " << all[i].name << "  " << all[i].address
+        << (all[i].loopback ? "  (this machine only)" : "") << "\n";
+  std::string line;
+  while (out << "Number: " << std::flush && std::getline(answers, line)) {
+    if (const auto choice = parse_choice(line, all.size()); choice != 0)
+      return all[choice - 1];
+    out << "Please type a number from 1 to " << all.size() << ".\n";
+  }
+  throw command_error{exit_usage, "no interface was chosen",
+                      "use --interface; there are " + describe_interfaces(all)};
+}
+
+std::string choose_interface(const std::string& wanted) {
+  if (!wanted.empty()) {
+    if (!is_ipv4_address(wanted) && may_be_name(wanted))
+      return wanted;
+    const auto found = resolve_interface(wanted);
+    if (const auto* why = std::get_if<edge_error>(&found))
+      throw command_error{exit_usage, "--interface: " + why->message,
+                          why->hint};
+    return wanted;
+  }
+  const auto all = list_interfaces();
+  if (isatty(STDIN_FILENO) == 1 && !all.empty())
+    return ask_for_interface(all, std::cin, std::cerr).name;
+  throw command_error{exit_usage, "--interface is missing",
+                      "there are " + describe_interfaces(all)};
+}
+
+bool is_ipv4_address(const std::string& text) {
+  in_addr ignored{};
+  return inet_pton(AF_INET, text.c_str(), &ignored) == 1;
+}
+
+std::variant<interface_address, std::string>
+find_interface(const std::string& wanted, bool with_carrier,
+               const std::vector<interface_address>& all,
+               const std::vector<host_link>& links) {
+  const auto found = resolve_interface(wanted, all);
+  if (const auto* at = std::get_if<interface_address>(&found)) {
+    if (at->carrier || !with_carrier)
+      return *at;
+    return "interface '" + at->name + "' (" + at->address
+           + ") has no carrier: no cable is in, or no network is in reach";
+  }
+  const auto link = std::find_if(links.begin(), links.end(),
+                                 [&](auto& x) { return x.name == wanted; });
+  if (link == links.end())
+    return "'" + wanted
+           + "' is not there; this host has: " + describe_links(all, links);
+  return "interface '" + wanted
+         + (link->up ? "' has no IPv4 address" : "' is down");
+}
+
+} // namespace roscell::cli

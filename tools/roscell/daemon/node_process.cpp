@@ -1,0 +1,220 @@
+#include "tools/roscell/daemon/node_process.hpp"
+
+#include "actors/house/house.hpp"
+#include "tools/roscell/client/open_secret.hpp"
+#include "tools/roscell/daemon/address/address_tracker.hpp"
+#include "tools/roscell/daemon/address/interface_choice.hpp"
+#include "tools/roscell/daemon/journal.hpp"
+#include "tools/roscell/daemon/node_end.hpp"
+#include "tools/roscell/dashboard/pages.hpp"
+#include "tools/roscell/doctor/checks.hpp"
+#include "tools/roscell/view/format.hpp"
+
+#include <caf/actor_system_config.hpp>
+
+#include <malloc.h>
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+#include <utility>
+
+namespace roscell::cli {
+
+namespace {
+
+class node_system_config : public caf::actor_system_config {
+public:
+  node_system_config() {
+    roscell::add_message_types(*this);
+    // The default policy polls; this one sleeps until there is work.
+    set("scheduler.policy", caf::atom("sharing"));
+    set("scheduler.max-threads", size_t{2});
+    set("logger.verbosity", caf::atom("quiet"));
+  }
+};
+
+/// What the failure of a start means to whoever called us.
+exit_code exit_code_of(error_code code) {
+  return code == error_code::schema_violation ? exit_usage
+         : code == error_code::unreachable    ? exit_unreachable
+                                              : exit_refused;
+}
+
+void introduce(const running_node& node, const node_config& config) {
+  spdlog::info("node '{}' listens on {} and {}", node.name, node.http_address,
+               node.socket);
+  if (config.coordinator)
+    spdlog::info("cell '{}' has its discovery server on {}",
+                 config.cell.empty() ? node.name : config.cell,
+                 node.discovery_server);
+  spdlog::info("instances are run by '{}': {}", node.runtime,
+               node.runtime_reason);
+  spdlog::info("data directory {}, bearer token {}", config.data_dir.string(),
+               node.token_file);
+  if (config.site_token_file.empty())
+    spdlog::info("no site token: only nodes of this machine can be members");
+  else if (const auto warning = open_secret_warning(config.site_token_file);
+           !warning.empty())
+    spdlog::warn("{}", printable(warning));
+}
+
+std::string text_of_change(const interface_address& at,
+                           const std::string& successor) {
+  if (!at.carrier)
+    return "interface '" + at.name + "' has a carrier now";
+  if (successor == at.address)
+    return "its address " + successor + " was gone, and is back";
+  return "the address of interface '" + at.name + "' has changed from "
+         + at.address + " to " + successor;
+}
+
+void tell_of_address(const running_node& node, const interface_address& at,
+                     const std::string& former) {
+  const house context{nullptr, node.events};
+  if (former.empty())
+    return;
+  if (former == at.address)
+    context.tell("address_returned", node.name, {{"address", at.address}});
+  else
+    context.tell(
+        "address_changed", node.name,
+        {{"interface", at.name}, {"from", former}, {"to", at.address}});
+}
+
+} // namespace
+
+node_process::node_process(const node_options& options, node_config config,
+                           std::string interface)
+    : options_(options), config_(std::move(config)),
+      interface_(std::move(interface)), fixed_(is_ipv4_address(interface_)),
+      starter_(options.ready_fd) {}
+
+exit_code node_process::run() {
+  node_system_config system_config;
+  caf::actor_system system{system_config};
+  std::string former;
+  for (;;) {
+    const auto at = await_address();
+    if (!at)
+      return exit_done;
+    const auto node = start(system, *at);
+    if (!node)
+      continue;
+    introduce(*node, config_);
+    start_journal(system, node->events);
+    tell_of_address(*node, *at, former);
+    // The start needed memory that running does not.
+    malloc_trim(0);
+    starter_.ready();
+    const auto end = serve(*node, *at);
+    if (end != node_end::renewal)
+      return finish(system, *node, end);
+    halt(system, *node, signals_, exit_refused);
+    former = at->address;
+  }
+}
+
+/// Fast DDS makes no discovery server where there is no carrier, and a
+/// coordinator is nothing without its own. A member looks after its instances
+/// meanwhile, and is made anew when the carrier comes.
+std::variant<interface_address, std::string> node_process::look() const {
+  return find_interface(interface_, config_.coordinator, list_interfaces(),
+                        list_links());
+}
+
+/// Where the node can be made; none where it is to end before. What it lacks
+/// is told once, and again when that changes.
+std::optional<interface_address> node_process::await_address() {
+  std::string lacking;
+  for (;;) {
+    const auto found = look();
+    if (const auto* at = std::get_if<interface_address>(&found))
+      return *at;
+    if (const auto& text = std::get<std::string>(found); text != lacking) {
+      lacking = text;
+      spdlog::warn("the node waits for its interface: {}", printable(text));
+      starter_.waiting("waits for its interface: " + text);
+    }
+    if (signals_.wait_with(watch_.fd(), std::nullopt)
+        != stop_signals::cause::news)
+      return std::nullopt;
+    watch_.clear();
+  }
+}
+
+/// None where the address has gone meanwhile.
+std::optional<running_node> node_process::start(caf::actor_system& system,
+                                                const interface_address& at) {
+  auto config = config_;
+  config.address = at.address;
+  node_additions additions;
+  additions.examine_host = [config] { return examine_own_host(config); };
+  config.pages = dashboard_pages();
+  auto node = spawn_node(system, config, additions);
+  if (node) {
+    // The next one is the same node: what was put aside once is not put aside
+    // again, and its name does not follow the MAC of another interface.
+    config_.new_identity = false;
+    config_.name = node->name;
+    node->actor->attach_functor([this] { signals_.end(); });
+    return std::move(*node);
+  }
+  const auto found = look();
+  const auto* now = std::get_if<interface_address>(&found);
+  if (!fixed_ && (!now || now->address != at.address))
+    return std::nullopt;
+  const auto why = to_failure(node.error());
+  throw command_error{exit_code_of(why.code), why.message, why.hint};
+}
+
+/// Until the node is to end, or has ended.
+node_process::node_end node_process::serve(const running_node& node,
+                                           const interface_address& at) {
+  using clock = std::chrono::steady_clock;
+  address_tracker tracker{at, fixed_};
+  tracker.observe(list_interfaces(), clock::now());
+  for (;;) {
+    switch (signals_.wait_with(watch_.fd(), tracker.due())) {
+    case stop_signals::cause::signal:
+      return node_end::signal;
+    case stop_signals::cause::ended:
+      return node_end::failure;
+    case stop_signals::cause::news:
+      watch_.clear();
+      tracker.observe(list_interfaces(), clock::now());
+      break;
+    case stop_signals::cause::timeout:
+      break;
+    }
+    switch (tracker.action(clock::now())) {
+    case address_action::stay:
+      break;
+    case address_action::renew:
+      spdlog::warn("node '{}' is made anew: {}", node.name,
+                   text_of_change(at, tracker.successor()));
+      return node_end::renewal;
+    case address_action::give_up:
+      spdlog::error("address {} is not of this host any more", at.address);
+      return node_end::address_gone;
+    }
+  }
+}
+
+exit_code node_process::finish(caf::actor_system& system,
+                               const running_node& node, node_end end) {
+  if (end == node_end::failure) {
+    await_failed(system, node, signals_);
+    return exit_refused;
+  }
+  starter_.stopping();
+  if (end == node_end::address_gone) {
+    halt(system, node, signals_, exit_unreachable);
+    return exit_unreachable;
+  }
+  if (options_.drain_timeout != "0")
+    empty_node(system, node, signals_, parse_duration(options_.drain_timeout));
+  stop_in_order(system, node, signals_);
+  return exit_done;
+}
+
+} // namespace roscell::cli

@@ -1,0 +1,53 @@
+#pragma once
+
+#include "actors/edge/host/interfaces.hpp"
+#include "actors/node/node_builder.hpp"
+#include "tools/roscell/daemon/address/address_watch.hpp"
+#include "tools/roscell/daemon/node_options.hpp"
+#include "tools/roscell/daemon/readiness.hpp"
+#include "tools/roscell/daemon/stop_signals.hpp"
+#include "tools/roscell/exit_code.hpp"
+
+#include <caf/actor_system.hpp>
+
+#include <optional>
+#include <string>
+#include <variant>
+
+namespace roscell::cli {
+
+/// The nodes that this process makes one after another: a new one, with the
+/// same UUID, instances and socket, whenever the address of its interface has
+/// changed. To be made before other threads, which inherit the signals that it
+/// blocks.
+class node_process {
+public:
+  /// `interface` is a name or an address.
+  node_process(const node_options& options, node_config config,
+               std::string interface);
+
+  /// Until SIGINT or SIGTERM. Throws command_error when no node can be made.
+  exit_code run();
+
+private:
+  /// Why a node has come to an end.
+  enum class node_end { signal, failure, renewal, address_gone };
+
+  std::variant<interface_address, std::string> look() const;
+  std::optional<interface_address> await_address();
+  std::optional<running_node> start(caf::actor_system& system,
+                                    const interface_address& at);
+  node_end serve(const running_node& node, const interface_address& at);
+  exit_code finish(caf::actor_system& system, const running_node& node,
+                   node_end end);
+
+  const node_options& options_;
+  node_config config_;
+  std::string interface_;
+  bool fixed_; ///< It is an address.
+  readiness starter_;
+  stop_signals signals_;
+  address_watch watch_;
+};
+
+} // namespace roscell::cli
