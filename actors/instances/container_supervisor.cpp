@@ -240,6 +240,8 @@ container_supervisor(container_supervisor_self self,
       },
       [self](const use_environment& x) {
         self->state.environment = x.environment;
+        if (!x.environment.empty())
+          renew_moved(self);
       },
       [self](const contact_proven& x) { on_contact(self, x); },
       [self](const contact_lost&) { on_contact_lost(self); },

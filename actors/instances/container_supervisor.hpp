@@ -19,7 +19,8 @@ namespace roscell {
 
 struct container_supervisor_config {
   house context;
-  std::string node; ///< The node's name, for rows.
+  std::string node;    ///< The node's name, for rows.
+  std::string address; ///< Where it is, without a port.
   shared_skill_catalogue skills;
   /// Spawns the runtime; called again when it has died.
   std::function<runtime_actor(container_listener_actor)> make_runtime;
@@ -29,6 +30,8 @@ struct container_supervisor_config {
   graph_watch_actor graph; ///< Invalid: no ROS 2 program is looked after.
   /// What the store knew when the node started.
   std::vector<instance_row> restored;
+  /// Where the node was when the programs of these were started, by instance.
+  std::map<std::string, std::string> started_at;
   /// What an earlier run may have left and no record knows: it is ended.
   std::vector<std::string> strays;
   bool may_be_lost = false; ///< By a cell: it is no coordination node.

@@ -27,8 +27,9 @@ void on_ended(container_supervisor_pointer self, const std::string& instance,
 }
 
 void spawn_actor(container_supervisor_pointer self, supervised_instance& x,
-                 bool adopt) {
+                 bool adopt, const std::string& renewal) {
   auto& st = self->state;
+  const auto started = st.config.started_at.find(x.row.spec.instance);
   skill_instance_config config{
       st.config.context,
       caf::actor_cast<container_supervisor_actor>(self),
@@ -42,7 +43,10 @@ void spawn_actor(container_supervisor_pointer self, supervised_instance& x,
       st.environment,
       st.config.may_be_lost,
       x.confirmed,
-      st.contact_boot_ms};
+      st.contact_boot_ms,
+      st.config.address,
+      adopt && started != st.config.started_at.end() ? started->second : "",
+      renewal};
   x.actor = spawn(self->system(), st.config.context, skill_instance, config);
   self->monitor(x.actor);
   caf::anon_send(x.actor, start_instance{});
@@ -76,6 +80,14 @@ void on_instance_died(container_supervisor_pointer self,
   on_ended(self, instance, x);
 }
 
+/// Another actor takes up the same program.
+void replace_actor(container_supervisor_pointer self, supervised_instance& x,
+                   const std::string& renewal = {}) {
+  self->demonitor(x.actor.address());
+  caf::anon_send_exit(x.actor, caf::exit_reason::kill);
+  spawn_actor(self, x, true, renewal);
+}
+
 void on_runtime_died(container_supervisor_pointer self,
                      const caf::error& reason) {
   auto& st = self->state;
@@ -84,13 +96,15 @@ void on_runtime_died(container_supervisor_pointer self,
   st.config.context.tell("runtime_died", st.config.node,
                          {{"deaths", st.runtime_deaths}});
   start_runtime(self);
-  for (auto& [instance, x] : st.instances) {
-    if (!x.actor)
-      continue;
-    self->demonitor(x.actor.address());
-    caf::anon_send_exit(x.actor, caf::exit_reason::kill);
-    spawn_actor(self, x, true);
-  }
+  for (auto& [instance, x] : st.instances)
+    if (x.actor)
+      replace_actor(self, x);
+}
+
+/// A program that takes part in DDS is bound to an address of its host.
+bool is_bound(const container_supervisor_state& st, const instance_spec& spec) {
+  constexpr const char* server = "ROS_DISCOVERY_SERVER";
+  return spec.environment.count(server) > 0 || st.environment.count(server) > 0;
 }
 
 } // namespace
@@ -119,6 +133,20 @@ void pass_to_movable(container_supervisor_pointer self, const Fact& fact) {
 
 } // namespace
 
+void renew_moved(container_supervisor_pointer self) {
+  auto& st = self->state;
+  for (auto& [instance, address] : st.config.started_at) {
+    auto* x = find_instance(self, instance);
+    if (address == st.config.address || x == nullptr || !x->actor
+        || !is_bound(st, x->row.spec))
+      continue;
+    replace_actor(self, *x,
+                  "the address of this host has changed from " + address
+                      + " to " + st.config.address);
+    address = st.config.address;
+  }
+}
+
 void on_contact(container_supervisor_pointer self, const contact_proven& fact) {
   auto& known = self->state.contact_boot_ms;
   known = std::max(known, fact.boot_ms);
@@ -128,6 +156,8 @@ void on_contact(container_supervisor_pointer self, const contact_proven& fact) {
   for (const auto& instance : fact.kept)
     if (auto* x = find_instance(self, instance))
       x->confirmed = true;
+  // Where the node has no discovery server of its own nothing else tells.
+  renew_moved(self);
   pass_to_movable(self, fact);
 }
 

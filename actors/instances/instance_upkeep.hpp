@@ -10,9 +10,16 @@
 /// runtime, from their start over their deaths to their successors.
 namespace roscell {
 
-/// Makes the actor of an instance. With `adopt` its program may run already.
+/// Makes the actor of an instance. With `adopt` its program may run already;
+/// where that is so and there is a `renewal`, it is started again for that
+/// reason.
 void spawn_actor(container_supervisor_pointer self, supervised_instance& x,
-                 bool adopt);
+                 bool adopt, const std::string& renewal = {});
+
+/// Starts again what an earlier run of the node has started at another address:
+/// the sockets of those programs are bound to that, and do not follow. To be
+/// called once it is known where they find the cell now.
+void renew_moved(container_supervisor_pointer self);
 
 /// An instance has ended: whoever waits for it hears why.
 void on_ended(container_supervisor_pointer self, const std::string& instance,

@@ -122,7 +122,9 @@ private:
     supervision.builds_images = !runtime_.socket.empty();
     supervision.store = store_;
     supervision.graph = start(graph_watch, parts_.edges->graph);
+    supervision.address = config.address;
     supervision.restored = data_.instances;
+    supervision.started_at = data_.started_at;
     supervision.strays = data_.strays;
     supervision.may_be_lost = !config.coordinator;
     parts_.services->supervisor = start(container_supervisor, supervision);
@@ -173,6 +175,9 @@ private:
     parts_.services->coordinator = coordinator;
     caf::anon_send(parts_.services->supervisor,
                    listen_to_instances{coordinator});
+    // What was started before may know the server at an earlier address.
+    caf::anon_send(parts_.services->supervisor,
+                   use_environment{parts_.edges->environment});
     admit_sessions(
         system_, parts_.context, *parts_.edges,
         {config.name, parts_.identity.uuid, config.cell, data_.incarnation},

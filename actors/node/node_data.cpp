@@ -187,8 +187,23 @@ caf::error load_self(const node_config& config, node_data& data, bool existed) {
   return raise_incarnation(data, *table);
 }
 
+/// With each row goes the address at which its program was started.
+caf::error load_instances(const node_config& config, node_data& data) {
+  const auto found = read_table(config, data, "instances");
+  if (!found)
+    return found.error();
+  for (const auto& [key, document] : *found)
+    if (auto x = understand<instance_row>(data, "instances", key, document)) {
+      if (const auto at = document.find("address");
+          at != document.end() && at->is_string())
+        data.started_at[x->spec.instance] = at->get<std::string>();
+      data.instances.push_back(std::move(*x));
+    }
+  return caf::none;
+}
+
 caf::error load_tables(const node_config& config, node_data& data) {
-  if (auto why = load_records(config, data, "instances", data.instances))
+  if (auto why = load_instances(config, data))
     return why;
   if (auto why = load_records(config, data, "tasks", data.tasks))
     return why;

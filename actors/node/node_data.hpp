@@ -13,6 +13,7 @@
 #include <caf/expected.hpp>
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -40,6 +41,8 @@ struct node_data {
   std::vector<history_record> history;         ///< The same.
   std::vector<drain_record> drains;            ///< The same.
   std::vector<instance_row> instances;
+  /// Where the node was when their programs were started, by instance.
+  std::map<std::string, std::string> started_at;
   std::vector<task_record> tasks;
   std::vector<unread_record> unread; ///< They stay where they are.
   std::vector<std::string> strays;   ///< Instances that no record knows.

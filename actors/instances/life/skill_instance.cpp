@@ -164,6 +164,7 @@ skill_instance(skill_instance_pointer self,
   self->state.config = config;
   self->state.row = config.row;
   self->state.has_run = has_run_before(config.row);
+  self->state.started_at = config.started_at;
   self->monitor(config.supervisor);
   // The program goes on, and the next supervisor adopts it.
   self->set_down_handler(

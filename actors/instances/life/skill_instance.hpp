@@ -32,6 +32,11 @@ struct skill_instance_config {
   bool confirmed = false; ///< The coordinator in contact wants it to go on.
   /// The last word that has reached the coordinator; 0: none has.
   int64_t contact_boot_ms = 0;
+  std::string address; ///< The node's, at which programs are started.
+  /// Of one that is adopted: where the node was then; empty: not known.
+  std::string started_at;
+  /// Why one that is adopted is to be started again; empty: it goes on.
+  std::string renewal;
 };
 
 /// Owns one instance from intent to end. The diagram is in docs/protocols.md.
@@ -73,6 +78,12 @@ struct skill_instance_state {
 
   /// Why it is to end for good; it is not started again.
   std::optional<std::string> farewell;
+
+  std::string started_at; ///< Where the node was when this run began.
+
+  /// It is started again when it ends, whatever its policy says: that is why
+  /// it is to end.
+  bool renewing = false;
 
   /// When one that is to end, and is not safe yet, ends all the same.
   std::optional<alarm::time_point> patience;

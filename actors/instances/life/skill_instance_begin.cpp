@@ -38,6 +38,7 @@ void on_built(skill_instance_pointer self, const std::string& image,
   auto& st = self->state;
   const auto& spec = st.row.spec;
   st.row.image = image;
+  st.started_at = st.config.address;
   if (!may_start(self))
     return wait_for_contact(self);
   enter(self, instance_state::starting);
@@ -119,10 +120,11 @@ void build(skill_instance_pointer self) {
 /// The intent is on disk before anything is started: a node that is restarted
 /// must know what to look for.
 void begin_anew(skill_instance_pointer self) {
+  self->state.started_at = self->state.config.address;
   enter(self, instance_state::pending);
   ask<record_stored>(
       self, self->state.config.store, limits::instance::disk,
-      record_of(self->state.row), [=](const record_stored&) { build(self); },
+      record_of(self->state), [=](const record_stored&) { build(self); },
       [=](const caf::error& error) {
         conclude(self, instance_state::failed,
                  "it cannot be recorded: " + sentence(error));
@@ -154,7 +156,8 @@ void resume(skill_instance_pointer self, const std::string& container) {
     record_event(self, "instance_adopted");
     report(self);
     expect_life(self);
-    return resume_leaving(self);
+    resume_leaving(self);
+    return renew(self);
   case instance_state::stopping:
     st.farewell = st.row.reason;
     return take_down(self, instance_state::stopped, st.row.reason);
@@ -163,7 +166,8 @@ void resume(skill_instance_pointer self, const std::string& container) {
     st.row.state = instance_state::starting;
     record_event(self, "instance_adopted");
     report(self);
-    return expect_ready(self);
+    expect_ready(self);
+    return renew(self);
   }
 }
 

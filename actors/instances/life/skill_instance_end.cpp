@@ -19,7 +19,7 @@ using std::chrono::milliseconds;
 void finish(skill_instance_pointer self, instance_state last,
             const std::string& reason) {
   set_state(self, last, reason);
-  auto record = record_of(self->state.row);
+  auto record = record_of(self->state);
   record.may_wait = true;
   // Before the report, after which the supervisor may remove the record.
   // Without a sender: nobody is left to read the answer.
@@ -39,7 +39,7 @@ double jitter_of(const instance_row& row) {
 /// Nothing of a run that is over counts for the next one.
 void forget_run(skill_instance_state& st) {
   st.config.adopt = false;
-  st.concluding = st.ready = false;
+  st.concluding = st.ready = st.renewing = false;
   st.ready_since.reset();
   st.endpoints.reset();
   st.missing.clear();
@@ -85,6 +85,10 @@ void go_on(skill_instance_pointer self, instance_state last,
   auto& row = st.row;
   const auto& policy = row.spec.life.restart;
   const auto end = end_of(self, last);
+  if (st.renewing && !st.farewell) {
+    keep_run(row, reason, log);
+    return back_off(self, reason, milliseconds{0});
+  }
   if (!st.farewell && st.has_run) {
     row.attempts = attempts_before(policy, row, end);
     const auto pause = restart_delay(policy, end, row.attempts, jitter_of(row));

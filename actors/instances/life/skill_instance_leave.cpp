@@ -28,6 +28,15 @@ void ask_it(skill_instance_pointer self) {
              ask_for_safety{row.spec.instance, row.container});
 }
 
+/// None: it is waited for without end.
+void set_patience(skill_instance_pointer self, milliseconds patience) {
+  if (patience.count() == 0)
+    return;
+  auto& st = self->state;
+  st.patience = self->clock().now() + patience;
+  st.timer.set(self, *st.patience);
+}
+
 /// The wish outlives this process: nobody may repeat it.
 void wait_for_safety(skill_instance_pointer self) {
   auto& st = self->state;
@@ -41,10 +50,7 @@ void wait_for_safety(skill_instance_pointer self) {
   note(self);
   report(self);
   ask_it(self);
-  if (patience.count() == 0)
-    return;
-  st.patience = self->clock().now() + patience;
-  st.timer.set(self, *st.patience);
+  set_patience(self, patience);
 }
 
 void stop_waiting(skill_instance_pointer self) {
@@ -104,19 +110,41 @@ void resume_leaving(skill_instance_pointer self) {
   st.timer.set(self, *st.patience);
 }
 
+void renew(skill_instance_pointer self) {
+  auto& st = self->state;
+  if (st.config.renewal.empty() || st.farewell)
+    return;
+  st.renewing = true;
+  if (!must_wait(st))
+    return take_down(self, instance_state::failed, st.config.renewal);
+  st.row.waits = "waits to be safe";
+  st.row.reason = st.config.renewal;
+  report(self);
+  ask_it(self);
+  set_patience(self, span_of(st.row.spec.life.safe_timeout_s));
+}
+
 void on_safety(skill_instance_pointer self, safe_word word) {
   auto& st = self->state;
   if (word == safe_word::untold || st.concluding)
     return;
   if (std::exchange(st.row.safe, word) != word)
     report(self);
-  if (is_waiting(st) && word == safe_word::safe
-      && st.row.state == instance_state::running)
+  if (word != safe_word::safe || st.row.state != instance_state::running)
+    return;
+  if (is_waiting(st))
     stop_waiting(self);
+  else if (st.renewing)
+    take_down(self, instance_state::failed, st.config.renewal);
 }
 
 void on_patience_over(skill_instance_pointer self) {
-  self->state.farewell = *self->state.farewell + "; it was not safe in time";
+  auto& st = self->state;
+  constexpr const char* late = "; it was not safe in time";
+  st.patience.reset();
+  if (!st.farewell)
+    return take_down(self, instance_state::failed, st.config.renewal + late);
+  st.farewell = *st.farewell + late;
   stop_waiting(self);
 }
 

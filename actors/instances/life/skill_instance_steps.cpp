@@ -67,9 +67,11 @@ void limit(skill_instance_pointer self, std::chrono::milliseconds span) {
   st.timer.set(self, *st.deadline);
 }
 
-store_record record_of(const instance_row& row) {
-  const json value = row;
-  return {"instances", row.spec.instance,
+store_record record_of(const skill_instance_state& st) {
+  json value = st.row;
+  if (!st.started_at.empty())
+    value["address"] = st.started_at;
+  return {"instances", st.row.spec.instance,
           value.dump(-1, ' ', false, json::error_handler_t::replace)};
 }
 
@@ -77,7 +79,7 @@ void note(skill_instance_pointer self) {
   auto& st = self->state;
   const auto context = st.config.context;
   const auto instance = st.row.spec.instance;
-  auto record = record_of(st.row);
+  auto record = record_of(st);
   // The program is there already: it can be ended whether this is written or
   // not.
   record.may_wait = true;

@@ -57,8 +57,9 @@ void enter(skill_instance_pointer self, instance_state next,
 /// Sets the deadline of the present state.
 void limit(skill_instance_pointer self, std::chrono::milliseconds span);
 
-/// What the store keeps of it.
-store_record record_of(const instance_row& row);
+/// What the store keeps of it: its row, and where the node was when its program
+/// was started.
+store_record record_of(const skill_instance_state& st);
 
 /// Writes how things stand. A restarted node finds the program without it,
 /// only less of its story, so a failure is no reason to end the program.
@@ -87,6 +88,10 @@ void on_stop(skill_instance_pointer self, const stop_instance& wish);
 
 /// Goes on with what an earlier run of the node was asked.
 void resume_leaving(skill_instance_pointer self);
+
+/// Starts what has been adopted again, if it is to be, once it is safe. Its
+/// policy is not asked, for it has done nothing wrong.
+void renew(skill_instance_pointer self);
 
 /// Its skill has told whether it may be ended.
 void on_safety(skill_instance_pointer self, safe_word word);

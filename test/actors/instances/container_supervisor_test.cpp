@@ -376,6 +376,54 @@ TEST_CASE("instances of an earlier run are adopted at the start") {
   CHECK(reply(b.remove("t")).instances == words{"f", "r"});
 }
 
+TEST_CASE("programs of another address are started again at the present one") {
+  supervisor_bench b;
+  instance_row moved;
+  moved.spec = echo_spec(b.catalogue.hash, "moved", "t");
+  moved.spec.environment = {{"ROS_DISCOVERY_SERVER", "10.0.0.5:11811"}};
+  moved.state = instance_state::running;
+  moved.container = "c0";
+  auto stayed = moved;
+  stayed.spec.instance = "stayed";
+  b.config.restored = {moved, stayed};
+  b.config.address = "10.0.0.9";
+  b.config.started_at = {{"moved", "10.0.0.5"}, {"stayed", "10.0.0.9"}};
+  b.runtime->adoption = {true, "c0", -1};
+  b.start();
+  // Where it is to find the cell is not known yet.
+  CHECK(b.runtime->stopped.empty());
+  for (int i = 0; i < 2; ++i) {
+    caf::anon_send(b.supervisor, use_environment{{{"ROS_DISCOVERY_SERVER",
+                                                   "10.0.0.9:11811"}}});
+    b.settle();
+    b.advance(1ms);
+  }
+  REQUIRE(b.runtime->stopped.size() == 1);
+  CHECK(b.runtime->stopped[0].instance == "moved");
+  CHECK(b.row("moved").reason
+        == "the address of this host has changed from 10.0.0.5 to 10.0.0.9");
+  REQUIRE(b.runtime->started.size() == 1);
+  CHECK(b.runtime->started[0].environment.at("ROS_DISCOVERY_SERVER")
+        == "10.0.0.9:11811");
+  CHECK(b.row("stayed").state == instance_state::running);
+}
+
+TEST_CASE("programs that know no discovery server do not mind an address") {
+  supervisor_bench b;
+  instance_row row;
+  row.spec = echo_spec(b.catalogue.hash, "r", "t");
+  row.state = instance_state::running;
+  row.container = "c0";
+  b.config.restored = {row};
+  b.config.address = "10.0.0.9";
+  b.config.started_at = {{"r", "10.0.0.5"}};
+  b.runtime->adoption = {true, "c0", -1};
+  b.start();
+  caf::anon_send(b.supervisor, contact_proven{1, {"r"}});
+  b.settle();
+  CHECK(b.runtime->stopped.empty());
+}
+
 TEST_CASE("the listener hears of each state once") {
   supervisor_bench b;
   b.start();

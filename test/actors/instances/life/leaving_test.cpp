@@ -193,6 +193,32 @@ TEST_CASE("a restart of the node goes on waiting for a skill to be safe") {
   CHECK(b.reason() == "asked to");
 }
 
+TEST_CASE("a skill that is to be started again is waited for to be safe") {
+  safe_bench b;
+  b.config.renewal = "the address of this host has changed";
+  b.adopt_as(instance_state::running, {true, "c1", -1});
+  CHECK(b.state() == instance_state::running);
+  CHECK(b.runtime->asked_for_safety.size() == 1);
+  CHECK(b.row().waits == "waits to be safe");
+  CHECK(b.runtime->stopped.empty());
+  b.says(safe_word::safe);
+  CHECK(b.state() == instance_state::backing_off);
+  CHECK(b.reason() == "the address of this host has changed");
+  b.advance(1ms);
+  CHECK(b.runtime->started.size() == 1);
+}
+
+TEST_CASE("one that is not safe in time is started again all the same") {
+  safe_bench b;
+  b.config.row.spec.life.safe_timeout_s = 5;
+  b.config.renewal = "the address of this host has changed";
+  b.adopt_as(instance_state::running, {true, "c1", -1});
+  b.advance(5s);
+  b.advance(1ms);
+  CHECK(b.runtime->stopped.size() == 1);
+  CHECK(b.runtime->started.size() == 1);
+}
+
 TEST_CASE("a step that may move is fenced from its start on") {
   fenced_bench b;
   b.start_ready();

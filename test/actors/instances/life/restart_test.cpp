@@ -196,3 +196,28 @@ TEST_CASE("what has finished is started again only if it always is") {
     CHECK(b.state() == instance_state::backing_off);
   }
 }
+
+TEST_CASE("what was started at an address that is gone is started again") {
+  restart_bench b;
+  b.policy().policy = restart_when::never;
+  b.config.address = "10.0.0.9";
+  b.config.started_at = "10.0.0.5";
+  b.config.renewal = "the address of this host has changed";
+  const auto state =
+      GENERATE(instance_state::starting, instance_state::running);
+  b.adopt_as(state, {true, "c1", -1});
+  REQUIRE(b.runtime->stopped.size() == 1);
+  CHECK(b.state() == instance_state::backing_off);
+  CHECK(b.reason() == "the address of this host has changed");
+  b.advance(1ms);
+  REQUIRE(b.runtime->started.size() == 1);
+  b.ready();
+  CHECK(b.state() == instance_state::running);
+  REQUIRE(b.told->last().ends.size() == 1);
+  CHECK(b.told->last().ends[0].reason
+        == "the address of this host has changed");
+  // Once, and it is written down where it is now.
+  CHECK(json::parse(b.store->records.back().value).at("address") == "10.0.0.9");
+  b.exits(0, b.runtime->container());
+  CHECK(b.state() == instance_state::stopped);
+}
