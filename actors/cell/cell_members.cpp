@@ -1,5 +1,6 @@
 #include "actors/cell/cell_members.hpp"
 
+#include "actors/cell/member_proof.hpp"
 #include "actors/cell/moves/lost_steps.hpp"
 #include "actors/cell/state/arrivals.hpp"
 #include "actors/cell/state/coordinator_publish.hpp"
@@ -22,6 +23,8 @@
 namespace roscell {
 
 namespace {
+
+using registration_promise = caf::typed_response_promise<node_registered>;
 
 void stop_searches_on(const cell_coordinator_state& st,
                       const std::string& node) {
@@ -59,9 +62,9 @@ std::vector<discovery_place> place_of(const cell_coordinator_state& st,
 }
 
 /// The row may be shown now.
-void on_registration_kept(
-    coordinator_pointer self, const register_node& request,
-    caf::typed_response_promise<node_registered> promise) {
+void on_registration_kept(coordinator_pointer self,
+                          const register_node& request,
+                          registration_promise promise) {
   auto& st = self->state;
   const auto& node = request.registration;
   const auto& who = node.identity;
@@ -91,6 +94,38 @@ void on_registration_kept(
                       place_of(st, *entry), true});
   settle_arrivals(self, who.uuid, nullptr);
   on_node_returned(self, who.uuid);
+}
+
+/// Writes the row down, unless it cannot have one. A member that has `gone`
+/// does not stand in its way.
+void admit(coordinator_pointer self, const register_node& request,
+           const member_actor& gone, registration_promise promise) {
+  auto& st = self->state;
+  const auto& who = request.registration.identity;
+  if (auto why = st.registry.refusal(who, now_of(self), gone)) {
+    promise.deliver(to_error(*why));
+    return;
+  }
+  auto entry = entry_of(st, request);
+  const bool known = st.registry.is_known(who, entry.origin, entry.server_id);
+  const auto go_on = [=, server_id = entry.server_id] {
+    meet_member_server(self, server_id, request.registration,
+                       [=] { on_registration_kept(self, request, promise); });
+  };
+  self->monitor(request.member);
+  keep_records(self, st.registry.propose(std::move(entry)), go_on,
+               [=](const failure& why) {
+                 // What is on disk will do: only the epoch there is an older
+                 // one.
+                 if (known)
+                   return go_on();
+                 const auto& uuid = request.registration.identity.uuid;
+                 self->state.registry.withdraw(uuid, request.member);
+                 if (!self->state.registry.expects(uuid))
+                   forget_refused(self, "members", uuid);
+                 auto answer = promise;
+                 answer.deliver(to_error(why));
+               });
 }
 
 /// Nothing is heard of a node any more, and was not for some time.
@@ -174,29 +209,14 @@ caf::result<node_registered> register_member(coordinator_pointer self,
                 "/cell_uuid",
                 "it waits for its own; to take it over, name it in a "
                 "cell_formation");
-  if (auto why = st.registry.refusal(who, now_of(self)))
-    return to_error(*why);
   auto promise = self->make_response_promise<node_registered>();
-  auto entry = entry_of(st, request);
-  const bool known = st.registry.is_known(who, entry.origin, entry.server_id);
-  const auto go_on = [=, server_id = entry.server_id] {
-    meet_member_server(self, server_id, request.registration,
-                       [=] { on_registration_kept(self, request, promise); });
-  };
-  self->monitor(request.member);
-  keep_records(self, st.registry.propose(std::move(entry)), go_on,
-               [=](const failure& why) {
-                 // What is on disk will do: only the epoch there is an older
-                 // one.
-                 if (known)
-                   return go_on();
-                 const auto& uuid = request.registration.identity.uuid;
-                 self->state.registry.withdraw(uuid, request.member);
-                 if (!self->state.registry.expects(uuid))
-                   forget_refused(self, "members", uuid);
-                 auto answer = promise;
-                 answer.deliver(to_error(why));
-               });
+  const auto rival = st.registry.rival_of(who);
+  if (!rival)
+    admit(self, request, rival, promise);
+  else
+    prove_member(self, rival, [=](bool is_there) {
+      admit(self, request, is_there ? member_actor{} : rival, promise);
+    });
   return promise;
 }
 

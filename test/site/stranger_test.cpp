@@ -132,6 +132,24 @@ TEST_CASE_METHOD(lone_cell,
   CHECK(copy.status().standing == node_state::member);
 }
 
+TEST_CASE_METHOD(
+    lone_cell, "A robot with another address is back before its lease is over",
+    "[site][stranger]") {
+  form();
+  // Nothing of what it had at the first address gets through any more.
+  auto& moved = place.add_node(base.discovery_server);
+  moved.name = arm.name;
+  moved.uuid = arm.uuid;
+  moved.disk = arm.disk;
+  place.split({0, 1, 0});
+  place.start(moved);
+  place.pass(5s);
+  CHECK(moved.status().standing == node_state::member);
+  CHECK(count(moved, "join_refused") == 0);
+  CHECK(count(base, "node_joined") == 2);
+  CHECK(count(base, "node_lost") == 0);
+}
+
 TEST_CASE_METHOD(lone_cell,
                  "A robot with a new disk gets in, also after a "
                  "restart of the coordinator",

@@ -56,9 +56,15 @@ class cell_registry {
 public:
   /// Why a node cannot have a row now, if so: its UUID is in use at another
   /// address, its name belongs to another UUID, its epoch is older than one
-  /// already seen, or there are too many rows.
+  /// already seen, or there are too many rows. A member that is known to be
+  /// `gone` uses nothing any more.
   std::optional<failure> refusal(const node_identity& who,
-                                 const registry_time& now) const;
+                                 const registry_time& now,
+                                 const member_actor& gone = {}) const;
+
+  /// The member that has the UUID at another address, if it has not gone from
+  /// there meanwhile. Invalid: there is none.
+  member_actor rival_of(const node_identity& who) const;
 
   /// An id for the node's own discovery server that no other row has, nor any
   /// of `coordinators`, the lowest. `last` is the one that it had: kept if this
@@ -161,7 +167,8 @@ private:
   bool gives_name_up(const registry_entry& x, const node_identity& to,
                      const registry_time& now) const;
   void settle_owner(const std::string& name);
-  std::optional<failure> copy_refusal(const node_identity& who) const;
+  std::optional<failure> copy_refusal(const node_identity& who,
+                                      const member_actor& gone) const;
   std::optional<failure> name_refusal(const node_identity& who,
                                       const registry_time& now) const;
 

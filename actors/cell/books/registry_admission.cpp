@@ -63,12 +63,13 @@ cell_registry::name_refusal(const node_identity& who,
 
 /// A copy of a data directory has the UUID of a node that lives elsewhere.
 std::optional<failure>
-cell_registry::copy_refusal(const node_identity& who) const {
+cell_registry::copy_refusal(const node_identity& who,
+                            const member_actor& gone) const {
   const auto* known = find_uuid(who.uuid);
   const auto proposed = proposed_.find(who.uuid);
   if (proposed != proposed_.end())
     known = &proposed->second;
-  if (!known || !known->member || who.address.empty()
+  if (!known || !known->member || known->member == gone || who.address.empty()
       || known->row.identity.address == who.address)
     return std::nullopt;
   return conflict("this UUID is in use at " + known->row.identity.address
@@ -78,9 +79,17 @@ cell_registry::copy_refusal(const node_identity& who) const {
                   "emptied: then it makes a UUID of its own");
 }
 
+member_actor cell_registry::rival_of(const node_identity& who) const {
+  const auto* known = find_uuid(who.uuid);
+  return known && proposed_.count(who.uuid) == 0 && copy_refusal(who, {})
+             ? known->member
+             : member_actor{};
+}
+
 std::optional<failure> cell_registry::refusal(const node_identity& who,
-                                              const registry_time& now) const {
-  if (auto why = copy_refusal(who))
+                                              const registry_time& now,
+                                              const member_actor& gone) const {
+  if (auto why = copy_refusal(who, gone))
     return why;
   const auto* known = find_uuid(who.uuid);
   if (!known && by_uuid_.size() >= limits::cell::rows)

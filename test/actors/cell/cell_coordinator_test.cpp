@@ -121,6 +121,49 @@ TEST_CASE_METHOD(paper_cell,
   CHECK(row("base").role == node_role::coordinator);
 }
 
+TEST_CASE_METHOD(paper_cell,
+                 "A node at another address is a copy if the one at the former "
+                 "address answers",
+                 "[cell_coordinator]") {
+  auto& arm = add("arm");
+  auto& copy = make_agent("arm");
+  copy.identity.epoch = 2;
+  copy.identity.address = "10.0.0.99:8420";
+  const auto refused = why(enter(copy));
+  CHECK(refused.code == error_code::conflict);
+  CHECK(refused.message.find("its data directory is a copy")
+        != std::string::npos);
+  CHECK(row("arm").identity.address == arm.identity.address);
+  CHECK(arm.closed.empty());
+}
+
+TEST_CASE_METHOD(
+    paper_cell,
+    "A node whose address has changed gets its row back within its "
+    "lease if nobody answers at the former one",
+    "[cell_coordinator]") {
+  auto& old = add("arm");
+  old.silent = true;
+  auto& moved = make_agent("arm");
+  moved.identity.epoch = 2;
+  moved.identity.address = "10.0.0.99:8420";
+  node_registration registration;
+  registration.identity = moved.identity;
+  registration.resources.name = "arm";
+  const auto entered = time.ask<node_registered>(
+      coordinator, register_node{registration, moved.member});
+  time.settle();
+  CHECK_FALSE(entered->has_value());
+  time.advance(1000ms);
+  REQUIRE(entered->has_value());
+  REQUIRE(entered->value());
+  CHECK(row("arm").identity.address == "10.0.0.99:8420");
+  CHECK(row("arm").state == row_state::active);
+  CHECK(old.closed.size() == 1);
+  CHECK(moved.closed.empty());
+  CHECK(count("node_lost") == 0);
+}
+
 TEST_CASE_METHOD(paper_cell, "A registration of an old epoch is refused",
                  "[cell_coordinator]") {
   auto& arm = make_agent("arm");
