@@ -43,8 +43,8 @@ TEST_CASE("an interface that is named may come later, an address may not",
           "[tools]") {
   CHECK(choose_interface("no-such-iface0") == "no-such-iface0");
   CHECK(choose_interface("127.0.0.1") == "127.0.0.1");
-  for (const char* wanted :
-       {"10.231.99.1", "a/b", "eth0 ", "no-such-interface"})
+  for (const char* wanted : {"10.231.99.1", "10.0.0.300", "fe80::1", "a/b",
+                             "eth0 ", "no-such-interface"})
     CHECK_THROWS_AS(choose_interface(wanted), command_error);
 }
 

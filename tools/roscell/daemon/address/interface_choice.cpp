@@ -23,11 +23,13 @@ size_t parse_choice(const std::string& text, size_t most) {
   return error == std::errc{} && rest == end && choice <= most ? choice : 0;
 }
 
-/// Linux takes no other names; the interface itself may come later.
+/// Linux takes no other names, and who says digits alone means an address; the
+/// interface itself may come later.
 bool may_be_name(const std::string& text) {
   return text.size() < IFNAMSIZ
+         && text.find_first_not_of("0123456789.") != std::string::npos
          && std::none_of(text.begin(), text.end(), [](unsigned char c) {
-              return c == '/' || std::isspace(c) != 0;
+              return c == '/' || c == ':' || std::isspace(c) != 0;
             });
 }
 
