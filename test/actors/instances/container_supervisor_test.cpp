@@ -400,7 +400,8 @@ TEST_CASE("programs of another address are started again at the present one") {
   }
   REQUIRE(b.runtime->stopped.size() == 1);
   CHECK(b.runtime->stopped[0].instance == "moved");
-  CHECK(b.row("moved").reason
+  REQUIRE(b.row("moved").ends.size() == 1);
+  CHECK(b.row("moved").ends[0].reason
         == "the address of this host has changed from 10.0.0.5 to 10.0.0.9");
   REQUIRE(b.runtime->started.size() == 1);
   CHECK(b.runtime->started[0].environment.at("ROS_DISCOVERY_SERVER")
