@@ -12,7 +12,7 @@ const traffic_meter::clock::time_point start{};
 } // namespace
 
 TEST_CASE("a rate needs two messages at different times", "[tools]") {
-  traffic_meter meter{10};
+  traffic_meter meter{10, start};
   CHECK_FALSE(meter.figures());
   meter.add(start, 100, 1ms);
   CHECK_FALSE(meter.figures());
@@ -24,7 +24,7 @@ TEST_CASE("a rate needs two messages at different times", "[tools]") {
 
 TEST_CASE("rate, gaps and bandwidth are those between first and last",
           "[tools]") {
-  traffic_meter meter{10};
+  traffic_meter meter{10, start};
   meter.add(start, 5000, 9ms); // Its bytes came before the time counted.
   meter.add(start + 100ms, 1000, 1ms);
   meter.add(start + 400ms, 3000, 2ms);
@@ -41,7 +41,7 @@ TEST_CASE("rate, gaps and bandwidth are those between first and last",
 
 TEST_CASE("only the last messages are measured, and all are counted",
           "[tools]") {
-  traffic_meter meter{3};
+  traffic_meter meter{3, start};
   meter.add(start, 1, 0ms);
   for (int i = 0; i < 3; ++i)
     meter.add(start + 10s + i * 100ms, 1, 0ms);

@@ -3,8 +3,7 @@
 #include "tools/roscell/daemon/stop_signals.hpp"
 #include "tools/roscell/exit_code.hpp"
 #include "tools/roscell/ros2/found_topic.hpp"
-#include "tools/roscell/ros2/traffic_meter.hpp"
-#include "tools/roscell/view/format.hpp"
+#include "tools/roscell/ros2/traffic_report.hpp"
 #include "tools/roscell/view/terminal.hpp"
 
 #include <CLI/CLI.hpp>
@@ -17,9 +16,6 @@ namespace roscell::cli {
 
 namespace {
 
-/// How often figures are printed, as by `ros2 topic hz`.
-constexpr std::chrono::seconds print_period{1};
-
 struct measure_options {
   topic_choice choice;
   std::string output = "text";
@@ -27,41 +23,23 @@ struct measure_options {
   double seconds = 0;      ///< 0: until Ctrl-C.
 };
 
-std::string line_of(const traffic_figures& x) {
-  return format_number(x.rate_hz, 2) + " Hz, gaps "
-         + format_number(x.least_gap_ms, 1) + " to "
-         + format_number(x.most_gap_ms, 1) + " ms (deviation "
-         + format_number(x.gap_deviation_ms, 1) + "), "
-         + format_bytes(x.bytes_per_s) + "/s in messages of "
-         + format_bytes(x.mean_bytes) + ", " + format_number(x.median_age_ms, 2)
-         + " ms old, window " + std::to_string(x.messages) + "\n";
-}
-
-json json_of(const traffic_figures& x) {
-  return {{"messages", x.messages},
-          {"rate_hz", x.rate_hz},
-          {"least_gap_ms", x.least_gap_ms},
-          {"most_gap_ms", x.most_gap_ms},
-          {"gap_deviation_ms", x.gap_deviation_ms},
-          {"bytes_per_s", x.bytes_per_s},
-          {"mean_bytes", x.mean_bytes},
-          {"median_age_ms", x.median_age_ms}};
-}
-
 /// A meter that threads of Fast DDS fill.
 class shared_meter {
 public:
-  explicit shared_meter(std::size_t window) : meter_{window} {}
+  using clock = traffic_meter::clock;
+
+  explicit shared_meter(std::size_t window) : meter_{window, clock::now()} {}
 
   void add(const ros2::heard_message& x) {
     const auto age = std::chrono::system_clock::now() - x.sent;
     const std::lock_guard guard{mutex_};
-    meter_.add(traffic_meter::clock::now(), x.payload.size(), age);
+    meter_.add(clock::now(), x.payload.size(), age);
   }
 
-  std::optional<traffic_figures> figures() {
+  std::string report(bool as_json) {
     const std::lock_guard guard{mutex_};
-    return meter_.figures();
+    return as_json ? compact(traffic_json(meter_, clock::now()))
+                   : traffic_line(meter_, clock::now());
   }
 
 private:
@@ -80,13 +58,9 @@ int measure(const measure_options& options) {
                     + std::chrono::milliseconds{static_cast<int64_t>(
                         options.seconds > 0 ? options.seconds * 1000 : 1e12)};
   while (traffic_meter::clock::now() < ends
-         && signals.wait_for(print_period) == stop_signals::cause::timeout) {
-    const auto x = meter.figures();
-    if (options.output == "json")
-      print(compact(x ? json_of(*x) : json{{"messages", 0}}));
-    else
-      print(x ? line_of(*x) : std::string{"nothing yet\n"});
-  }
+         && signals.wait_for(traffic_print_period)
+                == stop_signals::cause::timeout)
+    print(meter.report(options.output == "json"));
   return exit_done;
 }
 
@@ -96,7 +70,8 @@ void add_measure_command(CLI::App& app, action& chosen, const char* name,
   auto* command = app.add_subcommand(name, description);
   command->footer(std::string{"Prints a line a second until Ctrl-C: rate, the "
                               "gaps between messages, bandwidth, and how\nlong "
-                              "ago they were sent, by both hosts' clocks.\n\n"
+                              "ago they were sent, by both hosts' clocks; or "
+                              "how long nothing came.\n\n"
                               "Examples:\n  roscell "}
                   + name + " /fleet/camera/image\n  roscell " + name
                   + " /tf --seconds 5 -o json");

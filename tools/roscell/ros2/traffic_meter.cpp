@@ -18,12 +18,13 @@ double median(std::vector<double> values) {
 
 } // namespace
 
-traffic_meter::traffic_meter(std::size_t most_messages)
-    : most_(std::max<std::size_t>(most_messages, 2)) {}
+traffic_meter::traffic_meter(std::size_t most_messages, clock::time_point start)
+    : most_(std::max<std::size_t>(most_messages, 2)), last_(start) {}
 
 void traffic_meter::add(clock::time_point when, std::size_t bytes,
                         std::chrono::nanoseconds age) {
   ++total_;
+  last_ = when;
   arrivals_.push_back({when, bytes, age});
   if (arrivals_.size() > most_)
     arrivals_.pop_front();

@@ -24,13 +24,19 @@ class traffic_meter {
 public:
   using clock = std::chrono::steady_clock;
 
-  explicit traffic_meter(std::size_t most_messages);
+  /// Measures the last `most_messages` of those that come from `start` on.
+  traffic_meter(std::size_t most_messages, clock::time_point start);
 
   void add(clock::time_point when, std::size_t bytes,
            std::chrono::nanoseconds age);
 
   /// Nothing before there are two messages.
   std::optional<traffic_figures> figures() const;
+
+  /// How long nothing has come at `now`.
+  clock::duration silence(clock::time_point now) const {
+    return now - last_;
+  }
 
   /// All that have come, those that are forgotten too.
   std::size_t total() const {
@@ -46,6 +52,7 @@ private:
 
   const std::size_t most_;
   std::size_t total_ = 0;
+  clock::time_point last_; ///< Arrival of the last message, else the start.
   std::deque<arrival> arrivals_;
 };
 
