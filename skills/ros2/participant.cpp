@@ -36,6 +36,11 @@ topic_qos graph_qos() {
   return result;
 }
 
+/// Of discovery and of messages, which share one where there is a server.
+std::size_t ports_wanted(const participant_config& config) {
+  return config.servers.empty() ? 2 : 1;
+}
+
 } // namespace
 
 guid to_guid(const eprosima::fastrtps::rtps::GUID_t& x) {
@@ -53,15 +58,7 @@ void participant::deleter::operator()(dds::DomainParticipant* x) const {
 
 participant::participant(participant_config config)
     : config_(std::move(config)) {
-  const auto nobody = dds::StatusMask::none();
-  participant_.reset(
-      dds::DomainParticipantFactory::get_instance()->create_participant(
-          config_.domain_id, to_participant_qos(config_, pacer_), this,
-          nobody));
-  if (!participant_)
-    throw start_error("Fast DDS does not create a participant in ROS domain "
-                      + std::to_string(config_.domain_id)
-                      + "; its message is above this one");
+  make_participant();
   subscriber_ = participant_->create_subscriber(dds::SUBSCRIBER_QOS_DEFAULT);
   publisher_ = participant_->create_publisher(dds::PUBLISHER_QOS_DEFAULT);
   graph_writer_ =
@@ -69,6 +66,23 @@ participant::participant(participant_config config)
   node_.participant = to_guid(participant_->guid());
   node_.name = config_.node_name;
   publish_graph();
+}
+
+void participant::make_participant() {
+  const auto qos = to_participant_qos(
+      config_, pacer_, [this](std::uint32_t port) { ports_.insert(port); });
+  participant_.reset(
+      dds::DomainParticipantFactory::get_instance()->create_participant(
+          config_.domain_id, qos, this, dds::StatusMask::none()));
+  if (!participant_)
+    throw start_error("Fast DDS does not create a participant in ROS domain "
+                      + std::to_string(config_.domain_id)
+                      + "; its message is above this one");
+  if (ports_.size() < ports_wanted(config_))
+    throw start_error("all UDP ports that DDS tries in ROS domain "
+                      + std::to_string(config_.domain_id)
+                      + " are taken on this host; end programs that are not "
+                        "needed, or use another domain");
 }
 
 /// Nothing calls the listener any more once the participant is gone.

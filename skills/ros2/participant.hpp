@@ -16,6 +16,7 @@
 #include <fastdds/dds/subscriber/Subscriber.hpp>
 #include <fastdds/dds/topic/Topic.hpp>
 
+#include <cstdint>
 #include <memory>
 #include <mutex>
 #include <set>
@@ -33,7 +34,8 @@ guid to_guid(const eprosima::fastrtps::rtps::GUID_t& x);
 /// into another, and fails there without a word.
 class participant : private dds::DomainParticipantListener {
 public:
-  /// Throws engine::start_error.
+  /// Throws engine::start_error, also where there is no port to listen on: it
+  /// would be deaf without a word.
   explicit participant(participant_config config);
 
   ~participant() override;
@@ -64,6 +66,7 @@ private:
     void operator()(dds::DomainParticipant* x) const;
   };
 
+  void make_participant();
   dds::Topic* find_topic(const std::string& name, const std::string& type);
   dds::DataWriter* make_writer(dds::Topic* topic, const topic_qos& qos,
                                dds::DataWriterListener* listener);
@@ -82,6 +85,7 @@ private:
   std::mutex others_mutex_; // Guards what is known of others.
   std::set<guid> stock_programs_;
   std::set<guid> best_effort_readers_;
+  std::set<std::uint32_t> ports_; // Listened on; filled while it is made.
   std::unique_ptr<dds::DomainParticipant, deleter> participant_;
   dds::Subscriber* subscriber_ = nullptr;
   dds::Publisher* publisher_ = nullptr;

@@ -1,9 +1,10 @@
 #include "skills/ros2/participant_qos.hpp"
 
+#include "dds/free_port.hpp"
 #include "dds/host_transport.hpp"
 #include "dds/participant_ids.hpp"
 #include "dds/server_ids.hpp"
-#include "skills/ros2/flow/paced_transport.hpp"
+#include "roscell/skill/errors.hpp"
 
 #include <fastdds/rtps/flowcontrol/FlowControllerDescriptor.hpp>
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
@@ -50,6 +51,20 @@ constexpr std::int32_t repeat_period_ns = 50'000'000;
 /// host (RTPS 2.3, 9.6.1.1). The first places are left to ROS 2 nodes that find
 /// each other by port.
 constexpr std::uint32_t first_place = 40;
+constexpr unsigned places = 100;
+
+/// The host's transport listens on 127.0.0.1, too, so that stock programs
+/// beside us reach us.
+std::uint16_t listening_port(std::uint32_t domain, const std::string& address) {
+  const auto first =
+      static_cast<std::uint16_t>(7400 + 250 * domain + 10 + 2 * first_place);
+  const auto found = free_port({address, "127.0.0.1"}, first, places);
+  if (const auto* why = std::get_if<std::error_code>(&found))
+    throw engine::start_error("no UDP port of " + address
+                              + " can be listened on: " + why->message()
+                              + "; `ss -uap` shows who has the ports");
+  return std::get<std::uint16_t>(found);
+}
 
 void use_servers(dds::WireProtocolConfigQos& wire,
                  const participant_config& config, const std::string& address) {
@@ -70,8 +85,8 @@ void use_servers(dds::WireProtocolConfigQos& wire,
   // With addresses of our own Fast DDS opens no multicast ones. Discovery and
   // messages share a port, so that a writer's farewell does not overtake its
   // last message.
-  auto at = udp_locator(address,
-                        7400 + 250 * config.domain_id + 10 + 2 * first_place);
+  const auto at =
+      udp_locator(address, listening_port(config.domain_id, address));
   wire.builtin.metatrafficUnicastLocatorList.push_back(at);
   wire.default_unicast_locator_list.push_back(at);
 }
@@ -105,7 +120,8 @@ void apply(const topic_qos& qos, Qos& to) {
 
 dds::DomainParticipantQos
 to_participant_qos(const participant_config& config,
-                   std::shared_ptr<datagram_pacer> pacer) {
+                   std::shared_ptr<datagram_pacer> pacer,
+                   port_handler on_listening) {
   dds::DomainParticipantQos result;
   result.name(config.node_name);
   constexpr std::string_view enclave = "enclave=/;";
@@ -117,12 +133,12 @@ to_participant_qos(const participant_config& config,
       announcement_period_s, 0};
   if (config.servers.empty()) {
     result.transport().user_transports = {
-        paced(udp_everywhere(), std::move(pacer))};
+        paced(udp_everywhere(), std::move(pacer), std::move(on_listening))};
   } else {
     auto address = local_address_towards(config.servers.front());
     result.transport().user_transports = {paced(
         host_transport({address, max_datagram_bytes, socket_buffer_bytes}),
-        std::move(pacer))};
+        std::move(pacer), std::move(on_listening))};
     use_servers(wire, config, address);
   }
   auto pace = std::make_shared<rtps::FlowControllerDescriptor>();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "skills/ros2/flow/pace.hpp"
+#include "skills/ros2/flow/paced_transport.hpp"
 #include "skills/ros2/participant_config.hpp"
 #include "skills/ros2/topic_qos.hpp"
 
@@ -13,11 +14,13 @@
 /// INTERNAL to this folder: our settings in the words of Fast DDS.
 namespace roscell::ros2 {
 
-/// Its datagrams leave when `pacer` lets them. Throws engine::start_error when
-/// a discovery server cannot be reached.
+/// Its datagrams leave when `pacer` lets them; `on_listening` is called while
+/// the participant is made. Throws engine::start_error when a discovery server
+/// cannot be reached, or this host has no UDP port to listen on.
 eprosima::fastdds::dds::DomainParticipantQos to_participant_qos(
     const participant_config& config,
-    std::shared_ptr<datagram_pacer> pacer = std::make_shared<datagram_pacer>());
+    std::shared_ptr<datagram_pacer> pacer = std::make_shared<datagram_pacer>(),
+    port_handler on_listening = {});
 
 eprosima::fastdds::dds::DataReaderQos to_reader_qos(const topic_qos& qos);
 

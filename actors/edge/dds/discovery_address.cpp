@@ -1,11 +1,13 @@
 #include "actors/edge/dds/discovery_address.hpp"
 
 #include "actors/edge/host/interfaces.hpp"
+#include "dds/free_port.hpp"
 
 #include <array>
 #include <cerrno>
 #include <cstring>
 #include <utility>
+#include <vector>
 
 #include <arpa/inet.h>
 #include <sys/socket.h>
@@ -82,19 +84,13 @@ sockaddr_in udp_socket::local() const {
 
 edge_result<std::uint16_t> free_port(const std::string& address,
                                      std::uint16_t first, unsigned places) {
-  for (unsigned place = 0; place < places; ++place) {
-    const auto port = static_cast<std::uint16_t>(first + 2 * place);
-    const auto bound = udp_socket::bind(address, port);
-    const auto* error = std::get_if<edge_error>(&bound);
-    if (error == nullptr)
-      return port;
-    if (error->code != error_code::conflict)
-      return *error;
-  }
-  const auto bound = udp_socket::bind(address, 0);
-  if (const auto* error = std::get_if<edge_error>(&bound))
-    return *error;
-  return ntohs(std::get<udp_socket>(bound).local().sin_port);
+  // An address of no interface can be bound where it is a loopback one.
+  if (std::holds_alternative<edge_error>(resolve_interface(address)))
+    return bind_error(EADDRNOTAVAIL, address, first);
+  const auto found = free_port(std::vector{address}, first, places);
+  if (const auto* error = std::get_if<std::error_code>(&found))
+    return bind_error(error->value(), address, first);
+  return std::get<std::uint16_t>(found);
 }
 
 std::optional<sockaddr_in> to_socket_address(const std::string& address,

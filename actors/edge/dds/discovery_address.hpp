@@ -38,10 +38,8 @@ private:
   int fd_ = -1;
 };
 
-/// The first of `places` ports from `first` on, two apart as RTPS has them,
-/// that is free, else any port. Fast DDS by itself looks at a hundred places
-/// and gives up: no more processes than that could share an address. Whoever
-/// takes the port before the caller does makes Fast DDS try those that follow.
+/// As `free_port` of dds/free_port.hpp, on one address; refused as
+/// `udp_socket::bind` is.
 edge_result<std::uint16_t> free_port(const std::string& address,
                                      std::uint16_t first, unsigned places);
 

@@ -3,6 +3,8 @@
 #include <fastdds/rtps/transport/ChainingTransport.h>
 #include <fastdds/rtps/transport/ChainingTransportDescriptor.h>
 
+#include <fastrtps/utils/IPLocator.h>
+
 #include <utility>
 
 namespace roscell::ros2 {
@@ -13,12 +15,15 @@ namespace rtps = eprosima::fastrtps::rtps;
 using namespace eprosima::fastdds::rtps;
 
 struct paced_descriptor : ChainingTransportDescriptor {
-  paced_descriptor(transport_ptr lower, std::shared_ptr<datagram_pacer> by)
-      : ChainingTransportDescriptor(std::move(lower)), pacer(std::move(by)) {}
+  paced_descriptor(transport_ptr lower, std::shared_ptr<datagram_pacer> by,
+                   port_handler handler)
+      : ChainingTransportDescriptor(std::move(lower)), pacer(std::move(by)),
+        on_listening(std::move(handler)) {}
 
   TransportInterface* create_transport() const override;
 
   std::shared_ptr<datagram_pacer> pacer;
+  port_handler on_listening;
 };
 
 class paced_transport : public ChainingTransport {
@@ -34,7 +39,11 @@ public:
   bool OpenInputChannel(const rtps::Locator_t& at,
                         TransportReceiverInterface* receiver,
                         std::uint32_t max_bytes) override {
-    return low_level_transport_->OpenInputChannel(at, receiver, max_bytes);
+    if (!low_level_transport_->OpenInputChannel(at, receiver, max_bytes))
+      return false;
+    if (descriptor_.on_listening && !rtps::IPLocator::isMulticast(at))
+      descriptor_.on_listening(at.port);
+    return true;
   }
 
   bool send(rtps::SenderResource* lower, const rtps::octet* data,
@@ -61,9 +70,10 @@ TransportInterface* paced_descriptor::create_transport() const {
 
 } // namespace
 
-transport_ptr paced(transport_ptr lower,
-                    std::shared_ptr<datagram_pacer> pacer) {
-  return std::make_shared<paced_descriptor>(std::move(lower), std::move(pacer));
+transport_ptr paced(transport_ptr lower, std::shared_ptr<datagram_pacer> pacer,
+                    port_handler on_listening) {
+  return std::make_shared<paced_descriptor>(std::move(lower), std::move(pacer),
+                                            std::move(on_listening));
 }
 
 } // namespace roscell::ros2
