@@ -1,4 +1,5 @@
 #include "tools/roscell/doctor/network/addresses.hpp"
+#include "tools/roscell/doctor/network/bound_ports.hpp"
 #include "tools/roscell/doctor/network/buffers.hpp"
 #include "tools/roscell/doctor/network/ports.hpp"
 
@@ -111,10 +112,41 @@ TEST_CASE("ports that any program may get are reserved by the remedy",
   CHECK(judge_ephemeral({}, {{8420, 8420}}).how == judgement::skipped);
 }
 
-TEST_CASE("a domain without free ports is broken", "[doctor]") {
-  CHECK(judge_domain(0, 12).how == judgement::ok);
-  CHECK(judge_domain(0, 240).how == judgement::warning);
-  CHECK(judge_domain(0, 250).how == judgement::broken);
+TEST_CASE("a host with few ports left for ROS 2 programs is told before the "
+          "next program is deaf",
+          "[doctor]") {
+  const auto of_programs = [](unsigned domain, size_t count) {
+    const auto all = program_ports(domain);
+    return std::set<unsigned>(all.begin(),
+                              all.begin() + static_cast<int>(count));
+  };
+  CHECK(judge_domain(0, of_programs(0, 80)).how == judgement::ok);
+  CHECK(judge_domain(0, of_programs(0, 81)).how == judgement::warning);
+  CHECK(judge_domain(0, of_programs(0, 100)).how == judgement::warning);
+  CHECK(judge_domain(0, of_programs(0, 101)).how == judgement::broken);
+  CHECK(judge_domain(1, of_programs(0, 101)).how == judgement::ok);
+  // The highest domain has fewer, for the ports end.
+  CHECK(program_ports(232).back() == 65534);
+  CHECK(judge_domain(232, of_programs(232, 63)).how == judgement::broken);
+}
+
+TEST_CASE("the two ports of a program count once", "[doctor]") {
+  const auto found = judge_domain(0, {7400, 7410, 7411, 7413, 7414, 7700});
+  CHECK_THAT(found.seen, Contains("3 of the 101"));
+}
+
+TEST_CASE("bound ports are read from the kernel's table", "[doctor]") {
+  const std::string table =
+      "  sl  local_address rem_address   st tx_queue rx_queue tr tm->when "
+      "retrnsmt   uid  timeout inode ref pointer drops\n"
+      " 1097: 0500000A:1CF2 00000000:0000 07 00000000:00000000 00:00000000 "
+      "00000000     0        0 31245 2 0000000000000000 0\n"
+      " 1099: 0100007F:1CF2 00000000:0000 07 00000000:00000000 00:00000000 "
+      "00000000  1000        0 31246 2 0000000000000000 0\n"
+      " 1101: 00000000:2E23 00000000:0000 07 00000000:00000000 00:00000000 "
+      "00000000     0        0 31247 2 0000000000000000 0\n";
+  CHECK(ports_in(table) == std::set<unsigned>{7410, 11811});
+  CHECK(ports_in("").empty());
   CHECK(ports_of_domain(232).last == 65535);
   CHECK(public_ports(99).first == 32150);
 }

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <istream>
 #include <set>
 #include <sstream>
 #include <variant>
@@ -32,25 +33,31 @@ constexpr auto tcp_listens = "0A";
 /// A node that lives tells its name far sooner.
 constexpr std::chrono::seconds hello_limit{2};
 
+using row_handler = std::function<void(const bound_row&)>;
+
+void for_each_row(std::istream& table, const row_handler& look) {
+  std::string line;
+  std::getline(table, line);
+  while (std::getline(table, line)) {
+    std::istringstream words{line};
+    std::string number, local, remote, queues, timer, retries, uid, timeout;
+    bound_row row;
+    words >> number >> local >> remote >> row.state >> queues >> timer
+        >> retries >> uid >> timeout >> row.inode;
+    const auto colon = local.rfind(':');
+    if (colon == local.npos)
+      continue;
+    row.port = static_cast<unsigned>(
+        std::strtoul(local.c_str() + colon + 1, nullptr, 16));
+    look(row);
+  }
+}
+
 void for_each_bound(const std::string& proc, const std::string& protocol,
-                    const std::function<void(const bound_row&)>& look) {
+                    const row_handler& look) {
   for (const auto* version : {"", "6"}) {
-    std::ifstream in{proc + "/net/" + protocol + version};
-    std::string line;
-    std::getline(in, line);
-    while (std::getline(in, line)) {
-      std::istringstream words{line};
-      std::string number, local, remote, queues, timer, retries, uid, timeout;
-      bound_row row;
-      words >> number >> local >> remote >> row.state >> queues >> timer
-          >> retries >> uid >> timeout >> row.inode;
-      const auto colon = local.rfind(':');
-      if (colon == local.npos)
-        continue;
-      row.port = static_cast<unsigned>(
-          std::strtoul(local.c_str() + colon + 1, nullptr, 16));
-      look(row);
-    }
+    std::ifstream table{proc + "/net/" + protocol + version};
+    for_each_row(table, look);
   }
 }
 
@@ -106,13 +113,18 @@ std::string node_at(const std::string& address, uint16_t port) {
   }
 }
 
-size_t count_bound(const std::string& proc, unsigned first, unsigned last) {
-  std::set<unsigned> ports;
-  for_each_bound(proc, "udp", [&](const bound_row& row) {
-    if (row.port >= first && row.port <= last)
-      ports.insert(row.port);
-  });
-  return ports.size();
+std::set<unsigned> ports_in(const std::string& table) {
+  std::set<unsigned> result;
+  std::istringstream rows{table};
+  for_each_row(rows, [&](const bound_row& row) { result.insert(row.port); });
+  return result;
+}
+
+std::set<unsigned> bound_udp_ports(const std::string& proc) {
+  std::set<unsigned> result;
+  for_each_bound(proc, "udp",
+                 [&](const bound_row& row) { result.insert(row.port); });
+  return result;
 }
 
 } // namespace roscell::cli

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
+#include <set>
 #include <string>
 
 /// INTERNAL to ports: who has bound what.
@@ -20,7 +20,10 @@ port_holder find_port_holder(const std::string& proc,
 /// The name of the node whose HTTP port that is; empty: it is none's.
 std::string node_at(const std::string& address, uint16_t port);
 
-/// How many of these UDP ports are bound.
-size_t count_bound(const std::string& proc, unsigned first, unsigned last);
+/// The local ports of a table like /proc/net/udp.
+std::set<unsigned> ports_in(const std::string& table);
+
+/// All UDP ports that are bound in this network namespace.
+std::set<unsigned> bound_udp_ports(const std::string& proc);
 
 } // namespace roscell::cli

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstddef>
 #include <cstring>
 #include <sstream>
 
@@ -178,20 +179,39 @@ finding judge_ephemeral(const ephemeral_facts& facts,
               + inside};
 }
 
-finding judge_domain(unsigned domain, size_t used) {
+std::vector<unsigned> program_ports(unsigned domain) {
+  // D1 and PG of RTPS 2.3, 9.6.1.1; Fast DDS tries the first and 100 more.
+  constexpr unsigned first_unicast = 10;
+  constexpr unsigned participant_ports = 2;
+  constexpr unsigned tries = 101;
   const auto range = ports_of_domain(domain);
-  const auto all = range.last - range.first + 1;
-  const auto seen = std::to_string(used) + " of " + std::to_string(all)
-                    + " UDP ports of domain " + std::to_string(domain)
-                    + " are in use (" + range_text(range) + ")";
-  // A skill takes one or two.
-  constexpr size_t few = 20;
-  if (used + few < all)
+  std::vector<unsigned> result;
+  for (unsigned i = 0; i < tries; ++i) {
+    const auto port = range.first + first_unicast + participant_ports * i;
+    if (port < range.last)
+      result.push_back(port);
+  }
+  return result;
+}
+
+finding judge_domain(unsigned domain, const std::set<unsigned>& bound) {
+  const auto tried = program_ports(domain);
+  const auto used = std::count_if(tried.begin(), tried.end(), [&](auto port) {
+    return bound.count(port) + bound.count(port + 1) > 0;
+  });
+  const auto all = static_cast<std::ptrdiff_t>(tried.size());
+  const auto seen = std::to_string(used) + " of the " + std::to_string(all)
+                    + " ports that a ROS 2 program tries in domain "
+                    + std::to_string(domain) + " are in use";
+  constexpr std::ptrdiff_t spare = 21; // Of 101: warned from 81 on.
+  if (used <= all - spare)
     return {judgement::ok, seen};
-  return {used < all ? judgement::warning : judgement::broken, seen,
-          "skills of this host find no port to listen at",
-          "ss -lunp 'sport >= :" + std::to_string(range.first)
-              + " and sport <= :" + std::to_string(range.last) + "'"};
+  return {
+      used < all ? judgement::warning : judgement::broken, seen,
+      "a ROS 2 program that finds none of them free runs and hears nothing, "
+      "without a word of it",
+      "ss -uanp 'sport >= :" + std::to_string(tried.front())
+          + " and sport <= :" + std::to_string(tried.back() + 1) + "'"};
 }
 
 findings examine_ports(const examined_host& host) {
@@ -223,8 +243,7 @@ findings examine_dds_ports(const examined_host& host) {
   for (const unsigned port : {config.http_port, config.discovery_port})
     if (port != 0 && !host.node_runs)
       wanted.push_back({port, port});
-  return {judge_domain(config.ros_domain_id,
-                       count_bound(host.proc, skills.first, skills.last)),
+  return {judge_domain(config.ros_domain_id, bound_udp_ports(host.proc)),
           judge_ephemeral(look_at_ephemeral(host), wanted)};
 }
 

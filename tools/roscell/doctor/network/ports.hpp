@@ -4,6 +4,7 @@
 #include "tools/roscell/doctor/finding.hpp"
 
 #include <cstdint>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -51,8 +52,12 @@ std::vector<port_range> parse_port_ranges(const std::string& text);
 finding judge_ephemeral(const ephemeral_facts& facts,
                         const std::vector<port_range>& wanted);
 
-/// @param used how many of the domain's UDP ports are bound.
-finding judge_domain(unsigned domain, size_t used);
+/// The ports of a domain that a ROS 2 program tries one after the other until
+/// one is free; Fast DDS gives up after them. Those of messages are one above.
+std::vector<unsigned> program_ports(unsigned domain);
+
+/// @param bound UDP ports of this host that are in use.
+finding judge_domain(unsigned domain, const std::set<unsigned>& bound);
 
 findings examine_ports(const examined_host& host);
 findings examine_dds_ports(const examined_host& host);
