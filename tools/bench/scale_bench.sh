@@ -1,0 +1,160 @@
+#!/usr/bin/env bash
+# Measures how a cell bears many members that start at one moment: a coordinator
+# and N of them, each alone on a host (network namespaces on one bridge). Time
+# until all are in with the CPU that it takes, then CPU and wire of the
+# coordinator and of a member over the first minute, and the memory of both at
+# its end. What is said of a member is the median over up to 20 of them. One
+# JSON line a figure. Needs root.
+# Usage: tools/bench/scale_bench.sh N [--binary-dir BUILD_DIR]
+set -uo pipefail
+cd "$(dirname "$0")/../.."
+usage="usage: tools/bench/scale_bench.sh N [--binary-dir BUILD_DIR]"
+members=
+build=build/release
+while [[ $# -gt 0 ]]; do
+  case $1 in
+    --binary-dir) build=${2:?$usage}; shift ;;
+    *) members=$1 ;;
+  esac
+  shift
+done
+# The hosts' addresses are those of one /24, and one is the coordinator's.
+[[ $members =~ ^[0-9]+$ && $members -ge 1 && $members -le 253 ]] \
+  || { echo "$usage, of 1 to 253 members" >&2; exit 2; }
+[[ -x $build/bin/roscell ]] \
+  || { echo "SKIPPED: there is no $build/bin/roscell"; exit 77; }
+
+. tools/bench/on_nodes.sh "$build"
+. tools/bench/idle_nodes.sh
+skip() {
+  echo "SKIPPED: $*"
+  exit 77
+}
+
+span_s=60
+all_in_s=300
+most_sampled=20
+
+# launch I: a member on host I, which waits for the gate, so that all start at
+# one moment whatever it takes to make so many processes.
+launch() {
+  local name=node$1
+  ip netns exec "${hosts[$1 - 1]}" flock --no-fork -s "$scratch/gate" \
+    "$ROSCELL" node --name "$name" --data-dir "$scratch/$name" \
+    --interface "10.231.7.$1" --site-token "$scratch/site.token" \
+    --skills "$skills" --public-domain "$public_domain" --runtime process \
+    --join "$server" 2> "$scratch/$name.log" &
+  pid[$name]=$!
+  echo "${pid[$name]}" >> "$scratch/pids"
+}
+
+# await_members: until the coordinator has told of each of them.
+await_members() {
+  local end=$((SECONDS + all_in_s)) name joined reader
+  local -A in=()
+  exec {joined}< <(exec "$ROSCELL" events --to "$scratch/head/node.sock" \
+    --since 0 -o json 2> "$scratch/events.err" \
+    | jq --unbuffered -r 'select(.event == "node_joined") | .subject')
+  reader=$!
+  while [[ ${#in[@]} -lt $members && $SECONDS -lt $end ]] \
+    && read -r -t $((end - SECONDS)) name <&"$joined"; do
+    in[$name]=yes
+  done
+  kill "$reader" 2> /dev/null
+  exec {joined}<&-
+  [[ ${#in[@]} -eq $members ]] \
+    || fail "${#in[@]} of $members are in after $all_in_s s"
+}
+
+# cpu_s_of NAME...: CPU time of all of these.
+cpu_s_of() {
+  local name
+  for name in "$@"; do
+    cat /proc/"${pid[$name]}"/task/*/schedstat
+  done | awk '{sum += $1} END {printf "%.2f", sum / 1e9}'
+}
+
+# wire_of I DIRECTION: bytes that host I has sent or received, read at the
+# bridge's end of its cable, where that costs no process in its namespace.
+wire_of() {
+  local -A counter=([sent]=rx_bytes [received]=tx_bytes)
+  cat "/sys/class/net/$(host_link "$1")/statistics/${counter[$2]}"
+}
+
+# counters_of I NAME: what grows, in one line.
+counters_of() {
+  echo "$(cpu_ns "$2") $(wire_of "$1" sent) $(wire_of "$1" received)"
+}
+
+# growth BEFORE AFTER COLUMN PER: of one of the counters, per second and PER.
+growth() {
+  jq -n "$(cut -d' ' -f"$3" <<< "$2") - $(cut -d' ' -f"$3" <<< "$1")
+    | . / $4 / $span_s"
+}
+
+# coordinator_rates BEFORE AFTER: of the coordinator, whole and for each member.
+coordinator_rates() {
+  local cpu sent received
+  cpu=$(growth "$1" "$2" 1 1e7)
+  sent=$(growth "$1" "$2" 2 1)
+  received=$(growth "$1" "$2" 3 1)
+  figure "coordinator: CPU" "$cpu" "% of a core"
+  figure "coordinator: CPU, a member" "$(jq -n "$cpu / $members")" "% of a core"
+  figure "coordinator: wire, sent" "$sent" B/s
+  figure "coordinator: wire, received" "$received" B/s
+  figure "coordinator: wire, sent, a member" "$(jq -n "$sent / $members")" B/s
+  figure "coordinator: wire, received, a member" \
+    "$(jq -n "$received / $members")" B/s
+}
+
+# member_rate NAME COLUMN PER UNIT: the median over the sampled members.
+member_rate() {
+  local i
+  figure "member: $1" "$(for i in "${sampled[@]}"; do
+    growth "${before[i]}" "${after[i]}" "$2" "$3"
+  done | median)" "$4"
+}
+
+pss_mib() {
+  jq -n "$(memory_kib "$1" Pss) / 1024"
+}
+
+skills=$scratch/skills
+mkdir "$skills"
+bridge_hosts $((members + 1))
+make_site_token
+start_on 1 head --coordinator --cell line
+server=$(discovery_of head)
+exec {gate}> "$scratch/gate"
+flock -x "$gate"
+names=()
+for ((i = 2; i <= members + 1; ++i)); do
+  launch "$i"
+  names+=("node$i")
+done
+head_cpu=$(cpu_s_of head)
+begin=$(now_ms)
+flock -u "$gate"
+await_members
+figure "members: all of $members in" $(($(now_ms) - begin)) ms
+figure "members: CPU of all starts" "$(cpu_s_of "${names[@]}")" s
+figure "coordinator: CPU until all are in" \
+  "$(jq -n "$(cpu_s_of head) - $head_cpu")" s
+
+sampled=()
+for ((i = 2; i <= members + 1; i += (members + most_sampled - 1) / most_sampled)); do
+  sampled+=("$i")
+done
+before=() after=()
+before[1]=$(counters_of 1 head)
+for i in "${sampled[@]}"; do before[i]=$(counters_of "$i" "node$i"); done
+timeout "$span_s" tail -f /dev/null
+after[1]=$(counters_of 1 head)
+for i in "${sampled[@]}"; do after[i]=$(counters_of "$i" "node$i"); done
+coordinator_rates "${before[1]}" "${after[1]}"
+member_rate CPU 1 1e7 "% of a core"
+member_rate "wire, sent" 2 1 B/s
+member_rate "wire, received" 3 1 B/s
+figure "coordinator: Pss" "$(pss_mib head)" MiB
+figure "member: Pss" "$(for i in "${sampled[@]}"; do pss_mib "node$i"; done \
+  | median)" MiB
