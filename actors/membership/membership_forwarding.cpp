@@ -39,6 +39,18 @@ failure not_passed_on(const membership_status& st, const std::string& type) {
       "send it to the coordinator of cell '" + st.cell + "' at " + st.address};
 }
 
+/// The session ended before the answer came.
+failure coordinator_gone(const membership_status& st,
+                         const std::string& reason) {
+  return {error_code::unreachable,
+          "the coordinator of cell '" + st.cell + "' at " + st.address
+              + " has not answered: " + reason,
+          "",
+          "is its host up, and its process not stopped (`ps -C roscell -o "
+          "pid,stat,args` shows a T then)? `roscell status` tells when it is "
+          "back; ask again then"};
+}
+
 /// What a coordinator's answer lacks: where else one may ask.
 failure with_place(const membership_status& st, failure why) {
   if (why.hint.empty()
@@ -49,10 +61,13 @@ failure with_place(const membership_status& st, failure why) {
 
 void deliver(const membership_status& st, const caf::expected<json>& reply,
              caf::typed_response_promise<request_routed> promise) {
-  if (reply)
+  if (reply) {
     promise.deliver(request_routed{reply->dump(), ""});
-  else
-    promise.deliver(refusal(with_place(st, to_failure(reply.error()))));
+    return;
+  }
+  const auto why = to_failure(reply.error());
+  promise.deliver(refusal(st.session ? with_place(st, why)
+                                     : coordinator_gone(st, why.message)));
 }
 
 } // namespace

@@ -76,6 +76,51 @@ test_a_stopped_member_is_lost_within_its_lease_and_comes_back_as_the_same() {
     | jq -r '.nodes[] | select(.identity.name == "arm") | .identity.uuid')" "$uuid"
 }
 
+# asked_in_vain NAME TO COMMAND...: that the command ends with 3 within 15 s, and
+# what it says, in NAME.err.
+asked_in_vain() {
+  local name=$1 begin code=0
+  begin=$(date +%s%3N)
+  to "${@:2}" > "$scratch/$name.out" 2> "$scratch/$name.err" || code=$?
+  echo "$code $(($(date +%s%3N) - begin))" > "$scratch/$name.ended"
+}
+
+test_a_stopped_coordinator_costs_a_command_15_s_at_most_and_is_named() {
+  start_cell arm
+  echo_task late arm > "$scratch/late.json"
+  address=$(get head /v1/cell | jq -r .address)
+  kill -STOP "${pid[head]}"
+  commands=(request plan drain form tasks member)
+  asked_in_vain request head request "$scratch/late.json" &
+  waits=($!)
+  asked_in_vain plan head plan "$scratch/late.json" &
+  waits+=($!)
+  asked_in_vain drain head drain arm &
+  waits+=($!)
+  asked_in_vain form head form belt &
+  waits+=($!)
+  asked_in_vain tasks head tasks &
+  waits+=($!)
+  asked_in_vain member arm request "$scratch/late.json" &
+  waits+=($!)
+  ROSCELL_TIMEOUT=600ms asked_in_vain tab head nodes
+  wait "${waits[@]}"
+  for name in "${commands[@]}"; do
+    read -r code took < "$scratch/$name.ended"
+    expect "exit code of $name" "$code" 3
+    [[ $took -le 15000 ]] || fail "$name took $took ms"
+  done
+  for name in request plan drain form tasks; do
+    has_line "$scratch/head/node.sock.* is silent" < "$scratch/$name.err" \
+      || fail "$name says: $(cat "$scratch/$name.err")"
+  done
+  jq -r .error.message "$scratch/member.out" \
+    | has_line "coordinator of cell 'line' at $address" \
+    || fail "the member says: $(cat "$scratch/member.out")"
+  read -r _ took < "$scratch/tab.ended"
+  [[ $took -le 3000 ]] || fail "Tab took $took ms"
+}
+
 test_an_instance_survives_a_killed_node_and_is_adopted() {
   start_cell arm
   echo_task steady arm | to head request > "$scratch/reply.json"

@@ -130,6 +130,14 @@ TEST_CASE("completion asks the node for ids", "[tools]") {
   CHECK(offered("roscell logs ''", "no instances\n") == "\n");
 }
 
+TEST_CASE("completion waits no longer for a node than a person does",
+          "[tools]") {
+  const auto* patience = "HEAD\n'\"$ROSCELL_TIMEOUT\"'\n";
+  CHECK(offered("roscell logs ''", patience) == "600ms\n");
+  CHECK(has(script(zsh_completion), "ROSCELL_TIMEOUT=600ms roscell $kind"));
+  CHECK(has(script(fish_completion), "ROSCELL_TIMEOUT=600ms roscell $argv"));
+}
+
 TEST_CASE("completion offers nodes, then cells to move them to", "[tools]") {
   const std::string table = "NAME  X\none  a\ntwo  b\n";
   // The table is what any question is answered with; its kind is the echo.

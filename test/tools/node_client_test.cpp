@@ -1,12 +1,14 @@
 #include "tools/roscell/client/node_client.hpp"
 
 #include "actors/edge/http/client/http_call.hpp"
+#include "messages/failure.hpp"
 #include "test/fake_engine.hpp"
 #include "tools/roscell/exit_code.hpp"
 
 #include <catch2/catch.hpp>
 
 #include <cerrno>
+#include <cstdlib>
 #include <string>
 
 #include <unistd.h>
@@ -56,6 +58,35 @@ TEST_CASE("a node that ends while it deploys is told of, and the remedy",
   CHECK(told(R"({"type":"cell_query"})")
         == "the node ended while it worked on the request; ask again once it "
            "is back");
+}
+
+TEST_CASE("who has no patience is told at once that a node does not answer",
+          "[tools]") {
+  const auto path = "/tmp/roscell-node-client-" + std::to_string(::getpid());
+  const test::fake_engine node{
+      path, [](test::engine_caller&, const test::engine_call_seen&) {}};
+  const node_client client{{path, {}}};
+  const auto code_of_get = [&] {
+    try {
+      client.get("/v1/node");
+      return exit_done;
+    } catch (const command_error& e) {
+      return e.code;
+    }
+  };
+  ::setenv("ROSCELL_TIMEOUT", "20ms", 1);
+  CHECK(code_of_get() == exit_unreachable);
+  ::setenv("ROSCELL_TIMEOUT", "soon", 1);
+  CHECK(code_of_get() == exit_usage);
+  ::unsetenv("ROSCELL_TIMEOUT");
+}
+
+TEST_CASE("a node that another one cannot reach is unreachable, too",
+          "[tools]") {
+  CHECK(exit_code_of_refusal(error_reply({error_code::unreachable, "gone"}))
+        == exit_unreachable);
+  CHECK(exit_code_of_refusal(error_reply({error_code::conflict, "no"}))
+        == exit_refused);
 }
 
 TEST_CASE("an error reply keeps its form", "[tools]") {

@@ -32,7 +32,7 @@ int perform(const action& chosen) {
       print(pretty(e.reply));
     else
       print_refusal(e.reply);
-    return exit_refused;
+    return exit_code_of_refusal(e.reply);
   } catch (const command_error& e) {
     print_error(e.what(), e.hint);
     return e.code;

@@ -184,7 +184,8 @@ TEST_CASE_METHOD(membership_trouble_test,
 }
 
 TEST_CASE_METHOD(membership_trouble_test,
-                 "a coordinator that falls silent fails what it was passed") {
+                 "a coordinator that falls silent is named to who has asked, "
+                 "with a remedy") {
   form_cell();
   node.link->silent = true;
   auto reply = time.ask<request_routed>(
@@ -192,6 +193,11 @@ TEST_CASE_METHOD(membership_trouble_test,
   site.pass(limits::lease::span + 1s);
   REQUIRE(*reply);
   CHECK((*reply)->value().refusal == "unreachable");
+  const auto said = json::parse((*reply)->value().text)["error"];
+  CHECK(said["message"]
+        == "the coordinator of cell 'cell-1' at 10.0.0.1:8420 has not "
+           "answered: silent for 8 s");
+  CHECK_THAT(said["hint"].get<std::string>(), Contains("roscell status"));
 }
 
 TEST_CASE_METHOD(membership_trouble_test,

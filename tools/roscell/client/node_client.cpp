@@ -1,10 +1,13 @@
 #include "tools/roscell/client/node_client.hpp"
 
 #include "tools/roscell/client/event_words.hpp"
-#include "tools/roscell/exit_code.hpp"
+#include "tools/roscell/view/format.hpp"
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
+#include <cstdlib>
+#include <optional>
 #include <variant>
 
 namespace roscell::cli {
@@ -12,7 +15,35 @@ namespace roscell::cli {
 namespace {
 
 /// A node that lives answers a question about itself far sooner.
-constexpr std::chrono::seconds answer_limit{10};
+constexpr std::chrono::seconds answer_limit{15};
+
+/// A request may take minutes, but a node that has nothing to say meanwhile is
+/// asked whether it lives, which no work of its own keeps it from answering:
+/// one that is stopped costs a command 14 s.
+http_client::proof_of_life proof_of_life() {
+  return {"/healthz", std::chrono::seconds{5}, std::chrono::seconds{9}};
+}
+
+/// Of $ROSCELL_TIMEOUT, which those set who cannot wait, as completions of
+/// shells; none: no more is wanted than a proof of life.
+std::optional<std::chrono::milliseconds> patience_of_user() {
+  const auto* text = std::getenv("ROSCELL_TIMEOUT");
+  if (text == nullptr || *text == '\0')
+    return std::nullopt;
+  try {
+    return parse_duration(text);
+  } catch (const std::invalid_argument& e) {
+    throw command_error{exit_usage,
+                        std::string{"ROSCELL_TIMEOUT: "} + e.what()};
+  }
+}
+
+http_client::options waiting_for(std::chrono::milliseconds limit) {
+  http_client::options result;
+  result.timeout = std::min(limit, patience_of_user().value_or(limit));
+  result.proof = proof_of_life();
+  return result;
+}
 
 std::string check_target(const std::string& text) {
   try {
@@ -80,6 +111,12 @@ constexpr int status_ok = 200;
 
 } // namespace
 
+exit_code exit_code_of_refusal(const json& refusal) {
+  return failure_from(refusal).code == error_code::unreachable
+             ? exit_unreachable
+             : exit_refused;
+}
+
 json unless_refused(json reply, bool as_json) {
   if (reply.value("type", "") != "error")
     return reply;
@@ -106,9 +143,7 @@ node_client::node_client(const connection_options& options)
     : to_{target_of(options)}, http_{endpoint_of(to_, options)} {}
 
 json node_client::get(const std::string& path) const {
-  http_client::options how;
-  how.timeout = answer_limit;
-  const auto result = http_.request("GET", path, "", how);
+  const auto result = http_.request("GET", path, "", waiting_for(answer_limit));
   const auto& reply = checked(result);
   auto document = document_of(to_, reply);
   if (reply.status != status_ok)
@@ -118,8 +153,7 @@ json node_client::get(const std::string& path) const {
 
 json node_client::post(const std::string& path, const std::string& body,
                        std::chrono::milliseconds limit) const {
-  http_client::options how;
-  how.timeout = limit;
+  auto how = waiting_for(limit);
   how.when_cut_off = node_ended_while(body);
   const auto result = http_.request("POST", path, body, how);
   return document_of(to_, checked(result));
@@ -135,8 +169,7 @@ json node_client::ask(const json& request,
 
 void node_client::follow(const std::string& path, const line_handler& on_line,
                          const http_cancel* cancel) const {
-  http_client::options how;
-  how.timeout = answer_limit;
+  auto how = waiting_for(answer_limit);
   how.cancel = cancel;
   const auto result = http_.follow(path, on_line, how);
   const auto* why = std::get_if<edge_error>(&result);

@@ -4,6 +4,7 @@
 #include "messages/codec/json_codec.hpp"
 #include "messages/event.hpp"
 #include "tools/roscell/client/target.hpp"
+#include "tools/roscell/exit_code.hpp"
 
 #include <chrono>
 #include <cstdint>
@@ -31,6 +32,10 @@ public:
   bool as_json = false; ///< Print it on standard output.
 };
 
+/// What a command ends with that such an error reply has ended: a node that
+/// the asked one cannot reach is no more there than one that does not answer.
+exit_code exit_code_of_refusal(const json& refusal);
+
 /// The reply, unless it is an error: that is thrown as `refused`.
 json unless_refused(json reply, bool as_json);
 
@@ -47,8 +52,9 @@ void add_connection_options(CLI::App& command, connection_options& options);
 inline constexpr uint64_t from_now_on = 9007199254740991;
 
 /// One node, asked over HTTP. Every function throws `refused` for an error
-/// reply and command_error if the node cannot be reached. Safe to be shared
-/// by threads.
+/// reply and command_error if the node cannot be reached, or has nothing to say
+/// and does not say that it lives either. $ROSCELL_TIMEOUT shortens each wait.
+/// Safe to be shared by threads.
 class node_client {
 public:
   explicit node_client(const connection_options& options);

@@ -125,7 +125,8 @@ _roscell_interfaces() {
   _roscell_words "$(ls /sys/class/net 2>/dev/null)"
 }
 
-# Ids are the first column of a table; what the node refuses is not shown.
+# Ids are the first column of a table; what the node refuses is not shown, and
+# one that does not answer at once is not waited for.
 # compgen expands its words like the shell does, so that no other text of a
 # node may come to it.
 _roscell_ids() {
@@ -136,7 +137,7 @@ _roscell_ids() {
       --to|--token-file) to+=("${line[i]}" "${line[i + 1]}") ;;
     esac
   done
-  _roscell_words "$(roscell "$1" "${to[@]}" 2>/dev/null |
+  _roscell_words "$(ROSCELL_TIMEOUT=600ms roscell "$1" "${to[@]}" 2>/dev/null |
     awk 'NR > 1 && $1 ~ /^[A-Za-z0-9._-]+$/ { print $1 }')"
 }
 

@@ -86,7 +86,8 @@ function __roscell_interfaces
     command ls /sys/class/net 2>/dev/null
 end
 
-# Ids are the first column of a table; what the node refuses is not shown.
+# Ids are the first column of a table; what the node refuses is not shown, and
+# one that does not answer at once is not waited for.
 function __roscell_ids
     set -l words (commandline -opc)
     set -l to
@@ -95,7 +96,7 @@ function __roscell_ids
             set to $to $words[$i] $words[(math $i + 1)]
         end
     end
-    roscell $argv $to 2>/dev/null |
+    ROSCELL_TIMEOUT=600ms roscell $argv $to 2>/dev/null |
         awk 'NR > 1 && $1 ~ /^[A-Za-z0-9._-]+$/ { print $1 }'
 end
 

@@ -87,7 +87,8 @@ _roscell_commands() {
   _describe command _roscell_all
 }
 
-# Ids are the first column of a table; what the node refuses is not shown.
+# Ids are the first column of a table; what the node refuses is not shown, and
+# one that does not answer at once is not waited for.
 _roscell_ids() {
   local -a to
   local kind=$1 i
@@ -96,7 +97,7 @@ _roscell_ids() {
       --to|--token-file) to+=("$words[i]" "$words[i+1]") ;;
     esac
   done
-  compadd -- ${(f)"$(roscell $kind $to 2>/dev/null |
+  compadd -- ${(f)"$(ROSCELL_TIMEOUT=600ms roscell $kind $to 2>/dev/null |
     awk 'NR > 1 && $1 ~ /^[A-Za-z0-9._-]+$/ { print $1 }')"}
 }
 

@@ -172,7 +172,7 @@ int show_refusal(const failure& why, const plan_options& options,
   const auto reply = error_reply(why);
   if (options.output == "json") {
     print(pretty(reply));
-    return exit_refused;
+    return exit_code_of_refusal(reply);
   }
   if (const auto rejected = rejected_in(why); !rejected.empty())
     print(rejected_view(rejected, stdout_style()));
@@ -182,7 +182,7 @@ int show_refusal(const failure& why, const plan_options& options,
   if (as_written)
     print_text(marked_errors(options.file, text, reply));
   print_refusal(reply);
-  return exit_refused;
+  return exit_code_of_refusal(reply);
 }
 
 int show_plan(const plan_options& options) {

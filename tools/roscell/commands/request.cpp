@@ -75,7 +75,7 @@ int request_and_wait(const request_options& options, const std::string& text,
   print(pretty(reply));
   if (reply.value("type", "") == "error") {
     print_text(marked_errors(options.file, text, reply));
-    return exit_refused;
+    return exit_code_of_refusal(reply);
   }
   return wait_until_ended(node, task_of(body), since);
 }
@@ -93,7 +93,7 @@ int send_request(const request_options& options) {
   if (reply.value("type", "") != "error")
     return exit_done;
   print_text(marked_errors(options.file, text, reply));
-  return exit_refused;
+  return exit_code_of_refusal(reply);
 }
 
 } // namespace

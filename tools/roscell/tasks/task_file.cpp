@@ -1,8 +1,8 @@
 #include "tools/roscell/tasks/task_file.hpp"
 
 #include "schemas/document.hpp"
+#include "tools/roscell/client/node_client.hpp"
 #include "tools/roscell/client/read_file.hpp"
-#include "tools/roscell/exit_code.hpp"
 #include "tools/roscell/view/format.hpp"
 #include "tools/roscell/view/marked_errors.hpp"
 #include "tools/roscell/view/plan_view.hpp"
@@ -65,7 +65,7 @@ int show_wrong_document(const wrong_document& e, bool as_json) {
     print(pretty(reply));
   else
     show_places(e, reply);
-  return exit_refused;
+  return exit_code_of_refusal(reply);
 }
 
 } // namespace roscell::cli

@@ -87,6 +87,14 @@ edge_error describe_http_failure(const http_failure& why,
             name + " did not answer within "
                 + std::to_string(what.timeout.count()) + " ms",
             ""};
+  case http_failure::kind::silent:
+    return {error_code::unreachable,
+            name
+                + " is silent: it takes connections and answers nothing, not "
+                  "even whether it lives",
+            "its process is stopped or its host hangs; on that host `ps -C "
+            "roscell -o pid,stat,args` shows a T for one that is stopped, and "
+            "`kill -CONT PID` lets it go on"};
   case http_failure::kind::cut_off:
     return {error_code::unreachable,
             name + " ended the connection before it had answered",

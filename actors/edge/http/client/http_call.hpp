@@ -53,6 +53,7 @@ struct http_failure {
     no_connection, ///< `system_error` says why.
     no_file,       ///< `system_error` says why.
     timeout,
+    silent,   ///< The server gave no proof of life meanwhile.
     cut_off,  ///< The connection ended before the reply did.
     broken,   ///< What came is no reply.
     too_long, ///< The reply is.

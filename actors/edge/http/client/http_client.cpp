@@ -1,6 +1,7 @@
 #include "actors/edge/http/client/http_client.hpp"
 
 #include "actors/edge/http/client/http_exchange.hpp"
+#include "actors/edge/http/client/life_probe.hpp"
 #include "actors/edge/io/line_splitter.hpp"
 
 #include <boost/asio/posix/stream_descriptor.hpp>
@@ -48,7 +49,7 @@ edge_result<std::string> resolve(const http_endpoint& to) {
 class waiting_call {
 public:
   explicit waiting_call(const http_client::options& how)
-      : core_(std::make_shared<io_core>(edge_log{})),
+      : core_(std::make_shared<io_core>(edge_log{})), proof_(how.proof),
         cancelled_(core_->context()) {
     if (how.cancel != nullptr)
       cancelled_.assign(::fcntl(how.cancel->fd(), F_DUPFD_CLOEXEC, 0));
@@ -60,22 +61,50 @@ public:
       result = std::move(outcome);
       core_->stop();
     };
+    const auto probe = make_probe(what);
+    if (probe && calls.on_bytes)
+      calls.on_bytes = [probe, pass = std::move(calls.on_bytes)](auto bytes) {
+        probe->wait();
+        return pass(bytes);
+      };
     auto exchange = std::make_shared<http_exchange>(core_, std::move(what),
                                                     std::move(calls));
+    watched_ = exchange;
     if (cancelled_.is_open())
-      cancelled_.async_wait(
-          boost::asio::posix::stream_descriptor::wait_read,
-          [exchange = std::weak_ptr{exchange}](boost::system::error_code ec) {
-            if (const auto x = exchange.lock(); x && !ec)
-              x->finish(http_failure{http_failure::kind::cancelled, {}, 0});
-          });
+      cancelled_.async_wait(boost::asio::posix::stream_descriptor::wait_read,
+                            [this](boost::system::error_code ec) {
+                              if (!ec)
+                                end_with(http_failure::kind::cancelled);
+                            });
     core_->post([exchange = std::move(exchange)] { exchange->start(); });
+    if (probe)
+      core_->post([probe] { probe->wait(); });
     core_->run();
     return result;
   }
 
 private:
+  /// Null if nobody wants a proof of life.
+  std::shared_ptr<life_probe> make_probe(const http_call& what) {
+    if (!proof_)
+      return nullptr;
+    http_call question;
+    question.to = what.to;
+    question.target = proof_->path;
+    question.timeout = proof_->limit;
+    return std::make_shared<life_probe>(
+        core_, std::move(question), proof_->pause,
+        [this] { end_with(http_failure::kind::silent); });
+  }
+
+  void end_with(http_failure::kind why) {
+    if (const auto exchange = watched_.lock())
+      exchange->finish(http_failure{why, {}, 0});
+  }
+
   std::shared_ptr<io_core> core_;
+  const std::optional<http_client::proof_of_life> proof_;
+  std::weak_ptr<http_exchange> watched_;
   boost::asio::posix::stream_descriptor cancelled_;
 };
 

@@ -44,12 +44,23 @@ public:
     return to_;
   }
 
+  /// How a server that sends nothing is asked whether it lives.
+  struct proof_of_life {
+    std::string path; ///< Asked by GET on a connection of its own.
+    /// Without a byte, before it is asked, and asked again.
+    std::chrono::milliseconds pause;
+    std::chrono::milliseconds limit; ///< For the answer.
+  };
+
   struct options {
     std::map<std::string, std::string> headers;
     /// For `request` from the first connection attempt to the last byte, for
     /// `follow` up to the beginning of the reply.
     std::chrono::milliseconds timeout = limits::http::client_timeout;
     const http_cancel* cancel = nullptr;
+    /// Ends the wait for a server that does not live, with `unreachable`;
+    /// without it only the timeout does.
+    std::optional<proof_of_life> proof;
     /// The error where the server ends the connection before it has answered;
     /// otherwise a general one.
     std::optional<edge_error> when_cut_off;

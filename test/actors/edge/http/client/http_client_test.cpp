@@ -1,4 +1,8 @@
 #include "test/actors/edge/http/canned_server.hpp"
+#include "test/fake_engine.hpp"
+
+#include <atomic>
+#include <future>
 
 namespace roscell::test::wire {
 
@@ -110,6 +114,51 @@ TEST_CASE("who waits for a stream can be cancelled from another thread") {
   cancel.cancel();
   reader.join();
   CHECK(expect_error(result).message == "cancelled");
+}
+
+TEST_CASE("a server that is stopped is not waited for") {
+  // The kernel goes on to accept connections for it.
+  const canned_server server{"", false};
+  http_client::options how;
+  how.timeout = 1h;
+  how.proof = {"/healthz", 20ms, 50ms};
+  const auto why = expect_error(client_of(server).request("GET", "/", {}, how));
+  CHECK(why.code == error_code::unreachable);
+  CHECK_THAT(why.message, Catch::Contains(client_of(server).endpoint().name()));
+  CHECK_THAT(why.hint, Catch::Contains("kill -CONT"));
+}
+
+TEST_CASE("a stream whose server is stopped ends") {
+  const canned_server server{"HTTP/1.1 200 OK\r\n\r\n1\n", false};
+  http_client::options how;
+  how.proof = {"/healthz", 20ms, 50ms};
+  int count = 0;
+  const auto count_lines = [&](std::string_view) { return ++count > 0; };
+  CHECK(expect_error(client_of(server).follow("/", count_lines, how)).code
+        == error_code::unreachable);
+  CHECK(count == 1);
+}
+
+TEST_CASE("a server that works for long and says so meanwhile is waited "
+          "for") {
+  const auto path = "/tmp/roscell-proof-of-life-" + std::to_string(::getpid());
+  constexpr int answers_meanwhile = 3;
+  std::promise<void> asked_often;
+  std::atomic<int> answers{0};
+  const fake_engine server{
+      path, [&](engine_caller& who, const engine_call_seen& what) {
+        if (what.target == "/long")
+          asked_often.get_future().wait();
+        else if (++answers == answers_meanwhile)
+          asked_often.set_value();
+        who.reply(200, what.target);
+      }};
+  http_endpoint to;
+  to.socket_path = path;
+  http_client::options how;
+  how.proof = {"/healthz", 10ms, 10s};
+  CHECK(expect(http_client{to}.request("GET", "/long", {}, how)).body
+        == "/long");
 }
 
 TEST_CASE("a path that would break the request is not sent") {
