@@ -1,5 +1,6 @@
 #include "tools/roscell/client/node_client.hpp"
 
+#include "messages/failure.hpp"
 #include "tools/roscell/client/event_words.hpp"
 #include "tools/roscell/view/format.hpp"
 
