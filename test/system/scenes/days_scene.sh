@@ -1,13 +1,14 @@
-# A cell of three hosts on a day that goes wrong for one of them, the third. A
-# camera and a reader of another camera's pictures are there, a third stream is
-# between the two others, and a program of ROS 2 that no task has started passes
-# pictures on. What counts are pictures that arrive, after the day and once more
-# after each step was started anew. To be sourced by files of tests.
+# A cell of three hosts on a day that goes wrong for one of them, mostly the third.
+# A camera and a reader of another camera's pictures are there, a third stream is
+# between the two others, and the pictures of a fourth pass through a program there
+# that no task has started, as `roscell env` says. What counts are pictures that
+# arrive, after the day and once more after each step was started anew. To be
+# sourced by files of tests.
 
 # The streams: who has the camera, and who looks at the pictures.
 declare -A camera_on=([there]=left [from]=right [beside]=left [guest]=left)
 declare -A reader_on=([there]=right [from]=left [beside]=head [guest]=head)
-streams=(there from beside)
+streams=(there from beside guest)
 
 # start_day [OPTION...]: the cell, with these options of each node. Where it ends
 # each stream flows.
@@ -26,7 +27,20 @@ start_day() {
   start_host left
   start_host right
   for name in "${streams[@]}"; do start_stream "$name"; done
+  start_guest
   for name in "${streams[@]}"; do flows "$name" "$deadline_s"; done
+}
+
+# start_guest: the program on the third host, as a person would start it.
+start_guest() {
+  (
+    eval "$(to right env)"
+    exec ip netns exec "${hosts[2]}" "$ROSCELL_BUILD/bin/stock_program" \
+      sensor_msgs/msg/Image --ros-args -r in:=/guest/image \
+      -r out:=/guest/passed_on
+  ) > "$scratch/guest.log" 2>&1 &
+  guest=$!
+  echo "$guest" >> "$scratch/pids"
 }
 
 declare -A number_of=([head]=1 [left]=2 [right]=3)
@@ -47,6 +61,9 @@ start_host() {
     --site-token "$scratch/site.token" "${how[@]}" "${day_options[@]}"
   inside=()
   [[ $name == head ]] || await_member "$name"
+  # Its person starts it again where the host was off.
+  [[ $name != right || -z ${guest:-} ]] || kill -0 "$guest" 2> /dev/null \
+    || start_guest
 }
 
 # await_member NAME: until it is in the cell, anew if it was before.
@@ -65,14 +82,16 @@ start_stream() {
     def ros2($topic; $type):
       {protocol: "ros2", endpoint: "/\($name)/\($topic)",
        data_type: "sensor_msgs/msg/\($type)"};
-    [ros2("image"; "Image"), ros2("camera_info"; "CameraInfo")] as $scene
+    ros2("camera_info"; "CameraInfo") as $info
+    | (if $name != "guest" then ros2("image"; "Image")
+       else ros2("passed_on"; "Image") + {external: true} end) as $image
     | {type: "task_request", task: $name, pipeline: [
         {id: "camera", operation: "image_source", model: "folder",
          labels: {place: $camera}, parameters: {rate_hz: 5},
          input: {protocol: "file", endpoint: $photos, data_type: "image/jpeg"},
-         output: $scene},
+         output: [ros2("image"; "Image"), $info]},
         {id: "reader", operation: "pose_estimation", model: "apriltag3",
-         labels: {place: $reader}, input: $scene,
+         labels: {place: $reader}, input: [$image, $info],
          output: {protocol: "file", endpoint: $poses,
                   data_type: "application/json"}}]}' \
     | to head request - > "$scratch/reply.json" \
@@ -148,6 +167,36 @@ kill_host() {
   timeout "$deadline_s" tail --pid="${pid[$1]}" -f /dev/null
   ip link set "$(host_link "${number_of[$1]}")" up
   cat /proc/sys/kernel/random/uuid > "$scratch/$1.boot"
+}
+
+# await_anew NAME ADDRESS: until its node is made anew there.
+await_anew() {
+  local anew
+  anew=$(grep -c "listens on $2:" "$scratch/$1.log")
+  timeout "$deadline_s" grep -m $((anew + 1)) "listens on $2:" \
+    > "$scratch/matches" \
+    < <(exec tail --pid=$$ -n +1 -F "$scratch/$1.log" 2> /dev/null) \
+    || fail "$1 is not made anew: $(tail -n 3 "$scratch/$1.log")"
+}
+
+# readdress NAME ADDRESS: the host has this one from now on, instead of its own.
+readdress() {
+  local host=${hosts[$((number_of[$1] - 1))]}
+  ip -n "$host" addr flush dev eth0
+  ip -n "$host" addr add "$2/24" dev eth0
+  ip -n "$host" route replace default dev eth0
+}
+
+# replug NAME SECONDS: its interface is gone for so long, and is another one then.
+replug() {
+  local n=${number_of[$1]}
+  local host=${hosts[$((n - 1))]}
+  ip -n "$host" link del eth0
+  sleep "$2"
+  ip link add "$(host_link "$n")" type veth peer name eth0 netns "$host"
+  ip link set "$(host_link "$n")" master "$bridge" up
+  ip -n "$host" link set eth0 up
+  readdress "$1" "10.231.7.$n"
 }
 
 # kill_node NAME: the node alone; its skills go on.
