@@ -26,7 +26,8 @@ start_pair() {
   await_joined head arm
 }
 
-# said NAME TEXT: its log has it, or gets it in time.
+# said NAME TEXT: its log has it, or gets it in time. The events of a node end
+# when it is made anew, its log does not.
 said() {
   timeout "$deadline_s" grep -qm 1 -- "$2" \
     <(tail -n +1 -F "$scratch/$1.log" 2> /dev/null) \
@@ -60,7 +61,7 @@ test_a_member_whose_address_changes_keeps_its_row_and_starts_its_step_anew() {
 test_a_coordinator_goes_on_at_its_new_address() {
   start_pair
   has_address 1 11
-  await head '.event == "address_changed"' > /dev/null
+  said head "address_changed 'head' from=10.231.7.1 interface=eth0 to=10.231.7.11"
   expect "its server" "$(discovery_of head)" 10.231.7.11:11811
   expect "its cell" "$(get head /v1/cell | jq -r .cell)" line
 }
@@ -73,7 +74,7 @@ test_a_short_gap_of_an_address_changes_nothing_and_a_long_one_renews() {
   # Longer than what is tolerated, by the clock of the test.
   timeout 2 tail -f /dev/null
   has_address 2 2
-  await arm '.event == "address_returned"' > /dev/null
+  said arm "address_returned 'arm' address=10.231.7.2"
   await arm '.event == "cell_joined"' > /dev/null
   expect "renewals" "$(grep -c "is made anew" "$scratch/arm.log")" 1
 }
