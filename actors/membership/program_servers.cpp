@@ -61,24 +61,16 @@ void begin_doubt(discovery_self self, const follow_server& wish) {
                                          false, number});
 }
 
-/// Another meeting may have begun since the one that this is about.
+/// Another meeting may have begun since the one that this is about. Without a
+/// meeting it is about a server that has been lost for long.
 void settle(discovery_self self, cell_server& own, const follow_server& wish) {
   const auto id = static_cast<uint8_t>(wish.server_id);
   const auto x = self->state.met.find(id);
-  if (x != self->state.met.end() && x->second.number == wish.meeting)
+  const bool is_met = x != self->state.met.end();
+  if (is_met && x->second.number == wish.meeting)
     own.end_doubt(id, wish.uuid, x->second.since);
-}
-
-/// Whether only the coordinator's server is another one, or elsewhere.
-bool is_same_server(const discovery_place& x, const discovery_place& y) {
-  return x.server_id == y.server_id && x.domain_id == y.domain_id;
-}
-
-void point_to_remote(discovery_self self) {
-  const auto& place = self->state.served;
-  if (const auto at = parse_socket_address(place.remote))
-    self->state.server->set_remote(
-        {at->address, at->port, static_cast<uint8_t>(place.remote_id)});
+  else if (!is_met && wish.meeting == 0)
+    own.forget(id);
 }
 
 } // namespace

@@ -65,6 +65,27 @@ TEST_CASE("both discovery servers lose each other with the session and meet "
   CHECK(x.arm.served->remote_is_there);
 }
 
+TEST_CASE("programs of a host that is silent for a minute are taken for ended",
+          "[servers]") {
+  cell_of_two x;
+  x.told();
+  x.place.block(x.base.index, x.arm.index);
+  x.place.pass(50s);
+  CHECK(x.told() == contacts{server_contact::lost});
+  x.place.pass(30s);
+  REQUIRE(x.base.followed.size() == 1);
+  CHECK(x.base.followed.front().contact == server_contact::settled);
+  CHECK(x.base.followed.front().meeting == 0);
+}
+
+TEST_CASE("programs of a node that was killed go on to be known", "[servers]") {
+  cell_of_two x;
+  x.told();
+  x.place.kill(x.arm);
+  x.place.pass(200s);
+  CHECK(x.told() == contacts{server_contact::lost});
+}
+
 TEST_CASE("what a released node's discovery server has told of ends",
           "[servers]") {
   cell_of_two x;

@@ -2,9 +2,16 @@
 
 #include "actors/house/limits.hpp"
 
+#include <chrono>
 #include <utility>
 
 namespace roscell {
+
+namespace {
+
+constexpr std::chrono::seconds silent_host{60};
+
+} // namespace
 
 void meet_member_server(coordinator_pointer self, int64_t server_id,
                         const node_registration& node,
@@ -30,6 +37,16 @@ void follow_member_server(coordinator_pointer self, const registry_entry& entry,
   wish.server_id = entry.server_id;
   wish.contact = contact;
   caf::anon_send(discovery, wish);
+}
+
+void doubt_silent_host(coordinator_pointer self, const registry_entry& entry) {
+  const auto& discovery = self->state.setup.discovery;
+  if (!discovery || entry.server_id < 0)
+    return;
+  follow_server wish;
+  wish.server_id = entry.server_id;
+  wish.contact = server_contact::settled;
+  caf::delayed_anon_send(discovery, silent_host, wish);
 }
 
 } // namespace roscell

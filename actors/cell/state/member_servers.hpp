@@ -17,4 +17,10 @@ void meet_member_server(coordinator_pointer self, int64_t server_id,
 void follow_member_server(coordinator_pointer self, const registry_entry& entry,
                           server_contact contact);
 
+/// Nothing has been heard of its host. If that goes on for a minute its
+/// programs are taken for ended, so that nobody sends to them any more. Of a
+/// host that has said that the node is not there any more they are not: they go
+/// on.
+void doubt_silent_host(coordinator_pointer self, const registry_entry& entry);
+
 } // namespace roscell

@@ -28,7 +28,7 @@ start_day() {
   start_host right
   for name in "${streams[@]}"; do start_stream "$name"; done
   start_guest
-  for name in "${streams[@]}"; do flows "$name" "$deadline_s"; done
+  all_flow "$deadline_s" "at first"
 }
 
 # start_guest: the program on the third host, as a person would start it.
@@ -41,6 +41,13 @@ start_guest() {
   ) > "$scratch/guest.log" 2>&1 &
   guest=$!
   echo "$guest" >> "$scratch/pids"
+}
+
+# restart_guest: what its person does where the address that it was started with
+# is another one.
+restart_guest() {
+  kill -KILL "$guest"
+  start_guest
 }
 
 declare -A number_of=([head]=1 [left]=2 [right]=3)
@@ -60,6 +67,7 @@ start_host() {
   start_node "$name" --interface "${interface:-eth0}" --label "place=$name" \
     --site-token "$scratch/site.token" "${how[@]}" "${day_options[@]}"
   inside=()
+  possible=$EPOCHREALTIME
   [[ $name == head ]] || await_member "$name"
   # Its person starts it again where the host was off.
   [[ $name != right || -z ${guest:-} ]] || kill -0 "$guest" 2> /dev/null \
@@ -98,24 +106,35 @@ start_stream() {
     || fail "refused: $(cat "$scratch/reply.json")"
 }
 
-# flows STREAM SECONDS: some more pictures come within this time.
+# flows STREAM SECONDS WHEN: some more pictures come within this time after what
+# has made it possible, which is told for people who compare days.
+possible=$EPOCHREALTIME
 flows() {
-  local file=$scratch/$1.poses before begin=$EPOCHREALTIME
+  local file=$scratch/$1.poses before took
   touch "$file"
   before=$(wc -l < "$file")
-  timeout "$2" grep -m $((before + 3)) frame_id > "$scratch/matches" \
+  timeout "$(jq -n "[$2 - $(seconds_since "$possible"), 1] | max")" \
+    grep -m $((before + 3)) frame_id > "$scratch/matches" \
     < <(exec tail --pid=$$ -n +1 -F "$file" 2> /dev/null) \
-    || fail "stream '$1': $(($(wc -l < "$file") - before)) pictures in $2 s;" \
+    || fail "stream '$1': $(($(wc -l < "$file") - before)) pictures in $2 s $3;" \
       "$(to head topics 2>&1 | grep "/$1/")"
-  echo "    stream '$1': pictures after $(seconds_since "$begin") s"
+  took=$(seconds_since "$possible")
+  echo "    stream '$1': pictures after $took s $3"
+  jq -nc --arg day "${FUNCNAME[2]#test_}" --arg stream "$1" --arg when "$3" \
+    --argjson s "$took" '$ARGS.named' >> "$kept/days.jsonl"
 }
 
-# day_ends SECONDS [NODE]: from now on pictures come within this time, only ends
-# that live are named as such, and that is so again after each step was started
-# anew. The node is asked that is not the one that had the day.
+# all_flow SECONDS WHEN
+all_flow() {
+  local name
+  for name in "${streams[@]}"; do flows "$name" "$@"; done
+}
+
+# day_ends SECONDS: pictures come within this time, only ends that live are named
+# as such, and that is so again after each step was started anew.
 day_ends() {
   local name step
-  for name in "${streams[@]}"; do flows "$name" "$1"; done
+  all_flow "$1" "after the day"
   names_living_ends_only
   for name in "${streams[@]}"; do
     for step in camera reader; do
@@ -123,7 +142,8 @@ day_ends() {
         || fail "not restarted: $(cat "$scratch/restart")"
     done
   done
-  for name in "${streams[@]}"; do flows "$name" 10; done
+  possible=$EPOCHREALTIME
+  all_flow 5 "after each step was started anew"
   names_living_ends_only
   for name in "${streams[@]}"; do none_is_doubled "$name"; done
 }
@@ -185,6 +205,15 @@ readdress() {
   ip -n "$host" addr flush dev eth0
   ip -n "$host" addr add "$2/24" dev eth0
   ip -n "$host" route replace default dev eth0
+  possible=$EPOCHREALTIME
+}
+
+# unplug NAME SECONDS: its cable is out for so long.
+unplug() {
+  ip link set "$(host_link "${number_of[$1]}")" down
+  sleep "$2"
+  ip link set "$(host_link "${number_of[$1]}")" up
+  possible=$EPOCHREALTIME
 }
 
 # replug NAME SECONDS: its interface is gone for so long, and is another one then.
