@@ -73,6 +73,18 @@ void settle(discovery_self self, cell_server& own, const follow_server& wish) {
     own.forget(id);
 }
 
+/// Whether only the coordinator's server is another one, or elsewhere.
+bool is_same_server(const discovery_place& x, const discovery_place& y) {
+  return x.server_id == y.server_id && x.domain_id == y.domain_id;
+}
+
+void point_to_remote(discovery_self self) {
+  const auto& place = self->state.served;
+  if (const auto at = parse_socket_address(place.remote))
+    self->state.server->set_remote(
+        {at->address, at->port, static_cast<uint8_t>(place.remote_id)});
+}
+
 } // namespace
 
 void follow_another_server(discovery_self self, const follow_server& wish) {

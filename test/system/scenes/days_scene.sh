@@ -120,7 +120,7 @@ flows() {
       "$(to head topics 2>&1 | grep "/$1/")"
   took=$(seconds_since "$possible")
   echo "    stream '$1': pictures after $took s $3"
-  jq -nc --arg day "${FUNCNAME[2]#test_}" --arg stream "$1" --arg when "$3" \
+  jq -nc --arg day "${FUNCNAME[3]#test_}" --arg stream "$1" --arg when "$3" \
     --argjson s "$took" '$ARGS.named' >> "$kept/days.jsonl"
 }
 
@@ -143,7 +143,7 @@ day_ends() {
     done
   done
   possible=$EPOCHREALTIME
-  all_flow 5 "after each step was started anew"
+  all_flow 10 "after each step was started anew"
   names_living_ends_only
   for name in "${streams[@]}"; do none_is_doubled "$name"; done
 }
