@@ -253,7 +253,7 @@ void on_member_lost(coordinator_pointer self, const member_lost& fact) {
   if (!entry)
     return;
   follow_member_server(self, *entry, server_contact::lost);
-  if (fact.silent_ms > 0)
+  if (std::chrono::milliseconds{fact.silent_ms} >= limits::lease::span)
     doubt_silent_host(self, *entry);
   const auto name = entry->row.identity.name;
   const bool departing = entry->row.state == row_state::departing;

@@ -55,12 +55,12 @@ TEST_CASE("both discovery servers lose each other with the session and meet "
           "[servers]") {
   cell_of_two x;
   x.told();
-  x.place.block(x.base.index, x.arm.index);
+  x.place.split({0, 1});
   x.place.pass(20s);
   CHECK(x.told() == contacts{server_contact::lost});
   CHECK_FALSE(x.arm.served->remote_is_there);
   x.place.heal_all();
-  x.place.pass(60s);
+  x.place.pass(40s);
   CHECK(x.told() == contacts{server_contact::met});
   CHECK(x.arm.served->remote_is_there);
 }
@@ -69,7 +69,7 @@ TEST_CASE("programs of a host that is silent for a minute are taken for ended",
           "[servers]") {
   cell_of_two x;
   x.told();
-  x.place.block(x.base.index, x.arm.index);
+  x.place.split({0, 1});
   x.place.pass(50s);
   CHECK(x.told() == contacts{server_contact::lost});
   x.place.pass(30s);

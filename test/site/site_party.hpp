@@ -38,10 +38,10 @@ struct site_party {
   container_supervisor_actor supervisor;
   container_listener_actor listener; ///< The same, for its runtime.
   node_agent_actor agent;
-  scheduler_actor planner;     ///< Coordinators only.
-  request_router_actor router; ///< The same.
-  std::string looking_for;     ///< A discovery server.
-  std::vector<follow_server> followed; ///< What its server was told of others.
+  scheduler_actor planner;              ///< Coordinators only.
+  request_router_actor router;          ///< The same.
+  std::string looking_for;              ///< A discovery server.
+  std::vector<follow_server> followed;  ///< What its server was told of others.
   std::optional<serve_programs> served; ///< How its own server was asked for.
   std::optional<node_presence> announced;
   std::map<size_t, node_presence> shown; ///< What it sees of which party.
