@@ -16,7 +16,8 @@ function(roscell_skill name)
   # An expression, so that no generator adds a folder for the configuration.
   set_target_properties(${name}_skill PROPERTIES
     OUTPUT_NAME ${name} RUNTIME_OUTPUT_DIRECTORY ${folder}/bin$<0:>)
-  target_link_libraries(${name}_skill PRIVATE roscell::skill ${skill_LIBRARIES})
+  target_link_libraries(${name}_skill PRIVATE roscell::skill ${skill_LIBRARIES}
+    $<$<TARGET_EXISTS:roscell_sanitizer_options>:roscell_sanitizer_options>)
   file(GLOB descriptor CONFIGURE_DEPENDS
        RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} skill.json skill.yaml skill.yml)
   list(LENGTH descriptor count)

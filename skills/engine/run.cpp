@@ -6,17 +6,6 @@
 
 #include <iostream>
 
-#ifdef __SANITIZE_ADDRESS__
-/// Fast DDS 2.9.1 frees its statistics with another size than they were made
-/// with, which would end a skill in the middle of its farewell.
-extern "C" __attribute__((visibility("default"))) const char*
-__asan_default_options();
-
-const char* __asan_default_options() {
-  return "new_delete_type_mismatch=0";
-}
-#endif
-
 namespace roscell::engine {
 
 namespace {

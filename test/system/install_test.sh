@@ -584,7 +584,7 @@ test_doctor_takes_what_a_node_has_from_the_node() {
     --socket "$scratch/run/node.sock"
   doctor_here --to "$scratch/run/node.sock" || fail "$(cat "$scratch/found")"
   found disk ok "are free in $scratch/head"
-  found dds-ports ok "of domain 7 are in use"
+  found dds-ports ok "in domain 7 are in use"
   found skills ok "1 can be loaded"
   jq -e --arg run "$scratch/run" 'all(.[]; (.seen + .remedy) | contains($run)
     | not)' "$scratch/found" > /dev/null || fail "$(cat "$scratch/found")"

@@ -159,7 +159,7 @@ test_doctor_looks_at_the_domain_of_the_cell() {
   await_joined head arm
   in_the_way 2 "ip saddr 10.231.7.1 udp dport 9150-9399 drop"
   cell_doctor reach,dds-ports && fail "it is content: $(cat "$scratch/found")"
-  jq -e 'any(.[]; .node == "arm" and (.seen | contains("UDP ports of domain 7")))' \
+  jq -e 'any(.[]; .node == "arm" and (.seen | contains("tries in domain 7")))' \
     "$scratch/found" > /dev/null || fail "$(cat "$scratch/found")"
   has_found broken "head -> arm: data by udp port 9241: nothing comes back"
 }

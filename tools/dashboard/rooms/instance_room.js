@@ -56,7 +56,7 @@ export class InstanceRoom {
     const state = instanceState(row);
     updateState(this.state, state);
     setText(this.title, `${row.spec.task} / ${row.spec.step}`);
-    setText(this.reason, reasonOf(row, this.app.store.figures.get(this.name) ?? row.figures ?? {}));
+    setText(this.reason, reasonOf(row, this.app.store.figures.get(this.name)));
     this.showFigures(row);
     if (this.known !== state && state === 'running')
       this.log.again();
@@ -133,7 +133,7 @@ export class InstanceRoom {
 }
 
 function reasonOf(row, figures) {
-  const words = [row.waits, row.trouble, row.health_reason, row.state === 'running' && figures.remark, row.reason];
+  const words = [row.waits, row.trouble, row.health_reason, figures?.remark, row.reason];
   if (row.unknown_since_unix_ms)
     words.unshift(`Its node, ${row.node}, is away since ${clock(row.unknown_since_unix_ms)}; it may run on there.`);
   if (row.state === 'backing_off' && row.next_start_unix_ms)

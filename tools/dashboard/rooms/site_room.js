@@ -28,7 +28,7 @@ export class SiteRoom {
         el('section', {}, el('h2', {}, 'Needs attention'), this.calm, this.troubles),
         el('section', {}, el('h2', {}, 'Last events'), this.rows.root,
           el('p', {}, el('a', { href: address('events') }, 'All events')))));
-    app.figures.wish('resources', 'instances');
+    app.figures.wish('resources');
   }
 
   update() {
@@ -86,13 +86,12 @@ function troublesOf(store) {
   const tasks = [...store.tasks.values()].filter((x) => x.state === 'failed').map((x) => ({
     key: `task ${x.task}`, state: 'failed', href: address('tasks', x.task), name: `Task ${x.task}`, words: '',
   }));
-  const remark = (x) => x.state === 'running' && !x.unknown_since_unix_ms && store.figures.get(x.spec.instance)?.remark || undefined;
   const instances = [...store.instances.values()]
-    .filter((x) => ['warn', 'bad', 'unknown'].includes(kindOf(instanceState(x))) || x.waits || remark(x))
+    .filter((x) => ['warn', 'bad', 'unknown'].includes(kindOf(instanceState(x))) || x.waits)
     .filter((x) => store.tasks.get(x.spec.task)?.state !== 'failed')
     .map((x) => ({
       key: `instance ${x.spec.instance}`, state: instanceState(x), href: address('instances', x.spec.instance),
-      name: `${x.spec.task} / ${x.spec.step}`, words: x.waits ?? x.health_reason ?? remark(x) ?? x.reason ?? `on ${x.node}`,
+      name: `${x.spec.task} / ${x.spec.step}`, words: x.waits ?? x.health_reason ?? x.reason ?? `on ${x.node}`,
     }));
   return [...nodes, ...tasks, ...instances, ...refusedSkills(store)];
 }

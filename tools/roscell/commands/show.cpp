@@ -21,8 +21,8 @@ namespace roscell::cli {
 
 namespace {
 
-/// A coordinator answers at once.
-constexpr std::chrono::seconds view_limit{10};
+/// A coordinator answers at once. By then one that is stopped is known as such.
+constexpr std::chrono::seconds view_limit{20};
 
 constexpr const char* tasks_path = "/v1/tasks";
 
@@ -117,8 +117,10 @@ json tasks_now(const node_client& node, const std::string& path,
   query.task = name;
   std::map<std::string, json> rows;
   for (auto& row : node.ask(message_json(query), view_limit)
-                       .value("instances", json::array()))
-    rows[row.at("spec").at("instance").get<std::string>()] = std::move(row);
+                       .value("instances", json::array())) {
+    const auto id = row.at("spec").at("instance").get<std::string>();
+    rows[id] = std::move(row);
+  }
   auto reply = node.get(path);
   for (auto& task : reply.at("tasks"))
     for (auto& row : task.at("instances")) {
