@@ -113,8 +113,9 @@ flows() {
   local file=$scratch/$1.poses before took
   touch "$file"
   before=$(wc -l < "$file")
+  # What is left of it once the cell has said that the day is over.
   timeout "$(jq -n "[$2 - $(seconds_since "$possible"), 1] | max")" \
-    grep -m $((before + 3)) frame_id > "$scratch/matches" \
+    grep -m $((before + 3)) frame_id > "$scratch/$1.matches" \
     < <(exec tail --pid=$$ -n +1 -F "$file" 2> /dev/null) \
     || fail "stream '$1': $(($(wc -l < "$file") - before)) pictures in $2 s $3;" \
       "$(to head topics 2>&1 | grep "/$1/")"
@@ -126,8 +127,14 @@ flows() {
 
 # all_flow SECONDS WHEN
 all_flow() {
-  local name
-  for name in "${streams[@]}"; do flows "$name" "$@"; done
+  local name waits=()
+  for name in "${streams[@]}"; do
+    flows "$name" "$@" &
+    waits+=($!)
+  done
+  for name in "${waits[@]}"; do
+    wait "$name" || exit 1
+  done
 }
 
 # day_ends SECONDS: pictures come within this time, only ends that live are named
