@@ -172,9 +172,10 @@ private:
     server_readiness own{*to_socket_address(options.address, port_),
                          [this] { participant_->announce(); }};
     auto words = own.wait(ready_limit);
-    if (words)
-      introducer_->set_words(*std::move(words));
-    return words.has_value();
+    if (!words)
+      return false;
+    introducer_->set_words(*std::move(words));
+    return true;
   }
 
   void introduce() {

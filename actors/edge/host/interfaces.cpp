@@ -110,6 +110,7 @@ std::vector<host_link> list_links() {
   for (auto* i = head.get(); i != nullptr; i = i->ifa_next)
     result[i->ifa_name] = {i->ifa_name, (i->ifa_flags & IFF_UP) != 0};
   std::vector<host_link> links;
+  links.reserve(result.size());
   for (auto& [name, link] : result)
     links.push_back(std::move(link));
   return links;
