@@ -109,7 +109,7 @@ struct two_servers {
   }
 
   void end_doubt() {
-    cell->end_doubt(member_id, "", std::chrono::steady_clock::now());
+    cell->end_doubt(member_id);
   }
 
   std::unique_ptr<program> there(const std::string& topic) {

@@ -136,9 +136,13 @@ public:
     guard_->lose(id);
   }
 
-  void end_doubt(std::uint8_t id, const std::string& uuid,
-                 std::chrono::steady_clock::time_point before) {
-    guard_->end_doubt(id, uuid, before);
+  void end_doubt(std::uint8_t id) {
+    guard_->end_doubt(id);
+  }
+
+  void forget_clients(const std::string& uuid,
+                      std::chrono::steady_clock::time_point before) {
+    guard_->forget_clients(uuid, before);
   }
 
   void forget(std::uint8_t id) {
@@ -291,9 +295,13 @@ void cell_server::lose(std::uint8_t id) {
   impl_->lose(id);
 }
 
-void cell_server::end_doubt(std::uint8_t id, const std::string& uuid,
-                            std::chrono::steady_clock::time_point before) {
-  impl_->end_doubt(id, uuid, before);
+void cell_server::end_doubt(std::uint8_t id) {
+  impl_->end_doubt(id);
+}
+
+void cell_server::forget_clients(const std::string& uuid,
+                                 std::chrono::steady_clock::time_point before) {
+  impl_->forget_clients(uuid, before);
 }
 
 void cell_server::forget(std::uint8_t id) {

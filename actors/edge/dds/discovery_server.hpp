@@ -100,10 +100,13 @@ public:
   void lose(std::uint8_t id);
 
   /// By now its new life has told of what is there: what it has not told of is
-  /// forgotten, and so is what the node with this UUID had looked for it with
-  /// before `before`.
-  void end_doubt(std::uint8_t id, const std::string& uuid,
-                 std::chrono::steady_clock::time_point before);
+  /// forgotten.
+  void end_doubt(std::uint8_t id);
+
+  /// With these the node of this UUID has looked for this server, before it had
+  /// one of its own. Their farewell may have been lost.
+  void forget_clients(const std::string& uuid,
+                      std::chrono::steady_clock::time_point before);
 
   /// Its node is not of the cell any more: all that it has told of ends.
   void forget(std::uint8_t id);

@@ -81,14 +81,21 @@ void discovery_guard::lose(std::uint8_t id) {
   bury({ended});
 }
 
-void discovery_guard::end_doubt(std::uint8_t id, const std::string& uuid,
-                                time_point before) {
+void discovery_guard::end_doubt(std::uint8_t id) {
   std::vector<guid_prefix> dead;
   {
     std::lock_guard<std::mutex> lock{table_mutex_};
     dead = table_.doubted(id);
-    const auto left = table_.of_node(uuid, before);
-    dead.insert(dead.end(), left.begin(), left.end());
+  }
+  bury(dead);
+}
+
+void discovery_guard::forget_clients(const std::string& uuid,
+                                     time_point before) {
+  std::vector<guid_prefix> dead;
+  {
+    std::lock_guard<std::mutex> lock{table_mutex_};
+    dead = table_.of_node(uuid, before);
   }
   bury(dead);
 }

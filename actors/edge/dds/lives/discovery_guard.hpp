@@ -53,9 +53,11 @@ public:
   /// what it has told of comes into doubt.
   void lose(std::uint8_t id);
 
-  /// Fast DDS forgets what server `id` has told of and is in doubt, and those
-  /// of the node `uuid` that told of themselves before.
-  void end_doubt(std::uint8_t id, const std::string& uuid, time_point before);
+  /// Fast DDS forgets what server `id` has told of and is in doubt.
+  void end_doubt(std::uint8_t id);
+
+  /// Fast DDS forgets those of the node `uuid` that told of themselves before.
+  void forget_clients(const std::string& uuid, time_point before);
 
   /// Fast DDS forgets server `id` and all that it has told of.
   void forget(std::uint8_t id);

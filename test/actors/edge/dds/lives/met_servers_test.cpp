@@ -85,7 +85,7 @@ TEST_CASE("those are forgotten with whom a node has looked for the server") {
   REQUIRE(both.seen.wait_for("+client a"));
   REQUIRE(both.seen.wait_for("+client b"));
   const auto now = std::chrono::steady_clock::now();
-  both.cell->end_doubt(member_id, "uuid of a", now);
+  both.cell->forget_clients("uuid of a", now);
   CHECK(both.seen.wait_for("-client a"));
   const auto after = both.seen.entries();
   CHECK(std::count(after.begin(), after.end(), "-client b") == 0);
