@@ -9,6 +9,7 @@ cd "$(dirname "$0")/../.."
 . tools/testing/results.sh
 : "${ROSCELL_BUILD:?the build folder}"
 kept=$ROSCELL_BUILD/test-logs
+mkdir -p "$kept"
 export ROSCELL_BUILD kept
 
 # hook NAME: runs a function of the file once for all of its tests, if it has one.
