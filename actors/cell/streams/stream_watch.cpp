@@ -1,5 +1,7 @@
 #include "actors/cell/streams/stream_watch.hpp"
 
+#include "messages/stream_counts.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -32,17 +34,8 @@ topic_writers writers_in(const row_list& task) {
   return result;
 }
 
-const stream_count* count_of(const instance_row& row, const char* direction,
-                             size_t number) {
-  const auto end = direction + std::to_string(number);
-  const auto& all = row.figures.streams;
-  const auto i = std::find_if(all.begin(), all.end(),
-                              [&](const auto& x) { return x.end == end; });
-  return i == all.end() ? nullptr : &*i;
-}
-
 bool goes_on_sending(const written_topic& x) {
-  const auto* count = count_of(*x.row, "output:", x.output);
+  const auto* count = output_count(*x.row, x.output);
   return count != nullptr && count->steady_s >= stream_watch::long_enough_s;
 }
 
@@ -63,7 +56,7 @@ std::string sentence_on(const io_endpoint& input, const stream_count& count,
 std::string reason_for(const instance_row& row, const topic_writers& writers) {
   for (size_t i = 0; i < row.spec.input.size(); ++i) {
     const auto& input = row.spec.input[i];
-    const auto* count = count_of(row, "input:", i);
+    const auto* count = input_count(row, i);
     if (!is_topic(input) || count == nullptr
         || count->quiet_s < stream_watch::long_enough_s)
       continue;

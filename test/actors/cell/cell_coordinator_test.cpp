@@ -50,6 +50,29 @@ std::string verdict_of(const node_registered& reply, const std::string& id) {
   return "none";
 }
 
+/// A task whose writer sends steadily from one node to another.
+struct cell_with_stream : paper_cell {
+  fake_agent& arm = add("arm");
+  fake_agent& belt = add("belt");
+  const json accepted = request(
+      echo_task("t", {echo_step("s0", 1, "arm"), echo_step("s1", 1, "belt")}));
+  instance_row& reader = arm.running.begin()->second;
+  instance_row& writer = belt.running.begin()->second;
+
+  cell_with_stream() {
+    writer.spec.output = {{"ros2", "/a", "std_msgs/msg/String"}};
+    reader.spec.input = writer.spec.output;
+    arm.tell(reader);
+    belt.tell(writer);
+    time.settle();
+    writer.figures.streams.resize(1);
+    writer.figures.streams[0].end = "output:0";
+    writer.figures.streams[0].steady_s = 20;
+    reader.figures.streams.resize(1);
+    reader.figures.streams[0].end = "input:0";
+  }
+};
+
 } // namespace
 
 TEST_CASE_METHOD(paper_cell, "The coordination node has a row of its own",
@@ -316,26 +339,10 @@ TEST_CASE_METHOD(paper_cell,
   }
 }
 
-TEST_CASE_METHOD(paper_cell,
+TEST_CASE_METHOD(cell_with_stream,
                  "A reader that gets nothing although its writer sends is "
                  "starved, without a bound",
                  "[cell_coordinator]") {
-  auto& arm = add("arm");
-  auto& belt = add("belt");
-  request(
-      echo_task("t", {echo_step("s0", 1, "arm"), echo_step("s1", 1, "belt")}));
-  auto& reader = arm.running.begin()->second;
-  auto& writer = belt.running.begin()->second;
-  writer.spec.output = {{"ros2", "/a", "std_msgs/msg/String"}};
-  reader.spec.input = writer.spec.output;
-  arm.tell(reader);
-  belt.tell(writer);
-  time.settle();
-  writer.figures.streams.resize(1);
-  writer.figures.streams[0].end = "output:0";
-  writer.figures.streams[0].steady_s = 20;
-  reader.figures.streams.resize(1);
-  reader.figures.streams[0].end = "input:0";
   reader.figures.streams[0].quiet_s = 20;
   CHECK(state_of_task(*this, "t") == "running");
   const auto shown =
@@ -358,25 +365,9 @@ TEST_CASE_METHOD(paper_cell,
   CHECK(count("instance_recovered") == 1);
 }
 
-TEST_CASE_METHOD(paper_cell,
+TEST_CASE_METHOD(cell_with_stream,
                  "A node that tells of a silent input has its writer asked",
                  "[cell_coordinator]") {
-  auto& arm = add("arm");
-  auto& belt = add("belt");
-  request(
-      echo_task("t", {echo_step("s0", 1, "arm"), echo_step("s1", 1, "belt")}));
-  auto& reader = arm.running.begin()->second;
-  auto& writer = belt.running.begin()->second;
-  writer.spec.output = {{"ros2", "/a", "std_msgs/msg/String"}};
-  reader.spec.input = writer.spec.output;
-  arm.tell(reader);
-  belt.tell(writer);
-  time.settle();
-  writer.figures.streams.resize(1);
-  writer.figures.streams[0].end = "output:0";
-  writer.figures.streams[0].steady_s = 20;
-  reader.figures.streams.resize(1);
-  reader.figures.streams[0].end = "input:0";
   reader.figures.streams[0].quiet_s = 30;
   const auto before = count("instance_changed");
   arm.tell(reader);

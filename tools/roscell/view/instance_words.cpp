@@ -63,15 +63,6 @@ std::string safety_words(const instance_row& row) {
 
 namespace {
 
-const stream_count* count_at(const instance_row& row, const char* direction,
-                             size_t number) {
-  const auto end = direction + std::to_string(number);
-  const auto& all = row.figures.streams;
-  const auto i = std::find_if(all.begin(), all.end(),
-                              [&](const auto& x) { return x.end == end; });
-  return i == all.end() ? nullptr : &*i;
-}
-
 std::string next_start_text(const instance_row& row, int64_t now_unix_ms) {
   if (row.next_start_unix_ms == 0)
     return row.waits;
@@ -100,14 +91,6 @@ std::string remark(const instance_row& row, int64_t now_unix_ms) {
     return row.trouble;
   // The columns say it better.
   return row.figures == instance_figures{} ? row.status : "";
-}
-
-const stream_count* input_count(const instance_row& row, size_t number) {
-  return count_at(row, "input:", number);
-}
-
-const stream_count* output_count(const instance_row& row, size_t number) {
-  return count_at(row, "output:", number);
 }
 
 std::string stream_text(const stream_count* count) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "messages/stream_counts.hpp"
 #include "tools/roscell/view/table.hpp"
 #include "tools/roscell/view/views.hpp"
 
@@ -39,11 +40,6 @@ std::string remark(const instance_row& row, int64_t now_unix_ms);
 /// What one end of a stream does: "10 Hz, 118 frames, 3 failed, 0.85 ms";
 /// empty for null.
 std::string stream_text(const stream_count* count);
-
-/// The count of an input or output of an instance by its number; null if its
-/// skill does not tell it.
-const stream_count* input_count(const instance_row& row, size_t number);
-const stream_count* output_count(const instance_row& row, size_t number);
 
 /// What each stream does: "in /image 10 Hz, 118 frames; out /tf 10 Hz, ...".
 std::string streams_text(const instance_row& row);
