@@ -125,9 +125,12 @@ public:
     // What has been known from an earlier session would be taken for known.
     if (is_linked(id))
       lose(id);
-    guard_->lives().meet(id);
+    auto& lives = guard_->lives();
+    lives.meet(id, std::chrono::steady_clock::now());
+    // The other one is deaf for as long as this one.
     if (is_remote(id))
-      introduce();
+      introduce(lives.has_been_lost(id) ? 2 * server_lives::settling
+                                        : std::chrono::milliseconds{0});
   }
 
   void lose(std::uint8_t id) {
@@ -182,10 +185,10 @@ private:
     return true;
   }
 
-  void introduce() {
+  void introduce(std::chrono::milliseconds after) {
     const auto to = remote();
     if (const auto at = to_socket_address(to->address, to->port))
-      introducer_->seek(*at);
+      introducer_->seek(*at, after);
   }
 
   std::optional<remote_server> remote() {
@@ -221,11 +224,11 @@ private:
       guard_->gone(seen.prefix);
       // The session goes on, or it would have been lost before.
       if (is_the_remote)
-        introduce();
+        introduce(introducer::first_pause);
       return;
     }
-    if (const auto said = decode(seen.announcement))
-      guard_->belongs(seen.prefix, said->uuid);
+    const auto said = decode(seen.announcement);
+    guard_->appeared(seen.prefix, said ? said->uuid : std::string{});
     if (is_the_remote)
       introducer_->rest();
   }

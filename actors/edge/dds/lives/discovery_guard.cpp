@@ -2,6 +2,7 @@
 
 #include "actors/edge/dds/rtps/discovery_probe.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include <arpa/inet.h>
@@ -27,7 +28,7 @@ discovery_guard::discovery_guard(std::uint8_t own_id,
     : lives_(own_id), numbers_(server_prefix(own_id), std::move(numbers)) {}
 
 bool discovery_guard::take_in(std::uint8_t* message, std::size_t size) {
-  if (!lives_.take_in(message, size))
+  if (!lives_.take_in(message, size, std::chrono::steady_clock::now()))
     return false;
   numbers_.take_in(message, size);
   const auto news = participants_in(message, size);
@@ -48,9 +49,10 @@ void discovery_guard::set_inlet(inlet x) {
   inlet_ = std::move(x);
 }
 
-void discovery_guard::belongs(const guid_prefix& who, const std::string& uuid) {
+void discovery_guard::appeared(const guid_prefix& who,
+                               const std::string& uuid) {
   std::lock_guard<std::mutex> lock{table_mutex_};
-  table_.belongs(who, uuid);
+  table_.appeared(who, uuid, std::chrono::steady_clock::now());
 }
 
 void discovery_guard::gone(const guid_prefix& who) {
@@ -65,7 +67,7 @@ void discovery_guard::note(const guid_prefix& from,
     if (x.ended)
       continue;
     if (x.who == from)
-      table_.told_itself(from, std::chrono::steady_clock::now());
+      table_.told_itself(from);
     else if (lives_.is_another_server(from))
       table_.told_by(server_lives::id_of(from), x.who);
   }
@@ -114,12 +116,17 @@ void discovery_guard::forget(std::uint8_t id) {
 /// Fast DDS takes the news that a participant has ended from whoever is known
 /// to it, so somebody appears for as long as that takes. With sequence number 0
 /// of the sample, whoever comes back after all is newer than the news of its
-/// end.
-void discovery_guard::bury(const std::vector<guid_prefix>& dead) {
-  if (dead.empty())
-    return;
+/// end. Fast DDS never frees the news of somebody whom it does not know.
+void discovery_guard::bury(std::vector<guid_prefix> dead) {
+  {
+    std::lock_guard<std::mutex> lock{table_mutex_};
+    dead.erase(
+        std::remove_if(dead.begin(), dead.end(),
+                       [this](const auto& who) { return !table_.knows(who); }),
+        dead.end());
+  }
   std::lock_guard<std::mutex> lock{inlet_mutex_};
-  if (!inlet_)
+  if (dead.empty() || !inlet_)
     return;
   const auto bearer = make_probe_prefix();
   inlet_(probe_question(bearer, nowhere()));

@@ -43,8 +43,8 @@ public:
   /// From now on; empty: the server ends.
   void set_inlet(inlet x);
 
-  /// Fast DDS knows a participant of the node with this UUID.
-  void belongs(const guid_prefix& who, const std::string& uuid);
+  /// Fast DDS knows a participant, of the node with this UUID or of none.
+  void appeared(const guid_prefix& who, const std::string& uuid);
 
   /// Fast DDS does not know it any more.
   void gone(const guid_prefix& who);
@@ -64,7 +64,7 @@ public:
 
 private:
   void note(const guid_prefix& from, const std::vector<participant_news>& news);
-  void bury(const std::vector<guid_prefix>& dead);
+  void bury(std::vector<guid_prefix> dead);
 
   server_lives lives_;
   const number_shift numbers_;

@@ -24,12 +24,14 @@ void introducer::set_words(std::vector<std::uint8_t> words) {
   words_ = std::move(words);
 }
 
-void introducer::seek(const sockaddr_in& server) {
+void introducer::seek(const sockaddr_in& server,
+                      std::chrono::milliseconds after) {
   {
     std::lock_guard<std::mutex> lock{mutex_};
     server_ = server;
     seeks_ = true;
-    pause_ = std::chrono::milliseconds{0};
+    anew_ = true;
+    pause_ = after;
   }
   changed_.notify_one();
 }
@@ -42,18 +44,12 @@ void introducer::rest() {
 void introducer::run() {
   std::unique_lock<std::mutex> lock{mutex_};
   while (!closing_) {
-    if (!seeks_) {
-      changed_.wait(lock, [this] { return closing_ || seeks_; });
+    changed_.wait(lock, [this] { return closing_ || seeks_; });
+    anew_ = false;
+    // Woken early by whoever closes, or asks to begin anew.
+    if (changed_.wait_for(lock, pause_, [this] { return closing_ || anew_; })
+        || !seeks_)
       continue;
-    }
-    if (pause_ > std::chrono::milliseconds{0}) {
-      // Woken early by whoever closes, or seeks anew at once.
-      changed_.wait_for(lock, pause_, [this] {
-        return closing_ || pause_ == std::chrono::milliseconds{0};
-      });
-      if (closing_ || !seeks_)
-        continue;
-    }
     sendto(socket_.fd(), words_.data(), words_.size(), MSG_NOSIGNAL,
            reinterpret_cast<const sockaddr*>(&server_), sizeof(server_));
     pause_ = std::clamp(2 * pause_, first_pause, longest_pause);

@@ -31,8 +31,8 @@ public:
   /// The message that introduces. Without one nothing is sent.
   void set_words(std::vector<std::uint8_t> words);
 
-  /// From now on, beginning at once.
-  void seek(const sockaddr_in& server);
+  /// Until `rest`, beginning after that time.
+  void seek(const sockaddr_in& server, std::chrono::milliseconds after);
 
   /// It is known, or not wanted any more.
   void rest();
@@ -46,6 +46,7 @@ private:
   std::condition_variable changed_;
   bool closing_ = false;
   bool seeks_ = false;
+  bool anew_ = false; // Somebody has asked to begin.
   std::chrono::milliseconds pause_ = first_pause;
   sockaddr_in server_{};
   std::thread thread_;

@@ -10,22 +10,23 @@ void participant_table::told_by(std::uint8_t id, const guid_prefix& who) {
     told_[who] = {id, false};
 }
 
-void participant_table::told_itself(const guid_prefix& who, time_point now) {
+void participant_table::told_itself(const guid_prefix& who) {
   told_.erase(who);
-  if (selves_.size() < most)
-    selves_.emplace(who, self_told{{}, now});
 }
 
-void participant_table::belongs(const guid_prefix& who,
-                                const std::string& uuid) {
-  const auto x = selves_.find(who);
-  if (x != selves_.end())
-    x->second.uuid = uuid;
+void participant_table::appeared(const guid_prefix& who,
+                                 const std::string& uuid, time_point now) {
+  if (told_.count(who) == 0 && selves_.size() < most)
+    selves_.emplace(who, self_told{{}, now}).first->second.uuid = uuid;
 }
 
 void participant_table::gone(const guid_prefix& who) {
   told_.erase(who);
   selves_.erase(who);
+}
+
+bool participant_table::knows(const guid_prefix& who) const {
+  return told_.count(who) != 0 || selves_.count(who) != 0;
 }
 
 void participant_table::doubt(std::uint8_t id) {

@@ -30,14 +30,17 @@ public:
   /// Server `id` has told of it.
   void told_by(std::uint8_t id, const guid_prefix& who);
 
-  /// It has told of itself.
-  void told_itself(const guid_prefix& who, time_point now);
+  /// It has told of itself, so that nobody else is needed to know it.
+  void told_itself(const guid_prefix& who);
 
-  /// It says that it is of the node with this UUID.
-  void belongs(const guid_prefix& who, const std::string& uuid);
+  /// It is known, and says that it is of the node with this UUID, or of none.
+  void appeared(const guid_prefix& who, const std::string& uuid,
+                time_point now);
 
   /// It is not known any more.
   void gone(const guid_prefix& who);
+
+  bool knows(const guid_prefix& who) const;
 
   /// All that server `id` has told of is in doubt.
   void doubt(std::uint8_t id);
@@ -48,7 +51,7 @@ public:
   /// All that server `id` has told of.
   std::vector<guid_prefix> told_by(std::uint8_t id) const;
 
-  /// Those of a node that told of themselves before.
+  /// Those of a node that told of themselves, and were known before.
   std::vector<guid_prefix> of_node(const std::string& uuid,
                                    time_point before) const;
 

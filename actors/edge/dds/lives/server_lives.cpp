@@ -69,26 +69,28 @@ bool server_lives::is_another_server(const guid_prefix& prefix) const {
 }
 
 void server_lives::lose(std::uint8_t id) {
-  peers_[id].heard = false;
+  peers_[id].heard_from = time_point::max();
   // Three bytes of a life are told apart.
   constexpr std::uint32_t lives = 1U << 24;
   peers_[id].life = std::max(1U, (peers_[id].life + 1) % lives);
 }
 
-void server_lives::meet(std::uint8_t id) {
-  peers_[id].heard = true;
+void server_lives::meet(std::uint8_t id, time_point now) {
+  peers_[id].heard_from = has_been_lost(id) ? now + settling : now;
 }
 
 void server_lives::ignore(std::uint8_t id) {
-  peers_[id].heard = false;
+  peers_[id].heard_from = time_point::max();
 }
 
-bool server_lives::take_in(std::uint8_t* datagram, std::size_t size) const {
+bool server_lives::take_in(std::uint8_t* datagram, std::size_t size,
+                           time_point now) const {
   constexpr std::size_t sender_at = 8;
   if (size < sender_at + prefix_bytes)
     return false;
   const auto* sender = datagram + sender_at;
-  if (begins_server(sender) && sender[2] != own_ && !peers_[sender[2]].heard)
+  if (begins_server(sender) && sender[2] != own_
+      && now < peers_[sender[2]].heard_from.load())
     return false;
   for_each_server(datagram, size, [this](std::uint8_t* at) {
     if (at[2] == own_ || !is_first_life(at))

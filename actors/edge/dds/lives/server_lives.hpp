@@ -4,6 +4,7 @@
 
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 
@@ -24,6 +25,12 @@ namespace roscell {
 /// has those that are on the wire. May be used by several threads.
 class server_lives {
 public:
+  using time_point = std::chrono::steady_clock::time_point;
+
+  /// So long after it was met nothing is heard of a server that had been lost:
+  /// what is on its way, or waits to be read, is of its last life.
+  static constexpr std::chrono::milliseconds settling{50};
+
   explicit server_lives(std::uint8_t own) : own_(own) {}
 
   /// As Fast DDS knows the present life of server `id`.
@@ -38,14 +45,19 @@ public:
   /// Its present life has ended, and nothing of it is heard from now on.
   void lose(std::uint8_t id);
 
-  /// It is heard, from now on.
-  void meet(std::uint8_t id);
+  /// It is heard, from now on or after `settling`.
+  void meet(std::uint8_t id, time_point now);
+
+  /// Whether it has been lost before.
+  bool has_been_lost(std::uint8_t id) const {
+    return peers_[id].life != 0;
+  }
 
   /// Nothing is heard of it, but its life goes on.
   void ignore(std::uint8_t id);
 
   /// Prepares a datagram that has come; false: it is of one that is not heard.
-  bool take_in(std::uint8_t* datagram, std::size_t size) const;
+  bool take_in(std::uint8_t* datagram, std::size_t size, time_point now) const;
 
   /// Prepares a datagram that shall go; false: it is for a life that has ended.
   bool let_out(std::uint8_t* datagram, std::size_t size) const;
@@ -53,7 +65,7 @@ public:
 private:
   struct peer {
     std::atomic<std::uint32_t> life{0};
-    std::atomic<bool> heard{true};
+    std::atomic<time_point> heard_from{time_point::min()}; ///< max(): never.
   };
 
   const std::uint8_t own_;

@@ -15,6 +15,9 @@ namespace {
 constexpr std::uint8_t own = 3;
 constexpr std::uint8_t other = 7;
 
+const server_lives::time_point met_at{std::chrono::hours{1}};
+const auto heard_at = met_at + server_lives::settling;
+
 /// Server `id` tells of its own end.
 std::vector<std::uint8_t> word_of(std::uint8_t id) {
   return death_notice(server_prefix(id), 5, server_prefix(id));
@@ -42,7 +45,7 @@ TEST_CASE("each life of another server is another participant") {
   std::vector<guid_prefix> seen;
   for (int life = 0; life < 4; ++life) {
     auto message = word_of(other);
-    REQUIRE(lives.take_in(message.data(), message.size()));
+    REQUIRE(lives.take_in(message.data(), message.size(), heard_at));
     const auto known_as = sender_of(message.data());
     CHECK(known_as == lives.present(other));
     CHECK(key_in(message) == known_as);
@@ -51,7 +54,7 @@ TEST_CASE("each life of another server is another participant") {
     CHECK(std::count(seen.begin(), seen.end(), known_as) == 0);
     seen.push_back(known_as);
     lives.lose(other);
-    lives.meet(other);
+    lives.meet(other, met_at);
   }
 }
 
@@ -79,19 +82,35 @@ TEST_CASE("nothing is heard of a lost server until it is met") {
   server_lives lives{own};
   lives.lose(other);
   auto message = word_of(other);
-  CHECK_FALSE(lives.take_in(message.data(), message.size()));
+  CHECK_FALSE(lives.take_in(message.data(), message.size(), heard_at));
   auto neighbour = word_of(other + 1);
-  CHECK(lives.take_in(neighbour.data(), neighbour.size()));
-  lives.meet(other);
+  CHECK(lives.take_in(neighbour.data(), neighbour.size(), heard_at));
+  lives.meet(other, met_at);
   message = word_of(other);
-  CHECK(lives.take_in(message.data(), message.size()));
+  CHECK(lives.take_in(message.data(), message.size(), heard_at));
+}
+
+TEST_CASE(
+    "what is on its way of a life that was lost is not heard in the next") {
+  server_lives lives{own};
+  const auto hears = [&lives](server_lives::time_point when) {
+    auto message = word_of(other);
+    return lives.take_in(message.data(), message.size(), when);
+  };
+  lives.meet(other, met_at);
+  CHECK(hears(met_at)); // There was no life before.
+  lives.lose(other);
+  lives.meet(other, met_at);
+  CHECK_FALSE(hears(met_at));
+  CHECK_FALSE(hears(heard_at - std::chrono::milliseconds{1}));
+  CHECK(hears(heard_at));
 }
 
 TEST_CASE("nothing goes to a life that has ended") {
   server_lives lives{own};
   const auto former = lives.present(other);
   lives.lose(other);
-  lives.meet(other);
+  lives.meet(other, met_at);
   auto late = addressed(word_of(own), former);
   CHECK_FALSE(lives.let_out(late.data(), late.size()));
   auto fresh = addressed(word_of(own), lives.present(other));
@@ -105,7 +124,7 @@ TEST_CASE("who is no discovery server goes through as it is") {
   const auto who = make_probe_prefix();
   const auto message = death_notice(who, 5, who);
   auto came = message;
-  CHECK(lives.take_in(came.data(), came.size()));
+  CHECK(lives.take_in(came.data(), came.size(), heard_at));
   CHECK(came == message);
   auto goes = message;
   CHECK(lives.let_out(goes.data(), goes.size()));
