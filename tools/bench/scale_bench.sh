@@ -2,9 +2,10 @@
 # Measures how a cell bears many members that start at one moment: a coordinator
 # and N of them, each alone on a host (network namespaces on one bridge). Time
 # until all are in with the CPU that it takes, then CPU and wire of the
-# coordinator and of a member over the first minute, and the memory of both at
-# its end. What is said of a member is the median over up to 20 of them. One
-# JSON line a figure. Needs root.
+# coordinator and of a member over the minute in which they get to know each
+# other and over the one after it, and the memory of both at the end. What is said
+# of a member is the median over up to 20 of them. One JSON line a figure. Needs
+# root.
 # Usage: tools/bench/scale_bench.sh N [--binary-dir BUILD_DIR]
 set -uo pipefail
 cd "$(dirname "$0")/../.."
@@ -92,27 +93,27 @@ growth() {
     | . / $4 / $span_s"
 }
 
-# coordinator_rates BEFORE AFTER: of the coordinator, whole and for each member.
+# coordinator_rates WHEN BEFORE AFTER: of the coordinator, whole and for each
+# member.
 coordinator_rates() {
-  local cpu sent received
-  cpu=$(growth "$1" "$2" 1 1e7)
-  sent=$(growth "$1" "$2" 2 1)
-  received=$(growth "$1" "$2" 3 1)
-  figure "coordinator: CPU" "$cpu" "% of a core"
-  figure "coordinator: CPU, a member" "$(jq -n "$cpu / $members")" "% of a core"
-  figure "coordinator: wire, sent" "$sent" B/s
-  figure "coordinator: wire, received" "$received" B/s
-  figure "coordinator: wire, sent, a member" "$(jq -n "$sent / $members")" B/s
-  figure "coordinator: wire, received, a member" \
-    "$(jq -n "$received / $members")" B/s
+  local of="coordinator, $1" cpu sent received
+  cpu=$(growth "$2" "$3" 1 1e7)
+  sent=$(growth "$2" "$3" 2 1)
+  received=$(growth "$2" "$3" 3 1)
+  figure "$of: CPU" "$cpu" "% of a core"
+  figure "$of: CPU, a member" "$(jq -n "$cpu / $members")" "% of a core"
+  figure "$of: wire, sent" "$sent" B/s
+  figure "$of: wire, received" "$received" B/s
+  figure "$of: wire, sent, a member" "$(jq -n "$sent / $members")" B/s
+  figure "$of: wire, received, a member" "$(jq -n "$received / $members")" B/s
 }
 
-# member_rate NAME COLUMN PER UNIT: the median over the sampled members.
+# member_rate WHEN NAME COLUMN PER UNIT: the median over the sampled members.
 member_rate() {
   local i
-  figure "member: $1" "$(for i in "${sampled[@]}"; do
-    growth "${before[i]}" "${after[i]}" "$2" "$3"
-  done | median)" "$4"
+  figure "member, $1: $2" "$(for i in "${sampled[@]}"; do
+    growth "${before[$i]}" "${after[$i]}" "$3" "$4"
+  done | median)" "$5"
 }
 
 pss_mib() {
@@ -145,16 +146,23 @@ sampled=()
 for ((i = 2; i <= members + 1; i += (members + most_sampled - 1) / most_sampled)); do
   sampled+=("$i")
 done
-before=() after=()
-before[1]=$(counters_of 1 head)
-for i in "${sampled[@]}"; do before[i]=$(counters_of "$i" "node$i"); done
-timeout "$span_s" tail -f /dev/null
-after[1]=$(counters_of 1 head)
-for i in "${sampled[@]}"; do after[i]=$(counters_of "$i" "node$i"); done
-coordinator_rates "${before[1]}" "${after[1]}"
-member_rate CPU 1 1e7 "% of a core"
-member_rate "wire, sent" 2 1 B/s
-member_rate "wire, received" 3 1 B/s
+# span WHEN: what the coordinator and the members take meanwhile.
+span() {
+  local i
+  local -A before after
+  before[1]=$(counters_of 1 head)
+  for i in "${sampled[@]}"; do before[$i]=$(counters_of "$i" "node$i"); done
+  timeout "$span_s" tail -f /dev/null
+  after[1]=$(counters_of 1 head)
+  for i in "${sampled[@]}"; do after[$i]=$(counters_of "$i" "node$i"); done
+  coordinator_rates "$1" "${before[1]}" "${after[1]}"
+  member_rate "$1" CPU 1 1e7 "% of a core"
+  member_rate "$1" "wire, sent" 2 1 B/s
+  member_rate "$1" "wire, received" 3 1 B/s
+}
+
+span "first minute"
+span "second minute"
 figure "coordinator: Pss" "$(pss_mib head)" MiB
 figure "member: Pss" "$(for i in "${sampled[@]}"; do pss_mib "node$i"; done \
   | median)" MiB
