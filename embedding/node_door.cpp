@@ -1,6 +1,7 @@
 #include "embedding/node_door.hpp"
 
 #include "actors/house/limits.hpp"
+#include "actors/house/watching.hpp"
 #include "schemas/schema_error.hpp"
 
 #include <caf/result.hpp>
@@ -45,7 +46,7 @@ struct event_passer_state {
 event_listener_actor::behavior_type
 event_passer(event_listener_actor::stateful_pointer<event_passer_state> self,
              const node_event_listener& to) {
-  self->monitor(to);
+  watch_until_own_end(self, to);
   self->set_down_handler([self](const caf::down_msg&) { self->quit(); });
   return {
       [to](const event& x) {
@@ -65,7 +66,7 @@ void watch(self_pointer self, const watch_node& x) {
 node_door_actor::behavior_type node_door(self_pointer self,
                                          const node_door_config& config) {
   self->state.config = config;
-  self->monitor(config.node);
+  watch_until_own_end(self, config.node);
   self->set_down_handler([self](const caf::down_msg& down) {
     // Whoever monitors it is told by this thread.
     speak_without_workers(self);

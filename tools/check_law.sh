@@ -83,5 +83,12 @@ if grep -rnE 'sleep_for|sleep_until|usleep\(' --include='*.?pp' \
   broken=1
 fi
 
+# What watches an actor stays in that one's memory until it is taken back.
+if grep -rnE '(->|\.)monitor\(' --include='*.?pp' actors embedding skills tools \
+     | grep -v '^actors/house/watching.hpp:'; then
+  echo "law: actors are watched by actors/house/watching.hpp, which says until when"
+  broken=1
+fi
+
 [[ $broken -eq 0 ]] && echo "law: kept"
 exit $broken

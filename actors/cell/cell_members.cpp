@@ -12,6 +12,7 @@
 #include "actors/cell/tasks/cell_instances.hpp"
 #include "actors/cell/tasks/task_removals.hpp"
 #include "actors/house/limits.hpp"
+#include "actors/house/watching.hpp"
 #include "actors/session/member/member.hpp"
 #include "messages/failure.hpp"
 
@@ -112,7 +113,7 @@ void admit(coordinator_pointer self, const register_node& request,
     meet_member_server(self, server_id, request.registration,
                        [=] { on_registration_kept(self, request, promise); });
   };
-  self->monitor(request.member);
+  watch_until_its_end(self, request.member);
   keep_records(self, st.registry.propose(std::move(entry)), go_on,
                [=](const failure& why) {
                  // What is on disk will do: only the epoch there is an older

@@ -4,6 +4,7 @@
 #include "actors/cell/state/coordinator_timer.hpp"
 #include "actors/cell/state/node_whereabouts.hpp"
 #include "actors/house/limits.hpp"
+#include "actors/house/watching.hpp"
 #include "actors/session/peer.hpp"
 #include "messages/failure.hpp"
 
@@ -111,7 +112,7 @@ void on_peer_admitted(coordinator_pointer self, const session_admitted& fact) {
 void on_peer_opened(coordinator_pointer self, const peer_opened& fact) {
   if (const auto former = self->state.peers.open(fact.uuid, fact.peer))
     self->send(former, close_session{"a newer session has been opened"});
-  self->monitor(fact.peer);
+  watch_until_its_end(self, fact.peer);
   self->send(fact.peer, standing_of(self->state));
 }
 

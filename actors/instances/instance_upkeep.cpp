@@ -2,6 +2,7 @@
 
 #include "actors/house/limits.hpp"
 #include "actors/house/wall_clock.hpp"
+#include "actors/house/watching.hpp"
 #include "actors/instances/instance_id.hpp"
 #include "actors/instances/instance_words.hpp"
 #include "actors/instances/life/skill_instance.hpp"
@@ -48,7 +49,7 @@ void spawn_actor(container_supervisor_pointer self, supervised_instance& x,
       adopt && started != st.config.started_at.end() ? started->second : "",
       renewal};
   x.actor = spawn(self->system(), st.config.context, skill_instance, config);
-  self->monitor(x.actor);
+  watch_until_its_end(self, x.actor);
   caf::anon_send(x.actor, start_instance{});
   if (x.removing)
     caf::anon_send(x.actor, stop_instance{"removed", x.forced});
@@ -58,7 +59,7 @@ void start_runtime(container_supervisor_pointer self) {
   auto& st = self->state;
   st.runtime =
       st.config.make_runtime(caf::actor_cast<container_listener_actor>(self));
-  self->monitor(st.runtime);
+  watch_until_its_end(self, st.runtime);
 }
 
 namespace {

@@ -2,6 +2,7 @@
 
 #include "actors/house/limits.hpp"
 #include "actors/house/wall_clock.hpp"
+#include "actors/house/watching.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -46,7 +47,7 @@ void subscribe(event_log_self self, const subscribe_events& wish) {
   for (const auto& x : self->state.kept)
     if (x.sequence > wish.since)
       self->send(wish.listener, x);
-  self->monitor(wish.listener);
+  watch_until_its_end(self, wish.listener);
   self->state.listeners.push_back(wish.listener);
 }
 

@@ -3,6 +3,7 @@
 #include "actors/house/limits.hpp"
 #include "actors/house/program_version.hpp"
 #include "actors/house/wall_clock.hpp"
+#include "actors/house/watching.hpp"
 #include "messages/failure.hpp"
 
 #include <caf/typed_response_promise.hpp>
@@ -193,7 +194,7 @@ node_actor::behavior_type node(node_pointer self, const node_parts& parts) {
   self->state.parts = parts;
   self->state.started_unix_ms = unix_now_ms();
   for (const auto& child : parts.children)
-    self->monitor(child);
+    watch_until_its_end(self, child);
   self->state.open_children = parts.children.size();
   self->set_down_handler(
       [self](const caf::down_msg& down) { on_child_down(self, down); });

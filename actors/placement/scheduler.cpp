@@ -1,4 +1,5 @@
 #include "actors/placement/scheduler.hpp"
+#include "actors/house/watching.hpp"
 
 #include <caf/actor_cast.hpp>
 #include <caf/result.hpp>
@@ -18,7 +19,7 @@ const scheduler_actor& searcher_for(scheduler_self self, bool trial) {
     result = st.config.make_searcher(trial ? std::make_shared<search_guard>()
                                            : st.config.guard,
                                      caf::actor_cast<scheduler_actor>(self));
-    self->monitor(result);
+    watch_until_its_end(self, result);
   }
   return result;
 }

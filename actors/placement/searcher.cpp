@@ -1,6 +1,7 @@
 #include "actors/placement/searcher.hpp"
 
 #include "actors/house/limits.hpp"
+#include "actors/house/watching.hpp"
 #include "actors/placement/questions/move_planning.hpp"
 #include "actors/placement/questions/task_allocation.hpp"
 #include "messages/failure.hpp"
@@ -72,7 +73,7 @@ scheduler_actor::behavior_type searcher(searcher_self self,
                                         const scheduler_actor& owner) {
   self->state.context = context;
   self->state.guard = std::move(guard);
-  self->monitor(owner);
+  watch_until_own_end(self, owner);
   self->set_down_handler(
       [self](const caf::down_msg& down) { self->quit(down.reason); });
   return {

@@ -1,4 +1,5 @@
 #include "actors/requests/handler_pipeline.hpp"
+#include "actors/house/watching.hpp"
 
 #include <caf/typed_response_promise.hpp>
 
@@ -13,7 +14,7 @@ process(pipeline_pointer self, const request_runner& run,
         const std::shared_ptr<const node_services>& services,
         const json& document) {
   // Who has asked is the router; without it nobody waits for the outcome.
-  self->monitor(self->current_sender());
+  watch_until_own_end(self, self->current_sender());
   self->state.request = document.at("type").get<std::string>();
   auto promise = self->make_response_promise<request_processed>();
   auto finish = [self, services,

@@ -3,6 +3,7 @@
 #include "actors/house/limits.hpp"
 #include "actors/house/relayed_requests.hpp"
 #include "actors/house/wall_clock.hpp"
+#include "actors/house/watching.hpp"
 #include "actors/requests/handler_pipeline.hpp"
 #include "schemas/document.hpp"
 #include "schemas/message_catalogue.hpp"
@@ -129,7 +130,7 @@ void dispatch(request_router_self self, const request_runner& run,
   const auto address = worker.address();
   self->state.running[address] = {id,  type,   subject,           ticket,
                                   now, worker, std::move(promise)};
-  self->monitor(worker);
+  watch_until_its_end(self, worker);
   self->request(worker, limits::request::handler, process_request{})
       .then(
           [self, address](request_processed& done) {

@@ -1,6 +1,7 @@
 #include "actors/requests/rest.hpp"
 
 #include "actors/house/limits.hpp"
+#include "actors/house/watching.hpp"
 #include "actors/requests/metrics/scrape.hpp"
 #include "actors/requests/rest_routes.hpp"
 #include "actors/requests/rest_streams.hpp"
@@ -40,7 +41,7 @@ introspected_actor::behavior_type
 rest_exchange(exchange_pointer self, const request_router_actor& router,
               const json_request& what, const responder& answer) {
   // A router that ends leaves its requests unanswered.
-  self->monitor(router);
+  watch_until_own_end(self, router);
   self->set_down_handler([self, answer](const caf::down_msg&) {
     finish_exchange(self, answer, node_ended());
   });

@@ -1,6 +1,7 @@
 #include "actors/requests/rest_streams.hpp"
 
 #include "actors/house/limits.hpp"
+#include "actors/house/watching.hpp"
 #include "schemas/decode.hpp"
 
 #include <chrono>
@@ -151,7 +152,7 @@ introspected_actor::behavior_type log_stream(log_pointer self,
   self->state.router = router;
   self->state.wish = wish;
   self->state.answer = answer;
-  self->monitor(router);
+  watch_until_own_end(self, router);
   self->set_down_handler(
       [self](const caf::down_msg&) { finish_log_stream(self); });
   ask_for_more(self);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "actors/house/watching.hpp"
 #include "actors/session/lease.hpp"
 #include "actors/session/session_exchange.hpp"
 #include "messages/actors.hpp"
@@ -41,7 +42,7 @@ void hold_session(Self self, session_actor session, lease_side side) {
   st.frames = session_exchange{[self](std::string text) {
     self->send(self->state.session, send_frame{std::move(text)});
   }};
-  self->monitor(st.session);
+  watch_until_its_end(self, st.session);
   self->send(st.session,
              own_session{caf::actor_cast<session_owner_actor>(self)});
 }

@@ -1,6 +1,7 @@
 #include "actors/session/peer.hpp"
 
 #include "actors/house/limits.hpp"
+#include "actors/house/watching.hpp"
 
 #include <utility>
 
@@ -152,7 +153,7 @@ void take_over(peer_self self, const peer_setup& setup) {
   hold_session(self, setup.session,
                setup.opened_here ? lease_side::member
                                  : lease_side::coordinator);
-  self->monitor(setup.coordinator);
+  watch_until_own_end(self, setup.coordinator);
   self->set_down_handler([self](const caf::down_msg& down) {
     end_peer(self, down.source == self->state.session
                        ? "its session has failed"

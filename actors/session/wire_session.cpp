@@ -1,6 +1,7 @@
 #include "actors/session/wire_session.hpp"
 
 #include "actors/house/limits.hpp"
+#include "actors/house/watching.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -82,7 +83,7 @@ void on_frame(session_self self, const frame_received& frame) {
 void take_owner(session_self self, const own_session& wish) {
   auto& st = self->state;
   st.owner = wish.owner;
-  self->monitor(wish.owner);
+  watch_until_own_end(self, wish.owner);
   for (const auto& frame : std::exchange(st.early_frames, {}))
     hand_over(self, frame);
 }

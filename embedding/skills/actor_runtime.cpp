@@ -1,6 +1,7 @@
 #include "embedding/skills/actor_runtime.hpp"
 
 #include "actors/house/limits.hpp"
+#include "actors/house/watching.hpp"
 #include "embedding/skills/skill_logs.hpp"
 #include "messages/failure.hpp"
 #include "roscell/ros2.hpp"
@@ -247,7 +248,7 @@ actor_runtime(actor_runtime_pointer self, const actor_runtime_config& config,
   st.config = config;
   st.listener = std::move(listener);
   st.hub = std::make_shared<frame_hub>();
-  self->monitor(st.listener);
+  watch_until_own_end(self, st.listener);
   self->set_down_handler([self](const caf::down_msg& down) {
     end_all(self);
     self->quit(down.reason);

@@ -1,6 +1,7 @@
 #include "embedding/skills/skill_keeper.hpp"
 
 #include "actors/house/limits.hpp"
+#include "actors/house/watching.hpp"
 #include "roscell/skill/errors.hpp"
 #include "skills/engine/life/frame_words.hpp"
 #include "skills/engine/life/heartbeat.hpp"
@@ -46,7 +47,7 @@ void make_skill(self_pointer self) {
     return make(skill, actor_skill_context{side});
   };
   st.skill = self->spawn(std::move(init));
-  self->monitor(st.skill);
+  watch_until_its_end(self, st.skill);
 }
 
 void begin(self_pointer self) {

@@ -11,6 +11,7 @@
 #include "actors/cell/tasks/task_turns.hpp"
 #include "actors/house/limits.hpp"
 #include "actors/house/wall_clock.hpp"
+#include "actors/house/watching.hpp"
 #include "messages/failure.hpp"
 
 #include <algorithm>
@@ -205,7 +206,7 @@ caf::result<task_claimed> claim_task_turn(coordinator_pointer self,
   const auto sender = self->current_sender();
   const auto owner = caf::actor_cast<caf::actor_addr>(sender);
   if (sender)
-    self->monitor(sender);
+    watch_until_its_end(self, sender);
   auto promise = self->make_response_promise<task_claimed>();
   if (answer_known(self, request, promise))
     return promise;

@@ -1,4 +1,5 @@
 #include "actors/instances/actor_skills/runtime_switch.hpp"
+#include "actors/house/watching.hpp"
 
 #include <caf/result.hpp>
 
@@ -58,9 +59,9 @@ runtime_actor::behavior_type runtime_switch(self_pointer self,
   auto& st = self->state;
   st.programs = std::move(programs);
   st.actors = std::move(actors);
-  self->monitor(st.programs);
-  self->monitor(st.actors);
-  self->monitor(listener);
+  watch_until_own_end(self, st.programs);
+  watch_until_own_end(self, st.actors);
+  watch_until_own_end(self, listener);
   self->set_down_handler(
       [self](const caf::down_msg& down) { self->quit(down.reason); });
   return {

@@ -1,6 +1,7 @@
 #include "actors/instances/engine/engine_runtime.hpp"
 
 #include "actors/edge/engine/build_context.hpp"
+#include "actors/house/watching.hpp"
 #include "actors/instances/engine/engine_containers.hpp"
 #include "actors/instances/engine/engine_parts.hpp"
 #include "actors/instances/fence_keeping.hpp"
@@ -89,7 +90,7 @@ engine_runtime(engine_runtime_pointer self, const engine_runtime_config& config,
   st.config = config;
   st.listener = std::move(listener);
   st.client = std::make_unique<engine_client>(config.io, config.socket);
-  self->monitor(st.listener);
+  watch_until_own_end(self, st.listener);
   self->set_down_handler(
       [self](const caf::down_msg& down) { self->quit(down.reason); });
   clean_build_contexts(config.data_dir / "build");

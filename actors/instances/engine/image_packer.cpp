@@ -1,6 +1,7 @@
 #include "actors/instances/engine/image_packer.hpp"
 
 #include "actors/house/edge_failure.hpp"
+#include "actors/house/watching.hpp"
 #include "actors/instances/engine/dockerfile.hpp"
 #include "actors/instances/skill_folder.hpp"
 #include "actors/instances/skill_program.hpp"
@@ -71,7 +72,7 @@ image_packer_actor::behavior_type
 image_packer(image_packer_self self, const std::filesystem::path& work_dir,
              const engine_runtime_actor& owner) {
   self->state.work_dir = work_dir;
-  self->monitor(owner);
+  watch_until_own_end(self, owner);
   self->set_down_handler(
       [self](const caf::down_msg& down) { self->quit(down.reason); });
   return {

@@ -1,6 +1,7 @@
 #include "actors/instances/life/skill_instance.hpp"
 
 #include "actors/house/limits.hpp"
+#include "actors/house/watching.hpp"
 #include "actors/instances/instance_environment.hpp"
 #include "actors/instances/instance_words.hpp"
 #include "actors/instances/life/skill_instance_steps.hpp"
@@ -165,7 +166,7 @@ skill_instance(skill_instance_pointer self,
   self->state.row = config.row;
   self->state.has_run = has_run_before(config.row);
   self->state.started_at = config.started_at;
-  self->monitor(config.supervisor);
+  watch_until_own_end(self, config.supervisor);
   // The program goes on, and the next supervisor adopts it.
   self->set_down_handler(
       [self](const caf::down_msg& down) { self->quit(down.reason); });

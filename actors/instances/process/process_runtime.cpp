@@ -4,6 +4,7 @@
 #include "actors/edge/process/pidfd.hpp"
 #include "actors/house/edge_failure.hpp"
 #include "actors/house/limits.hpp"
+#include "actors/house/watching.hpp"
 #include "actors/instances/fence_keeping.hpp"
 #include "actors/instances/instance_id.hpp"
 #include "actors/instances/life/told_words.hpp"
@@ -301,7 +302,7 @@ process_runtime(process_runtime_pointer self,
                 container_listener_actor listener) {
   self->state.config = config;
   self->state.listener = std::move(listener);
-  self->monitor(self->state.listener);
+  watch_until_own_end(self, self->state.listener);
   self->set_down_handler(
       [self](const caf::down_msg& down) { self->quit(down.reason); });
   return {

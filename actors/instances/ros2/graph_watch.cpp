@@ -1,4 +1,5 @@
 #include "actors/instances/ros2/graph_watch.hpp"
+#include "actors/house/watching.hpp"
 
 #include <caf/actor_cast.hpp>
 #include <caf/send.hpp>
@@ -36,7 +37,7 @@ void watch(graph_watch_self self, const watch_endpoints& wish) {
       caf::actor_cast<endpoint_listener_actor>(self->current_sender());
   if (!listener)
     return;
-  self->monitor(listener);
+  watch_until_its_end(self, listener);
   auto& x = st.programs[wish.instance];
   x = {wish, listener, std::nullopt};
   look(self, x, st.graph->endpoints());

@@ -2,6 +2,7 @@
 
 #include "actors/house/limits.hpp"
 #include "actors/house/wall_clock.hpp"
+#include "actors/house/watching.hpp"
 #include "actors/placement/instance_specs.hpp"
 #include "actors/placement/reading/start_order.hpp"
 #include "actors/placement/reading/task_reading.hpp"
@@ -68,7 +69,7 @@ void claim(const request_context& context, task_request request,
            outcome<claimed_task> done) {
   claim_task wish{request.task, text_of(request)};
   // Without the coordinator nobody wants what is deployed.
-  context.self->monitor(context.services->coordinator);
+  watch_until_own_end(context.self, context.services->coordinator);
   ask<task_claimed>(context, context.services->coordinator, limits::task::claim,
                     std::move(wish), done,
                     [done, request](task_claimed claimed) {

@@ -2,6 +2,7 @@
 
 #include "actors/house/limits.hpp"
 #include "actors/house/relayed_requests.hpp"
+#include "actors/house/watching.hpp"
 #include "actors/session/member/member_steps.hpp"
 #include "schemas/document.hpp"
 
@@ -161,7 +162,7 @@ void take_over(self_pointer self, session_admitted accepted,
   st.registration_deadline =
       now(self) + limits::membership::registration_arrival;
   hold_session(self, std::move(accepted.session), lease_side::coordinator);
-  self->monitor(st.coordinator);
+  watch_until_own_end(self, st.coordinator);
   self->set_down_handler([self](const caf::down_msg& down) {
     end_member(self, down.source == self->state.session
                          ? "its session has failed"

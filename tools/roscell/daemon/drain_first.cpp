@@ -1,6 +1,7 @@
 #include "tools/roscell/daemon/drain_first.hpp"
 
 #include "actors/house/limits.hpp"
+#include "actors/house/watching.hpp"
 #include "messages/failure.hpp"
 #include "messages/formation.hpp"
 #include "messages/messages.hpp"
@@ -71,7 +72,7 @@ drain_actor::behavior_type
 drain(drain_pointer self, const running_node& node,
       const std::function<void(const std::string&)>& done) {
   self->state.done = done;
-  self->monitor(node.events);
+  watch_until_own_end(self, node.events);
   self->set_down_handler([self](const caf::down_msg&) { self->quit(); });
   begin(self, node);
   return {[self, actor = node.actor](const event& e) {

@@ -1,5 +1,6 @@
 #include "tools/roscell/daemon/journal.hpp"
 
+#include "actors/house/watching.hpp"
 #include "messages/messages.hpp"
 #include "tools/roscell/client/event_words.hpp"
 #include "tools/roscell/view/format.hpp"
@@ -39,7 +40,7 @@ void print(const event& e) {
 
 event_listener_actor::behavior_type journal(event_listener_actor::pointer self,
                                             const event_log_actor& events) {
-  self->monitor(events);
+  watch_until_own_end(self, events);
   self->set_down_handler([self](const caf::down_msg&) { self->quit(); });
   return {[](const event& e) { print(e); }};
 }
