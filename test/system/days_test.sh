@@ -1,9 +1,11 @@
 # Days that go wrong for a host or for the coordinator (scenes/days_scene.sh). Each
-# counts pictures at three readers. The bounds are those of docs/protocols.md.
+# counts pictures at five readers. The bounds are those of docs/protocols.md. Longer
+# times, which are in the whole matrix only, are the second ones of `of_matrix`; the
+# days of a host with containers are in ros2_containers_test.sh.
 
 . test/system/scenes/days_scene.sh
 
-slow=(test_data_flow_after_an_address_was_away test_data_flow_after_a_cable_was_out)
+slow=(test_data_flow_after_an_address_was_away test_data_flow_after_a_cable_was_out test_data_flow_after_an_address_has_changed test_data_flow_after_a_host_has_slept test_data_flow_after_a_coordinator_was_killed)
 
 test_data_flow_after_a_node_was_stopped_and_started() {
   start_day
@@ -19,6 +21,13 @@ test_data_flow_after_a_node_was_killed() {
   day_ends 5
 }
 
+test_data_flow_after_all_that_runs_on_a_host_was_killed() {
+  start_day
+  kill_programs right
+  start_host right
+  day_ends 5
+}
+
 test_data_flow_after_the_power_of_a_host_was_cut() {
   start_day
   kill_host right
@@ -27,21 +36,58 @@ test_data_flow_after_the_power_of_a_host_was_cut() {
 }
 
 test_data_flow_after_a_cable_was_out() {
+  local span_s
   start_day
-  unplug right 20
+  for span_s in $(of_matrix "1 7 12 20" "1 3 7 12 20 40 90"); do
+    day_begins "a cable was out for $span_s s"
+    unplug right "$span_s"
+    # What is shorter than a lease may be noticed by nobody.
+    [[ $span_s -lt 8 ]] || await_member right
+    day_ends 5
+  done
+}
+
+test_data_flow_after_a_host_started_without_a_cable() {
+  start_day
+  kill_host right down
+  start_node_of right
+  sleep 3
+  plug right
+  await_member right
+  start_guest
+  day_ends 5
+}
+
+test_data_flow_after_a_coordinator_started_without_a_cable() {
+  start_day
+  kill_host head down
+  { sleep 5; ip link set "$(cable_of head)" up; } &
+  # It is ready when it has the cable.
+  start_host head
+  await_member left
   await_member right
   day_ends 5
 }
 
-test_data_flow_after_a_cable_was_out_for_a_moment() {
+test_data_flow_after_a_host_has_slept() {
+  local span_s
   start_day
-  unplug right 3
-  day_ends 5
+  for span_s in $(of_matrix 12 "12 45"); do
+    day_begins "a host has slept for $span_s s"
+    send_to_sleep right "$span_s"
+    await_member right
+    day_ends 5
+  done
 }
 
 test_data_flow_after_an_address_has_changed() {
   start_day
   readdress right 10.231.7.13
+  await_member right
+  restart_guest
+  day_ends 10
+  day_begins "an address has changed with a gap of 5 s"
+  readdress right 10.231.7.14 5
   await_member right
   restart_guest
   day_ends 10
@@ -56,12 +102,14 @@ test_data_flow_after_a_host_came_back_at_another_address() {
 }
 
 test_data_flow_after_an_address_was_away() {
+  local span_s
   start_day
-  ip -n "${hosts[2]}" addr flush dev eth0
-  sleep 40
-  readdress right 10.231.7.3
-  await_member right
-  day_ends 5
+  for span_s in $(of_matrix 40 "3 12 40 90"); do
+    day_begins "an address was away for $span_s s"
+    readdress right 10.231.7.3 "$span_s"
+    await_member right
+    day_ends 5
+  done
 }
 
 test_data_flow_after_an_interface_was_made_anew() {
@@ -83,6 +131,12 @@ test_data_flow_after_the_address_of_a_coordinator_has_changed() {
 test_data_flow_after_a_coordinator_was_killed() {
   start_day
   kill_node head
+  start_host head
+  await_member left
+  await_member right
+  day_ends 5
+  day_begins "a coordinator was stopped and started"
+  stop_node head
   start_host head
   await_member left
   await_member right

@@ -42,3 +42,12 @@ become_rootless_user() {
   inside=(env "HOME=$scratch" "XDG_RUNTIME_DIR=$scratch"
     "${as_rootless_user[@]}")
 }
+
+# use_own_engine: one of this test's own, which is still to be launched.
+use_own_engine() {
+  engine_dir=$scratch/engine
+  . tools/own_engine.sh
+  mkdir -p "$engine_dir"
+  [[ $variant != rootless ]] || prepare_rootless
+  runtime=$engine_name:$engine_socket
+}
