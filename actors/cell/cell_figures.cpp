@@ -6,12 +6,12 @@
 
 #include <caf/typed_response_promise.hpp>
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <set>
 #include <string>
 #include <utility>
-#include <vector>
 
 namespace roscell {
 
@@ -62,13 +62,17 @@ void ask_nodes(coordinator_pointer self, const std::set<std::string>& nodes,
   tally->finish_one();
 }
 
-/// Where some of these run.
-std::set<std::string> live_nodes(const std::vector<instance_row>& rows) {
-  std::set<std::string> result;
-  for (const auto& row : rows)
-    if (is_live(row.state))
-      result.insert(row.node);
-  return result;
+/// Whom to ask before the instances of a task are judged; empty: all.
+std::set<std::string> nodes_to_ask(const cell_coordinator_state& st,
+                                   const std::string& task) {
+  const auto all = st.deployments.all_told();
+  auto some = all;
+  some.erase(std::remove_if(some.begin(), some.end(),
+                            [&](const auto* row) {
+                              return !task.empty() && row->spec.task != task;
+                            }),
+             some.end());
+  return nodes_around(all, some);
 }
 
 } // namespace
@@ -78,13 +82,11 @@ describe_instances_now(coordinator_pointer self, const instance_query& query) {
   auto known = describe_instances(self->state, query);
   if (!known)
     return std::move(known.error());
-  auto nodes = live_nodes(known->instances);
   // The other ends of its streams are known together with its own.
-  if (!query.instance.empty())
-    nodes.merge(live_nodes(
-        self->state.deployments.rows_of(known->instances.front().spec.task)));
+  const auto task =
+      query.instance.empty() ? query.task : known->instances.front().spec.task;
   auto promise = self->make_response_promise<instance_description>();
-  ask_nodes(self, nodes, [=]() mutable {
+  ask_nodes(self, nodes_to_ask(self->state, task), [=]() mutable {
     auto result = describe_instances(self->state, query);
     if (result)
       promise.deliver(std::move(*result));
@@ -102,7 +104,7 @@ caf::result<figures_collected> collect_all_figures(coordinator_pointer self) {
 }
 
 void look_at_streams(coordinator_pointer self, const std::string& task) {
-  ask_nodes(self, live_nodes(self->state.deployments.rows_of(task)), [] {
+  ask_nodes(self, nodes_to_ask(self->state, task), [] {
     // Nobody waits for it.
   });
 }

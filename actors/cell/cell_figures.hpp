@@ -18,7 +18,8 @@ describe_instances_now(coordinator_pointer self, const instance_query& query);
 /// The same for all instances, without telling it.
 caf::result<figures_collected> collect_all_figures(coordinator_pointer self);
 
-/// Has the nodes of a task asked, so that its streams are judged.
+/// Has the nodes of a task asked, and those that write what it reads, so that
+/// its streams are judged.
 void look_at_streams(coordinator_pointer self, const std::string& task);
 
 /// What is known of the cell, as numbers.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 namespace roscell {
@@ -18,19 +19,26 @@ struct written_topic {
   size_t output;
 };
 
-/// The writers of each topic of one task.
-using topic_writers = std::multimap<std::string, written_topic>;
+/// The writers of each topic of the cell, by its name and type: under one name
+/// ROS 2 keeps those of different types apart.
+using topic_key = std::pair<std::string, std::string>;
+using topic_writers = std::multimap<topic_key, written_topic>;
 
 bool is_topic(const io_endpoint& x) {
   return x.protocol == "ros2";
 }
 
-topic_writers writers_in(const row_list& task) {
+topic_key key_of(const io_endpoint& x) {
+  return {x.endpoint, x.data_type};
+}
+
+topic_writers writers_in(const row_list& rows) {
   topic_writers result;
-  for (const auto* row : task)
-    for (size_t i = 0; i < row->spec.output.size(); ++i)
-      if (is_topic(row->spec.output[i]))
-        result.insert({row->spec.output[i].endpoint, {row, i}});
+  for (const auto* row : rows)
+    if (row->state == instance_state::running)
+      for (size_t i = 0; i < row->spec.output.size(); ++i)
+        if (is_topic(row->spec.output[i]))
+          result.insert({key_of(row->spec.output[i]), {row, i}});
   return result;
 }
 
@@ -39,57 +47,54 @@ bool goes_on_sending(const written_topic& x) {
   return count != nullptr && count->steady_s >= stream_watch::long_enough_s;
 }
 
-std::string sentence_on(const io_endpoint& input, const stream_count& count,
-                        const instance_row& writer) {
+std::string name_of(const instance_row& writer, const instance_row& reader) {
+  return "step '" + writer.spec.step
+         + (writer.spec.task == reader.spec.task
+                ? "'"
+                : "' of task '" + writer.spec.task + "'");
+}
+
+std::string sentence_on(const instance_row& reader, const io_endpoint& input,
+                        const stream_count& count, const instance_row& writer) {
   return "input '" + input.endpoint + "' has had no frame "
          + (count.frames == 0 ? "at all"
                               : "for "
                                     + std::to_string(static_cast<int64_t>(
                                         std::floor(count.quiet_s)))
                                     + " s")
-         + ", though step '" + writer.spec.step + "' on node '" + writer.node
+         + ", though " + name_of(writer, reader) + " on node '" + writer.node
          + "' goes on sending; `roscell topics` and `roscell doctor` look for "
            "the cause";
 }
 
-/// What is to be said of one instance; empty: it gets what is sent.
-std::string reason_for(const instance_row& row, const topic_writers& writers) {
+/// What is to be said of one instance.
+struct stream_verdict {
+  std::string reason;  ///< Empty: it gets what is sent, as far as is known.
+  bool certain = true; ///< All that counts has just been told.
+};
+
+stream_verdict verdict_on(const instance_row& row, const topic_writers& writers,
+                          const std::set<std::string>& told) {
+  if (told.count(row.node) == 0)
+    return {{}, false};
+  stream_verdict result;
   for (size_t i = 0; i < row.spec.input.size(); ++i) {
     const auto& input = row.spec.input[i];
     const auto* count = input_count(row, i);
     if (!is_topic(input) || count == nullptr
         || count->quiet_s < stream_watch::long_enough_s)
       continue;
-    const auto [first, last] = writers.equal_range(input.endpoint);
-    const auto sender = std::find_if(first, last, [&](const auto& x) {
-      return x.second.row != &row && goes_on_sending(x.second);
-    });
-    if (sender != last)
-      return sentence_on(input, *count, *sender->second.row);
+    const auto [first, last] = writers.equal_range(key_of(input));
+    for (auto x = first; x != last; ++x) {
+      const auto& writer = *x->second.row;
+      if (&writer == &row)
+        continue;
+      if (told.count(writer.node) == 0)
+        result.certain = false;
+      else if (goes_on_sending(x->second))
+        return {sentence_on(row, input, *count, writer), true};
+    }
   }
-  return {};
-}
-
-/// Whether all that counts for its judgement has just been told.
-bool is_told(const instance_row& row, const topic_writers& writers,
-             const std::set<std::string>& told) {
-  if (told.count(row.node) == 0)
-    return false;
-  for (const auto& input : row.spec.input) {
-    const auto [first, last] = writers.equal_range(input.endpoint);
-    if (std::any_of(first, last, [&](const auto& x) {
-          return told.count(x.second.row->node) == 0;
-        }))
-      return false;
-  }
-  return true;
-}
-
-std::map<std::string, row_list> by_task(const row_list& rows) {
-  std::map<std::string, row_list> result;
-  for (const auto* row : rows)
-    if (row->state == instance_state::running)
-      result[row->spec.task].push_back(row);
   return result;
 }
 
@@ -98,22 +103,38 @@ std::map<std::string, row_list> by_task(const row_list& rows) {
 std::vector<std::string>
 stream_watch::judge(const row_list& rows, const std::set<std::string>& told) {
   const auto before = std::exchange(reasons_, {});
+  const auto writers = writers_in(rows);
   std::vector<std::string> result;
-  for (const auto& [task, members] : by_task(rows)) {
-    const auto writers = writers_in(members);
-    for (const auto* row : members) {
-      const auto& id = row->spec.instance;
-      const auto known = before.find(id);
-      const bool was_starved = known != before.end();
-      auto reason = is_told(*row, writers, told) ? reason_for(*row, writers)
-                    : was_starved                ? known->second
-                                                 : std::string{};
-      if (reason.empty() == was_starved)
-        result.push_back(id);
-      if (!reason.empty())
-        reasons_[id] = std::move(reason);
-    }
+  for (const auto* row : rows) {
+    if (row->state != instance_state::running)
+      continue;
+    const auto& id = row->spec.instance;
+    const auto known = before.find(id);
+    const bool was_starved = known != before.end();
+    auto verdict = verdict_on(*row, writers, told);
+    if (!verdict.certain && was_starved)
+      verdict.reason = known->second;
+    if (verdict.reason.empty() == was_starved)
+      result.push_back(id);
+    if (!verdict.reason.empty())
+      reasons_[id] = std::move(verdict.reason);
   }
+  return result;
+}
+
+std::set<std::string> nodes_around(const row_list& all, const row_list& some) {
+  std::set<std::string> result;
+  std::set<topic_key> read;
+  for (const auto* row : some)
+    if (is_live(row->state)) {
+      result.insert(row->node);
+      for (const auto& input : row->spec.input)
+        if (is_topic(input))
+          read.insert(key_of(input));
+    }
+  for (const auto& [topic, writer] : writers_in(all))
+    if (read.count(topic) > 0)
+      result.insert(writer.row->node);
   return result;
 }
 

@@ -17,16 +17,18 @@ namespace roscell {
 /// waits or is dropped there. A reader that is busy is not starved. A writer
 /// counts once it has sent three frames in each ten seconds for ten seconds:
 /// the words of both ends may be some seconds apart. Streams are those of ROS 2
-/// topics between steps of one task.
+/// topics between steps of the cell, whichever tasks they are of: a topic has
+/// one name in all of it. What nobody writes is no fault.
 class stream_watch {
 public:
   /// What a reader must have had nothing for, and a writer have sent for.
   static constexpr double long_enough_s = 10;
 
-  /// Judges all that is known now. An instance on a node that is not among
-  /// `told`, or with an input that is written there, is judged as before:
-  /// nobody knows its figures. Returns the instances of which the judgement has
-  /// changed; those that do not run are forgotten without a word.
+  /// Judges all that is known now. Of a node that is not among `told` nobody
+  /// knows the figures: an instance there, or with a silent input that only
+  /// such nodes may write, is judged as before. Returns the instances of which
+  /// the judgement has changed; those that do not run are forgotten without a
+  /// word.
   std::vector<std::string> judge(const std::vector<const instance_row*>& rows,
                                  const std::set<std::string>& told);
 
@@ -41,5 +43,11 @@ public:
 private:
   std::map<std::string, std::string> reasons_; ///< By instance.
 };
+
+/// Where `some` of all instances are, and where the topics that they read are
+/// written: whom to ask before they are judged.
+std::set<std::string>
+nodes_around(const std::vector<const instance_row*>& all,
+             const std::vector<const instance_row*>& some);
 
 } // namespace roscell

@@ -382,6 +382,38 @@ TEST_CASE_METHOD(cell_with_stream,
   CHECK(state_of_task(*this, "t") == "running");
 }
 
+TEST_CASE_METHOD(cell_with_stream,
+                 "A reader is judged together with a writer of another task",
+                 "[cell_coordinator]") {
+  auto& eye = add("eye");
+  request(echo_task("u", {echo_step("camera", 1, "eye")}));
+  auto& camera = eye.running.begin()->second;
+  camera.spec.output = writer.spec.output;
+  camera.figures = writer.figures;
+  writer.figures.streams[0].steady_s = -1;
+  eye.tell(camera);
+  time.settle();
+  reader.figures.streams[0].quiet_s = 30;
+  SECTION("when its node has told that its input is silent") {
+    arm.tell(reader);
+    time.settle();
+  }
+  SECTION("when somebody asks for it") {
+    request({{"type", "instance_query"}, {"instance", reader.spec.instance}});
+  }
+  SECTION("when somebody asks for its task") {
+    request({{"type", "instance_query"}, {"task", "t"}});
+  }
+  CHECK(count("instance_starved") == 1);
+  CHECK(state_of_task(*this, "t") == "degraded");
+  CHECK(state_of_task(*this, "u") == "running");
+  CHECK(facts.back()
+            .data.at("health_reason")
+            .get<std::string>()
+            .find("step 'camera' of task 'u' on node 'eye' goes on sending")
+        != std::string::npos);
+}
+
 TEST_CASE_METHOD(paper_cell, "A task is degraded while a node of it is away",
                  "[cell_coordinator]") {
   auto& arm = add("arm");

@@ -82,6 +82,15 @@ TEST_CASE_METHOD(watched_pair, "a reader that gets nothing of what its writer "
   }
 }
 
+TEST_CASE_METHOD(watched_pair, "a topic is one whichever tasks its ends are "
+                               "of") {
+  writer.spec.task = "u";
+  CHECK(judge() == names{"poses"});
+  REQUIRE(is_starved());
+  CHECK_THAT(*watch.reason_of("poses"),
+             Contains("step 'camera' of task 'u' on node 'belt' goes on"));
+}
+
 TEST_CASE_METHOD(watched_pair, "a reader that never had a frame is told so") {
   reader.figures.streams[0].frames = 0;
   judge();
@@ -105,11 +114,16 @@ TEST_CASE_METHOD(watched_pair, "a reader is not starved before it is certain") {
   SECTION("its writer does not run") {
     writer.state = instance_state::starting;
   }
-  SECTION("its writer is of another task") {
-    writer.spec.task = "u";
-  }
   SECTION("the topic is another one") {
     writer.spec.output[0].endpoint = "/other";
+  }
+  SECTION("what is written there is of another type") {
+    writer.spec.output[0].data_type = "sensor_msgs/msg/CompressedImage";
+  }
+  SECTION("it reads what it writes itself") {
+    reader.spec.output = {watched_topic};
+    reader.figures.streams.push_back(writer.figures.streams[0]);
+    writer.spec.output.clear();
   }
   SECTION("it reads a file") {
     writer.spec.output[0].protocol = "file";
@@ -143,4 +157,31 @@ TEST_CASE_METHOD(watched_pair, "one of several writers is enough") {
   other.figures.streams[0].steady_s = -1;
   watch.judge({&other, &writer, &reader}, {"arm", "belt"});
   CHECK(is_starved());
+}
+
+TEST_CASE_METHOD(watched_pair, "a writer that nobody hears of hides no other "
+                               "one") {
+  auto away = writer;
+  away.spec.instance = away.spec.step = "camera-2";
+  away.node = "away";
+  away.figures = {};
+  watch.judge({&away, &writer, &reader}, {"arm", "belt"});
+  CHECK(is_starved());
+  // Who gets something is not starved, whoever else may write.
+  reader.figures.streams[0].quiet_s = 0;
+  watch.judge({&away, &writer, &reader}, {"arm", "belt"});
+  CHECK_FALSE(is_starved());
+}
+
+TEST_CASE_METHOD(watched_pair, "those are asked that run a task or write what "
+                               "it reads") {
+  writer.spec.task = "u";
+  auto other = writer;
+  other.node = "far";
+  other.spec.output[0].endpoint = "/other";
+  const std::vector<const instance_row*> all{&writer, &reader, &other};
+  CHECK(nodes_around(all, {&reader}) == std::set<std::string>{"arm", "belt"});
+  CHECK(nodes_around(all, {&writer}) == std::set<std::string>{"belt"});
+  reader.state = instance_state::stopped;
+  CHECK(nodes_around(all, {&reader}).empty());
 }
