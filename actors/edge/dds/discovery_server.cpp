@@ -99,6 +99,8 @@ public:
         [this](const sighting& seen) { on_client(seen); }, graph_);
     if (participant_ == nullptr || (introducer_ && !learn_words(options)))
       return false;
+    graph_->begin_service();
+    serves_ = true;
     greeter_.start();
     return true;
   }
@@ -160,6 +162,8 @@ public:
   void close() {
     greeter_.stop();
     participant_.reset();
+    if (std::exchange(serves_, false))
+      graph_->end_service();
     introducer_.reset();
   }
 
@@ -243,6 +247,7 @@ private:
   }
 
   std::uint16_t port_ = 0;
+  bool serves_ = false;
   on_sighting callback_;
   std::mutex mutex_; // Guards what follows.
   std::set<guid_prefix> clients_;

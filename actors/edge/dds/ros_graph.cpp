@@ -74,6 +74,30 @@ void ros_graph::remove(const endpoint_guid& which) {
   tell();
 }
 
+void ros_graph::begin_service() {
+  {
+    const std::lock_guard guard{mutex_};
+    ++servers_;
+  }
+  tell();
+}
+
+void ros_graph::end_service() {
+  {
+    const std::lock_guard guard{mutex_};
+    if (--servers_ == 0) {
+      names_.clear();
+      endpoints_.clear();
+    }
+  }
+  tell();
+}
+
+bool ros_graph::is_served() {
+  const std::lock_guard guard{mutex_};
+  return servers_ > 0;
+}
+
 std::vector<graph_endpoint> ros_graph::endpoints() {
   const std::lock_guard guard{mutex_};
   told_ = false;

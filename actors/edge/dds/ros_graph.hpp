@@ -53,6 +53,14 @@ public:
 
   void remove(const endpoint_guid& which);
 
+  /// A discovery server has begun, or ended, to put in here what it knows. With
+  /// the last one all of that ends.
+  void begin_service();
+  void end_service();
+
+  /// Whether there is one. Else nothing is known of anybody.
+  bool is_served();
+
   /// All of them, in the order of their GUIDs.
   std::vector<graph_endpoint> endpoints();
 
@@ -68,6 +76,7 @@ private:
   std::map<endpoint_guid, graph_endpoint> endpoints_;
   std::function<void()> on_change_;
   bool told_ = false;
+  int servers_ = 0; ///< One may begin before the one before has ended.
 };
 
 } // namespace roscell

@@ -110,6 +110,21 @@ TEST_CASE("a discovery server on port 0 says which port it took",
   CHECK(server->port() != 0);
 }
 
+TEST_CASE("what a discovery server knows is known as long as it is there",
+          "[discovery]") {
+  auto options = local_server(1, "");
+  options.graph = std::make_shared<ros_graph>();
+  auto server = must_open(options);
+  CHECK(options.graph->is_served());
+  options.graph->name_participant({1}, "/");
+  options.graph->add({1}, {"rt/x", "a::msg::dds_::B_", true, true, "", ""});
+  server->close();
+  CHECK_FALSE(options.graph->is_served());
+  CHECK(options.graph->endpoints().empty());
+  server = must_open(options);
+  CHECK(options.graph->is_served());
+}
+
 TEST_CASE("a discovery server names the port that is in use", "[discovery]") {
   auto first = must_open(local_server(1, ""));
   auto options = local_server(2, "");

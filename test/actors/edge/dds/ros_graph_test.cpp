@@ -92,3 +92,24 @@ TEST_CASE("who watches the graph is told once until it has looked") {
   graph.remove(guid(7));
   CHECK(calls == 2);
 }
+
+TEST_CASE("with the last server all that is known of anybody ends") {
+  ros_graph graph;
+  int calls = 0;
+  graph.watch([&] { ++calls; });
+  CHECK_FALSE(graph.is_served());
+  graph.endpoints();
+  graph.begin_service();
+  CHECK(calls == 2);
+  CHECK(graph.is_served());
+  graph.add(guid(1), scan());
+  // The next one begins before this one has ended.
+  graph.begin_service();
+  graph.end_service();
+  CHECK(graph.is_served());
+  CHECK(graph.endpoints().size() == 1);
+  graph.end_service();
+  CHECK(calls == 3);
+  CHECK_FALSE(graph.is_served());
+  CHECK(graph.endpoints().empty());
+}
