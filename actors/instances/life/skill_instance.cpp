@@ -106,9 +106,12 @@ void on_alarm(skill_instance_pointer self) {
   listen_before_judging(self);
 }
 
-/// What a stock program's endpoints say of it.
+/// What its endpoints say of a stock program, or whether a skill of ours is
+/// known.
 void on_endpoints(skill_instance_pointer self, const endpoints_missing& x) {
   auto& st = self->state;
+  if (st.sight)
+    return on_sight(self, x);
   st.missing = x.missing;
   if (st.concluding || !st.endpoints)
     return;
@@ -139,7 +142,7 @@ void on_notified(skill_instance_pointer self, const instance_notified& x) {
   }
   if (x.alive && st.row.state == instance_state::running)
     on_sign_of_life(self);
-  on_streams(self, x.streams);
+  look_after_health(self, x);
   if (x.heard && st.listening)
     judge(self);
 }

@@ -3,6 +3,7 @@
 #include "actors/house/alarm.hpp"
 #include "actors/house/house.hpp"
 #include "actors/instances/life/health_book.hpp"
+#include "actors/instances/life/server_sight.hpp"
 #include "actors/instances/skill_catalogue.hpp"
 #include "messages/messages.hpp"
 
@@ -75,6 +76,9 @@ struct skill_instance_state {
 
   /// What the streams of this run say; none before its skill has told of them.
   std::optional<health_book> health;
+
+  /// Whether the node's discovery server knows this run; none: nobody looks.
+  std::optional<server_sight> sight;
 
   /// Why it is to end for good; it is not started again.
   std::optional<std::string> farewell;

@@ -1,5 +1,6 @@
 #include "actors/house/limits.hpp"
 #include "actors/instances/life/skill_instance_steps.hpp"
+#include "actors/instances/ros2/engine_ends.hpp"
 #include "schemas/utf8.hpp"
 
 #include <string>
@@ -45,23 +46,50 @@ void tell(skill_instance_pointer self) {
   st.config.context.tell(fact_of(st.row.health), spec.instance, data);
 }
 
-} // namespace
-
-void on_streams(skill_instance_pointer self,
-                const std::vector<stream_figure>& told) {
+/// Whether its streams are to be spoken of in another way now.
+bool hear_streams(skill_instance_pointer self,
+                  const std::vector<stream_figure>& told) {
   auto& st = self->state;
-  // What is to end for good, and only waits to be safe, is not started again.
-  if (told.empty() || st.row.state != instance_state::running || st.farewell
-      || !has_bounds(st.row.spec.life.health))
-    return;
+  if (told.empty() || !has_bounds(st.row.spec.life.health))
+    return false;
   if (!st.health)
     st.health = book_of(st);
-  if (!st.health->hear(told, self->clock().now()))
+  return st.health->hear(told, self->clock().now());
+}
+
+/// Whoever counts frames is of our engine, which names its participant.
+void look_for_it(skill_instance_pointer self,
+                 const std::vector<stream_count>& frames) {
+  auto& st = self->state;
+  if (st.sight || !st.config.graph)
     return;
-  st.row.health = st.health->last().health;
+  const auto ends = engine_ends(st.row.spec, frames);
+  if (!ends)
+    return;
+  st.sight.emplace(st.row.health == instance_health::starved
+                   && !has_bounds(st.row.spec.life.health));
+  self->send(st.config.graph, *ends);
+}
+
+/// An output that breaks its bounds counts most; an input that does may do so
+/// because nobody knows the instance.
+health_verdict verdict_on(const skill_instance_state& st) {
+  const auto streams = st.health ? st.health->last() : health_verdict{};
+  if (streams.health != instance_health::unhealthy && st.sight)
+    if (auto why = st.sight->reason(); !why.empty())
+      return {instance_health::starved, std::move(why)};
+  return streams;
+}
+
+void say(skill_instance_pointer self, const health_verdict& x) {
+  auto& st = self->state;
   // It quotes an endpoint, which may be a path of any bytes.
-  st.row.health_reason = valid_utf8(
-      st.health->last().reason.substr(0, limits::instance::reason_bytes));
+  const auto reason =
+      valid_utf8(x.reason.substr(0, limits::instance::reason_bytes));
+  if (x.health == st.row.health && reason == st.row.health_reason)
+    return;
+  st.row.health = x.health;
+  st.row.health_reason = reason;
   tell(self);
   if (st.row.health == instance_health::unhealthy)
     return take_down(self, instance_state::failed,
@@ -70,8 +98,33 @@ void on_streams(skill_instance_pointer self,
   note(self);
 }
 
+} // namespace
+
+void look_after_health(skill_instance_pointer self,
+                       const instance_notified& x) {
+  auto& st = self->state;
+  // What is to end for good, and only waits to be safe, is not started again.
+  if (st.row.state != instance_state::running || st.farewell)
+    return;
+  const bool heard = hear_streams(self, x.streams);
+  look_for_it(self, x.frames);
+  const bool sighted = st.sight && st.sight->judge(self->clock().now());
+  if (heard || sighted)
+    say(self, verdict_on(st));
+}
+
+void on_sight(skill_instance_pointer self, const endpoints_missing& x) {
+  auto& st = self->state;
+  const auto now = self->clock().now();
+  st.sight->hear(x.missing, now);
+  if (st.row.state == instance_state::running && !st.farewell
+      && st.sight->judge(now))
+    say(self, verdict_on(st));
+}
+
 void forget_health(skill_instance_state& st) {
   st.health.reset();
+  st.sight.reset();
   st.row.health = instance_health::good;
   st.row.health_reason.clear();
 }

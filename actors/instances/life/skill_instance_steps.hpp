@@ -114,10 +114,13 @@ void on_contact_lost(skill_instance_pointer self);
 
 // -- skill_instance_health.cpp ------------------------------------------------
 
-/// What its skill has measured of its streams. What is unhealthy is taken down,
-/// so that its policy starts it again.
-void on_streams(skill_instance_pointer self,
-                const std::vector<stream_figure>& told);
+/// Its skill has given a sign of life, and maybe told what it has measured of
+/// its streams. What is unhealthy is taken down, so that its policy starts it
+/// again.
+void look_after_health(skill_instance_pointer self, const instance_notified& x);
+
+/// The node's discovery server knows all of its topics but these.
+void on_sight(skill_instance_pointer self, const endpoints_missing& x);
 
 /// Nothing that was said of a run that is over counts for the next one.
 void forget_health(skill_instance_state& st);

@@ -5,6 +5,8 @@
 #include <caf/send.hpp>
 
 #include <algorithm>
+#include <map>
+#include <string_view>
 #include <utility>
 
 namespace roscell {
@@ -13,16 +15,41 @@ namespace {
 
 using graph_watch_self = graph_watch_actor::stateful_pointer<graph_watch_state>;
 
-bool has(const std::vector<graph_endpoint>& ends, const std::string& program,
+/// A node may run hundreds of programs, each of which looks for a few of
+/// thousands of ends.
+using ends_by_program = std::multimap<std::string_view, const graph_endpoint*>;
+
+ends_by_program sorted(const std::vector<graph_endpoint>& ends) {
+  ends_by_program result;
+  for (const auto& x : ends)
+    result.emplace(x.program, &x);
+  return result;
+}
+
+bool has(const ends_by_program& ends, const std::string& program,
          const std::string& topic, bool writes) {
-  return std::any_of(ends.begin(), ends.end(), [&](const auto& x) {
-    return x.topic == topic && x.writes == writes
-           && (program.empty() || x.program == program);
+  const auto [first, last] = program.empty()
+                                 ? std::pair{ends.begin(), ends.end()}
+                                 : ends.equal_range(program);
+  return std::any_of(first, last, [&](const auto& x) {
+    return x.second->topic == topic && x.second->writes == writes;
   });
 }
 
+std::vector<std::string> missing_in(const ends_by_program& ends,
+                                    const watch_endpoints& wish) {
+  std::vector<std::string> result;
+  for (const auto& topic : wish.written)
+    if (!has(ends, wish.program, topic, true))
+      result.push_back("a writer of " + topic);
+  for (const auto& topic : wish.read)
+    if (!has(ends, wish.program, topic, false))
+      result.push_back("a reader of " + topic);
+  return result;
+}
+
 void look(graph_watch_self self, watched_program& x,
-          const std::vector<graph_endpoint>& ends) {
+          const ends_by_program& ends) {
   auto missing = missing_in(ends, x.wish);
   if (x.missing == missing)
     return;
@@ -37,10 +64,14 @@ void watch(graph_watch_self self, const watch_endpoints& wish) {
       caf::actor_cast<endpoint_listener_actor>(self->current_sender());
   if (!listener)
     return;
-  watch_until_its_end(self, listener);
   auto& x = st.programs[wish.instance];
+  // Whoever is started again asks again.
+  if (x.listener != listener)
+    watch_until_its_end(self, listener);
   x = {wish, listener, std::nullopt};
-  look(self, x, st.graph->endpoints());
+  const auto ends = st.graph->endpoints();
+  if (st.graph->is_served())
+    look(self, x, sorted(ends));
 }
 
 void look_at_all(graph_watch_self self) {
@@ -49,8 +80,11 @@ void look_at_all(graph_watch_self self) {
   if (st.programs.empty())
     return;
   const auto ends = st.graph->endpoints();
+  if (!st.graph->is_served())
+    return;
+  const auto known = sorted(ends);
   for (auto& [instance, x] : st.programs)
-    look(self, x, ends);
+    look(self, x, known);
 }
 
 void forget(graph_watch_self self, const caf::actor_addr& gone) {
@@ -60,18 +94,6 @@ void forget(graph_watch_self self, const caf::actor_addr& gone) {
 }
 
 } // namespace
-
-std::vector<std::string> missing_in(const std::vector<graph_endpoint>& ends,
-                                    const watch_endpoints& wish) {
-  std::vector<std::string> result;
-  for (const auto& topic : wish.written)
-    if (!has(ends, wish.program, topic, true))
-      result.push_back("a writer of " + topic);
-  for (const auto& topic : wish.read)
-    if (!has(ends, wish.program, topic, false))
-      result.push_back("a reader of " + topic);
-  return result;
-}
 
 graph_watch_actor::behavior_type graph_watch(graph_watch_self self,
                                              std::shared_ptr<ros_graph> graph) {

@@ -12,10 +12,6 @@
 
 namespace roscell {
 
-/// What of `wish` these ends lack, each in words: "a writer of /scene_1/image".
-std::vector<std::string> missing_in(const std::vector<graph_endpoint>& ends,
-                                    const watch_endpoints& wish);
-
 /// A program that is looked after.
 struct watched_program {
   watch_endpoints wish;
@@ -33,7 +29,8 @@ struct graph_watch_state {
 };
 
 /// The GRAPH WATCH. Messages: messages/inside/link.hpp; it has no errors, and
-/// forgets who has ended.
+/// forgets who has ended. While the node has no discovery server it tells
+/// nothing: nobody can be missing.
 graph_watch_actor::behavior_type
 graph_watch(graph_watch_actor::stateful_pointer<graph_watch_state> self,
             std::shared_ptr<ros_graph> graph);

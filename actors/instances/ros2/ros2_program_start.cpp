@@ -1,9 +1,8 @@
 #include "actors/instances/ros2/ros2_program_start.hpp"
 
+#include "actors/instances/ros2/ros_name.hpp"
 #include "messages/codec/json_codec.hpp"
 
-#include <algorithm>
-#include <string_view>
 #include <utility>
 
 namespace roscell {
@@ -52,21 +51,6 @@ exec "$path" "$@"
 )";
 
 using word_list = std::vector<std::string>;
-
-/// A word that ROS 2 takes for a name: other characters become '_'.
-std::string ros_name(std::string_view text) {
-  std::string result{text};
-  std::replace_if(
-      result.begin(), result.end(),
-      [](char c) {
-        return !((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z')
-                 || (c >= '0' && c <= '9') || c == '_');
-      },
-      '_');
-  const bool begins_badly =
-      result.empty() || (result[0] >= '0' && result[0] <= '9');
-  return begins_badly ? "_" + result : result;
-}
 
 /// "input:1" is the second input, "input" the first.
 const io_endpoint* find_end(const instance_spec& spec,

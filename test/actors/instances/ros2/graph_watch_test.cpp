@@ -25,6 +25,7 @@ graph_endpoint image(bool writes) {
 /// A watch between a graph and somebody who wants a writer and a reader.
 struct watch_bench : virtual_time {
   watch_bench() {
+    graph->begin_service();
     watch = roscell::spawn(system, context, graph_watch, graph);
   }
 
@@ -92,4 +93,26 @@ TEST_CASE_METHOD(watch_bench, "who has ended is forgotten") {
   graph->add(guid(1, 1), image(true));
   settle();
   CHECK(told.size() == 1);
+}
+
+TEST_CASE_METHOD(watch_bench, "without a server nobody is missing, with one "
+                              "again those who do not come") {
+  graph->end_service();
+  settle();
+  const auto who = ask({"i", "/i", {"/image"}, {}});
+  CHECK(told.empty());
+  graph->begin_service();
+  settle();
+  CHECK(told == std::vector<words>{{"a writer of /image"}});
+  graph->name_participant({1}, "/i");
+  graph->add(guid(1, 1), image(true));
+  settle();
+  CHECK(told.back().empty());
+  graph->end_service();
+  settle();
+  CHECK(told.size() == 2);
+  graph->begin_service();
+  settle();
+  CHECK(told.back() == words{"a writer of /image"});
+  caf::anon_send_exit(who, caf::exit_reason::kill);
 }

@@ -30,6 +30,7 @@ struct stock_bench : virtual_time {
     config.skills = std::make_shared<const skill_catalogue>(
         skill_catalogue::scan({folder.path()}));
     REQUIRE(config.skills->skills().size() == 1);
+    graph->begin_service();
     watch = roscell::spawn(system, context, graph_watch, graph);
     config.context = context;
     config.supervisor = fake_supervisor(system, told);
