@@ -1,10 +1,12 @@
 #include "cell_fixture.hpp"
 
 #include "dds/free_port.hpp"
+#include "roscell/ros2.hpp"
 #include "roscell/ros2/cdr.hpp"
 #include "roscell/ros2/std_msgs.hpp"
 #include "roscell/skill/errors.hpp"
 #include "skills/engine/life/unique_fd.hpp"
+#include "skills/engine/primitive_base_engine.hpp"
 #include "skills/ros2/participant.hpp"
 
 #include <catch2/catch.hpp>
@@ -47,6 +49,17 @@ std::uint16_t must_find(const std::vector<std::string>& addresses,
   REQUIRE(std::holds_alternative<std::uint16_t>(found));
   return std::get<std::uint16_t>(found);
 }
+
+class idle : public engine::executor {
+public:
+  void process(const engine::frame&, engine::emitter&) override {
+    // It never comes to that.
+  }
+
+  void release() override {
+    // Nothing is held.
+  }
+};
 
 } // namespace
 
@@ -105,4 +118,35 @@ TEST_CASE("a participant that no port is left for is refused, not deaf") {
   const auto crowd = take("0.0.0.0", ports_of(config.domain_id), 350, 1);
   CHECK_THROWS_WITH(ros2::participant{config},
                     Catch::Contains("UDP ports that DDS tries"));
+}
+
+TEST_CASE("a skill whose participant cannot be made ends, saying why, and is "
+          "never ready") {
+  temp_folder folder;
+  notify_receiver node{folder / "notify"};
+  variables said{{"ROS_DOMAIN_ID", "114"}};
+  taken_ports crowd;
+  std::string reason;
+  SECTION("for want of a port") {
+    crowd = take("0.0.0.0", ports_of(114), 350, 1);
+    reason = "cannot start: all UDP ports that DDS tries in ROS domain 114";
+  }
+  SECTION("for want of a way to its node's server") {
+    // Nobody may send there without asking for it.
+    said["ROS_DISCOVERY_SERVER"] = "255.255.255.255:11811";
+    reason = "cannot start: there is no route to the discovery server";
+  }
+  engine::registry parts;
+  ros2::add_ros2_protocol(parts, lookup_in(said));
+  parts.add_executor<idle>("idle");
+  engine::environment env;
+  env.model = "idle";
+  env.notify_socket = folder / "notify";
+  env.inputs = {{"ros2", "/image", "sensor_msgs/msg/Image"}};
+  logbook log;
+  engine::primitive_base_engine program{parts, env, log.say()};
+  CHECK(program.run() == engine::exit_code::cannot_start);
+  CHECK_FALSE(node.receive_now());
+  REQUIRE(log.lines().size() == 1);
+  CHECK_THAT(log.lines().front(), Catch::StartsWith(reason));
 }

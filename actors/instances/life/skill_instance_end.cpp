@@ -3,9 +3,11 @@
 #include "actors/instances/instance_words.hpp"
 #include "actors/instances/life/restart_delay.hpp"
 #include "actors/instances/life/skill_instance_steps.hpp"
+#include "schemas/utf8.hpp"
 
 #include <caf/send.hpp>
 
+#include <algorithm>
 #include <functional>
 #include <optional>
 #include <random>
@@ -78,6 +80,20 @@ void keep_run(instance_row& row, const std::string& reason,
   keep_end(row, {unix_now_ms(), row.exit_code, reason, last_lines(log)});
 }
 
+/// A program that ends before it is ready has said why in its last line.
+std::string with_last_word(const instance_row& row, const std::string& reason,
+                           const std::string& log) {
+  constexpr size_t most_bytes = 300;
+  const auto end = log.find_last_not_of(" \r\n");
+  if (row.state != instance_state::starting || row.exit_code <= 0
+      || end == std::string::npos)
+    return reason;
+  const auto before = log.rfind('\n', end);
+  const auto begin = before == std::string::npos ? 0 : before + 1;
+  return reason + ": "
+         + valid_utf8(log.substr(begin, std::min(end + 1 - begin, most_bytes)));
+}
+
 /// The log is read, so its folder may go.
 void go_on(skill_instance_pointer self, instance_state last,
            const std::string& reason, const std::string& log) {
@@ -127,7 +143,10 @@ void conclude(skill_instance_pointer self, instance_state last,
   query.instance = st.row.spec.instance;
   ask<log_excerpt>(
       self, st.config.runtime, limits::instance::disk, query,
-      [=](const log_excerpt& log) { go_on(self, last, reason, log.text); },
+      [=](const log_excerpt& log) {
+        go_on(self, last, with_last_word(self->state.row, reason, log.text),
+              log.text);
+      },
       [=](const caf::error&) { go_on(self, last, reason, ""); });
 }
 

@@ -197,6 +197,12 @@ TEST_CASE("what a program's end means depends on its state and code") {
     b.exits(0);
     CHECK(contains(b.reason(), "before it was ready"));
   }
+  SECTION("starting, not 0: it has said why") {
+    b.start();
+    b.exits(2);
+    CHECK(b.reason()
+          == "it ended with exit code 2 before it was ready: last line");
+  }
   CHECK(b.state() == last);
   CHECK(b.store->states("i").back() == to_string(last));
 }
