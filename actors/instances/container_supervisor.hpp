@@ -1,5 +1,6 @@
 #pragma once
 
+#include "actors/edge/process/environment_file.hpp"
 #include "actors/house/house.hpp"
 #include "actors/instances/life/quiet_notice.hpp"
 #include "actors/instances/skill_catalogue.hpp"
@@ -35,6 +36,7 @@ struct container_supervisor_config {
   /// What an earlier run may have left and no record knows: it is ended.
   std::vector<std::string> strays;
   bool may_be_lost = false; ///< By a cell: it is no coordination node.
+  environment_teller tell_environment; ///< Empty: no instance can be told.
 };
 
 /// An instance as the supervisor sees it.

@@ -47,7 +47,8 @@ void spawn_actor(container_supervisor_pointer self, supervised_instance& x,
       st.contact_boot_ms,
       st.config.address,
       adopt && started != st.config.started_at.end() ? started->second : "",
-      renewal};
+      renewal,
+      st.config.tell_environment};
   x.actor = spawn(self->system(), st.config.context, skill_instance, config);
   watch_until_its_end(self, x.actor);
   caf::anon_send(x.actor, start_instance{});

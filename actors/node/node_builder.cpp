@@ -120,6 +120,7 @@ private:
     supervision.skills = catalogue_;
     supervision.make_runtime = make_runtime();
     supervision.builds_images = !runtime_.socket.empty();
+    supervision.tell_environment = make_environment_teller(config, runtime_);
     supervision.store = store_;
     supervision.graph = start(graph_watch, parts_.edges->graph);
     supervision.address = config.address;

@@ -2,6 +2,7 @@
 
 #include "actors/edge/engine/engine_search.hpp"
 #include "actors/edge/host/installed_files.hpp"
+#include "actors/edge/process/notify_socket.hpp"
 #include "actors/house/edge_failure.hpp"
 #include "actors/instances/engine/engine_runtime.hpp"
 #include "actors/instances/process/process_runtime.hpp"
@@ -103,6 +104,17 @@ runtime_factory(caf::actor_system& system, const house& context,
   return [&system, context, setup](const container_listener_actor& listener) {
     return runtime_actor{
         spawn<caf::detached>(system, context, engine_runtime, setup, listener)};
+  };
+}
+
+environment_teller make_environment_teller(const node_config& config,
+                                           const chosen_runtime& chosen) {
+  return [data_dir = config.data_dir, in_engine = !chosen.socket.empty()](
+             const std::string& instance, const auto& variables) {
+    const auto socket = in_engine
+                            ? container_notify_path(data_dir, instance)
+                            : notify_path(data_dir / "instances" / instance);
+    return tell_environment(environment_file_of(socket), variables);
   };
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "actors/edge/io/io_thread.hpp"
+#include "actors/edge/process/environment_file.hpp"
 #include "actors/house/house.hpp"
 #include "messages/messages.hpp"
 #include "roscell/node_config.hpp"
@@ -35,5 +36,10 @@ std::function<runtime_actor(container_listener_actor)>
 runtime_factory(caf::actor_system& system, const house& context,
                 const node_config& config, const chosen_runtime& chosen,
                 const std::string& node_uuid, const io_thread& io);
+
+/// Tells instances of that runtime, while they run, of other values of
+/// variables.
+environment_teller make_environment_teller(const node_config& config,
+                                           const chosen_runtime& chosen);
 
 } // namespace roscell

@@ -2,6 +2,7 @@
 
 #include "roscell/skill/errors.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -15,6 +16,22 @@ void output_ports::add(const stream& config,
 void output_ports::open() {
   for (auto& p : ports_)
     p.handler->open();
+}
+
+bool output_ports::survive_new_address() const {
+  return std::all_of(ports_.begin(), ports_.end(), [](const port& p) {
+    return p.handler->survives_new_address();
+  });
+}
+
+void output_ports::suspend() {
+  for (auto& p : ports_)
+    p.handler->suspend();
+}
+
+void output_ports::resume(const changed_variables& told) {
+  for (auto& p : ports_)
+    p.handler->resume(told);
 }
 
 void output_ports::begin(const frame& input) {

@@ -58,6 +58,12 @@ public:
     return failure_;
   }
 
+  bool survive_new_address() const;
+  void suspend();
+
+  /// Throws start_error.
+  void resume(const changed_variables& told);
+
   /// Closes all outputs; what goes wrong is found in `failure`.
   void close();
 

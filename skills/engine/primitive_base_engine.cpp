@@ -180,9 +180,20 @@ void primitive_base_engine::open_parts() {
     input->handler->open();
 }
 
+bool primitive_base_engine::survives_new_address() const {
+  return !executor_->bound_to_address_ && outputs_.survive_new_address()
+         && std::all_of(inputs_.begin(), inputs_.end(), [](const auto& input) {
+              return input->handler->survives_new_address();
+            });
+}
+
 void primitive_base_engine::report_ready() {
   if (!socket_.enabled())
     return;
+  if (survives_new_address())
+    news_.emplace(env_.notify_socket, [this](changed_variables told) {
+      use_variables(std::move(told));
+    });
   if (auto error = socket_.send("READY=1"))
     say_("cannot report READY=1 to NOTIFY_SOCKET '" + env_.notify_socket
          + "': " + std::strerror(error)
@@ -207,7 +218,7 @@ void primitive_base_engine::run_input(input_port& input) {
   } catch (...) {
     say_("input " + std::to_string(input.number)
          + " broke: " + current_error());
-    input_failed_ = true;
+    stream_failed_ = true;
     request_stop();
   }
   if (--open_inputs_ == 0)
@@ -222,7 +233,7 @@ exit_code primitive_base_engine::move_frames() {
     if (gives_up(input->port))
       return exit_code::executor_failed;
   }
-  return input_failed_ ? exit_code::stream_failed : exit_code::done;
+  return stream_failed_ ? exit_code::stream_failed : exit_code::done;
 }
 
 void primitive_base_engine::handle(const frame& input) {
@@ -247,7 +258,29 @@ void primitive_base_engine::work_has_ended() {
 }
 
 void primitive_base_engine::want_safety() {
-  queue_.interpose([this] { pass_on_wish(); });
+  safety_wanted_ = true;
+  queue_.interpose([this] { between_frames(); });
+}
+
+void primitive_base_engine::use_variables(changed_variables told) {
+  {
+    const std::lock_guard guard{told_mutex_};
+    told_ = std::move(told);
+  }
+  queue_.interpose([this] { between_frames(); });
+}
+
+/// One wish does not push out the other.
+void primitive_base_engine::between_frames() {
+  if (safety_wanted_.exchange(false))
+    pass_on_wish();
+  std::optional<changed_variables> told;
+  {
+    const std::lock_guard guard{told_mutex_};
+    told.swap(told_);
+  }
+  if (told)
+    move_to(*told);
 }
 
 void primitive_base_engine::pass_on_wish() {
@@ -258,6 +291,36 @@ void primitive_base_engine::pass_on_wish() {
     say_("on_safety_wanted failed: " + current_error());
   }
   work_has_ended();
+}
+
+/// No thread uses an output meanwhile, and what an input still brings waits in
+/// the queue.
+void primitive_base_engine::move_to(const changed_variables& told) {
+  using namespace std::chrono;
+  const auto start = liveness::clock::now();
+  alive_.work_begins(start);
+  try {
+    make_connections_anew(told);
+    const auto spent = liveness::clock::now() - start;
+    say_("this host has another address: inputs and outputs were made anew in "
+         + std::to_string(duration_cast<milliseconds>(spent).count()) + " ms");
+  } catch (...) {
+    say_("cannot go on at another address of this host: " + current_error());
+    stream_failed_ = true;
+    request_stop();
+  }
+  work_has_ended();
+}
+
+/// What several of them share is gone before one of them needs it again.
+void primitive_base_engine::make_connections_anew(
+    const changed_variables& told) {
+  for (auto& input : inputs_)
+    input->handler->suspend();
+  outputs_.suspend();
+  outputs_.resume(told);
+  for (auto& input : inputs_)
+    input->handler->resume(told);
 }
 
 std::string primitive_base_engine::call_process(const frame& input) {
@@ -289,6 +352,7 @@ bool primitive_base_engine::gives_up(std::size_t input) const {
 
 exit_code primitive_base_engine::finish(exit_code so_far) {
   request_stop();
+  news_.reset();
   heartbeat_.reset();
   if (so_far == exit_code::done)
     socket_.send("STOPPING=1\n" + told_status());

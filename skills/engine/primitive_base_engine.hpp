@@ -3,6 +3,7 @@
 #include "roscell/skill/errors.hpp"
 #include "roscell/skill/registry.hpp"
 #include "skills/engine/frame_queue.hpp"
+#include "skills/engine/life/environment_watch.hpp"
 #include "skills/engine/life/heartbeat.hpp"
 #include "skills/engine/life/input_work.hpp"
 #include "skills/engine/life/liveness.hpp"
@@ -51,6 +52,11 @@ public:
   /// safe. May be called from any thread, at any time, repeatedly.
   void want_safety();
 
+  /// Has inputs and outputs go on, between two frames, where these variables
+  /// lead; of what is said meanwhile the last word counts. `run` returns where
+  /// they cannot. May be called from any thread, at any time, repeatedly.
+  void use_variables(changed_variables told);
+
   /// For instance `frames=120 dropped=0 failed=0 median_us=85 p99_us=210
   /// times_us=10900 times=119,1,0,0,0,0,0,0,0,0,0 age_us=4200`: of the input
   /// that the skill works on, frames processed, dropped before that, failed,
@@ -75,6 +81,7 @@ private:
 
   void make_parts();
   void open_parts();
+  bool survives_new_address() const;
   void report_ready();
   void start_inputs();
   void run_input(input_port& input);
@@ -84,7 +91,10 @@ private:
   void say_failure(const frame& input, const std::string& reason) const;
   bool gives_up(std::size_t input) const;
   std::string told_status() const;
+  void between_frames();
   void pass_on_wish();
+  void move_to(const changed_variables& told);
+  void make_connections_anew(const changed_variables& told);
   void work_has_ended();
   exit_code finish(exit_code so_far);
 
@@ -103,7 +113,11 @@ private:
   output_ports outputs_{meters_};
   std::optional<heartbeat> heartbeat_;
   std::atomic<std::size_t> open_inputs_{0};
-  std::atomic<bool> input_failed_{false};
+  std::atomic<bool> stream_failed_{false};
+  std::atomic<bool> safety_wanted_{false};
+  std::mutex told_mutex_; // Guards what follows.
+  std::optional<changed_variables> told_;
+  std::optional<environment_watch> news_; // Calls until it is gone.
 };
 
 } // namespace roscell::engine

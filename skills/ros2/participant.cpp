@@ -216,11 +216,20 @@ std::shared_ptr<participant>
 shared_participant::get(const engine::parameters& options) {
   auto result = participant_.lock();
   if (!result) {
-    result = std::make_shared<participant>(
-        read_participant_config(lookup_, options));
+    result = std::make_shared<participant>(read_participant_config(
+        [this](const char* name) { return look_up(name); }, options));
     participant_ = result;
   }
   return result;
+}
+
+void shared_participant::use(const engine::changed_variables& told) {
+  told_ = told;
+}
+
+const char* shared_participant::look_up(const char* name) const {
+  const auto i = told_.find(name);
+  return i != told_.end() ? i->second.c_str() : lookup_(name);
 }
 
 } // namespace roscell::ros2

@@ -102,8 +102,15 @@ public:
   /// Throws engine::start_error. To be called from one thread.
   std::shared_ptr<participant> get(const engine::parameters& options);
 
+  /// The next participant, once all ports have let go of this one, is made by
+  /// these values of variables. To be called by the same thread.
+  void use(const engine::changed_variables& told);
+
 private:
+  const char* look_up(const char* name) const;
+
   const engine::variable_lookup lookup_;
+  engine::changed_variables told_;
   std::weak_ptr<participant> participant_;
 };
 

@@ -28,8 +28,7 @@ topic_input::topic_input(const engine::stream_context& input,
 }
 
 topic_input::~topic_input() {
-  if (reader_ != nullptr)
-    participant_->remove(reader_);
+  suspend();
 }
 
 void topic_input::open() {
@@ -50,6 +49,22 @@ void topic_input::run(engine::frame_sink& sink,
   stop.wait();
   std::lock_guard guard{mutex_};
   sink_ = nullptr;
+}
+
+/// The listener's call that is under way takes the lock, so nobody holds it.
+void topic_input::suspend() {
+  if (reader_ != nullptr)
+    participant_->remove(std::exchange(reader_, nullptr));
+  participant_.reset();
+}
+
+void topic_input::resume(const engine::changed_variables& told) {
+  {
+    const std::lock_guard guard{mutex_};
+    moved_ = true;
+  }
+  shared_->use(told);
+  open();
 }
 
 void topic_input::on_data_available(dds::DataReader* reader) {
@@ -90,10 +105,13 @@ engine::frame topic_input::make_frame(std::string payload,
 }
 
 void topic_input::deliver(engine::frame input, const dds::SampleInfo& info) {
-  const auto& identity = info.sample_identity;
+  const auto writer = to_guid(info.sample_identity.writer_guid());
+  const auto number = static_cast<std::uint64_t>(
+      info.sample_identity.sequence_number().to64long());
   std::lock_guard guard{mutex_};
-  count_lost(gaps_.add(to_guid(identity.writer_guid()),
-                       identity.sequence_number().to64long()));
+  if (is_repeated(writer, number))
+    return;
+  count_lost(gaps_.add(writer, number));
   if (sink_ != nullptr) {
     sink_->push(std::move(input), engine::when_full::drop_oldest);
     return;
@@ -101,6 +119,11 @@ void topic_input::deliver(engine::frame input, const dds::SampleInfo& info) {
   early_.push_back(std::move(input));
   if (early_.size() > static_cast<std::size_t>(qos_.depth))
     early_.pop_front();
+}
+
+/// Only a reader of what is kept gets it again, and only another reader.
+bool topic_input::is_repeated(const guid& writer, std::uint64_t number) const {
+  return moved_ && qos_.transient_local && number <= gaps_.last(writer);
 }
 
 /// Says it less and less often, so that a bad network does not fill the log.

@@ -26,6 +26,16 @@ public:
   void open() override;
   void run(engine::frame_sink& sink, const engine::stop_event& stop) override;
 
+  bool survives_new_address() const override {
+    return true;
+  }
+
+  void suspend() override;
+
+  /// What was missed meanwhile is counted; what a writer has kept for those who
+  /// come late is not delivered a second time.
+  void resume(const engine::changed_variables& told) override;
+
 private:
   void on_data_available(dds::DataReader* reader) override;
   void on_subscription_matched(
@@ -37,6 +47,7 @@ private:
 
   engine::frame make_frame(std::string payload, const dds::SampleInfo& info);
   void deliver(engine::frame input, const dds::SampleInfo& info);
+  bool is_repeated(const guid& writer, std::uint64_t number) const;
   void count_lost(std::uint64_t more);
 
   const engine::stream_context context_;
@@ -51,6 +62,7 @@ private:
   engine::frame_sink* sink_ = nullptr;
   std::deque<engine::frame> early_; // What came before there was a sink.
   gap_counter gaps_;
+  bool moved_ = false;
   std::uint64_t lost_ = 0;
 };
 

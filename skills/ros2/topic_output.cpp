@@ -25,10 +25,7 @@ topic_output::topic_output(const engine::stream_context& output,
 }
 
 topic_output::~topic_output() {
-  if (writer_ == nullptr)
-    return;
-  participant_->remove(writer_);
-  participant_->pacer().forget(this);
+  suspend();
 }
 
 void topic_output::open() {
@@ -37,31 +34,65 @@ void topic_output::open() {
                                      context_.config.data_type, qos_, this);
 }
 
+void topic_output::suspend() {
+  if (writer_ == nullptr)
+    return;
+  participant_->remove(std::exchange(writer_, nullptr));
+  participant_->pacer().forget(this);
+  participant_.reset();
+  const std::lock_guard guard{mutex_};
+  frail_readers_.clear();
+  pace_.set_frail_readers(0);
+}
+
+void topic_output::resume(const engine::changed_variables& told) {
+  shared_->use(told);
+  open();
+  for (const auto& payload : kept_)
+    send(payload, "what was kept");
+}
+
 void topic_output::write(const engine::frame& result) {
-  const auto& [protocol, topic, type] = context_.config;
+  const auto& type = context_.config.data_type;
   if (result.data_type != type)
-    throw engine::stream_error("a '" + result.data_type
-                               + "' cannot be written to the topic '" + topic
-                               + "' of type '" + type + "'");
+    throw engine::stream_error(
+        "a '" + result.data_type + "' cannot be written to the topic '"
+        + context_.config.endpoint + "' of type '" + type + "'");
   if (qos_.large) {
     const std::lock_guard guard{mutex_};
     participant_->pacer().set_gap(
         this, pace_.next_gap(writer_pace::clock::now(), result.payload.size()));
   }
+  send(result.payload, result.name);
+  keep(result.payload);
+}
+
+void topic_output::keep(const std::string& payload) {
+  if (!qos_.transient_local)
+    return;
+  kept_.push_back(payload);
+  if (kept_.size() > static_cast<std::size_t>(qos_.depth))
+    kept_.pop_front();
+}
+
+void topic_output::send(const std::string& payload, const std::string& name) {
+  const auto& topic = context_.config.endpoint;
   // Fast DDS reads the message only, but takes no constant.
-  auto* data = const_cast<std::string*>(&result.payload);
+  auto* data = const_cast<std::string*>(&payload);
   auto outcome =
       writer_->write(data, eprosima::fastrtps::rtps::c_InstanceHandle_Unknown);
   if (outcome == ReturnCode_t::RETCODE_TIMEOUT)
-    context_.say("output '" + topic + "': '" + result.name
+    context_.say("output '" + topic + "': '" + name
                  + "' was not sent, because the network is too slow");
   else if (outcome != ReturnCode_t::RETCODE_OK)
-    throw engine::stream_error("Fast DDS refuses '" + result.name
-                               + "' for the topic '" + topic
+    throw engine::stream_error("Fast DDS refuses '" + name + "' for the topic '"
+                               + topic
                                + "'; is its payload a serialized message?");
 }
 
 void topic_output::close() {
+  if (writer_ == nullptr)
+    return;
   if (writer_->wait_for_acknowledgments(close_limit)
       != ReturnCode_t::RETCODE_OK)
     context_.say("output '" + context_.config.endpoint

@@ -3,9 +3,11 @@
 #include "roscell/skill/handlers.hpp"
 #include "skills/ros2/participant.hpp"
 
+#include <deque>
 #include <memory>
 #include <mutex>
 #include <set>
+#include <string>
 
 namespace roscell::ros2 {
 
@@ -25,7 +27,18 @@ public:
   /// Waits at most 2 s for readers that lost something.
   void close() override;
 
+  bool survives_new_address() const override {
+    return true;
+  }
+
+  void suspend() override;
+
+  /// What is kept for readers that come late is written again.
+  void resume(const engine::changed_variables& told) override;
+
 private:
+  void send(const std::string& payload, const std::string& name);
+  void keep(const std::string& payload);
   void
   on_publication_matched(dds::DataWriter* writer,
                          const dds::PublicationMatchedStatus& status) override;
@@ -38,7 +51,8 @@ private:
   const std::shared_ptr<shared_participant> shared_;
   std::shared_ptr<participant> participant_;
   dds::DataWriter* writer_ = nullptr;
-  std::mutex mutex_; // Guards what follows.
+  std::deque<std::string> kept_; // As the writer keeps them, for another one.
+  std::mutex mutex_;             // Guards what follows.
   std::set<guid> frail_readers_;
   writer_pace pace_;
 };

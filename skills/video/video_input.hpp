@@ -22,6 +22,10 @@ public:
   /// Throws stream_error when a camera vanishes, or a file holds no picture.
   void run(engine::frame_sink& sink, const engine::stop_event& stop) override;
 
+  bool survives_new_address() const override {
+    return true;
+  }
+
 private:
   bool push_all(engine::frame_sink& sink, const engine::stop_event& stop);
   engine::frame make_frame(const cv::Mat& picture);

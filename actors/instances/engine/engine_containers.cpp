@@ -30,10 +30,17 @@ engine_container* find_container(engine_runtime_pointer self,
   return i != xs.end() ? &i->second : nullptr;
 }
 
-fs::path notify_dir(engine_runtime_pointer self, const std::string& instance) {
+fs::path container_notify_path(const fs::path& data_dir,
+                               const std::string& instance) {
   constexpr size_t digits = 16;
-  return self->state.config.data_dir / "notify"
-         / to_hex(hmac_sha256("roscell instance", instance)).substr(0, digits);
+  return data_dir / "notify"
+         / to_hex(hmac_sha256("roscell instance", instance)).substr(0, digits)
+         / notify_socket_name;
+}
+
+fs::path notify_dir(engine_runtime_pointer self, const std::string& instance) {
+  return container_notify_path(self->state.config.data_dir, instance)
+      .parent_path();
 }
 
 fs::path fence_file(engine_runtime_pointer self, const std::string& instance) {

@@ -16,9 +16,8 @@ caf::error bad_id(const std::string& instance);
 engine_container* find_container(engine_runtime_pointer self,
                                  const std::string& instance);
 
-/// The host's folder with the instance's NOTIFY_SOCKET: a short path, for that
-/// of a Unix socket must be, whatever the instance's name is. The container
-/// sees nothing but this folder.
+/// The host's folder with the instance's NOTIFY_SOCKET, see
+/// container_notify_path.
 std::filesystem::path notify_dir(engine_runtime_pointer self,
                                  const std::string& instance);
 

@@ -111,6 +111,13 @@ struct engine_runtime_state {
   alarm timer;
 };
 
+/// The NOTIFY_SOCKET of an instance on the host, in a folder with a short path,
+/// for that of a Unix socket must be, whatever the instance's name is. The
+/// container sees nothing but this folder.
+std::filesystem::path
+container_notify_path(const std::filesystem::path& data_dir,
+                      const std::string& instance);
+
 /// The ENGINE RUNTIME. Messages: messages/inside/runtime.hpp,
 /// messages/inside/engine.hpp.
 engine_runtime_actor::behavior_type engine_runtime(

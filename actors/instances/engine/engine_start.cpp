@@ -1,4 +1,5 @@
 #include "actors/edge/http/http_target.hpp"
+#include "actors/edge/process/environment_file.hpp"
 #include "actors/edge/process/fence_file.hpp"
 #include "actors/house/edge_failure.hpp"
 #include "actors/house/limits.hpp"
@@ -179,6 +180,8 @@ caf::result<container_started> start(engine_runtime_pointer self,
   engine_container fresh;
   if (auto error = open_words(self, wish.instance, fresh))
     return error;
+  make_environment_file(environment_file_of(
+      container_notify_path(self->state.config.data_dir, wish.instance)));
   fresh.settling = true;
   auto& st = self->state;
   st.unwanted.erase(wish.instance);

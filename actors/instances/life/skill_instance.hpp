@@ -1,5 +1,6 @@
 #pragma once
 
+#include "actors/edge/process/environment_file.hpp"
 #include "actors/house/alarm.hpp"
 #include "actors/house/house.hpp"
 #include "actors/instances/life/health_book.hpp"
@@ -36,8 +37,10 @@ struct skill_instance_config {
   std::string address; ///< The node's, at which programs are started.
   /// Of one that is adopted: where the node was then; empty: not known.
   std::string started_at;
-  /// Why one that is adopted is to be started again; empty: it goes on.
+  /// Why one that is adopted is to be started again, unless its program goes on
+  /// when it is told; empty: it goes on.
   std::string renewal;
+  environment_teller tell_environment; ///< Empty: it cannot be told.
 };
 
 /// Owns one instance from intent to end. The diagram is in docs/protocols.md.
@@ -88,6 +91,9 @@ struct skill_instance_state {
   /// It is started again when it ends, whatever its policy says: that is why
   /// it is to end.
   bool renewing = false;
+
+  /// When its program was told that its cell is elsewhere.
+  std::optional<alarm::time_point> told_at;
 
   /// When one that is to end, and is not safe yet, ends all the same.
   std::optional<alarm::time_point> patience;

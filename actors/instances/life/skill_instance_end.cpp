@@ -43,6 +43,7 @@ void forget_run(skill_instance_state& st) {
   st.config.adopt = false;
   st.concluding = st.ready = st.renewing = false;
   st.ready_since.reset();
+  st.told_at.reset();
   st.endpoints.reset();
   st.missing.clear();
   st.fence_boot_ms = 0;
@@ -94,6 +95,14 @@ std::string with_last_word(const instance_row& row, const std::string& reason,
          + valid_utf8(log.substr(begin, std::min(end + 1 - begin, most_bytes)));
 }
 
+/// What could not go on when it was told of another address ends with an error,
+/// or hangs, and is no worse off than what cannot be told.
+bool failed_when_told(skill_instance_pointer self, const run_end& end) {
+  const auto& told = self->state.told_at;
+  return end.failed && told
+         && self->clock().now() - *told < 2 * limits::instance::watchdog;
+}
+
 /// The log is read, so its folder may go.
 void go_on(skill_instance_pointer self, instance_state last,
            const std::string& reason, const std::string& log) {
@@ -101,7 +110,7 @@ void go_on(skill_instance_pointer self, instance_state last,
   auto& row = st.row;
   const auto& policy = row.spec.life.restart;
   const auto end = end_of(self, last);
-  if (st.renewing && !st.farewell) {
+  if ((st.renewing || failed_when_told(self, end)) && !st.farewell) {
     keep_run(row, reason, log);
     return back_off(self, reason, milliseconds{0});
   }

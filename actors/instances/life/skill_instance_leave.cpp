@@ -110,9 +110,42 @@ void resume_leaving(skill_instance_pointer self) {
   st.timer.set(self, *st.patience);
 }
 
+namespace {
+
+/// Where its cell is now, as far as DDS is concerned.
+std::map<std::string, std::string>
+place_of_cell(const skill_instance_state& st) {
+  std::map<std::string, std::string> result;
+  for (const auto* from : {&st.config.environment, &st.row.spec.environment})
+    for (const char* name : {"ROS_DISCOVERY_SERVER", "ROS_DOMAIN_ID"})
+      if (const auto i = from->find(name); i != from->end())
+        result.insert(*i);
+  return result;
+}
+
+/// A skill of the engine makes its connections anew, and goes on.
+bool tell_program(skill_instance_pointer self) {
+  auto& st = self->state;
+  const auto& spec = st.row.spec;
+  if (!st.config.tell_environment
+      || !st.config.tell_environment(spec.instance, place_of_cell(st)))
+    return false;
+  st.told_at = self->clock().now();
+  st.config.context.tell("instance_address_changed", spec.instance,
+                         {{"task", spec.task},
+                          {"step", spec.step},
+                          {"from", st.started_at},
+                          {"to", st.config.address}});
+  st.started_at = st.config.address;
+  note(self);
+  return true;
+}
+
+} // namespace
+
 void renew(skill_instance_pointer self) {
   auto& st = self->state;
-  if (st.config.renewal.empty() || st.farewell)
+  if (st.config.renewal.empty() || st.farewell || tell_program(self))
     return;
   st.renewing = true;
   if (!must_wait(st))

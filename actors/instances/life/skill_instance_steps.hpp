@@ -89,8 +89,9 @@ void on_stop(skill_instance_pointer self, const stop_instance& wish);
 /// Goes on with what an earlier run of the node was asked.
 void resume_leaving(skill_instance_pointer self);
 
-/// Starts what has been adopted again, if it is to be, once it is safe. Its
-/// policy is not asked, for it has done nothing wrong.
+/// What has been adopted, and is bound to an address that is gone, is told of
+/// it and goes on, or is started again, once it is safe. Its policy is not
+/// asked, for it has done nothing wrong.
 void renew(skill_instance_pointer self);
 
 /// Its skill has told whether it may be ended.

@@ -1,5 +1,6 @@
 #include "actors/instances/process/process_instance.hpp"
 
+#include "actors/edge/process/environment_file.hpp"
 #include "actors/edge/process/fence_file.hpp"
 #include "actors/edge/process/marked_processes.hpp"
 #include "actors/edge/process/notify_socket.hpp"
@@ -46,6 +47,7 @@ edge_result<unique_fd> fresh_folder(const fs::path& dir) {
     return no_folder(dir, error.message());
   if (::mkdir(dir.c_str(), 0700) != 0)
     return no_folder(dir, std::strerror(errno));
+  make_environment_file(environment_file_of(notify_path(dir)));
   return open_notify_socket(notify_path(dir));
 }
 
@@ -161,6 +163,7 @@ edge_result<bool> clean_up(const process_runtime_config& config,
   std::error_code error;
   // The folder goes last: it is by this that the rest is found.
   fs::remove(notify_path(dir), error);
+  fs::remove(environment_file_of(notify_path(dir)), error);
   remove_fence(fence_path(dir));
   fs::remove_all(dir, error);
   if (error)

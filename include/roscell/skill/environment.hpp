@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -53,6 +54,9 @@ struct environment {
   std::optional<std::chrono::microseconds> watchdog;
   bool health = false;
 };
+
+/// Variables that have got other values while the skill runs.
+using changed_variables = std::map<std::string, std::string>;
 
 /// Returns the value of a variable, or nullptr.
 using variable_lookup = std::function<const char*(const char* name)>;

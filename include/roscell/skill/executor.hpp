@@ -91,10 +91,19 @@ protected:
     main_input_ = number;
   }
 
+  /// Says that the skill has sockets of its own, beside its inputs and outputs,
+  /// that are bound to an address of this host: where that changes the skill is
+  /// started again. To be called in the constructor; without it the skill goes
+  /// on, and only its inputs and outputs are made anew.
+  void set_bound_to_address() noexcept {
+    bound_to_address_ = true;
+  }
+
 private:
   friend class primitive_base_engine;
 
   safe_state safety_;
+  bool bound_to_address_ = false;
   std::size_t main_input_ = 0;
 };
 

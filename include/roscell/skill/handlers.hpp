@@ -53,6 +53,24 @@ public:
   /// thread of its own. Frames may also be pushed from other threads while it
   /// runs. Throws stream_error when the input breaks.
   virtual void run(frame_sink& sink, const stop_event& stop) = 0;
+
+  /// Whether it goes on by `suspend` and `resume` where this host gets another
+  /// address. A skill with a handler that does not is started again instead.
+  virtual bool survives_new_address() const {
+    return false;
+  }
+
+  /// Gives up what is bound to an address of this host. Called between two
+  /// calls of the executor, by their thread, while `run` goes on.
+  virtual void suspend() {
+    // Files have no address.
+  }
+
+  /// Goes on where these variables lead, once all handlers are suspended.
+  /// Throws start_error when that is impossible: the skill then ends.
+  virtual void resume(const changed_variables& /*told*/) {
+    // Files have no address.
+  }
 };
 
 /// Carries the results for one output out of the skill by one protocol. All
@@ -70,6 +88,19 @@ public:
   /// Hands over what may still be held back. Called once, after the last
   /// `write`. Throws stream_error when that fails.
   virtual void close() = 0;
+
+  /// As those of an input_handler.
+  virtual bool survives_new_address() const {
+    return false;
+  }
+
+  virtual void suspend() {
+    // Files have no address.
+  }
+
+  virtual void resume(const changed_variables& /*told*/) {
+    // Files have no address.
+  }
 };
 
 } // namespace roscell::engine

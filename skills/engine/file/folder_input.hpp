@@ -22,6 +22,10 @@ public:
   void open() override;
   void run(frame_sink& sink, const stop_event& stop) override;
 
+  bool survives_new_address() const override {
+    return true;
+  }
+
 private:
   std::vector<std::string> list() const;
   bool is_left_out(const std::string& name) const;

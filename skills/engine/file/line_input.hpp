@@ -21,6 +21,10 @@ public:
   void open() override;
   void run(frame_sink& sink, const stop_event& stop) override;
 
+  bool survives_new_address() const override {
+    return true;
+  }
+
 private:
   bool open_file();
   void watch_file();

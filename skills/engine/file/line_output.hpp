@@ -16,6 +16,10 @@ public:
   void write(const frame& result) override;
   void close() override;
 
+  bool survives_new_address() const override {
+    return true;
+  }
+
 private:
   [[noreturn]] void fail(std::size_t written, int error);
 

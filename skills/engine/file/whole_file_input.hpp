@@ -19,6 +19,10 @@ public:
   void open() override;
   void run(frame_sink& sink, const stop_event& stop) override;
 
+  bool survives_new_address() const override {
+    return true;
+  }
+
 private:
   void watch_file();
   bool push_if_new(frame_sink& sink, const stop_event& stop);

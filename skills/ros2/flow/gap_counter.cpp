@@ -24,4 +24,9 @@ std::uint64_t gap_counter::add(const guid& writer, std::uint64_t number) {
   return number > last ? number - last - 1 : 0;
 }
 
+std::uint64_t gap_counter::last(const guid& writer) const {
+  const auto known = last_.find(writer);
+  return known == last_.end() ? 0 : known->second;
+}
+
 } // namespace roscell::ros2

@@ -15,6 +15,9 @@ public:
   /// are missing before it; none before the first.
   std::uint64_t add(const guid& writer, std::uint64_t number);
 
+  /// The highest number of that writer's messages that were read; 0: none was.
+  std::uint64_t last(const guid& writer) const;
+
 private:
   std::map<guid, std::uint64_t> last_;
 };
