@@ -92,12 +92,14 @@ private:
 class server_handle : public http_server {
 public:
   server_handle(std::shared_ptr<http_shared> shared, std::string socket_path,
-                const bound_port& tcp,
+                const std::optional<bound_port>& tcp,
                 const std::optional<listening_unix>& local)
       : io_(shared->core),
         server_(std::make_shared<server_core>(std::move(shared))),
-        socket_path_(std::move(socket_path)), local_(local), port_(tcp.port) {
-    server_->listen(tcp.fd, false);
+        socket_path_(std::move(socket_path)), local_(local),
+        port_(tcp ? tcp->port : 0) {
+    if (tcp)
+      server_->listen(tcp->fd, false);
     if (local)
       server_->listen(local->fd, true);
     io_->post([server = server_] { server->run(); });
@@ -145,15 +147,19 @@ private:
 
 edge_result<std::unique_ptr<http_server>>
 http_server::start(io_thread& io, http_server_options options) {
-  auto tcp = listen_on_tcp(options.address, options.port);
-  if (auto* why = std::get_if<edge_error>(&tcp))
-    return *why;
-  const auto listening = std::get<bound_port>(tcp);
+  std::optional<bound_port> tcp;
+  if (!options.address.empty()) {
+    auto made = listen_on_tcp(options.address, options.port);
+    if (auto* why = std::get_if<edge_error>(&made))
+      return *why;
+    tcp = std::get<bound_port>(made);
+  }
   std::optional<listening_unix> local;
   if (!options.socket_path.empty()) {
     auto made = listen_on_unix(options.socket_path);
     if (auto* why = std::get_if<edge_error>(&made)) {
-      close_listening(listening.fd);
+      if (tcp)
+        close_listening(tcp->fd);
       return *why;
     }
     local = std::get<listening_unix>(made);
@@ -163,7 +169,7 @@ http_server::start(io_thread& io, http_server_options options) {
                     std::move(options.hosts), std::move(options.public_paths)};
   shared->handler = std::move(options.handler);
   return std::make_unique<server_handle>(
-      std::move(shared), std::move(options.socket_path), listening, local);
+      std::move(shared), std::move(options.socket_path), tcp, local);
 }
 
 } // namespace roscell

@@ -6,6 +6,7 @@
 #include "tools/roscell/daemon/address/interface_choice.hpp"
 #include "tools/roscell/daemon/journal.hpp"
 #include "tools/roscell/daemon/node_end.hpp"
+#include "tools/roscell/daemon/waiting_answers.hpp"
 #include "tools/roscell/dashboard/pages.hpp"
 #include "tools/roscell/doctor/checks.hpp"
 #include "tools/roscell/view/format.hpp"
@@ -123,8 +124,9 @@ std::variant<interface_address, std::string> node_process::look() const {
 }
 
 /// Where the node can be made; none where it is to end before. What it lacks
-/// is told once, and again when that changes.
+/// is told once, and again when that changes; whoever asks is told, too.
 std::optional<interface_address> node_process::await_address() {
+  std::optional<waiting_answers> answers;
   std::string lacking;
   for (;;) {
     const auto found = look();
@@ -132,6 +134,9 @@ std::optional<interface_address> node_process::await_address() {
       return *at;
     if (const auto& text = std::get<std::string>(found); text != lacking) {
       lacking = text;
+      if (!answers)
+        answers.emplace(config_);
+      answers->set_missing(text);
       spdlog::warn("the node waits for its interface: {}", printable(text));
       starter_.waiting("waits for its interface: " + text);
     }
