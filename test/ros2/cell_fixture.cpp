@@ -40,11 +40,13 @@ engine::say_function logbook::say() {
   };
 }
 
-bool logbook::wait_for(const std::string& part) {
+bool logbook::wait_for(const std::string& part, std::ptrdiff_t times) {
   auto has_it = [&] {
-    return std::any_of(lines_.begin(), lines_.end(), [&](const auto& line) {
-      return line.find(part) != std::string::npos;
-    });
+    return std::count_if(lines_.begin(), lines_.end(),
+                         [&](const auto& line) {
+                           return line.find(part) != std::string::npos;
+                         })
+           >= times;
   };
   std::unique_lock guard{mutex_};
   return grown_.wait_for(guard, patience, has_it);

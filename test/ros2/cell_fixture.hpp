@@ -25,8 +25,8 @@ class logbook {
 public:
   engine::say_function say();
 
-  /// Waits for a line with `part`.
-  bool wait_for(const std::string& part);
+  /// Waits for so many lines with `part`.
+  bool wait_for(const std::string& part, std::ptrdiff_t times = 1);
 
   std::vector<std::string> lines() const;
 

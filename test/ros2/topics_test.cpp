@@ -203,3 +203,94 @@ TEST_CASE("a skill can be in the highest ROS domain") {
   output->write(text_frame("hello"));
   CHECK(text_of(input.sink().wait_for(0)) == "hello");
 }
+
+namespace {
+
+/// An input that moves within its cell, as where its host has another address.
+class moving_input {
+public:
+  moving_input(skill& of, cell& home, const std::string& topic)
+      : home_(home), handler_(of.input(topic, text)), moved_(handler_.get()),
+        input_(std::move(handler_)) {
+    // nop
+  }
+
+  void suspend() {
+    moved_->suspend();
+  }
+
+  void resume() {
+    moved_->resume(home_.environment("reader"));
+  }
+
+  std::string text_at(std::size_t n) {
+    return text_of(input_.sink().wait_for(n));
+  }
+
+private:
+  cell& home_;
+  std::unique_ptr<engine::input_handler> handler_;
+  engine::input_handler* moved_;
+  running_input input_;
+};
+
+} // namespace
+
+TEST_CASE("an input that moves counts what it has missed") {
+  cell home{0};
+  skill reading{home.environment("reader")};
+  skill writing{home.environment("writer")};
+  moving_input input{reading, home, "/chatter"};
+  auto output = writing.output("/chatter", text);
+  REQUIRE(reading.log.wait_for("a writer has come"));
+  REQUIRE(writing.log.wait_for("a reader has come"));
+  output->write(text_frame("one"));
+  CHECK(input.text_at(0) == "one");
+  input.suspend();
+  output->write(text_frame("missed"));
+  output->write(text_frame("missed"));
+  input.resume();
+  REQUIRE(reading.log.wait_for("a writer has come", 2));
+  REQUIRE(writing.log.wait_for("a reader has come", 2));
+  output->write(text_frame("two"));
+  CHECK(input.text_at(1) == "two");
+  CHECK(reading.log.wait_for("'/chatter' has lost 2 messages on the way"));
+}
+
+TEST_CASE("an input that moves gets nothing twice of what a writer keeps") {
+  cell home{0};
+  skill reading{home.environment("reader")};
+  skill writing{home.environment("writer")};
+  for (auto* end : {&reading, &writing})
+    end->parameters = {{"ros2_durability", "transient_local"}};
+  moving_input input{reading, home, "/map"};
+  auto output = writing.output("/map", text);
+  output->write(text_frame("one"));
+  CHECK(input.text_at(0) == "one");
+  input.suspend();
+  output->write(text_frame("two"));
+  input.resume();
+  output->write(text_frame("three"));
+  CHECK(input.text_at(1) == "two");
+  CHECK(input.text_at(2) == "three");
+}
+
+TEST_CASE("an output that moves writes again what it keeps for late readers") {
+  cell home{0};
+  cell other{1};
+  skill reading{other.environment("reader")};
+  skill writing{home.environment("writer")};
+  for (auto* end : {&reading, &writing})
+    end->parameters = {{"ros2_durability", "transient_local"},
+                       {"ros2_depth", 2}};
+  auto output = writing.output("/map", text);
+  for (const auto* word : {"one", "two", "three"})
+    output->write(text_frame(word));
+  output->suspend();
+  output->resume(other.environment("writer"));
+  running_input input{reading.input("/map", text)};
+  CHECK(text_of(input.sink().wait_for(0)) == "two");
+  CHECK(text_of(input.sink().wait_for(1)) == "three");
+  output->write(text_frame("four"));
+  CHECK(text_of(input.sink().wait_for(2)) == "four");
+}

@@ -1,5 +1,6 @@
 #include "cell_fixture.hpp"
 
+#include "actors/edge/process/environment_file.hpp"
 #include "roscell/ros2.hpp"
 #include "roscell/ros2/cdr.hpp"
 #include "roscell/ros2/image_view.hpp"
@@ -34,11 +35,12 @@ public:
 /// A skill from image to text, as a node of `home` starts it.
 class running_skill {
 public:
-  explicit running_skill(const cell& home) {
+  explicit running_skill(const cell& home, const std::string& socket = {}) {
     const auto lookup = lookup_in(home.environment("teller"));
     ros2::add_ros2_protocol(parts_, lookup);
     parts_.add_executor<size_teller>("teller");
     env_.model = "teller";
+    env_.notify_socket = socket;
     env_.inputs = {{"ros2", "/image", image}};
     env_.outputs = {{"ros2", "/size", text}};
     engine_.emplace(parts_, env_, log.say());
@@ -93,5 +95,59 @@ TEST_CASE("a skill goes on after an image whose sizes lie") {
   CHECK(ros2::deserialize<ros2::std_msgs::string>(got->payload).data == "3x2");
   CHECK(teller.log.wait_for("frame 'image-1' failed (1 in a row): field "
                             "'step': 3 bytes are too few for 7 pixels"));
+  CHECK(teller.stop() == engine::exit_code::done);
+}
+
+TEST_CASE("a skill goes on in another place when its node tells it so") {
+  cell home{0};
+  cell other{1};
+  temp_folder folder;
+  notify_receiver node{folder / "notify"};
+  const auto told = environment_file_of(folder / "notify");
+  make_environment_file(told);
+  running_skill teller{home, folder / "notify"};
+  REQUIRE(node.wait_for("READY=1"));
+  skill far_camera{other.environment("camera")};
+  skill far_reader{other.environment("reader")};
+  running_input sizes{far_reader.input("/size", text)};
+  auto images = far_camera.output("/image", image);
+  // A second time before the first is done, and while messages come.
+  REQUIRE(tell_environment(told, home.environment("teller")));
+  REQUIRE(tell_environment(told, other.environment("teller")));
+  REQUIRE(far_camera.log.wait_for("a reader has come"));
+  REQUIRE(teller.log.wait_for("'/image': a writer has come"));
+  REQUIRE(teller.log.wait_for("'/size': a reader has come"));
+  images->write(frame_of(image, gray_image(2, 3)));
+  REQUIRE(sizes.sink().wait_for(0));
+  REQUIRE(tell_environment(told, other.environment("teller")));
+  REQUIRE(far_camera.log.wait_for("a reader has come", 2));
+  REQUIRE(teller.log.wait_for("'/size': a reader has come", 2));
+  images->write(frame_of(image, gray_image(4, 5)));
+  const auto got = sizes.sink().wait_for(1);
+  REQUIRE(got);
+  CHECK(ros2::deserialize<ros2::std_msgs::string>(got->payload).data == "5x4");
+  CHECK(teller.stop() == engine::exit_code::done);
+  CHECK_FALSE(tell_environment(told, home.environment("teller")));
+}
+
+TEST_CASE("a skill moves time and again while images come") {
+  cell home{0};
+  temp_folder folder;
+  notify_receiver node{folder / "notify"};
+  const auto told = environment_file_of(folder / "notify");
+  make_environment_file(told);
+  running_skill teller{home, folder / "notify"};
+  REQUIRE(node.wait_for("READY=1"));
+  skill camera{home.environment("camera")};
+  auto images = camera.output("/image", image);
+  for (std::ptrdiff_t move = 1; move <= 5; ++move) {
+    REQUIRE(camera.log.wait_for("a reader has come", move));
+    for (int i = 0; i < 20; ++i)
+      images->write(frame_of(image, gray_image(2, 3)));
+    REQUIRE(tell_environment(told, home.environment("teller")));
+    for (int i = 0; i < 20; ++i)
+      images->write(frame_of(image, gray_image(2, 3)));
+  }
+  REQUIRE(teller.log.wait_for("made anew in", 5));
   CHECK(teller.stop() == engine::exit_code::done);
 }

@@ -132,11 +132,13 @@ std::optional<interface_address> node_process::await_address() {
     const auto found = look();
     if (const auto* at = std::get_if<interface_address>(&found))
       return *at;
-    if (const auto& text = std::get<std::string>(found); text != lacking) {
-      lacking = text;
-      if (!answers)
-        answers.emplace(config_);
-      answers->set_missing(text);
+    if (!answers)
+      answers.emplace(config_);
+    const auto& missing = std::get<std::string>(found);
+    const auto text = missing + "; this host has: "
+                      + describe_links(list_interfaces(), list_links());
+    answers->set_missing(text);
+    if (std::exchange(lacking, missing) != missing) {
       spdlog::warn("the node waits for its interface: {}", printable(text));
       starter_.waiting("waits for its interface: " + text);
     }

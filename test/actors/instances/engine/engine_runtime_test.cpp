@@ -1,3 +1,4 @@
+#include "actors/edge/process/environment_file.hpp"
 #include "actors/house/limits.hpp"
 #include "test/actors/instances/engine/engine_bench.hpp"
 
@@ -237,6 +238,9 @@ TEST_CASE("stopping gives the grace to the engine and tells the exit code") {
   engine_bench b;
   b.will_start();
   b.get<container_started>(b.container());
+  // By which its program can be told of another address.
+  CHECK(std::filesystem::is_empty(
+      environment_file_of(container_notify_path(b.config.data_dir, "i"))));
   b.script.on("POST /containers/c1/stop?t=2", 204, "");
   b.script.on("GET /containers/c1/json", 200, ended);
   CHECK(b.get<container_stopped>(stop_container{"i", "c1", 1500}).exit_code

@@ -1,6 +1,7 @@
 #include "actors/instances/process/process_runtime.hpp"
 
 #include "actors/edge/disk/folder_hash.hpp"
+#include "actors/edge/process/environment_file.hpp"
 #include "actors/edge/process/pidfd.hpp"
 #include "test/actors/instances/process/process_bench.hpp"
 #include "test/places.hpp"
@@ -156,6 +157,16 @@ TEST_CASE("stopping asks first, and force follows after the grace") {
   }
   // It may be asked again, and has ended once.
   b.get<container_stopped>(stop_container{"i", {}, 50});
+}
+
+TEST_CASE("a program has a file by which it can be told of another address") {
+  process_bench b;
+  b.start("echo $NOTIFY_SOCKET; " + endless);
+  const auto socket = b.log(0, 20'000).text;
+  const auto file = environment_file_of(socket.substr(0, socket.size() - 1));
+  CHECK(fs::is_empty(file));
+  b.get<container_removed>(remove_container{"i", {}});
+  CHECK_FALSE(fs::exists(file));
 }
 
 TEST_CASE("removing ends by force and leaves no file") {

@@ -33,20 +33,6 @@ bool may_be_name(const std::string& text) {
             });
 }
 
-std::string describe_links(const std::vector<interface_address>& all,
-                           const std::vector<host_link>& links) {
-  std::vector<interface_address> named = all;
-  for (const auto& link : links)
-    if (std::none_of(all.begin(), all.end(),
-                     [&](const auto& x) { return x.name == link.name; })) {
-      interface_address one;
-      one.name = link.name;
-      one.address = link.up ? "(no IPv4 address)" : "(down)";
-      named.push_back(one);
-    }
-  return describe_interfaces(named);
-}
-
 } // namespace
 
 interface_address ask_for_interface(const std::vector<interface_address>& all,
@@ -82,6 +68,20 @@ std::string choose_interface(const std::string& wanted) {
                       "there are " + describe_interfaces(all)};
 }
 
+std::string describe_links(const std::vector<interface_address>& all,
+                           const std::vector<host_link>& links) {
+  std::vector<interface_address> named = all;
+  for (const auto& link : links)
+    if (std::none_of(all.begin(), all.end(),
+                     [&](const auto& x) { return x.name == link.name; })) {
+      interface_address one;
+      one.name = link.name;
+      one.address = link.up ? "(no IPv4 address)" : "(down)";
+      named.push_back(one);
+    }
+  return describe_interfaces(named);
+}
+
 bool is_ipv4_address(const std::string& text) {
   in_addr ignored{};
   return inet_pton(AF_INET, text.c_str(), &ignored) == 1;
@@ -101,8 +101,7 @@ find_interface(const std::string& wanted, bool with_carrier,
   const auto link = std::find_if(links.begin(), links.end(),
                                  [&](auto& x) { return x.name == wanted; });
   if (link == links.end())
-    return "'" + wanted
-           + "' is not there; this host has: " + describe_links(all, links);
+    return "'" + wanted + "' is not there";
   return "interface '" + wanted
          + (link->up ? "' has no IPv4 address" : "' is down");
 }

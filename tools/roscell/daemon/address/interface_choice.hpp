@@ -23,8 +23,12 @@ interface_address ask_for_interface(const std::vector<interface_address>& all,
 /// Whether `text` is an address and no name.
 bool is_ipv4_address(const std::string& text);
 
+/// All interfaces of this host, those without an address, too.
+std::string describe_links(const std::vector<interface_address>& all,
+                           const std::vector<host_link>& links);
+
 /// The address that `wanted` has now or, in a sentence without a full stop,
-/// what it lacks; a name that is not there comes with those that are.
+/// what it lacks.
 std::variant<interface_address, std::string>
 find_interface(const std::string& wanted, bool with_carrier,
                const std::vector<interface_address>& all,
