@@ -45,7 +45,8 @@ relay_step() {
               data_type: "sensor_msgs/msg/Image"}}'
 }
 
-# start_contained_scene STEP: on one host, in containers.
+# start_contained_scene STEP: on one host, in containers. Without a step those who
+# look at the pictures have them from the camera where $interface is set.
 start_contained_scene() {
   use_engine
   take_skills
@@ -56,9 +57,12 @@ start_contained_scene() {
   mkdir "$skills/relay" "$scratch/data"
   relay_in_image > "$skills/relay/skill.json"
   [[ $variant != rootless ]] || chown -R "$rootless_user" "$scratch"
-  start_node head --coordinator --cell hall --interface lo
-  scene "$1" | jq --arg to "$scratch/data/poses" 'del(.pipeline[].labels)
-      | (.pipeline[] | select(.id == "poses")).output.endpoint = $to' \
+  start_node head --coordinator --cell hall --interface "${interface:-lo}"
+  scene "$1" | jq --arg to "$scratch/data/poses" --arg alone "${interface:-}" '
+      del(.pipeline[].labels)
+      | (.pipeline[] | select(.id == "poses")) |= (.output.endpoint = $to
+        | if $alone != "" then .input[0] |= (.endpoint = "/scene/image"
+          | del(.external)) else . end)' \
     | to head request - > "$scratch/reply.json" \
     || fail "refused: $(cat "$scratch/reply.json")"
   ln -s "$scratch/data/poses" "$scratch/poses"
@@ -82,6 +86,26 @@ test_a_stock_program_beside_containers_exchanges_images_with_skills_in_them() {
   start_guest desk 1 setpriv --reuid 1 --regid 1 --clear-groups
   poses_come
   stop_guest
+}
+
+test_skills_in_containers_go_on_at_another_address() {
+  local interface=rca$BASHPID containers
+  ip link add "$interface" type veth peer name "$interface-far"
+  ip link set "$interface-far" up
+  ip link set "$interface" up
+  ip addr add 10.231.8.1/24 dev "$interface"
+  start_contained_scene ''
+  poses_come
+  containers=$(engine ps -q | sort)
+  ip addr flush dev "$interface"
+  ip addr add 10.231.8.2/24 dev "$interface"
+  await head '.event == "instance_address_changed" and .data.step == "poses"' \
+    > /dev/null
+  poses_come
+  expect "containers" "$(engine ps -q | sort)" "$containers"
+  expect "restarts" "$(get head /v1/instances \
+    | jq -c '[.instances[] | [.state, .restarts]] | unique')" '[["running",0]]'
+  ip link del "$interface"
 }
 
 # start_contained_relay [OPTION...]: a stock program in a container, on the
