@@ -28,7 +28,7 @@ topic_input::topic_input(const engine::stream_context& input,
 }
 
 topic_input::~topic_input() {
-  suspend();
+  topic_input::suspend();
 }
 
 void topic_input::open() {

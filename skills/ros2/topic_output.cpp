@@ -25,7 +25,7 @@ topic_output::topic_output(const engine::stream_context& output,
 }
 
 topic_output::~topic_output() {
-  suspend();
+  topic_output::suspend();
 }
 
 void topic_output::open() {
@@ -35,10 +35,10 @@ void topic_output::open() {
 }
 
 void topic_output::suspend() {
-  if (writer_ == nullptr)
-    return;
-  participant_->remove(std::exchange(writer_, nullptr));
-  participant_->pacer().forget(this);
+  if (writer_ != nullptr) {
+    participant_->remove(std::exchange(writer_, nullptr));
+    participant_->pacer().forget(this);
+  }
   participant_.reset();
   const std::lock_guard guard{mutex_};
   frail_readers_.clear();

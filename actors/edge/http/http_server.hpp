@@ -31,8 +31,7 @@ struct http_server_options {
   http_handler handler;
 };
 
-/// HTTP/1.1 on one TCP port and one Unix socket, or one of them, with WebSocket
-/// sessions at
+/// HTTP/1.1 on a TCP port, a Unix socket or both, with WebSocket sessions at
 /// `/v1/session` of the TCP port. It checks who may ask, bounds what may be
 /// sent, and hands requests to the handler; it knows no other path. Methods
 /// may be called from any thread.

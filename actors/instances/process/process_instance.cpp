@@ -47,8 +47,9 @@ edge_result<unique_fd> fresh_folder(const fs::path& dir) {
     return no_folder(dir, error.message());
   if (::mkdir(dir.c_str(), 0700) != 0)
     return no_folder(dir, std::strerror(errno));
+  auto socket = open_notify_socket(notify_path(dir));
   make_environment_file(environment_file_of(notify_path(dir)));
-  return open_notify_socket(notify_path(dir));
+  return socket;
 }
 
 program shim_for(const process_runtime_config& config, const fs::path& dir,
