@@ -13,10 +13,9 @@
 namespace roscell {
 
 struct http_server_options {
-  /// IPv4 address of this host; empty: there is no TCP port.
-  std::string address = "127.0.0.1";
-  uint16_t port = 8420;    ///< 0: any free one.
-  std::string socket_path; ///< Of the Unix socket; empty: none.
+  std::string address = "127.0.0.1"; ///< IPv4, of this host; empty: no TCP.
+  uint16_t port = 8420;              ///< 0: any free one.
+  std::string socket_path;           ///< Of the Unix socket; empty: none.
   /// Bearer token that TCP clients must show; if empty, none is let in.
   std::string token;
   /// TCP clients whose paths begin with it and a slash need no token; it is
@@ -31,7 +30,7 @@ struct http_server_options {
   http_handler handler;
 };
 
-/// HTTP/1.1 on a TCP port, a Unix socket or both, with WebSocket sessions at
+/// HTTP/1.1 on one TCP port and one Unix socket, with WebSocket sessions at
 /// `/v1/session` of the TCP port. It checks who may ask, bounds what may be
 /// sent, and hands requests to the handler; it knows no other path. Methods
 /// may be called from any thread.
@@ -46,7 +45,6 @@ public:
   /// Sessions that passed their handshake belong to their owners and go on.
   virtual ~http_server() = default;
 
-  /// 0: there is none.
   virtual uint16_t port() const = 0;
 
   /// From now on, sessions are taken as `acceptor` says; until then they are
