@@ -1,6 +1,7 @@
 #include "embedding/node_door.hpp"
 
 #include "actors/house/limits.hpp"
+#include "actors/house/told_times.hpp"
 #include "actors/house/watching.hpp"
 #include "schemas/schema_error.hpp"
 
@@ -50,8 +51,9 @@ event_passer(event_listener_actor::stateful_pointer<event_passer_state> self,
   self->set_down_handler([self](const caf::down_msg&) { self->quit(); });
   return {
       [to](const event& x) {
-        caf::anon_send(to, node_event{x.sequence, x.time_unix_ms, x.what,
-                                      x.subject, x.data});
+        caf::anon_send(to,
+                       node_event{x.sequence, to_wall_clock()(x.time_unix_ms),
+                                  x.what, x.subject, x.data});
       },
   };
 }

@@ -2,6 +2,7 @@
 
 #include "actors/house/edge_failure.hpp"
 #include "actors/house/limits.hpp"
+#include "actors/house/told_times.hpp"
 #include "messages/failure.hpp"
 
 #include <caf/result.hpp>
@@ -22,7 +23,7 @@ sqlite_store::change change_of(const std::string& table, const std::string& key,
                                const std::string& value) {
   if (value.empty())
     return {table, key, std::nullopt};
-  return {table, key, value};
+  return {table, key, with_times_shifted(value, to_wall_clock())};
 }
 
 changes changes_of(const std::vector<store_record>& records) {

@@ -1,6 +1,7 @@
 #include "actors/requests/rest.hpp"
 
 #include "actors/house/limits.hpp"
+#include "actors/house/told_times.hpp"
 #include "actors/house/watching.hpp"
 #include "actors/requests/metrics/scrape.hpp"
 #include "actors/requests/rest_routes.hpp"
@@ -52,7 +53,8 @@ rest_exchange(exchange_pointer self, const request_router_actor& router,
             const int status = done.refusal.empty()
                                    ? 200
                                    : http_status(error_code_from(done.refusal));
-            answer.reply(status, json_content, done.text);
+            answer.reply(status, json_content,
+                         with_times_shifted(done.text, to_wall_clock()));
             self->quit();
           },
           [self, answer](const caf::error& why) {

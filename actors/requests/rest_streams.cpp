@@ -1,6 +1,7 @@
 #include "actors/requests/rest_streams.hpp"
 
 #include "actors/house/limits.hpp"
+#include "actors/house/told_times.hpp"
 #include "actors/house/watching.hpp"
 #include "schemas/decode.hpp"
 
@@ -14,7 +15,8 @@ namespace {
 
 constexpr const char* text_content = "text/plain; charset=utf-8";
 
-std::string server_sent(const event& x) {
+std::string server_sent(event x) {
+  x.time_unix_ms = to_wall_clock()(x.time_unix_ms);
   const auto data =
       message_json(x).dump(-1, ' ', false, json::error_handler_t::replace);
   return "id: " + std::to_string(x.sequence) + "\nevent: " + x.what

@@ -1,6 +1,7 @@
 #include "actors/session/wire_session.hpp"
 
 #include "actors/house/limits.hpp"
+#include "actors/house/told_times.hpp"
 #include "actors/house/watching.hpp"
 
 #include <algorithm>
@@ -206,10 +207,11 @@ session_actor spawn_session(caf::actor_system& system, const house& context,
   };
   wire->beats = beats.register_session(std::move(place));
   session_callbacks callbacks;
-  callbacks.on_frame = [self, wire](std::string text,
-                                    std::function<void()> done) {
+  callbacks.on_frame = [self, wire, ahead = session.ahead_ms](
+                           std::string text, std::function<void()> done) {
     wire->add_undone(std::move(done));
-    caf::anon_send(self, frame_received{std::move(text)});
+    caf::anon_send(self, frame_received{with_times_shifted(std::move(text),
+                                                           from_peer(ahead))});
   };
   callbacks.on_closed = [self](const session_end& fact) {
     caf::anon_send(self, session_closed{reason_of(fact)});

@@ -154,7 +154,8 @@ void actor_skill_context::impl::want_safety() {
 }
 
 void actor_skill_context::impl::log(const std::string& line) {
-  log_->add(line, unix_now_ms());
+  // As the shim does it for programs.
+  log_->add(line, clock_ms(CLOCK_REALTIME));
 }
 
 void actor_skill_context::impl::write(const shared_frame& x, output_port& to) {

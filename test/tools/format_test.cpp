@@ -74,6 +74,8 @@ TEST_CASE("an age survives any two clocks", "[tools]") {
   CHECK(format_since(least, most) == "-");
   CHECK(format_since(most, 1000) == "0s");
   CHECK(format_since(1, least) == "0s");
+  // Noted in 1970 by a clock that was set since then.
+  CHECK(format_since(70'000, 1'795'225'380'000) == "-");
 }
 
 TEST_CASE("a time is shown in local time with milliseconds", "[tools]") {

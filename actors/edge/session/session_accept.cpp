@@ -17,6 +17,7 @@ session_accept::session_accept(std::shared_ptr<io_core> core,
 
 void session_accept::run(upgrade_request request) {
   request_ = std::move(request);
+  hear_time(request_);
   begin();
   stream().async_accept(request_, [self = self_as<session_accept>()](error ec) {
     if (self->over())
@@ -42,6 +43,7 @@ void session_accept::on_established(websocket&& stream) {
   session.peer = {hello.node, hello.uuid, hello.version, peer_.address,
                   peer_.port, "",         hello.epoch,   hello.role};
   session.agreement = handshake_.agreement();
+  session.ahead_ms = ahead_ms();
   hooks_.on_decided(true);
   session.link = websocket_link::make(core(), std::move(stream), options(),
                                       std::move(hooks_.on_gone));

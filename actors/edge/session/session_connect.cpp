@@ -63,6 +63,7 @@ protected:
                     target_.address,      target_.port,   challenge.cell,
                     challenge.incarnation};
     session.agreement = handshake_.agreement();
+    session.ahead_ms = ahead_ms();
     session.link =
         websocket_link::make(core(), std::move(stream), options(), {});
     core()->guarded([&] { callback_(std::move(session)); });
@@ -88,8 +89,10 @@ private:
   }
 
   void on_upgraded(error ec) {
-    if (!ec)
+    if (!ec) {
+      hear_time(response_);
       return exchange(handshake_.hello());
+    }
     if (ec == ws::error::upgrade_declined)
       return fail(declined());
     fail({error_code::unreachable,

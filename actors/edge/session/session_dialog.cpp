@@ -1,13 +1,30 @@
 #include "actors/edge/session/session_dialog.hpp"
 
+#include "actors/edge/io/node_time.hpp"
+
 #include <boost/asio/buffer.hpp>
 #include <boost/beast/core/buffers_to_string.hpp>
 
+#include <charconv>
+#include <cstdlib>
+#include <string>
 #include <utility>
 
 namespace roscell {
 
 namespace ws = boost::beast::websocket;
+
+namespace {
+
+/// Where each side says its time, in milliseconds since 1970. Peers of earlier
+/// versions say and hear nothing.
+constexpr const char* time_header = "Roscell-Time";
+/// What an age tells.
+constexpr int64_t noticed_ms = 2000;
+/// The year 9999.
+constexpr int64_t latest_time_ms = 253'402'300'799'000;
+
+} // namespace
 
 session_dialog::session_dialog(std::shared_ptr<io_core> core,
                                stream_socket socket, session_options options)
@@ -16,6 +33,21 @@ session_dialog::session_dialog(std::shared_ptr<io_core> core,
   stream_.next_layer().linger_time = options_.close_timeout;
   stream_.read_message_max(session_frame_bounds::frame);
   stream_.text(true);
+  stream_.set_option(ws::stream_base::decorator([](auto& message) {
+    message.set(time_header, std::to_string(node_time_ms()));
+  }));
+}
+
+void session_dialog::hear_time(const boost::beast::http::fields& said) {
+  const auto text = said[time_header];
+  int64_t of_peer = 0;
+  const auto [rest, ec] = std::from_chars(text.begin(), text.end(), of_peer);
+  // What is no time says nothing.
+  if (ec != std::errc{} || rest != text.end() || of_peer <= 0
+      || of_peer > latest_time_ms)
+    return;
+  const auto ahead = node_time_ms() - of_peer;
+  ahead_ms_ = std::abs(ahead) < noticed_ms ? 0 : ahead;
 }
 
 void session_dialog::begin() {

@@ -30,6 +30,14 @@ protected:
   /// The WebSocket is open: sends `first` if there is one, then takes turns.
   void exchange(std::string first);
 
+  /// Takes what the peer's request or answer for a WebSocket has in its head.
+  void hear_time(const boost::beast::http::fields& said);
+
+  /// How far the time of this node is ahead of what the peer has said.
+  int64_t ahead_ms() const {
+    return ahead_ms_;
+  }
+
   /// Takes one frame of the peer.
   virtual handshake_step receive(std::string_view frame) = 0;
 
@@ -79,6 +87,7 @@ private:
   boost::beast::flat_buffer incoming_;
   std::string outgoing_;
   bool reported_ = false;
+  int64_t ahead_ms_ = 0;
 };
 
 } // namespace roscell

@@ -92,6 +92,10 @@ struct established_session {
   std::shared_ptr<session_link> link;
   session_peer peer;
   session_agreement agreement;
+  /// How far the time of this node is ahead of the peer's (node_time.hpp), as
+  /// both have said before they have proven anything: for the ages that people
+  /// see, and nothing else.
+  int64_t ahead_ms = 0;
 };
 
 /// How a server answers those who want a session.

@@ -89,7 +89,11 @@ std::string format_age(std::chrono::milliseconds age) {
 }
 
 std::string format_since(int64_t since_unix_ms, int64_t now_unix_ms) {
-  if (since_unix_ms <= 0)
+  // 2020: what was noted before, and is told after, was noted by a clock that
+  // had not been set.
+  constexpr int64_t first_true_ms = 1'577'836'800'000;
+  if (since_unix_ms <= 0
+      || (since_unix_ms < first_true_ms && now_unix_ms >= first_true_ms))
     return "-";
   // Compared first: the difference of any two numbers might overflow.
   if (since_unix_ms > now_unix_ms)
