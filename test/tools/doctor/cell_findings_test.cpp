@@ -141,6 +141,22 @@ TEST_CASE("clocks are told when they differ for sure", "[doctor]") {
   CHECK_THAT(found[1].seen, Contains("leg's clock is 90 s behind"));
 }
 
+TEST_CASE("a coordinator whose clock alone is wrong is told, and nobody else",
+          "[doctor]") {
+  const auto cell = cell_of_three();
+  const auto found = judge_clocks(
+      {{"arm", 90000, 2}, {"head", 0, 1}, {"leg", 90010, 2}}, cell);
+  REQUIRE(found.size() == 1);
+  CHECK(found[0].how == judgement::broken);
+  CHECK_THAT(found[0].seen,
+             Contains("head's clock is 90 s behind that of most nodes"));
+  // Where no two agree the coordinator's is as good as any other.
+  const auto apart =
+      judge_clocks({{"arm", 90000, 2}, {"head", 0, 1}, {"leg", 5000, 2}}, cell);
+  REQUIRE(apart.size() == 2);
+  CHECK_THAT(apart[0].seen, Contains("arm's clock is 90 s ahead of the coord"));
+}
+
 TEST_CASE("a node of another version than the coordinator's is a warning",
           "[doctor]") {
   auto cell = cell_of_three();

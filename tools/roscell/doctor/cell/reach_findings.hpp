@@ -33,7 +33,8 @@ struct clock_reading {
   double uncertainty_ms = 0; ///< Half the round trip.
 };
 
-/// How far the clocks are from the coordinator's.
+/// How far the clocks are from the coordinator's, or from that of most nodes
+/// where these agree with each other and not with it.
 findings judge_clocks(const std::vector<clock_reading>& all,
                       const reached_cell& cell);
 
