@@ -62,6 +62,23 @@ std::vector<discovery_place> place_of(const cell_coordinator_state& st,
            st.setup.server_id}};
 }
 
+/// Two members at one address: two hosts that have the same one, of which
+/// others reach now one and now the other, or a host whose address another one
+/// has got before it was missed.
+void tell_shared_address(coordinator_pointer self, const node_identity& who) {
+  if (who.address.empty())
+    return;
+  self->state.registry.for_each_active([&](const registry_entry& x) {
+    const auto& other = x.row.identity;
+    if (other.uuid != who.uuid && other.address == who.address)
+      self->state.context.tell(
+          "address_shared", who.name,
+          {{"address", who.address},
+           {"with", other.name},
+           {"hint", "if both hosts run, give each an address of its own"}});
+  });
+}
+
 /// The row may be shown now.
 void on_registration_kept(coordinator_pointer self,
                           const register_node& request,
@@ -89,6 +106,7 @@ void on_registration_kept(coordinator_pointer self,
                    {"epoch", who.epoch},
                    {"address", who.address},
                    {"size", st.registry.active_count()}});
+  tell_shared_address(self, who);
   promise.deliver(
       node_registered{st.setup.cell, st.setup.self.name, st.setup.incarnation,
                       take_up_instances(self, node), st.setup.cell_uuid,
@@ -200,8 +218,8 @@ caf::result<node_registered> register_member(coordinator_pointer self,
                     + ", by the coordination node: its data directory is a "
                       "copy",
                 "/identity/uuid",
-                "start this node with another --data-dir, or with this one "
-                "emptied: then it makes a UUID of its own");
+                "start this node once with --new-identity: then it makes a "
+                "UUID of its own");
   const auto& cell = request.registration.cell_uuid;
   if (!cell.empty() && cell != st.setup.cell_uuid)
     return fail(error_code::unknown_cell,

@@ -13,6 +13,7 @@
 
 #include <array>
 #include <chrono>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -41,6 +42,8 @@ struct membership_config {
   std::string configured;    ///< How the node is started now; see the record.
   std::string site_token;    ///< Proves switches; empty: none is installed.
   int64_t public_domain = 0; ///< In which the node sees others.
+  /// Tells other hosts where this node's address is; empty: nothing tells.
+  std::function<void()> claim_address{};
 };
 
 /// Whether the node goes on where an earlier run of it was: it is started in

@@ -281,6 +281,9 @@ void begin_attempt(self_pointer self) {
   st.deadline = self->clock().now() + limits::membership::search;
   if (st.standing == node_state::independent)
     st.standing = node_state::joining;
+  // Another host may have taken the address, which is why contact was lost.
+  if (st.standing == node_state::orphaned && st.config.claim_address)
+    st.config.claim_address();
   st.older.reset();
   st.opened.reset();
   st.resources.reset();

@@ -1,6 +1,7 @@
 #include "actors/node/node_builder.hpp"
 
 #include "actors/cell/cell_coordinator.hpp"
+#include "actors/edge/host/address_claim.hpp"
 #include "actors/house/edge_failure.hpp"
 #include "actors/instances/actor_skills/runtime_switch.hpp"
 #include "actors/instances/container_supervisor.hpp"
@@ -222,6 +223,7 @@ private:
     result.configured = config.wait ? "wait" : config.join;
     result.site_token = data_.site_token;
     result.public_domain = config.public_domain_id;
+    result.claim_address = [at = config.address] { claim_address(at); };
     return result;
   }
 

@@ -4,6 +4,8 @@
 #include "actors/edge/dds/site_survey.hpp"
 #include "actors/edge/http/http_paths.hpp"
 #include "actors/edge/io/name_lookup.hpp"
+#include "actors/edge/io/socket_address.hpp"
+#include "actors/edge/session/address_scout.hpp"
 #include "actors/house/edge_failure.hpp"
 #include "actors/house/limits.hpp"
 #include "actors/session/wire_session.hpp"
@@ -11,6 +13,8 @@
 #include "messages/failure.hpp"
 
 #include <chrono>
+#include <future>
+#include <memory>
 #include <set>
 #include <utility>
 
@@ -55,6 +59,33 @@ caf::error name_in_use(const announcement& other) {
               "", "choose another --cell, or take it over with --force");
 }
 
+/// Whether what is announced with this node's own UUID is somebody who lives:
+/// it answers, as a coordinator of this cell. What it was itself, at an address
+/// that it has left, does not.
+bool lives_elsewhere(const announcement& other, const std::string& cell,
+                     node_edges& edges) {
+  const auto at = parse_socket_address(other.session);
+  if (!at || other.session == edges.http_address)
+    return false;
+  auto heard = std::make_shared<std::promise<scouted_port>>();
+  auto answer = heard->get_future();
+  ask_for_hello(edges.io->core(), *at,
+                [heard](scouted_port x) { heard->set_value(std::move(x)); });
+  const auto seen = answer.get();
+  return !seen.hello.empty() && seen.hello[0].role == node_role::coordinator
+         && seen.hello[0].cell == cell;
+}
+
+caf::error is_a_copy(const announcement& other) {
+  return fail(
+      error_code::conflict,
+      "this coordinator runs at " + other.session
+          + " already: the data directory is a copy",
+      "",
+      "stop that one to go on with its cell here, or start this one once "
+      "with --new-identity and another --cell: then it is another cell");
+}
+
 /// Looks at the coordinators that are there: cell names and server ids in use.
 caf::error survey(const node_config& config, const node_data& data,
                   node_edges& edges) {
@@ -76,6 +107,9 @@ caf::error survey(const node_config& config, const node_data& data,
   for (const auto& x : std::get<std::vector<announcement>>(seen)) {
     if (claims_our_name(x) && !config.force)
       return name_in_use(x);
+    if (x.role == "coordinator" && x.uuid == data.identity.uuid
+        && lives_elsewhere(x, config.cell, edges))
+      return is_a_copy(x);
     if (x.role == "coordinator" && x.uuid != data.identity.uuid)
       used.insert(x.server);
   }

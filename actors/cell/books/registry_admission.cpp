@@ -75,8 +75,8 @@ cell_registry::copy_refusal(const node_identity& who,
   return conflict("this UUID is in use at " + known->row.identity.address
                       + ": its data directory is a copy",
                   "/identity/uuid",
-                  "start this node with another --data-dir, or with this one "
-                  "emptied: then it makes a UUID of its own");
+                  "start this node once with --new-identity: then it makes a "
+                  "UUID of its own");
 }
 
 member_actor cell_registry::rival_of(const node_identity& who) const {

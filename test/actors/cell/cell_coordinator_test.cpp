@@ -160,6 +160,20 @@ TEST_CASE_METHOD(paper_cell,
   CHECK(arm.closed.empty());
 }
 
+TEST_CASE_METHOD(paper_cell,
+                 "Two members at one address are told, and both have a row",
+                 "[cell_coordinator]") {
+  auto& arm = add("arm");
+  add("leg");
+  CHECK(count("address_shared") == 0);
+  auto& taker = make_agent("taker");
+  taker.identity.address = arm.identity.address;
+  REQUIRE(enter(taker));
+  CHECK(count("address_shared") == 1);
+  CHECK(row("arm").state == row_state::active);
+  CHECK(row("taker").state == row_state::active);
+}
+
 TEST_CASE_METHOD(
     paper_cell,
     "A node whose address has changed gets its row back within its "

@@ -286,8 +286,10 @@ void fake_site::start(fake_node& x) {
   parts.supervisor = caf::actor_cast<container_supervisor_actor>(x.local);
   parts.store = caf::actor_cast<state_store_actor>(x.local);
   parts.scout = caf::actor_cast<join_scout_actor>(x.local);
+  membership_config config{x.identity, {}};
+  config.claim_address = [&x] { ++x.claims; };
   x.membership = roscell::spawn(time.system, context, membership, context,
-                                parts, membership_config{x.identity, {}});
+                                parts, std::move(config));
 }
 
 void fake_site::kill(fake_node& x) {

@@ -62,6 +62,7 @@ struct fake_node {
   std::optional<failure> refusal;                 ///< Of sessions.
   address_scouted scouted; ///< What the scout sees; nothing answers.
   size_t looks = 0;        ///< Of the scout.
+  size_t claims = 0;       ///< Of its address.
   std::map<std::string, std::string> names; ///< Of hosts, to addresses.
   std::vector<std::string> sought;          ///< Discovery servers.
   std::optional<failure> deployment_refusal;

@@ -57,6 +57,21 @@ TEST_CASE_METHOD(orphan_test, "a silent coordinator is lost within a "
   CHECK(lost->data["reason"] == "silent for 8 s");
 }
 
+TEST_CASE_METHOD(orphan_test, "an orphan claims its address whenever it looks "
+                              "for its cell, and nobody else does") {
+  form_cell();
+  site.pass(20s);
+  CHECK(node.claims == 0);
+  site.kill_coordinator();
+  site.pass(20s);
+  CHECK(node.claims > 1);
+  site.start_coordinator();
+  site.pass(15s);
+  const auto claims = node.claims;
+  site.pass(60s);
+  CHECK(node.claims == claims);
+}
+
 TEST_CASE_METHOD(orphan_test, "an orphan does not join another cell that "
                               "has taken its server's place") {
   form_cell();
