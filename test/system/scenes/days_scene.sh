@@ -48,12 +48,23 @@ start_day() {
   day_begins "${test//_/ }"
 }
 
+# give_clock FOLDER: what is run from this skill folder goes by its host's wall clock
+# (clock_test.sh).
+give_clock() {
+  local text
+  text=$(jq '.models[].deployments[].environment += {
+      LD_PRELOAD: env.LD_PRELOAD, CLOCK_FILE: env.CLOCK_FILE,
+      ASAN_OPTIONS: env.ASAN_OPTIONS}' "$1/skill.json")
+  echo "$text" > "$1/skill.json"
+}
+
 # take_day_skills: with files that every user of a host may write.
 take_day_skills() {
   local name
   for name in image_source pose_estimation; do
     cp -r "$ROSCELL_BUILD/skills/$name" "$skills"
     ask_no_cpu "$skills/$name"
+    [[ -z ${CLOCK_FILE:-} ]] || give_clock "$skills/$name"
     [[ -z ${right_runtime:-} ]] || allow_much_memory "$skills/$name"
   done
   mkdir -p "$scratch/data"
@@ -107,7 +118,11 @@ start_node_of() {
   fi
   inside=(ip netns exec "$(host_of "$name")" bash -c
     'mount --bind "$0" /proc/sys/kernel/random/boot_id && exec "$@"'
-    "$scratch/$name.boot" "${user[@]}")
+    "$scratch/$name.boot")
+  [[ -z ${CLOCK_FILE:-} ]] \
+    || inside+=(bash -c 'mount --bind "$0" "$CLOCK_FILE" && exec "$@"'
+      "$scratch/$name.clock")
+  inside+=("${user[@]}")
   start_node "$name" --interface eth0 --label "place=$name" \
     --site-token "$scratch/site.token" "${how[@]}"
   inside=()
