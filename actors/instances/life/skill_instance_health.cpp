@@ -74,7 +74,7 @@ void look_for_it(skill_instance_pointer self,
 /// An output that breaks its bounds counts most; an input that does may do so
 /// because nobody knows the instance.
 health_verdict verdict_on(const skill_instance_state& st) {
-  const auto streams = st.health ? st.health->last() : health_verdict{};
+  auto streams = st.health ? st.health->last() : health_verdict{};
   if (streams.health != instance_health::unhealthy && st.sight)
     if (auto why = st.sight->reason(); !why.empty())
       return {instance_health::starved, std::move(why)};
