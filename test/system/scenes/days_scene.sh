@@ -41,7 +41,7 @@ start_day() {
   start_host left
   for name in "${streams[@]}"; do [[ $name == moving ]] || start_stream "$name"; done
   start_guest
-  day="at first"
+  day="at first" possible=$EPOCHREALTIME
   all_flow "$deadline_s" "at first"
   for test in "${FUNCNAME[@]}"; do [[ $test != test_* ]] || break; done
   test=${test#test_data_flow_after_}
