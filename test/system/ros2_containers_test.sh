@@ -104,7 +104,7 @@ test_skills_in_containers_go_on_at_another_address() {
   poses_come
   expect "containers" "$(engine ps -q | sort)" "$containers"
   expect "restarts" "$(get head /v1/instances \
-    | jq -c '[.instances[] | [.state, .restarts]] | unique')" '[["running",0]]'
+    | jq -c '[.instances[] | [.state, .restarts // 0]] | unique')" '[["running",0]]'
   ip link del "$interface"
 }
 
