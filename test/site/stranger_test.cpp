@@ -121,7 +121,7 @@ TEST_CASE_METHOD(lone_cell,
       CHECK(x.data.at("reason")
             == "this UUID is in use at " + arm.address
                    + ": its data directory is a copy");
-      CHECK(x.data.at("hint").get<std::string>().find("--data-dir")
+      CHECK(x.data.at("hint").get<std::string>().find("--new-identity")
             != std::string::npos);
     }
   // It comes every half minute.

@@ -163,8 +163,12 @@ TEST_CASE_METHOD(paper_cell,
 TEST_CASE_METHOD(paper_cell,
                  "Two members at one address are told, and both have a row",
                  "[cell_coordinator]") {
-  auto& arm = add("arm");
-  add("leg");
+  auto& arm = make_agent("arm");
+  arm.identity.address = "10.0.0.98:8420";
+  auto& leg = make_agent("leg");
+  leg.identity.address = "10.0.0.99:8420";
+  REQUIRE(enter(arm));
+  REQUIRE(enter(leg));
   CHECK(count("address_shared") == 0);
   auto& taker = make_agent("taker");
   taker.identity.address = arm.identity.address;

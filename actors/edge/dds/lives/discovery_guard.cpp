@@ -2,7 +2,6 @@
 
 #include "actors/edge/dds/rtps/discovery_probe.hpp"
 
-#include <algorithm>
 #include <utility>
 
 #include <arpa/inet.h>
@@ -74,13 +73,11 @@ void discovery_guard::note(const guid_prefix& from,
 }
 
 void discovery_guard::lose(std::uint8_t id) {
-  const auto ended = lives_.present(id);
-  lives_.lose(id);
   {
     std::lock_guard<std::mutex> lock{table_mutex_};
     table_.doubt(id);
   }
-  bury({ended});
+  bury(end_life(id));
 }
 
 void discovery_guard::end_doubt(std::uint8_t id) {
@@ -108,23 +105,26 @@ void discovery_guard::forget(std::uint8_t id) {
     std::lock_guard<std::mutex> lock{table_mutex_};
     dead = table_.told_by(id);
   }
-  dead.push_back(lives_.present(id));
-  lives_.lose(id);
+  const auto server = end_life(id);
+  dead.insert(dead.end(), server.begin(), server.end());
   bury(dead);
+}
+
+/// Whom Fast DDS may know as this server. It never frees the news that somebody
+/// has ended whom it does not know.
+std::vector<guid_prefix> discovery_guard::end_life(std::uint8_t id) {
+  std::vector<guid_prefix> result;
+  if (lives_.has_spoken(id))
+    result.push_back(lives_.present(id));
+  lives_.lose(id);
+  return result;
 }
 
 /// Fast DDS takes the news that a participant has ended from whoever is known
 /// to it, so somebody appears for as long as that takes. With sequence number 0
 /// of the sample, whoever comes back after all is newer than the news of its
-/// end. Fast DDS never frees the news of somebody whom it does not know.
-void discovery_guard::bury(std::vector<guid_prefix> dead) {
-  {
-    std::lock_guard<std::mutex> lock{table_mutex_};
-    dead.erase(
-        std::remove_if(dead.begin(), dead.end(),
-                       [this](const auto& who) { return !table_.knows(who); }),
-        dead.end());
-  }
+/// end.
+void discovery_guard::bury(const std::vector<guid_prefix>& dead) {
   std::lock_guard<std::mutex> lock{inlet_mutex_};
   if (dead.empty() || !inlet_)
     return;

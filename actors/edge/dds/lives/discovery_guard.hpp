@@ -64,7 +64,8 @@ public:
 
 private:
   void note(const guid_prefix& from, const std::vector<participant_news>& news);
-  void bury(std::vector<guid_prefix> dead);
+  std::vector<guid_prefix> end_life(std::uint8_t id);
+  void bury(const std::vector<guid_prefix>& dead);
 
   server_lives lives_;
   const number_shift numbers_;

@@ -25,10 +25,6 @@ void participant_table::gone(const guid_prefix& who) {
   selves_.erase(who);
 }
 
-bool participant_table::knows(const guid_prefix& who) const {
-  return told_.count(who) != 0 || selves_.count(who) != 0;
-}
-
 void participant_table::doubt(std::uint8_t id) {
   for (auto& [who, x] : told_)
     if (x.id == id)

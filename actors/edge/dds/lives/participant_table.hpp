@@ -40,8 +40,6 @@ public:
   /// It is not known any more.
   void gone(const guid_prefix& who);
 
-  bool knows(const guid_prefix& who) const;
-
   /// All that server `id` has told of is in doubt.
   void doubt(std::uint8_t id);
 

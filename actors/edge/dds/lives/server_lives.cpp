@@ -70,6 +70,7 @@ bool server_lives::is_another_server(const guid_prefix& prefix) const {
 
 void server_lives::lose(std::uint8_t id) {
   peers_[id].heard_from = time_point::max();
+  peers_[id].spoken = false;
   // Three bytes of a life are told apart.
   constexpr std::uint32_t lives = 1U << 24;
   peers_[id].life = std::max(1U, (peers_[id].life + 1) % lives);
@@ -84,14 +85,17 @@ void server_lives::ignore(std::uint8_t id) {
 }
 
 bool server_lives::take_in(std::uint8_t* datagram, std::size_t size,
-                           time_point now) const {
+                           time_point now) {
   constexpr std::size_t sender_at = 8;
   if (size < sender_at + prefix_bytes)
     return false;
   const auto* sender = datagram + sender_at;
-  if (begins_server(sender) && sender[2] != own_
-      && now < peers_[sender[2]].heard_from.load())
-    return false;
+  if (begins_server(sender) && sender[2] != own_) {
+    auto& peer = peers_[sender[2]];
+    if (now < peer.heard_from.load())
+      return false;
+    peer.spoken = true;
+  }
   for_each_server(datagram, size, [this](std::uint8_t* at) {
     if (at[2] == own_ || !is_first_life(at))
       return;

@@ -48,6 +48,11 @@ public:
   /// It is heard, from now on or after `settling`.
   void meet(std::uint8_t id, time_point now);
 
+  /// Whether something of its present life has been let in.
+  bool has_spoken(std::uint8_t id) const {
+    return peers_[id].spoken;
+  }
+
   /// Whether it has been lost before.
   bool has_been_lost(std::uint8_t id) const {
     return peers_[id].life != 0;
@@ -57,7 +62,7 @@ public:
   void ignore(std::uint8_t id);
 
   /// Prepares a datagram that has come; false: it is of one that is not heard.
-  bool take_in(std::uint8_t* datagram, std::size_t size, time_point now) const;
+  bool take_in(std::uint8_t* datagram, std::size_t size, time_point now);
 
   /// Prepares a datagram that shall go; false: it is for a life that has ended.
   bool let_out(std::uint8_t* datagram, std::size_t size) const;
@@ -66,6 +71,7 @@ private:
   struct peer {
     std::atomic<std::uint32_t> life{0};
     std::atomic<time_point> heard_from{time_point::min()}; ///< max(): never.
+    std::atomic<bool> spoken{false};                       ///< In this life.
   };
 
   const std::uint8_t own_;

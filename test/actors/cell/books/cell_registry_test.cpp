@@ -187,7 +187,7 @@ TEST_CASE("A UUID in use at one address is refused at another",
   CHECK(why->message
         == "this UUID is in use at 10.0.0.2:8420: its data directory is a "
            "copy");
-  CHECK(why->hint.find("--data-dir") != std::string::npos);
+  CHECK(why->hint.find("--new-identity") != std::string::npos);
   // A restart at its own address, and a move while nobody lives there.
   CHECK_FALSE(registry.refusal({"arm", "u1", 6, "10.0.0.2:8420"}, at(0ms)));
   registry.deactivate(*registry.find_uuid("u1"), row_state::lost, "", at(0ms));

@@ -308,7 +308,7 @@ TEST_CASE("a port in use is a conflict, an address of another host is wrong") {
   const auto why = expect_error(http_server::start(node.io, options));
   CHECK(why.code == error_code::conflict);
   CHECK(why.message.find("is in use") != std::string::npos);
-  for (const auto* address : {"192.0.2.1", "localhost", "", "::1"}) {
+  for (const auto* address : {"192.0.2.1", "localhost", "::1"}) {
     options.address = address;
     const auto wrong = expect_error(http_server::start(node.io, options));
     CHECK(wrong.code == error_code::schema_violation);

@@ -106,6 +106,21 @@ TEST_CASE(
   CHECK(hears(heard_at));
 }
 
+TEST_CASE("a life has spoken once something of it was let in") {
+  server_lives lives{own};
+  const auto hear = [&lives](server_lives::time_point when) {
+    auto message = word_of(other);
+    lives.take_in(message.data(), message.size(), when);
+  };
+  CHECK_FALSE(lives.has_spoken(other));
+  hear(met_at);
+  CHECK(lives.has_spoken(other));
+  CHECK_FALSE(lives.has_spoken(other + 1));
+  lives.lose(other);
+  hear(met_at); // It is not met.
+  CHECK_FALSE(lives.has_spoken(other));
+}
+
 TEST_CASE("nothing goes to a life that has ended") {
   server_lives lives{own};
   const auto former = lives.present(other);
