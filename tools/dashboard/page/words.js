@@ -60,13 +60,8 @@ export function percent(share) {
   return `${Math.round(share * 100)} %`;
 }
 
-/** Before 2020 only a clock was that had not been set. */
-const FIRST_TRUE_MS = Date.UTC(2020);
-
 /** How long ago, in the largest unit that fits: 12 s, 5 min, 3 h, 2 d. */
 export function ago(unix_ms, now = Date.now()) {
-  if (unix_ms < FIRST_TRUE_MS && now >= FIRST_TRUE_MS)
-    return 'an unknown time';
   const seconds = Math.max(0, Math.round((now - unix_ms) / 1000));
   if (seconds < 90)
     return `${seconds} s`;
