@@ -62,7 +62,7 @@ all_flow() {
 }
 
 # tell_gap STREAM: the longest time between two pictures since the day began, and how
-# many of five a second are missing.
+# many of two a second are missing.
 tell_gap() {
   local figures
   figures=$(tail -n +"$(< "$scratch/$1.before")" "$scratch/data/$1" \
@@ -70,7 +70,7 @@ tell_gap() {
       {when: "over the day",
        gap_s: (map(.at) | steps | max // 0 | . * 100 | round / 100),
        missing: (map(.stamp) | sort | steps
-         | map([(. * 5 | round) - 1, 0] | max) | add // 0)}')
+         | map([(. * 2 | round) - 1, 0] | max) | add // 0)}')
   echo "    stream '$1': no picture for $(jq .gap_s <<< "$figures") s," \
     "$(jq .missing <<< "$figures") are missing"
   note "$1" "$figures"

@@ -137,7 +137,7 @@ await_member() {
   epoch[$1]=$(jq .data.epoch "$scratch/joined.json")
 }
 
-# start_stream NAME: pictures from a camera to a reader, five a second.
+# start_stream NAME: pictures from a camera to a reader, two a second.
 start_stream() {
   jq -n --arg name "$1" --arg photos "$PWD/test/data/apriltag_photos" \
     --arg camera "${camera_on[$1]}" --arg reader "${reader_on[$1]}" \
@@ -150,7 +150,7 @@ start_stream() {
        else ros2("passed_on"; "Image") + {external: true} end) as $image
     | {type: "task_request", task: $name, pipeline: [
         {id: "camera", operation: "image_source", model: "folder",
-         labels: {place: $camera}, parameters: {rate_hz: 5},
+         labels: {place: $camera}, parameters: {rate_hz: 2},
          input: {protocol: "file", endpoint: $photos, data_type: "image/jpeg"},
          output: [ros2("image"; "Image"), $info]}
         | if $camera != "" then .
