@@ -423,6 +423,7 @@ test_data_flow_after_bad_days_of_a_host_with_containers() {
     "$what" right
     [[ $what != kill_host ]] || boot_engine
     start_host right
-    day_ends 5
+    # Beside other tests an engine takes its time.
+    day_ends "$(of_matrix 15 5)"
   done
 }
