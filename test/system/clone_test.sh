@@ -73,7 +73,7 @@ test_of_two_copies_that_come_at_once_one_is_refused() {
   stop_node right
   start_copy twin --join "$head_at:11811"
   inside=(ip netns exec "${hosts[2]}")
-  start_node right --interface eth0 --label place=right \
+  start_node right --interface eth0 --label place=right --label spare=yes \
     --site-token "$scratch/site.token" --join "$head_at:11811"
   inside=()
   start_host head
