@@ -90,18 +90,21 @@ bool server_lives::take_in(std::uint8_t* datagram, std::size_t size,
   if (size < sender_at + prefix_bytes)
     return false;
   const auto* sender = datagram + sender_at;
-  if (begins_server(sender) && sender[2] != own_) {
-    auto& peer = peers_[sender[2]];
-    if (now < peer.heard_from.load())
-      return false;
-    peer.spoken = true;
-  }
+  const bool is_of_peer = begins_server(sender) && sender[2] != own_;
+  auto& peer = peers_[sender[2]];
+  const std::uint32_t life = peer.life;
+  if (is_of_peer && now < peer.heard_from.load())
+    return false;
   for_each_server(datagram, size, [this](std::uint8_t* at) {
     if (at[2] == own_ || !is_first_life(at))
       return;
     const auto ending = ending_of(peers_[at[2]].life);
     std::copy(ending.begin(), ending.end(), at + life_at);
   });
+  // Lost meanwhile by another thread, it would have spoken in its next life.
+  if (is_of_peer && peer.life != life)
+    return false;
+  peer.spoken = peer.spoken || is_of_peer;
   return true;
 }
 
