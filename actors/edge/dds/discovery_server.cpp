@@ -124,10 +124,11 @@ public:
   }
 
   void meet(std::uint8_t id) {
-    // What has been known from an earlier session would be taken for known.
-    if (is_linked(id))
-      lose(id);
+    // What has been known from an earlier session would be taken for known, and
+    // what is still on its way for a sign that this one is known to the other.
     auto& lives = guard_->lives();
+    if (lives.is_met(id) || lives.has_spoken(id))
+      lose(id);
     lives.meet(id, std::chrono::steady_clock::now());
     // The other one is deaf for as long as this one.
     if (is_remote(id))
@@ -203,12 +204,6 @@ private:
   bool is_remote(std::uint8_t id) {
     const auto x = remote();
     return x && x->id == id;
-  }
-
-  /// Whether the present life of a server is known to Fast DDS.
-  bool is_linked(std::uint8_t id) {
-    std::lock_guard<std::mutex> lock{mutex_};
-    return clients_.count(guard_->lives().present(id)) != 0;
   }
 
   void on_client(const sighting& seen) {

@@ -80,6 +80,11 @@ void server_lives::meet(std::uint8_t id, time_point now) {
   peers_[id].heard_from = has_been_lost(id) ? now + settling : now;
 }
 
+bool server_lives::is_met(std::uint8_t id) const {
+  const auto from = peers_[id].heard_from.load();
+  return from != unmet && from != time_point::max();
+}
+
 void server_lives::ignore(std::uint8_t id) {
   peers_[id].heard_from = time_point::max();
 }

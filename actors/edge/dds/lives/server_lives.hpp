@@ -53,6 +53,9 @@ public:
     return peers_[id].spoken;
   }
 
+  /// Whether it was met, and not lost since.
+  bool is_met(std::uint8_t id) const;
+
   /// Whether it has been lost before.
   bool has_been_lost(std::uint8_t id) const {
     return peers_[id].life != 0;
@@ -68,10 +71,13 @@ public:
   bool let_out(std::uint8_t* datagram, std::size_t size) const;
 
 private:
+  /// Who was never met is heard: it may be in no cell.
+  static constexpr time_point unmet = time_point::min();
+
   struct peer {
     std::atomic<std::uint32_t> life{0};
-    std::atomic<time_point> heard_from{time_point::min()}; ///< max(): never.
-    std::atomic<bool> spoken{false};                       ///< In this life.
+    std::atomic<time_point> heard_from{unmet}; ///< max(): never.
+    std::atomic<bool> spoken{false};           ///< In this life.
   };
 
   const std::uint8_t own_;

@@ -121,6 +121,20 @@ TEST_CASE("a life has spoken once something of it was let in") {
   CHECK_FALSE(lives.has_spoken(other));
 }
 
+TEST_CASE("who was met is so until it is lost") {
+  server_lives lives{own};
+  CHECK_FALSE(lives.is_met(other));
+  lives.meet(other, met_at);
+  CHECK(lives.is_met(other));
+  CHECK_FALSE(lives.is_met(other + 1));
+  lives.lose(other);
+  CHECK_FALSE(lives.is_met(other));
+  lives.meet(other, met_at);
+  CHECK(lives.is_met(other));
+  lives.ignore(other);
+  CHECK_FALSE(lives.is_met(other));
+}
+
 TEST_CASE("nothing goes to a life that has ended") {
   server_lives lives{own};
   const auto former = lives.present(other);
