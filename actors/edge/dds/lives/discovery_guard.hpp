@@ -38,7 +38,7 @@ public:
   bool take_in(std::uint8_t* message, std::size_t size);
 
   /// Prepares a message that shall go; false: nobody may see it.
-  bool let_out(std::uint8_t* message, std::size_t size) const;
+  bool let_out(std::uint8_t* message, std::size_t size);
 
   /// From now on; empty: the server ends.
   void set_inlet(inlet x);

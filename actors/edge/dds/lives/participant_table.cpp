@@ -39,6 +39,12 @@ std::vector<guid_prefix> participant_table::doubted(std::uint8_t id) const {
   return result;
 }
 
+bool participant_table::was_told_by(std::uint8_t id,
+                                    const guid_prefix& who) const {
+  const auto known = told_.find(who);
+  return known != told_.end() && known->second.id == id;
+}
+
 std::vector<guid_prefix> participant_table::told_by(std::uint8_t id) const {
   std::vector<guid_prefix> result;
   for (const auto& [who, x] : told_)

@@ -49,6 +49,9 @@ public:
   /// All that server `id` has told of.
   std::vector<guid_prefix> told_by(std::uint8_t id) const;
 
+  /// Whether that participant is known by what server `id` has told.
+  bool was_told_by(std::uint8_t id, const guid_prefix& who) const;
+
   /// Those of a node that told of themselves, and were known before.
   std::vector<guid_prefix> of_node(const std::string& uuid,
                                    time_point before) const;

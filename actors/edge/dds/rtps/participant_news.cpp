@@ -11,6 +11,8 @@ namespace roscell {
 namespace {
 
 constexpr std::uint32_t participant_writer = 0x000100c2;
+constexpr std::uint32_t publications_writer = 0x000003c2;
+constexpr std::uint32_t subscriptions_writer = 0x000004c2;
 
 /// The participant that a parameter list is about. Leaves `in` behind the list.
 std::optional<guid_prefix> subject_in(wire_cursor& in) {
@@ -20,7 +22,8 @@ std::optional<guid_prefix> subject_in(wire_cursor& in) {
     const auto value = in.take(in.u16());
     if (id == parameter_id::sentinel)
       break;
-    if ((id == parameter_id::participant_guid || id == parameter_id::key_hash)
+    if ((id == parameter_id::participant_guid
+         || id == parameter_id::endpoint_guid || id == parameter_id::key_hash)
         && value.size() >= guid_prefix{}.size()) {
       result.emplace();
       std::copy_n(value.position(), result->size(), result->begin());
@@ -29,12 +32,17 @@ std::optional<guid_prefix> subject_in(wire_cursor& in) {
   return result;
 }
 
-std::optional<participant_news> news_of(const submessage_view& x) {
+/// The entity that has written a DATA; 0: it is none.
+std::uint32_t writer_of(const submessage_view& x) {
   auto in = x.body;
   in.skip(8);
-  if (x.kind != submessage_kind::data
-      || in.big_endian_u32() != participant_writer)
-    return std::nullopt;
+  return x.kind == submessage_kind::data ? in.big_endian_u32() : 0;
+}
+
+/// Whose participant, reader or writer a DATA of discovery is about.
+std::optional<participant_news> news_of(const submessage_view& x) {
+  auto in = x.body;
+  in.skip(12);
   in.sequence_number();
   std::optional<guid_prefix> who;
   if ((x.flags & submessage_flag::inline_qos) != 0)
@@ -50,6 +58,51 @@ std::optional<participant_news> news_of(const submessage_view& x) {
   return participant_news{*who, ended};
 }
 
+bool is_of_discovery(std::uint32_t writer) {
+  return writer == participant_writer || writer == publications_writer
+         || writer == subscriptions_writer;
+}
+
+/// The header of a submessage whose body begins at `body`.
+void put_header(std::uint8_t* body, submessage_kind kind, bool little,
+                std::size_t bytes) {
+  body[-4] = static_cast<std::uint8_t>(kind);
+  body[-3] = little ? submessage_flag::little_endian : 0;
+  body[little ? -2 : -1] = static_cast<std::uint8_t>(bytes);
+  body[little ? -1 : -2] = static_cast<std::uint8_t>(bytes >> 8);
+}
+
+/// Turns a DATA into a GAP (RTPS 2.3, 9.4.5.5) that skips its number, and a PAD
+/// for the room that is left.
+void skip_number(const submessage_view& data) {
+  constexpr std::size_t gap_bytes = 28;
+  constexpr std::size_t header_bytes = 4;
+  constexpr std::size_t before_endpoints = 4;
+  constexpr std::size_t endpoints_bytes = 8;
+  constexpr std::size_t number_bytes = 8;
+  auto* const body = data.body.position();
+  const auto room = data.body.size();
+  if (room != gap_bytes && room < gap_bytes + header_bytes)
+    return;
+  auto after = data.body;
+  after.skip(before_endpoints + endpoints_bytes);
+  const auto next = static_cast<std::uint64_t>(after.sequence_number() + 1);
+  std::copy_n(body + before_endpoints, endpoints_bytes + number_bytes, body);
+  const bool little = data.body.is_little_endian();
+  const auto put = [little](std::uint8_t* at, std::uint32_t value) {
+    for (unsigned i = 0; i < 4; ++i)
+      at[i] = static_cast<std::uint8_t>(value >> 8 * (little ? i : 3 - i));
+  };
+  auto* const base = body + endpoints_bytes + number_bytes;
+  put(base, static_cast<std::uint32_t>(next >> 32));
+  put(base + 4, static_cast<std::uint32_t>(next));
+  put(base + number_bytes, 0); // No number behind it is skipped.
+  put_header(body, submessage_kind::gap, little, gap_bytes);
+  if (room > gap_bytes)
+    put_header(body + gap_bytes + header_bytes, submessage_kind::pad, little,
+               room - gap_bytes - header_bytes);
+}
+
 } // namespace
 
 guid_prefix sender_of(const std::uint8_t* message) {
@@ -62,11 +115,30 @@ std::vector<participant_news> participants_in(std::uint8_t* message,
                                               std::size_t size) {
   std::vector<participant_news> result;
   for_each_submessage(message, size, [&result](const submessage_view& x) {
+    if (writer_of(x) != participant_writer)
+      return true;
     if (const auto news = news_of(x))
       result.push_back(*news);
     return true;
   });
   return result;
+}
+
+void leave_out(std::uint8_t* message, std::size_t size,
+               const unwanted_news& is_unwanted) {
+  std::optional<guid_prefix> to;
+  for_each_submessage(message, size, [&](const submessage_view& x) {
+    if (x.kind == submessage_kind::info_dst
+        && x.body.size() >= guid_prefix{}.size())
+      std::copy_n(x.body.position(), guid_prefix{}.size(),
+                  to.emplace().begin());
+    if (!to || !is_of_discovery(writer_of(x)))
+      return true;
+    const auto news = news_of(x);
+    if (news && !news->ended && is_unwanted(*to, news->who))
+      skip_number(x);
+    return true;
+  });
 }
 
 } // namespace roscell

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 /// INTERNAL to actors/edge/dds.
@@ -21,5 +22,16 @@ guid_prefix sender_of(const std::uint8_t* message);
 /// of.
 std::vector<participant_news> participants_in(std::uint8_t* message,
                                               std::size_t size);
+
+/// Whether the participant `to` is not to be told anything of `who`.
+using unwanted_news =
+    std::function<bool(const guid_prefix& to, const guid_prefix& who)>;
+
+/// Takes out what a message of this server says of participants, and of their
+/// readers and writers, to somebody who is not to be told: its numbers are
+/// skipped by a GAP instead, so that nobody asks for them again. What ends is
+/// told whatever it is.
+void leave_out(std::uint8_t* message, std::size_t size,
+               const unwanted_news& is_unwanted);
 
 } // namespace roscell

@@ -4,11 +4,14 @@
 #include "actors/edge/dds/rtps/participant_news.hpp"
 #include "actors/edge/dds/rtps/submessages.hpp"
 
+#include "test/actors/edge/dds/lives/addressed.hpp"
+
 #include <catch2/catch.hpp>
 
 #include <vector>
 
 using namespace roscell;
+using namespace roscell::test;
 
 namespace {
 
@@ -21,15 +24,6 @@ const auto heard_at = met_at + server_lives::settling;
 /// Server `id` tells of its own end.
 std::vector<std::uint8_t> word_of(std::uint8_t id) {
   return death_notice(server_prefix(id), 5, server_prefix(id));
-}
-
-/// For the participant with this prefix alone.
-std::vector<std::uint8_t> addressed(std::vector<std::uint8_t> message,
-                                    const guid_prefix& to) {
-  std::vector<std::uint8_t> part{0x0e, 1, 12, 0};
-  part.insert(part.end(), to.begin(), to.end());
-  message.insert(message.begin() + rtps_header_bytes, part.begin(), part.end());
-  return message;
 }
 
 guid_prefix key_in(std::vector<std::uint8_t>& message) {
