@@ -112,6 +112,16 @@ await_joined() {
     > /dev/null
 }
 
+# await_anew NAME ADDRESS: until its node is made anew there.
+await_anew() {
+  local anew
+  anew=$(grep -c "listens on $2:" "$scratch/$1.log")
+  timeout "$deadline_s" grep -m $((anew + 1)) "listens on $2:" \
+    > "$scratch/matches" \
+    < <(exec tail --pid=$$ -n +1 -F "$scratch/$1.log" 2> /dev/null) \
+    || fail "$1 is not made anew: $(tail -n 3 "$scratch/$1.log")"
+}
+
 row_state() {
   get "$1" /v1/cell \
     | jq -r ".nodes[] | select(.identity.name == \"$2\") | .state"

@@ -54,7 +54,7 @@ start_contained_scene() {
   for name in image_source pose_estimation; do
     allow_much_memory "$skills/$name"
   done
-  mkdir "$skills/relay" "$scratch/data"
+  mkdir -p "$skills/relay" "$scratch/data"
   relay_in_image > "$skills/relay/skill.json"
   [[ $variant != rootless ]] || chown -R "$rootless_user" "$scratch"
   start_node head --coordinator --cell hall --interface "${interface:-lo}"
@@ -99,6 +99,7 @@ test_skills_in_containers_go_on_at_another_address() {
   containers=$(engine ps -q | sort)
   ip addr flush dev "$interface"
   ip addr add 10.231.8.2/24 dev "$interface"
+  await_anew head 10.231.8.2
   await head '.event == "instance_address_changed" and .data.step == "poses"' \
     > /dev/null
   poses_come

@@ -177,13 +177,3 @@ await_change() {
   timeout 1 "$ROSCELL" events --to "$scratch/head/node.sock" -o json \
     2> /dev/null | head -n 1 > /dev/null
 }
-
-# await_anew NAME ADDRESS: until its node is made anew there.
-await_anew() {
-  local anew
-  anew=$(grep -c "listens on $2:" "$scratch/$1.log")
-  timeout "$deadline_s" grep -m $((anew + 1)) "listens on $2:" \
-    > "$scratch/matches" \
-    < <(exec tail --pid=$$ -n +1 -F "$scratch/$1.log" 2> /dev/null) \
-    || fail "$1 is not made anew: $(tail -n 3 "$scratch/$1.log")"
-}
