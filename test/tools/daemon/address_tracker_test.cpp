@@ -145,7 +145,8 @@ TEST_CASE("a new address is taken once its interface has a carrier",
   CHECK(x.after(2s) == action::renew);
 }
 
-TEST_CASE("a node that began without a carrier is made anew when that comes",
+TEST_CASE("a node that began without a carrier is made anew at once when that "
+          "comes",
           "[address]") {
   followed_interface x{false, false};
   x.has({on_eth0("10.0.0.5", false)});

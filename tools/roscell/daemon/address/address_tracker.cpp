@@ -5,6 +5,8 @@
 
 namespace roscell::cli {
 
+using namespace std::chrono_literals;
+
 address_tracker::address_tracker(interface_address at, bool fixed)
     : at_{std::move(at)}, fixed_{fixed}, unreliable_{!at_.carrier} {}
 
@@ -38,8 +40,13 @@ void address_tracker::observe(const std::vector<interface_address>& all,
     successor_since_ = now;
 }
 
+address_tracker::time_point address_tracker::settled_at() const {
+  const bool first_carrier = !at_.carrier && successor_ == at_.address;
+  return successor_since_ + (first_carrier ? 0ms : settling);
+}
+
 address_action address_tracker::action(time_point now) const {
-  if (!successor_.empty() && now - successor_since_ >= settling)
+  if (!successor_.empty() && now >= settled_at())
     return address_action::renew;
   if (fixed_ && gone_since_ && now - *gone_since_ >= patience)
     return address_action::give_up;
@@ -48,7 +55,7 @@ address_action address_tracker::action(time_point now) const {
 
 std::optional<address_tracker::time_point> address_tracker::due() const {
   if (!successor_.empty())
-    return successor_since_ + settling;
+    return settled_at();
   if (fixed_ && gone_since_)
     return *gone_since_ + patience;
   return std::nullopt;

@@ -29,7 +29,9 @@ enum class address_action {
 /// - One that was given as an address and is gone for `patience` is given up.
 ///
 /// Nothing is made anew before the address, with a carrier, has been there for
-/// `settling` without a break: one that flaps costs one renewal at its end.
+/// `settling` without a break: one that flaps costs one renewal at its end. Only
+/// the first carrier of a node that was made without one is not waited for: there
+/// is nothing yet that flapping could take from it.
 class address_tracker {
 public:
   using time_point = std::chrono::steady_clock::time_point;
@@ -59,6 +61,7 @@ public:
 private:
   const interface_address*
   find(const std::vector<interface_address>& all) const;
+  time_point settled_at() const;
 
   interface_address at_;
   bool fixed_;
