@@ -3,7 +3,6 @@
 
 variants=(docker podman rootless)
 . test/system/scenes/engine.sh
-. test/system/scenes/days_scene.sh
 
 before_all() {
   start_engine
@@ -386,44 +385,4 @@ test_podman_gives_the_gpu_that_was_chosen_by_its_cdi_name() {
     | grep -E 'GPU|CUDA' | sort | paste -sd ' ')" \
     "CUDA_VISIBLE_DEVICES=0 MADE_UP_GPU=0 ROSCELL_GPU=0"
   terminate seeing
-}
-
-# start_day_with_engine: the third host of the cell runs its steps in containers of an
-# engine of its own, which goes with its power.
-start_day_with_engine() {
-  use_engine
-  bridge_hosts 3
-  use_own_engine
-  engine_inside=(nsenter --net="/run/netns/${hosts[2]}" "${engine_inside[@]}")
-  trap 'stop_engine; clean_up' EXIT
-  launch_engine || fail "$(tail "$engine_dir/log")"
-  engine import "$base_tar" debian:bookworm-slim > /dev/null
-  right_runtime=$runtime runtime=process
-  right_user=("${inside[@]}")
-  start_day
-}
-
-# boot_engine: of what the engine has in memory nothing is left by a cut of the power.
-boot_engine() {
-  grep -o " $engine_dir/[^ ]*" /proc/mounts | sort -r | xargs -r umount -l
-  rm -rf "$engine_dir/exec" "$engine_dir/tmp" "$engine_dir/pid"
-  launch_engine || fail "the engine did not start again: $(tail "$engine_dir/log")"
-}
-
-test_data_flow_after_bad_days_of_a_host_with_containers() {
-  local what
-  local -A name=([stop_node]="a node was stopped and started"
-    [kill_node]="a node was killed"
-    [kill_programs]="all that runs on a host was killed"
-    [kill_host]="the power of a host was cut")
-  start_day_with_engine
-  for what in $(of_matrix "kill_node kill_host" \
-    "stop_node kill_node kill_programs kill_host"); do
-    day_begins "${name[$what]}"
-    "$what" right
-    [[ $what != kill_host ]] || boot_engine
-    start_host right
-    # Beside other tests an engine takes its time.
-    day_ends "$(of_matrix 15 5)"
-  done
 }

@@ -1,7 +1,7 @@
 # Days that go wrong for a host or for the coordinator (scenes/days_scene.sh). Each
 # counts pictures at five readers. The bounds are those of docs/protocols.md. Longer
 # times, which are in the whole matrix only, are the second ones of `of_matrix`; the
-# days of a host with containers are in ros2_containers_test.sh.
+# days of a host with containers are in container_days_test.sh.
 
 . test/system/scenes/days_scene.sh
 

@@ -7,7 +7,8 @@
 # other: an engine keeps its images, 1 GB of disk, so that there are two lanes for
 # them, and a Debian with the packages for it 1.6 GB, so that it takes both: "0,1".
 # Days (scenes/days_scene.sh) judge how soon pictures come, which six cameras and
-# readers work on: one lane, which is begun first. "-" is none.
+# readers work on: one lane, which is begun first; where they need an engine, too,
+# nothing runs beside them: "alone". "-" is none.
 # Usage: tools/testing/list_system.sh [PATTERN], a regular expression that tests
 # match. $ROSCELL_VARIANTS="docker" leaves other variants out.
 set -uo pipefail
@@ -33,7 +34,9 @@ variants_of() {
 next_lane() {
   lane=-
   ! grep -q scenes/days_scene.sh "$1" || lane=days
-  ! grep -q scenes/engine.sh "$1" || lane=$((++engines % 2))
+  if grep -q scenes/engine.sh "$1"; then
+    [[ $lane == days ]] && lane=alone || lane=$((++engines % 2))
+  fi
   ! grep -q scenes/debian_host.sh "$1" || lane=0,1
 }
 

@@ -26,6 +26,14 @@ arrivals() {
     | sort_by(.at)'
 }
 
+# possible_for STREAM: the moment from which pictures of it can come: they need the
+# program that its person has started, too.
+possible_for() {
+  local since=0
+  [[ $1 != guest ]] || since=$(< "$scratch/guest.since")
+  jq -n "[$possible, $since] | max"
+}
+
 # The times between numbers in a row.
 steps='def steps: [.[1:], .[:-1]] | transpose | map(.[0] - .[1]);'
 
@@ -34,14 +42,15 @@ steps='def steps: [.[1:], .[:-1]] | transpose | map(.[0] - .[1]);'
 # busy machine may have no time for this shell.
 possible=$EPOCHREALTIME
 flows() {
-  local file=$scratch/data/$1 before first longest
+  local file=$scratch/data/$1 before since first longest
   before=$(wc -l < "$file")
   timeout $(($2 + 15)) grep -m $((before + 3)) frame_id > "$scratch/$1.matches" \
     < <(exec tail --pid=$$ -n +1 -F "$file" 2> /dev/null) \
     || fail "stream '$1': $(($(wc -l < "$file") - before)) pictures $3;" \
       "$(to head topics 2>&1 | grep "/$1/")"
+  since=$(possible_for "$1")
   read -r first longest < <(arrivals < "$file" \
-    | jq -r "$steps [$possible, (.[].at | select(. >= $possible))] | steps
+    | jq -r "$steps [$since, (.[].at | select(. >= $since))] | steps
         | [.[0], max] | map(. * 100 | round / 100) | \"\(.[0]) \(.[1])\"")
   echo "    stream '$1': the first picture after $first s $3"
   note "$1" "$(jq -nc --arg when "$3" --argjson s "$first" '{$when, $s}')"

@@ -72,13 +72,13 @@ take_day_skills() {
   chmod -R a+w "$scratch/data"
 }
 
-# start_guest: the program on the third host, as a person would start it, who tries
-# again where the node does not answer: it may be made anew just then.
+# start_guest: the program on the third host, as a person would start it.
 guest=
 start_guest() {
   (
-    until variables=$(to right env); do sleep 0.2; done
+    variables=$(to right env) || exit
     eval "$variables"
+    echo "$EPOCHREALTIME" > "$scratch/guest.since"
     exec ip netns exec "${hosts[2]}" "$ROSCELL_BUILD/bin/stock_program" \
       sensor_msgs/msg/Image --ros-args -r in:=/guest/image \
       -r out:=/guest/passed_on
