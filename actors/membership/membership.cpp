@@ -159,6 +159,7 @@ void on_tick(self_pointer self, uint64_t number) {
   st.frames.calls().expire(now);
   if (!keep_lease(self))
     on_session_lost(self, silence_of_a_lease());
+  look_for_coordinator(self);
   set_timer(self);
 }
 

@@ -95,7 +95,32 @@ void return_to(self_pointer self, const node_presence& who) {
   begin_attempt(self);
 }
 
+/// Whether that is a later life of the coordinator that says nothing any more.
+/// Only a handshake proves it, so who is heard is not left for it.
+bool has_begun_anew(const membership_status& st, const node_presence& who) {
+  return st.phase == phase::joined && is_own_cell(st, who)
+         && who.name == st.coordinator && who.incarnation > st.incarnation;
+}
+
+void leave_for(self_pointer self, const node_presence& who) {
+  self->state.wanted = who.discovery_server;
+  on_session_lost(self, "the coordinator has started again at " + who.address);
+}
+
 } // namespace
+
+void look_for_coordinator(self_pointer self) {
+  auto& st = self->state;
+  // Beats that are lost one by one are no reason to look around.
+  constexpr auto doubt = limits::lease::beat_period + std::chrono::seconds{1};
+  if (st.phase != phase::joined || st.shown
+      || self->clock().now() - st.life.last_heard() < doubt)
+    return;
+  node_presence x;
+  x.role = "surveyor";
+  st.shown = x;
+  self->send(st.parts.discovery, announce_presence{std::move(x)});
+}
 
 void show_presence(self_pointer self) {
   auto& st = self->state;
@@ -127,6 +152,8 @@ void on_presence_seen(self_pointer self, const node_presence& who) {
   auto& st = self->state;
   if (who.role != "coordinator" || !st.shown)
     return;
+  if (has_begun_anew(st, who))
+    return leave_for(self, who);
   const bool news = st.coordinators.see(who);
   if (st.standing == node_state::orphaned && is_own_cell(st, who))
     return_to(self, who);

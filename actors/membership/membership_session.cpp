@@ -111,6 +111,12 @@ void on_request(self_pointer self, const session_inquiry& x) {
                             "a coordinator may not ask for this", "/type"}));
 }
 
+/// The coordinator is there after all.
+void look_around_no_more(self_pointer self) {
+  if (self->state.phase == phase::joined)
+    withdraw_presence_now(self);
+}
+
 } // namespace
 
 void take_session(self_pointer self, const session_actor& session) {
@@ -133,6 +139,7 @@ void drop_session(self_pointer self, const std::string& reason) {
 
 void on_frame(self_pointer self, const frame_received& frame) {
   const auto x = hear_frame(self, frame);
+  look_around_no_more(self);
   // A notice of the coordinator has no meaning yet; a later version's may.
   if (x && x->id)
     on_request(self, *x);
@@ -143,6 +150,7 @@ void on_frame(self_pointer self, const frame_received& frame) {
 
 void on_beat(self_pointer self, const beat_received& beat) {
   hear_beat(self, beat);
+  look_around_no_more(self);
   const auto& st = self->state;
   if (beat.sent_boot_ms > 0 && st.phase == phase::joined)
     self->send(st.parts.supervisor, contact_proven{beat.sent_boot_ms, {}});

@@ -65,6 +65,9 @@ caf::result<request_routed> pass_on(self_pointer self,
 /// Announces the node as independent or orphaned.
 void show_presence(self_pointer self);
 void withdraw_presence_now(self_pointer self);
+/// Looks around for a later life of a coordinator that has been silent for
+/// longer than lost beats explain.
+void look_for_coordinator(self_pointer self);
 void on_presence_seen(self_pointer self, const node_presence& who);
 void on_presence_gone(self_pointer self, const node_presence& who);
 /// Looks for a place, or waits until a coordinator appears.

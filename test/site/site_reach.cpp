@@ -101,7 +101,8 @@ void site::spread() {
     if (!viewer->announced)
       continue;
     for (const auto& subject : parties)
-      if (subject != viewer && subject->announced && sees(*viewer, *subject))
+      if (subject != viewer && subject->announced
+          && subject->announced->role != "surveyor" && sees(*viewer, *subject))
         show(*viewer, *subject);
   }
 }

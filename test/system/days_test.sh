@@ -150,6 +150,5 @@ test_data_flow_after_a_coordinator_has_moved() {
   start_host head
   await_member left
   await_member right
-  # Members notice its end when their lease of 8 s is over.
-  day_ends 10
+  day_ends 5
 }

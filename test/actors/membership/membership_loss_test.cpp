@@ -72,6 +72,56 @@ TEST_CASE_METHOD(orphan_test, "an orphan claims its address whenever it looks "
   CHECK(node.claims == claims);
 }
 
+/// What the coordinator of the member says at another address.
+node_presence seen_elsewhere(int64_t incarnation) {
+  node_presence result;
+  result.role = "coordinator";
+  result.name = "base";
+  result.uuid = "b-1";
+  result.incarnation = incarnation;
+  result.cell = "cell-1";
+  result.address = "10.0.0.7:8420";
+  result.discovery_server = "10.0.0.7:11811";
+  return result;
+}
+
+struct moved_test : cell_fixture {
+  /// Why the coordinator is lost that says this again and again.
+  std::string loss_by(const node_presence& said) {
+    const auto lost = [&] { return site.count("coordinator_lost") > 0; };
+    for (auto i = 0; i < 40 && !lost(); ++i) {
+      caf::anon_send(node.membership, presence_seen{said});
+      site.pass(250ms);
+    }
+    for (const auto& x : site.facts)
+      if (x.what == "coordinator_lost")
+        return x.data["reason"];
+    return "";
+  }
+};
+
+TEST_CASE_METHOD(moved_test,
+                 "a silent coordinator that has begun anew elsewhere "
+                 "is sought there before its lease is over") {
+  form_cell();
+  site.pass(21s);
+  // As long as it is heard that may be anybody's word.
+  CHECK(loss_by(seen_elsewhere(2)).empty());
+  node.link->silent = true;
+  CHECK(loss_by(seen_elsewhere(2))
+        == "the coordinator has started again at 10.0.0.7:8420");
+  site.pass(1s);
+  CHECK(node.sought.back() == "10.0.0.7:11811");
+}
+
+TEST_CASE_METHOD(moved_test, "an earlier life of a silent coordinator is not "
+                             "sought") {
+  form_cell();
+  site.pass(21s);
+  node.link->silent = true;
+  CHECK(loss_by(seen_elsewhere(1)) == "silent for 8 s");
+}
+
 TEST_CASE_METHOD(orphan_test, "an orphan does not join another cell that "
                               "has taken its server's place") {
   form_cell();
