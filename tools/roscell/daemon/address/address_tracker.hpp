@@ -29,9 +29,9 @@ enum class address_action {
 /// - One that was given as an address and is gone for `patience` is given up.
 ///
 /// Nothing is made anew before the address, with a carrier, has been there for
-/// `settling` without a break: one that flaps costs one renewal at its end. Only
-/// the first carrier of a node that was made without one is not waited for: there
-/// is nothing yet that flapping could take from it.
+/// `settling` without a break: one that flaps costs one renewal at its end.
+/// Only the first carrier of a node that was made without one is not waited
+/// for: there is nothing yet that flapping could take from it.
 class address_tracker {
 public:
   using time_point = std::chrono::steady_clock::time_point;
