@@ -58,14 +58,24 @@ give_clock() {
   echo "$text" > "$1/skill.json"
 }
 
+# give_skills BUILD FOLDER: what makes and reads pictures.
+give_skills() {
+  local name
+  mkdir -p "$2"
+  for name in image_source pose_estimation; do
+    cp -r "$1/skills/$name" "$2"
+    ask_no_cpu "$2/$name"
+    [[ -z ${CLOCK_FILE:-} ]] || give_clock "$2/$name"
+    [[ -z ${right_runtime:-} ]] || allow_much_memory "$2/$name"
+  done
+}
+
 # take_day_skills: with files that every user of a host may write.
 take_day_skills() {
   local name
-  for name in image_source pose_estimation; do
-    cp -r "$ROSCELL_BUILD/skills/$name" "$skills"
-    ask_no_cpu "$skills/$name"
-    [[ -z ${CLOCK_FILE:-} ]] || give_clock "$skills/$name"
-    [[ -z ${right_runtime:-} ]] || allow_much_memory "$skills/$name"
+  give_skills "$ROSCELL_BUILD" "$skills"
+  for name in "${!build_of[@]}"; do
+    give_skills "${build_of[$name]}" "$skills.$name"
   done
   mkdir -p "$scratch/data"
   touch "${streams[@]/#/$scratch/data/}"
@@ -98,9 +108,11 @@ declare -A number_of=([head]=1 [left]=2 [right]=3)
 
 # start_host NAME: its node, on a host whose boot has the id in NAME.boot, and where
 # it has been before, in the cell again. Where the coordinator is, is in $head_at. The
-# third host runs skills as $right_runtime says, as the user $right_user.
+# third host runs skills as $right_runtime says, as the user $right_user. Nodes that
+# have a build folder of their own are of that version.
 head_at=10.231.7.1
 right_user=()
+declare -A build_of
 start_host() {
   start_node_of "$1"
   [[ $1 == head ]] || await_member "$1"
@@ -111,6 +123,8 @@ start_host() {
 # start_node_of NAME: until it is ready.
 start_node_of() {
   local name=$1 how=(--coordinator --cell hall) user=() runtime=$runtime
+  local build=${build_of[$1]:-}
+  local ROSCELL=${build:-$ROSCELL_BUILD}/bin/roscell skills=$skills${build:+.$1}
   [[ -f $scratch/$name.boot ]] \
     || cat /proc/sys/kernel/random/uuid > "$scratch/$name.boot"
   [[ $name == head ]] || how=(--join "$head_at:11811" --label spare=yes)
