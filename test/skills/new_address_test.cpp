@@ -5,7 +5,8 @@
 #include <catch2/catch.hpp>
 
 #include <fcntl.h>
-#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <thread>
 
@@ -170,17 +171,22 @@ struct address_fixture {
     env.inputs = {{"moves", "in", "number"}};
     env.outputs = {{"moves", "out", "number"}};
     env.notify_socket = folder / "notify";
-    tell("");
+    CHECK(::mkfifo((folder / "notify.environment").c_str(), 0600) == 0);
+  }
+
+  unique_fd way_to_skill() const {
+    return unique_fd{::open((folder / "notify.environment").c_str(),
+                            O_WRONLY | O_NONBLOCK | O_CLOEXEC)};
   }
 
   void tell(const std::string& text) const {
-    folder.write("notify.environment", text);
+    const auto fifo = way_to_skill();
+    CHECK(::write(fifo.get(), text.data(), text.size())
+          == static_cast<ssize_t>(text.size()));
   }
 
   bool has_listener() const {
-    const unique_fd file{
-        ::open((folder / "notify.environment").c_str(), O_WRONLY | O_CLOEXEC)};
-    return ::flock(file.get(), LOCK_EX | LOCK_NB) != 0;
+    return static_cast<bool>(way_to_skill());
   }
 
   /// `use` is called once the skill is ready.
@@ -216,7 +222,7 @@ TEST_CASE_METHOD(address_fixture,
   const auto code = run_until([&](auto&) {
     CHECK(has_listener());
     CHECK(log.await(log.written));
-    tell(R"({"AT": "10.0.0.9"})");
+    tell("{\"AT\": \"10.0.0.9\"}\n");
     CHECK(log.await(log.written_again));
     CHECK(has_listener());
   });
@@ -233,7 +239,8 @@ TEST_CASE_METHOD(address_fixture,
                  "error") {
   const auto code = run_until([&](auto&) {
     CHECK(log.await(log.written));
-    tell(R"({"AT": "nowhere"})");
+    tell("{\"AT\": ");
+    tell("\"nowhere\"}\n");
     CHECK(log.await(log.ended));
   });
   CHECK(code == exit_code::stream_failed);
@@ -245,7 +252,8 @@ TEST_CASE_METHOD(address_fixture, "what cannot be read moves nothing") {
   run_until([&](auto& engine) {
     CHECK(log.await(log.written));
     for (const auto* text : {"", R"({"AT": )", "[]", "{}", R"({"AT": 1})"})
-      tell(text);
+      tell(std::string{text} + "\n");
+    tell(std::string(35'000, 'a'));
     engine.use_variables({{"AT", "there"}});
     CHECK(log.await(log.written_again));
   });

@@ -5,10 +5,10 @@
 #include <nlohmann/json.hpp>
 
 #include <fcntl.h>
-#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
-#include <cerrno>
+#include <climits>
 
 namespace roscell {
 
@@ -16,8 +16,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
-bool has_listener(int file) {
-  return ::flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+unique_fd open_fifo(const fs::path& file, int how) {
+  unique_fd result{
+      ::open(file.c_str(), how | O_NONBLOCK | O_CLOEXEC | O_NOFOLLOW)};
+  struct stat status {};
+  if (result
+      && (::fstat(result.get(), &status) != 0 || !S_ISFIFO(status.st_mode)))
+    return {};
+  return result;
 }
 
 } // namespace
@@ -28,20 +34,24 @@ fs::path environment_file_of(const fs::path& notify_socket) {
 
 void make_environment_file(const fs::path& file) {
   ::unlink(file.c_str());
-  const unique_fd made{
-      ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600)};
+  ::mkfifo(file.c_str(), 0600);
 }
 
 bool tell_environment(const fs::path& file,
                       const std::map<std::string, std::string>& variables) {
-  const unique_fd fd{::open(file.c_str(), O_WRONLY | O_CLOEXEC | O_NOFOLLOW)};
-  if (!fd || !has_listener(fd.get()))
+  // It cannot be opened where nobody reads it.
+  const auto out = open_fifo(file, O_WRONLY);
+  if (!out)
     return false;
-  const auto text = nlohmann::json(variables).dump(
-      -1, ' ', false, nlohmann::json::error_handler_t::replace);
-  // The same file, on which the lock is. It is read when it is closed.
-  return ::ftruncate(fd.get(), 0) == 0
-         && ::pwrite(fd.get(), text.data(), text.size(), 0)
+  // Who is gone meanwhile must not end this process by a SIGPIPE.
+  const auto reader = open_fifo(file, O_RDONLY);
+  const auto text =
+      nlohmann::json(variables).dump(-1, ' ', false,
+                                     nlohmann::json::error_handler_t::replace)
+      + "\n";
+  // So much is written whole, or not at all.
+  return reader && text.size() <= PIPE_BUF
+         && ::write(out.get(), text.data(), text.size())
                 == static_cast<ssize_t>(text.size());
 }
 

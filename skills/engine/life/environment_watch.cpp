@@ -1,14 +1,12 @@
 #include "skills/engine/life/environment_watch.hpp"
 
-#include "roscell/skill/errors.hpp"
-
 #include <fcntl.h>
-#include <sys/file.h>
-#include <sys/inotify.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <nlohmann/json.hpp>
 
+#include <array>
 #include <string_view>
 #include <utility>
 
@@ -18,8 +16,19 @@ namespace {
 
 constexpr std::size_t most_bytes = 64UL * 1024;
 
-/// Empty for what is no such object: a node whose disk is full leaves half of
-/// one, and starts the skill again.
+/// None where there is no FIFO. That it is open for writing, too, keeps it from
+/// ending whenever the node has written.
+unique_fd open_fifo(const std::string& path) {
+  unique_fd result{
+      ::open(path.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC | O_NOFOLLOW)};
+  struct stat status {};
+  if (result
+      && (::fstat(result.get(), &status) != 0 || !S_ISFIFO(status.st_mode)))
+    return {};
+  return result;
+}
+
+/// Empty for what is no such object.
 changed_variables read_variables(std::string_view text) {
   const auto document = nlohmann::json::parse(text, nullptr, false);
   changed_variables result;
@@ -37,8 +46,9 @@ changed_variables read_variables(std::string_view text) {
 
 environment_watch::environment_watch(const std::string& notify_socket,
                                      callback on_change)
-    : on_change_(std::move(on_change)) {
-  if (watch(notify_socket + ".environment"))
+    : on_change_(std::move(on_change)),
+      fifo_(open_fifo(notify_socket + ".environment")) {
+  if (fifo_)
     thread_ = std::thread{[this] { run(); }};
 }
 
@@ -48,35 +58,29 @@ environment_watch::~environment_watch() {
     thread_.join();
 }
 
-/// The lock comes last: whoever holds it hears all that is written.
-bool environment_watch::watch(const std::string& path) {
-  file_ = unique_fd{::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)};
-  if (!file_)
-    return false;
-  try {
-    changes_.emplace();
-  } catch (const start_error&) {
-    return false;
-  }
-  return changes_->add(path, IN_CLOSE_WRITE) >= 0
-         && ::flock(file_.get(), LOCK_SH) == 0;
-}
-
 void environment_watch::run() {
-  while (stop_.wait_readable(changes_->fd())) {
-    changes_->read();
+  while (stop_.wait_readable(fifo_.get()))
     take();
-  }
 }
 
-/// The node writes to the same file again, so that the lock stays.
+/// Of several lines each is obeyed: the last one counts in the end.
 void environment_watch::take() {
-  std::string text(most_bytes, '\0');
-  const auto size = ::pread(file_.get(), text.data(), text.size(), 0);
+  std::array<char, 4096> bytes{};
+  const auto size = ::read(fifo_.get(), bytes.data(), bytes.size());
   if (size <= 0)
     return;
-  text.resize(static_cast<std::size_t>(size));
-  auto told = read_variables(text);
+  heard_.append(bytes.data(), static_cast<std::size_t>(size));
+  for (auto end = heard_.find('\n'); end != std::string::npos;
+       end = heard_.find('\n')) {
+    obey(heard_.substr(0, end));
+    heard_.erase(0, end + 1);
+  }
+  if (heard_.size() > most_bytes)
+    heard_.clear();
+}
+
+void environment_watch::obey(const std::string& line) {
+  auto told = read_variables(line);
   if (!told.empty())
     on_change_(std::move(told));
 }

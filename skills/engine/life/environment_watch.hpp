@@ -2,11 +2,9 @@
 
 #include "roscell/skill/environment.hpp"
 #include "roscell/skill/stop_event.hpp"
-#include "skills/engine/file/inotify_watch.hpp"
 #include "skills/engine/life/unique_fd.hpp"
 
 #include <functional>
-#include <optional>
 #include <string>
 #include <thread>
 
@@ -14,29 +12,28 @@ namespace roscell::engine {
 
 /// Hears, on a thread of its own, that the cell is to be found elsewhere: where
 /// this host has got another address the node writes variables with their new
-/// values, as a JSON object of texts, into the file
-/// `$NOTIFY_SOCKET.environment` that it has made. While there is a listener it
-/// holds a shared lock (flock(2)) on the file: by that the node knows that
-/// somebody reads it.
+/// values, as a JSON object of texts on a line, into the FIFO
+/// `$NOTIFY_SOCKET.environment` that it has made. By its having a reader the
+/// node knows that somebody listens.
 class environment_watch {
 public:
   using callback = std::function<void(changed_variables)>;
 
-  /// Hears nothing where there is no such file, or it cannot be watched: the
-  /// node then starts the skill again.
+  /// Hears nothing where there is no such FIFO: the node then starts the skill
+  /// again.
   environment_watch(const std::string& notify_socket, callback on_change);
 
   /// There are no calls after it.
   ~environment_watch();
 
 private:
-  bool watch(const std::string& path);
   void run();
   void take();
+  void obey(const std::string& line);
 
   const callback on_change_;
-  std::optional<inotify_watch> changes_;
-  unique_fd file_;
+  unique_fd fifo_;
+  std::string heard_; ///< Of a line that has not ended.
   stop_event stop_;
   std::thread thread_;
 };

@@ -5,9 +5,10 @@
 #include "test/actors/edge/process/supervision_fixture.hpp"
 
 #include <fcntl.h>
-#include <sys/file.h>
+#include <unistd.h>
 
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <string>
 
@@ -19,13 +20,17 @@ namespace {
 const std::map<std::string, std::string> place{
     {"ROS_DISCOVERY_SERVER", "10.0.0.9:11811"}};
 
-std::string text_in(const std::filesystem::path& path) {
-  return read_small_file(path, 1024).value_or("no file");
+/// As a program does that listens.
+unique_fd listen_to(const std::filesystem::path& path) {
+  unique_fd result{::open(path.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC)};
+  CHECK(result);
+  return result;
 }
 
-unique_fd listen_to(const std::filesystem::path& path) {
-  unique_fd result{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
-  CHECK(::flock(result.get(), LOCK_SH) == 0);
+std::string heard_by(const unique_fd& listener) {
+  std::string result(1024, '\0');
+  const auto size = ::read(listener.get(), result.data(), result.size());
+  result.resize(size > 0 ? static_cast<size_t>(size) : 0);
   return result;
 }
 
@@ -38,9 +43,34 @@ TEST_CASE("a program that listens is told variables, again and again") {
   make_environment_file(path);
   const auto listener = listen_to(path);
   CHECK(tell_environment(path, place));
-  CHECK(text_in(path) == R"({"ROS_DISCOVERY_SERVER":"10.0.0.9:11811"})");
+  CHECK(heard_by(listener)
+        == R"({"ROS_DISCOVERY_SERVER":"10.0.0.9:11811"})"
+           "\n");
   CHECK(tell_environment(path, {{"A", "b"}}));
-  CHECK(text_in(path) == R"({"A":"b"})");
+  CHECK(tell_environment(path, {{"A", "c"}}));
+  CHECK(heard_by(listener) == "{\"A\":\"b\"}\n{\"A\":\"c\"}\n");
+}
+
+TEST_CASE("nobody waits for a program that listens and does not read") {
+  own_folder folder;
+  const auto path = environment_file_of(folder.path() / "notify");
+  make_environment_file(path);
+  const auto listener = listen_to(path);
+  CHECK_FALSE(tell_environment(path, {{"A", std::string(5000, 'a')}}));
+  CHECK(heard_by(listener).empty());
+  size_t told = 0;
+  while (told < 1000 && tell_environment(path, {{"A", std::string(4000, 'a')}}))
+    ++told;
+  CHECK(told > 0);
+  CHECK(told < 1000);
+}
+
+TEST_CASE("what a program has put in the place of its file is left alone") {
+  own_folder folder;
+  const auto path = environment_file_of(folder.path() / "notify");
+  std::ofstream{path} << "mine";
+  CHECK_FALSE(tell_environment(path, place));
+  CHECK(read_small_file(path, 10) == "mine");
 }
 
 TEST_CASE("a program that does not listen is told nothing, and that is known") {
@@ -51,7 +81,6 @@ TEST_CASE("a program that does not listen is told nothing, and that is known") {
   CHECK_FALSE(tell_environment(path, place));
   listen_to(path); // Which has ended.
   CHECK_FALSE(tell_environment(path, place));
-  CHECK(text_in(path).empty());
 }
 
 TEST_CASE("each start of a program has a file of its own") {
