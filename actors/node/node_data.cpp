@@ -121,6 +121,7 @@ caf::error open_database(const node_config& config, node_data& data) {
 
 caf::error make_identity(node_data& data) {
   data.identity.uuid = make_uuid();
+  data.is_new = data.put_aside.empty();
   if (auto why =
           data.database->put("identity", "node", json(data.identity).dump()))
     return to_caf(*why);

@@ -33,6 +33,7 @@ struct node_data {
   std::shared_ptr<directory_lock> lock; ///< Held while the node lives.
   std::shared_ptr<sqlite_store> database;
   node_identity identity;  ///< UUID and epoch; name and address are not set.
+  bool is_new = false;     ///< It was made at this start.
   int64_t incarnation = 0; ///< Of the coordinator, already raised.
   std::string cell_uuid;   ///< Of the cell that it coordinates.
   std::optional<membership_record> membership; ///< Of a primary node.

@@ -177,9 +177,12 @@ caf::expected<std::shared_ptr<node_edges>> open_edges(const node_config& config,
     context.tell("edge_trouble", "", {{"message", text}});
   });
   edges->numbers = std::make_shared<number_reserve>(
-      config.data_dir / "discovery_numbers", [context](const std::string& why) {
+      config.data_dir / "discovery_numbers",
+      [context](const std::string& why) {
         context.tell("edge_trouble", "", {{"message", why}});
-      });
+      },
+      data.is_new ? number_reserve::former_lives::few
+                  : number_reserve::former_lives::many);
   if (auto why = open_http(config, data, *edges))
     return why;
   if (!config.coordinator)

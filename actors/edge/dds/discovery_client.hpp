@@ -20,9 +20,10 @@ struct cell_client_options {
   std::uint32_t domain_id = 0; ///< The ROS domain of the cell, 0 to 232.
   std::string
       announcement; ///< At most `limits::discovery::announcement_bytes`.
-  std::chrono::seconds lease = limits::discovery::lease;
-  std::chrono::seconds announcement_period =
-      limits::discovery::announcement_period; ///< Shorter than the lease.
+  /// Short: to one whose farewell got lost the server sends some 6 kB/s until
+  /// the lease is over. A client is there for as long as its node joins only.
+  std::chrono::seconds lease{20};
+  std::chrono::seconds announcement_period{6}; ///< Shorter than the lease.
 };
 
 /// What a client learned of its server.

@@ -11,9 +11,10 @@ namespace roscell {
 
 namespace {
 
-/// Where nothing is known of earlier lives numbers begin above what a server
-/// of any version is likely to have used.
-constexpr std::int64_t unknown_sequences = 1 << 17;
+/// Where nothing is known of earlier lives numbers begin above what they are
+/// likely to have used.
+constexpr std::int64_t sequences_of_many = 1 << 17;
+constexpr std::int64_t sequences_of_few = 1 << 12;
 constexpr std::int64_t unknown_counts = 1 << 20;
 
 /// Counts have 31 bits on the wire, and must not begin anew within a life.
@@ -30,9 +31,9 @@ bool is_sane(std::int64_t sequences, std::int64_t counts) {
 
 number_reserve::number_reserve(
     std::filesystem::path file,
-    std::function<void(const std::string&)> on_trouble)
+    std::function<void(const std::string&)> on_trouble, former_lives before)
     : file_(std::move(file)), on_trouble_(std::move(on_trouble)) {
-  read();
+  read(before);
 }
 
 std::int64_t number_reserve::begin_life() {
@@ -63,7 +64,7 @@ std::uint32_t number_reserve::next_count() {
   return static_cast<std::uint32_t>(result);
 }
 
-void number_reserve::read() {
+void number_reserve::read(former_lives before) {
   if (file_.empty())
     return;
   std::ifstream in{file_};
@@ -71,7 +72,8 @@ void number_reserve::read() {
   std::int64_t counts = -1;
   in >> sequences >> counts;
   if (!in || !is_sane(sequences, counts)) {
-    sequences = unknown_sequences;
+    sequences =
+        before == former_lives::many ? sequences_of_many : sequences_of_few;
     counts = unknown_counts;
   }
   sequences_end_ = sequences;

@@ -23,16 +23,23 @@ namespace roscell {
 class number_reserve {
 public:
   /// Who hears a server for the first time goes over all numbers below the
-  /// present ones, so few of these are set aside at a time.
-  static constexpr std::int64_t sequence_block = 1024;
+  /// present ones, 0.5 us each, so few of these are set aside at a time.
+  static constexpr std::int64_t sequence_block = 256;
   static constexpr std::int64_t count_block = 65536;
+
+  /// What is likely to have been said where no file tells it.
+  enum class former_lives {
+    many, ///< A server of any version was here for long.
+    few,  ///< The node is new, and is unlikely to have taken another's place.
+  };
 
   /// As after this file, in which a later one will look; empty: there is none,
   /// and each life begins at 1. `on_trouble` gets, on any thread, why the file
   /// cannot be written.
   explicit number_reserve(
       std::filesystem::path file = {},
-      std::function<void(const std::string&)> on_trouble = {});
+      std::function<void(const std::string&)> on_trouble = {},
+      former_lives before = former_lives::many);
 
   /// A server begins: its sequence numbers are above the result.
   std::int64_t begin_life();
@@ -44,7 +51,7 @@ public:
   std::uint32_t next_count();
 
 private:
-  void read();
+  void read(former_lives before);
   void write();
 
   const std::filesystem::path file_;

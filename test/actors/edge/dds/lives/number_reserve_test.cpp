@@ -63,6 +63,16 @@ TEST_CASE("where nothing is known of earlier lives numbers begin far above 1") {
   CHECK(numbers.next_count() > 1'000'000);
 }
 
+TEST_CASE("numbers of a new node begin where those who hear it soon are") {
+  const scratch_folder folder;
+  const auto file = std::string{folder.path("numbers")};
+  number_reserve numbers{file, {}, number_reserve::former_lives::few};
+  const auto begin = numbers.begin_life();
+  CHECK(begin > 1000);
+  CHECK(begin < 10'000);
+  CHECK(numbers.next_count() > 1'000'000);
+}
+
 TEST_CASE("who cannot write the file says so and goes on") {
   std::string said;
   number_reserve numbers{"/nonexistent/numbers",
