@@ -1,5 +1,4 @@
-#include "test/actors/fakes/cell_fakes.hpp"
-#include "test/recording.hpp"
+#include "test/actors/session/recorded_peer.hpp"
 
 #include <set>
 
@@ -10,35 +9,29 @@ namespace {
 using namespace roscell;
 using namespace roscell::test;
 
-struct earlier_coordinator : cell_fixture {
-  caf::actor base; ///< In the place of the site's.
-  caf::actor peer;
+struct earlier_coordinator : recorded_peer {
+  caf::actor base;   ///< In the place of the site's.
   caf::actor router; ///< Of the node, for what only it can tell.
   session_actor session;
-  std::vector<session_envelope> heard; ///< From the node.
-  std::map<uint64_t, json> said;       ///< What the recorded node has asked.
-  std::map<uint64_t, json> asked;      ///< What it was asked.
-  std::set<std::string> answered;      ///< Types of what it was asked.
-  json routed;                         ///< What the router answers.
+  std::map<uint64_t, json> said;  ///< What the recorded node has asked.
+  std::map<uint64_t, json> asked; ///< What it was asked.
+  json routed;                    ///< What the router answers.
 
   ~earlier_coordinator() {
-    for (const auto& x : {base, peer, router})
+    for (const auto& x : {base, router})
       time.kill(x);
   }
 
   void play(const recorded_session& recorded) {
     open(recorded);
-    for (auto i = handshake_frames; i < recorded.frames.size(); ++i) {
-      const auto frame = *read_envelope(recorded.frames[i].text);
-      INFO(recorded.frames[i].text);
-      REQUIRE_FALSE(frame.refused);
-      if (recorded.frames[i].of_joiner)
+    with_each_frame(recorded, [&](const auto& said_by, const auto& frame) {
+      if (said_by.of_joiner)
         repeat(frame);
       else if (frame.kind == envelope_kind::request)
         ask(frame, answer_in(recorded, frame.id));
       else
         answer(frame);
-    }
+    });
   }
 
 private:
@@ -60,15 +53,6 @@ private:
   }
 
   void spawn_parts() {
-    peer = time.system.spawn([this](caf::event_based_actor*) -> caf::behavior {
-      return {
-          [this](const frame_received& x) {
-            heard.push_back(*read_envelope(x.text));
-          },
-          [](const beat_received&) {},
-          [](const session_closed&) {},
-      };
-    });
     base = time.system.spawn([this](caf::event_based_actor*) -> caf::behavior {
       return {[this](const session_admitted& x) {
         session = x.session;
@@ -128,13 +112,9 @@ private:
     send(write_envelope(envelope_kind::request, frame.id, frame.body));
     if (recorded_answer.is_null())
       return;
-    const auto same =
-        std::find_if(heard.begin(), heard.end(), [&](const auto& x) {
-          return x.kind == envelope_kind::reply && x.id == frame.id;
-        });
-    REQUIRE(same != heard.end());
-    INFO(same->body.dump());
-    CHECK(same->body["type"] == recorded_answer["type"]);
+    const auto reply = reply_to(frame.id);
+    INFO(reply.dump());
+    CHECK(reply["type"] == recorded_answer["type"]);
     answered.insert(frame.body.at("type"));
   }
 

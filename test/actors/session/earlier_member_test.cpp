@@ -1,5 +1,4 @@
-#include "test/actors/fakes/cell_fakes.hpp"
-#include "test/recording.hpp"
+#include "test/actors/session/recorded_peer.hpp"
 
 #include <functional>
 #include <set>
@@ -18,33 +17,23 @@ struct asked_again {
   std::function<json()> answer; ///< What the present one has understood.
 };
 
-struct earlier_member : cell_fixture {
+struct earlier_member : recorded_peer {
   wire_ptr link;
   member_actor it;
-  caf::actor peer;
-  std::vector<session_envelope> heard;   ///< From the present coordinator.
   std::map<uint64_t, asked_again> asked; ///< By the recorded id.
   std::map<uint64_t, std::string> said;  ///< Types of the node's requests.
-  std::set<std::string> answered;        ///< Types of its replies.
   size_t notices = 0;
-
-  ~earlier_member() {
-    time.kill(peer);
-  }
 
   void play(const recorded_session& recorded) {
     open(recorded);
-    for (auto i = handshake_frames; i < recorded.frames.size(); ++i) {
-      const auto frame = *read_envelope(recorded.frames[i].text);
-      INFO(recorded.frames[i].text);
-      REQUIRE_FALSE(frame.refused);
-      if (recorded.frames[i].of_joiner)
-        say(frame, recorded.frames[i].text);
+    with_each_frame(recorded, [&](const auto& said_by, const auto& frame) {
+      if (said_by.of_joiner)
+        say(frame, said_by.text);
       else if (frame.kind == envelope_kind::request)
         ask(frame);
       else
         hear(frame);
-    }
+    });
   }
 
 private:
@@ -58,15 +47,6 @@ private:
     site.start_coordinator();
     link = make_wire(time.system, site.context, site.random, site.faults);
     caf::anon_send(site.base.actor, session_admitted{link->ends[0], who});
-    peer = time.system.spawn([this](caf::event_based_actor*) -> caf::behavior {
-      return {
-          [this](const frame_received& x) {
-            heard.push_back(*read_envelope(x.text));
-          },
-          [](const beat_received&) {},
-          [](const session_closed&) {},
-      };
-    });
     caf::anon_send(link->ends[1],
                    own_session{caf::actor_cast<session_owner_actor>(peer)});
     site.pass(0s);
@@ -103,41 +83,44 @@ private:
     if (frame.kind != envelope_kind::reply
         || said[frame.id] == "node_departure")
       return;
-    const auto same =
-        std::find_if(heard.begin(), heard.end(), [&](const auto& x) {
-          return x.kind == envelope_kind::reply && x.id == frame.id;
-        });
-    REQUIRE(same != heard.end());
+    const auto ours = reply_to(frame.id);
     if (said[frame.id] == "node_registration")
-      CHECK(same->body["type"] == frame.body["type"]);
+      CHECK(ours["type"] == frame.body["type"]);
   }
 
   /// Has the member ask what the recorded coordinator has asked.
   void ask(const session_envelope& frame) {
     const auto type = frame.body.at("type").get<std::string>();
     asked_again x{frame.body, 0, {}};
-    if (type == resource_query::type)
-      x.answer = put<resource_query, resource_report>(frame.body);
-    else if (type == figures_query::type)
-      x.answer = put<figures_query, figures_report>(frame.body);
-    else if (type == instance_reservation::type)
-      x.answer = put<instance_reservation, instances_reserved>(frame.body);
-    else if (type == instance_deployment::type)
-      x.answer = put<instance_deployment, instance_deployed>(frame.body);
-    else if (type == instance_removal::type)
-      x.answer = put<instance_removal, instances_removed>(frame.body);
-    else if (type == log_query::type)
-      x.answer = put<log_query, log_excerpt>(frame.body);
-    else if (type == registration_switch::type)
-      x.answer = put<registration_switch, switch_accepted>(frame.body);
-    else
-      x.answer = pass_on(frame.body);
+    const auto known = questions.find(type);
+    x.answer = known != questions.end() ? (this->*known->second)(frame.body)
+                                        : pass_on(frame.body);
     site.pass(0s);
     REQUIRE(heard.back().kind == envelope_kind::request);
     CHECK(heard.back().body == frame.body);
     x.id = heard.back().id;
     asked[frame.id] = std::move(x);
   }
+
+  using question = std::function<json()> (earlier_member::*)(const json&);
+
+  /// What a coordinator asks an actor of its own; the rest is passed on as
+  /// text.
+  const std::map<std::string, question> questions{
+      {resource_query::type,
+       &earlier_member::put<resource_query, resource_report>},
+      {figures_query::type,
+       &earlier_member::put<figures_query, figures_report>},
+      {instance_reservation::type,
+       &earlier_member::put<instance_reservation, instances_reserved>},
+      {instance_deployment::type,
+       &earlier_member::put<instance_deployment, instance_deployed>},
+      {instance_removal::type,
+       &earlier_member::put<instance_removal, instances_removed>},
+      {log_query::type, &earlier_member::put<log_query, log_excerpt>},
+      {registration_switch::type,
+       &earlier_member::put<registration_switch, switch_accepted>},
+  };
 
   template <class Question, class Answer>
   std::function<json()> put(const json& body) {
