@@ -294,6 +294,8 @@ make_site_token() {
 # Everything that a test has started or made goes with it.
 clean_up() {
   local what shims=()
+  # Who is asked to end twice would leave the hosts that it has made.
+  trap '' INT TERM HUP
   [[ -f $scratch/pids ]] && while read -r what; do
     kill -CONT "$what" 2>/dev/null
     kill -KILL "$what" 2>/dev/null

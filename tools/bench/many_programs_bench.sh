@@ -21,16 +21,9 @@ while [[ $# -gt 0 ]]; do
 done
 [[ $programs =~ ^[0-9]+$ && $stock =~ ^[0-9]+$ && $programs -gt $((stock + 1)) ]] \
   || { echo "$usage, with a camera and a reader beside the M" >&2; exit 2; }
-[[ -x $build/bin/roscell ]] \
-  || { echo "SKIPPED: there is no $build/bin/roscell"; exit 77; }
 
 . tools/bench/on_nodes.sh "$build"
 . tools/bench/idle_nodes.sh
-skip() {
-  echo "SKIPPED: $*"
-  exit 77
-}
-
 hear_s=20
 span_s=30
 steps_a_task=32

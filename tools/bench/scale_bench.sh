@@ -22,16 +22,9 @@ done
 # The hosts' addresses are those of one /24, and one is the coordinator's.
 [[ $members =~ ^[0-9]+$ && $members -ge 1 && $members -le 253 ]] \
   || { echo "$usage, of 1 to 253 members" >&2; exit 2; }
-[[ -x $build/bin/roscell ]] \
-  || { echo "SKIPPED: there is no $build/bin/roscell"; exit 77; }
 
 . tools/bench/on_nodes.sh "$build"
 . tools/bench/idle_nodes.sh
-skip() {
-  echo "SKIPPED: $*"
-  exit 77
-}
-
 span_s=60
 all_in_s=300
 most_sampled=20

@@ -9,10 +9,6 @@ set -uo pipefail
 cd "$(dirname "$0")/../.."
 : "${1:?usage: tools/testing/record_sessions.sh BUILD_DIR}"
 . tools/bench/on_nodes.sh "$1"
-skip() {
-  echo "SKIPPED: $*" >&2
-  exit 77
-}
 command -v tcpdump > /dev/null || skip "tcpdump is missing"
 
 # say NAME REQUEST: and what is answered goes to nobody but a failure.
