@@ -9,6 +9,20 @@
 
 namespace {
 
+/// What a shell gives to a test program for it to run this case alone: Catch
+/// takes a comma for an "or", and a bracket for a tag.
+std::string argument_for(const std::string& name) {
+  std::string result = "'";
+  for (const char c : name) {
+    if (c == '\'')
+      result += R"('\')";
+    if (c == ',' || c == '[' || c == '"' || c == '\\')
+      result += '\\';
+    result += c;
+  }
+  return result + '\'';
+}
+
 /// Writes each test case down, where and as tools/testing/results.sh says, and
 /// tells how to run alone what has failed.
 struct case_writer : Catch::TestEventListenerBase {
@@ -29,8 +43,8 @@ struct case_writer : Catch::TestEventListenerBase {
       std::ofstream{path, std::ios::app} << line.str() << std::flush;
     }
     if (!ok)
-      std::cout << "    -- alone: " << program_invocation_name << " '" << name
-                << "'\n";
+      std::cout << "    -- alone: " << program_invocation_name << ' '
+                << argument_for(name) << '\n';
     TestEventListenerBase::testCaseEnded(stats);
   }
 

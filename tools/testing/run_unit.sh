@@ -30,6 +30,6 @@ if [[ $ran -lt $wanted ]]; then
   name=$(sed -n "$((ran + 1))p" "$here/names")
   write_case unit "$name" 0 FAILED \
     "the program ended with code $code; $((wanted - ran - 1)) more were not run"
-  echo "    -- alone: $program '$name'"
+  printf '    -- alone: %s %q\n' "$program" "$(sed 's/[\\",[]/\\&/g' <<< "$name")"
 fi
 exit 1
