@@ -23,7 +23,7 @@ namespace roscell {
 class number_reserve {
 public:
   /// Who hears a server for the first time goes over all numbers below the
-  /// present ones, 0.5 us each, so few of these are set aside at a time.
+  /// present ones, 0.1 us each, so few of these are set aside at a time.
   static constexpr std::int64_t sequence_block = 256;
   static constexpr std::int64_t count_block = 65536;
 
