@@ -1,7 +1,8 @@
 # How people look at a cell: the dashboard in a real browser, against a real cell
 # and under load; `roscell top` and the shell at a terminal.
 
-slow=(test_people_see_and_do_what_they_came_for test_a_page_sees_faults_that_no_real_cell_has_at_will test_a_page_of_a_large_cell_stays_fluent)
+slow=(test_people_see_and_do_what_they_came_for test_a_page_sees_faults_that_no_real_cell_has_at_will)
+alone=(test_a_page_of_a_large_cell_stays_fluent)
 
 # in_a_browser WHAT: test/dashboard/run.sh does that.
 in_a_browser() {
@@ -156,6 +157,7 @@ test_top_says_which_node_is_lost_and_what_that_means() {
 test_top_says_that_its_node_is_away_and_finds_it_again() {
   start_line
   open_top 80 24
+  await_screen '^.arm +active'
   stop_node head KILL
   await_screen 'NO ANSWER'
   await_screen 'looking again'

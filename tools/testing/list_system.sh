@@ -3,9 +3,11 @@
 # FILE VARIANT TEST... A file whose tests share what they start (it has
 # before_all) is one line for each of its variants, any other file one for each
 # test. What costs more is begun first; a file's line "slow=(TEST...)" names those
-# of its tests that take a minute or more. Those of one lane go one after the
-# other: an engine keeps its images, 1 GB of disk, so that there are two lanes for
-# them, and a Debian with the packages for it 1.6 GB, so that it takes both: "0,1".
+# of its tests that take a minute or more, "alone=(TEST...)" those beside which
+# nothing runs: what they measure is a page's work on a core. Those of one lane go
+# one after the other: an engine keeps its images, 1 GB of disk, so that there are
+# two lanes for them, and a Debian with the packages for it 1.6 GB, so that it takes
+# both: "0,1".
 # Days (scenes/days_scene.sh) judge how soon pictures come, which six cameras and
 # readers work on: one lane, which is begun first; where they need an engine, too,
 # nothing runs beside them: "alone". "-" is none.
@@ -55,8 +57,10 @@ for file in *_test.sh; do
     continue
   fi
   slow=" $(words_of slow "$file") "
+  alone=" $(words_of alone "$file") "
   for test in "${tests[@]}"; do
     next_lane "$file"
+    [[ $alone != *" $test "* ]] || lane=alone
     cost=1
     [[ $slow != *" $test "* && $lane != days ]] || cost=20
     echo "$cost $lane $name.${test#test_} $file - $test"
