@@ -128,7 +128,7 @@ void admit(coordinator_pointer self, const register_node& request,
   auto entry = entry_of(st, request);
   const bool known = st.registry.is_known(who, entry.origin, entry.server_id);
   const auto go_on = [=, server_id = entry.server_id] {
-    meet_member_server(self, server_id, request.registration,
+    meet_member_server(self, server_id, request.registration.tells_anew,
                        [=] { on_registration_kept(self, request, promise); });
   };
   watch_until_its_end(self, request.member);

@@ -44,7 +44,7 @@ bool is_sound(const announcement& said) {
              : said.cell.empty() || is_name(said.cell);
 }
 
-/// On a thread of Fast DDS: tells of the coordinator behind a server.
+/// On the thread of the inquiry: tells of the coordinator behind a server.
 void on_server(const house& context, const discovery_listener_actor& listener,
                const server_sighting& sighting) {
   const auto said = decode(sighting.announcement);
@@ -62,38 +62,28 @@ caf::result<caf::ok_atom> find(discovery_self self,
     return fail(error_code::unreachable, "'" + wish.address
                                              + "' is not an address like "
                                                "10.0.0.1:11811");
-  st.client.reset();
+  st.inquiry.reset();
   st.looking_for = wish.address;
-  announcement self_said;
-  self_said.role = "member";
-  self_said.node = st.config.node;
-  self_said.uuid = st.config.uuid;
-  cell_client_options options;
+  server_inquiry_options options;
   options.server_address = server->address;
   options.server_port = server->port;
   options.address = st.config.address;
-  options.domain_id = st.config.domain_id;
-  options.announcement = encode(self_said);
-  cell_client_events events;
+  server_inquiry_events events;
   events.on_server =
       [context = st.context,
        listener = caf::actor_cast<discovery_listener_actor>(
            self->current_sender())](const server_sighting& sighting) {
         on_server(context, listener, sighting);
       };
-  events.on_trouble = [context = st.context,
-                       node = st.config.node](const std::string& reason) {
-    context.tell("edge_trouble", node, {{"message", reason}});
-  };
-  auto opened = cell_client::open(options, std::move(events));
+  auto opened = server_inquiry::open(options, std::move(events));
   if (auto* why = std::get_if<edge_error>(&opened))
     return to_caf(*why);
-  st.client = std::get<std::unique_ptr<cell_client>>(std::move(opened));
+  st.inquiry = std::get<std::unique_ptr<server_inquiry>>(std::move(opened));
   return caf::ok_atom_v;
 }
 
 void forget(discovery_self self) {
-  self->state.client.reset();
+  self->state.inquiry.reset();
   self->state.looking_for.clear();
 }
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "actors/edge/dds/discovery_client.hpp"
 #include "actors/edge/dds/discovery_server.hpp"
 #include "actors/edge/dds/public_presence.hpp"
+#include "actors/edge/dds/server_inquiry.hpp"
 #include "actors/house/alarm.hpp"
 #include "actors/house/backoff.hpp"
 #include "actors/house/house.hpp"
@@ -33,23 +33,19 @@ struct discovery_config {
   cell_server* cell = nullptr;
 };
 
-/// Owns the participants of a node: its CLIENT, its own discovery server, and
-/// the public one. Making and
-/// deleting them takes some milliseconds, so this actor is spawned detached.
+/// Owns the participants of a node, its own discovery server and the public
+/// one, and its inquiry for a coordinator's. Making and deleting them takes
+/// some milliseconds, so this actor is spawned detached.
 struct discovery_state {
   static constexpr const char* name = "discovery";
 
   house context;
   discovery_config config;
   std::string looking_for;
-  std::unique_ptr<cell_client> client;
+  std::unique_ptr<server_inquiry> inquiry;
   std::unique_ptr<cell_server> server;
-  discovery_place served; ///< By `server`.
-  struct meeting {
-    int64_t number = 0;
-    std::chrono::steady_clock::time_point since;
-  };
-  std::map<uint8_t, meeting> met; ///< Other servers.
+  discovery_place served;         ///< By `server`.
+  std::map<uint8_t, int64_t> met; ///< Other servers, by what meeting.
   int64_t meetings = 0;           ///< Counts them.
   std::string announced;          ///< In wire form; empty: nothing.
   std::unique_ptr<public_presence> presence;

@@ -49,41 +49,26 @@ edge_result<std::unique_ptr<cell_server>> open_server(discovery_self self,
 /// server tells of them at once: who is not told of by now is not there.
 constexpr std::chrono::seconds doubt{10};
 
-/// By then a node that has registered has closed what it had looked for the
-/// cell with.
-constexpr std::chrono::seconds join{1};
-
-void expect(discovery_self self, std::chrono::seconds after, int64_t server_id,
-            const std::string& uuid) {
-  caf::delayed_anon_send(discovery_actor{self}, after,
-                         follow_server{server_id, server_contact::settled, uuid,
-                                       false, self->state.meetings});
-}
-
 void begin_doubt(discovery_self self, const follow_server& wish) {
   auto& st = self->state;
-  st.met[static_cast<uint8_t>(wish.server_id)] = {
-      ++st.meetings, std::chrono::steady_clock::now()};
-  if (!wish.uuid.empty())
-    expect(self, join, wish.server_id, wish.uuid);
+  st.met[static_cast<uint8_t>(wish.server_id)] = ++st.meetings;
   if (wish.tells_anew)
-    expect(self, doubt, wish.server_id, {});
+    caf::delayed_anon_send(discovery_actor{self}, doubt,
+                           follow_server{wish.server_id,
+                                         server_contact::settled, false,
+                                         st.meetings});
 }
 
-/// Another meeting may have begun since the one that this is about. With a UUID
-/// it is about the join of that node, without a meeting about a server that has
-/// been lost for long.
+/// Another meeting may have begun since the one that this is about. Without a
+/// meeting it is about a server that has been lost for long.
 void settle(discovery_self self, cell_server& own, const follow_server& wish) {
   const auto id = static_cast<uint8_t>(wish.server_id);
   const auto x = self->state.met.find(id);
   if (x == self->state.met.end()) {
     if (wish.meeting == 0)
       own.forget(id);
-  } else if (x->second.number == wish.meeting) {
-    if (wish.uuid.empty())
-      own.end_doubt(id);
-    else
-      own.forget_clients(wish.uuid, x->second.since);
+  } else if (x->second == wish.meeting) {
+    own.end_doubt(id);
   }
 }
 
@@ -139,7 +124,6 @@ serve_programs_of_node(discovery_self self, const serve_programs& wish) {
   follow_another_server(
       self, {wish.place.remote_id,
              wish.remote_is_there ? server_contact::met : server_contact::lost,
-             {},
              wish.tells_anew});
   return programs_served{address_of(self)};
 }

@@ -194,14 +194,12 @@ constexpr auto enum_words(server_contact) {
 struct follow_server {
   int64_t server_id = 0;
   server_contact contact = server_contact::met;
-  std::string uuid;        ///< Of the node; empty: nobody asks.
   bool tells_anew = false; ///< With `met`: see `node_registration`.
   int64_t meeting = 0;     ///< With `settled`: which one.
 
   static constexpr auto fields() {
     return field_list{required("server_id", &follow_server::server_id),
                       required("contact", &follow_server::contact),
-                      optional("uuid", &follow_server::uuid),
                       optional("tells_anew", &follow_server::tells_anew),
                       optional("meeting", &follow_server::meeting)};
   }

@@ -1,6 +1,6 @@
 #include "actors/edge/dds/lives/discovery_guard.hpp"
 #include "actors/edge/dds/rtps/discovery_filter.hpp"
-#include "actors/edge/dds/rtps/discovery_probe.hpp"
+#include "actors/edge/dds/rtps/own_words.hpp"
 
 #include <cstdint>
 #include <cstdlib>
@@ -23,10 +23,11 @@ bool check(std::vector<std::uint8_t> bytes, roscell::arrival how) {
 /// What is safe stays so on its way through the guard, in either direction.
 void guard(std::vector<std::uint8_t> bytes) {
   static roscell::discovery_guard guard{
-      3, std::make_shared<roscell::number_reserve>()};
+      3, std::make_shared<roscell::number_reserve>(),
+      std::get<roscell::udp_socket>(roscell::udp_socket::bind("127.0.0.1", 0))};
   if (!roscell::make_safe(bytes.data(), bytes.size()))
     return;
-  if (guard.take_in(bytes.data(), bytes.size())
+  if (guard.take_in(bytes.data(), bytes.size(), sockaddr_in{})
       && !roscell::make_safe(bytes.data(), bytes.size()))
     std::abort();
   guard.let_out(bytes.data(), bytes.size());
@@ -42,6 +43,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
       != check(bytes, roscell::arrival::multicast))
     std::abort();
   guard(bytes);
-  roscell::is_introduction(bytes.data(), bytes.size());
+  roscell::own_words_in(bytes.data(), bytes.size());
   return 0;
 }

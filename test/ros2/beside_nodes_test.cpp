@@ -1,6 +1,6 @@
 #include "cell_fixture.hpp"
 
-#include "actors/edge/dds/discovery_client.hpp"
+#include "actors/edge/dds/server_inquiry.hpp"
 
 #include "roscell/ros2/cdr.hpp"
 #include "roscell/ros2/std_msgs.hpp"
@@ -14,27 +14,25 @@ namespace {
 
 constexpr const char* text = ros2::std_msgs::string::type_name;
 
-/// A node that registers with the discovery server, as a member of the cell.
+/// A node that looks for the coordinator behind the discovery server.
 class member {
 public:
   member(const cell& home, logbook& log) {
-    cell_client_options options;
+    server_inquiry_options options;
     options.server_address = "127.0.0.1";
     options.server_port = home.port();
-    options.announcement = "member";
-    cell_client_events events;
+    server_inquiry_events events;
     events.on_server = [say = log.say()](const server_sighting& seen) {
       say("server says " + seen.announcement);
     };
-    events.on_server_lost = [say = log.say()] { say("server lost"); };
-    auto opened = cell_client::open(options, std::move(events));
+    auto opened = server_inquiry::open(options, std::move(events));
     if (auto* error = std::get_if<edge_error>(&opened))
       FAIL(error->message);
-    client_ = std::get<0>(std::move(opened));
+    inquiry_ = std::get<0>(std::move(opened));
   }
 
 private:
-  std::unique_ptr<cell_client> client_;
+  std::unique_ptr<server_inquiry> inquiry_;
 };
 
 /// A message goes from one new skill to another.
@@ -56,7 +54,7 @@ void check_message(const cell& home) {
 
 } // namespace
 
-TEST_CASE("skills and nodes are clients of one discovery server") {
+TEST_CASE("skills find each other beside nodes that look for their cell") {
   cell home{0};
   logbook before;
   logbook after;

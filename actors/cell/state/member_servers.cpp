@@ -14,15 +14,13 @@ constexpr std::chrono::seconds silent_host{60};
 } // namespace
 
 void meet_member_server(coordinator_pointer self, int64_t server_id,
-                        const node_registration& node,
-                        std::function<void()> then) {
+                        bool tells_anew, std::function<void()> then) {
   const auto& discovery = self->state.setup.discovery;
   if (!discovery || server_id < 0)
     return then();
   follow_server wish;
   wish.server_id = server_id;
-  wish.uuid = node.identity.uuid;
-  wish.tells_anew = node.tells_anew;
+  wish.tells_anew = tells_anew;
   self->request(discovery, limits::local::part, wish)
       .then([then](caf::ok_atom) { then(); },
             [then](const caf::error&) { then(); });

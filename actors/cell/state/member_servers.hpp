@@ -8,10 +8,10 @@
 namespace roscell {
 
 /// The session with a member begins: its discovery server, if it has one, is
-/// met anew before `then`, whether that succeeds or not.
+/// met anew before `then`, whether that succeeds or not. `tells_anew`: see
+/// `node_registration`.
 void meet_member_server(coordinator_pointer self, int64_t server_id,
-                        const node_registration& node,
-                        std::function<void()> then);
+                        bool tells_anew, std::function<void()> then);
 
 /// The session of a row's node has ended, or the row goes.
 void follow_member_server(coordinator_pointer self, const registry_entry& entry,

@@ -1,5 +1,7 @@
 #include "actors/edge/dds/discovery_seeker.hpp"
 
+#include "actors/edge/dds/rtps/own_words.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -26,6 +28,9 @@ constexpr auto patience = 1000ms;
 
 /// More questions than this are not asked within the lease of a probe.
 constexpr std::size_t max_remembered = 12;
+
+/// More than a server of an earlier version puts into one datagram by itself.
+constexpr std::size_t longest_answer = 8192;
 
 int to_timeout(std::chrono::milliseconds limit) {
   return limit.count() < 0 ? -1 : static_cast<int>(limit.count());
@@ -79,7 +84,7 @@ server_seeker::server_seeker(const sockaddr_in& server,
     : server_(server), local_address_(std::move(local_address)),
       max_interval_(max_interval), report_(std::move(report)) {}
 
-std::optional<guid_prefix> server_seeker::seek(wake_event& wake) {
+std::optional<server_sighting> server_seeker::seek(wake_event& wake) {
   auto opened = open_socket(local_address_);
   if (auto* error = std::get_if<edge_error>(&opened)) {
     report(error->message);
@@ -111,10 +116,10 @@ void server_seeker::ask(const udp_socket& socket) {
   send(socket, probe_question(asked_.back(), socket.local()));
 }
 
-std::optional<guid_prefix> server_seeker::await(const udp_socket& socket,
-                                                wake_event& wake,
-                                                clock::time_point deadline,
-                                                bool& woken) {
+std::optional<server_sighting> server_seeker::await(const udp_socket& socket,
+                                                    wake_event& wake,
+                                                    clock::time_point deadline,
+                                                    bool& woken) {
   for (;;) {
     auto left =
         std::chrono::ceil<std::chrono::milliseconds>(deadline - clock::now());
@@ -134,11 +139,13 @@ std::optional<guid_prefix> server_seeker::await(const udp_socket& socket,
   }
 }
 
-std::optional<guid_prefix> server_seeker::receive(const udp_socket& socket) {
-  std::array<std::uint8_t, 2048> datagram{};
+std::optional<server_sighting>
+server_seeker::receive(const udp_socket& socket) {
+  std::vector<std::uint8_t> datagram;
   sockaddr_in from{};
   socklen_t from_size = sizeof(from);
   for (;;) {
+    datagram.resize(longest_answer);
     auto size = recvfrom(socket.fd(), datagram.data(), datagram.size(), 0,
                          reinterpret_cast<sockaddr*>(&from), &from_size);
     if (size < 0 && errno == ECONNREFUSED) {
@@ -150,15 +157,30 @@ std::optional<guid_prefix> server_seeker::receive(const udp_socket& socket) {
       drain_errors(socket.fd());
       return std::nullopt;
     }
-    auto prefix = probe_answer(datagram.data(), static_cast<std::size_t>(size));
-    if (!prefix || from.sin_addr.s_addr != server_.sin_addr.s_addr)
-      continue;
-    if (server_id_of(*prefix))
-      return prefix;
+    datagram.resize(static_cast<std::size_t>(size));
+    if (from.sin_addr.s_addr == server_.sin_addr.s_addr)
+      if (auto found = sighting_in(datagram))
+        return found;
+  }
+}
+
+std::optional<server_sighting>
+server_seeker::sighting_in(std::vector<std::uint8_t>& message) {
+  const auto prefix = probe_answer(message.data(), message.size());
+  if (!prefix)
+    return std::nullopt;
+  const auto id = server_id_of(*prefix);
+  if (!id) {
     report("the discovery server at " + endpoint_text(server_)
            + " has the GUID prefix " + to_text(*prefix)
            + ", none of the well-known ones");
+    return std::nullopt;
   }
+  // One of an earlier version may first ask for more.
+  auto said = own_words_in(message.data(), message.size());
+  if (!said)
+    return std::nullopt;
+  return server_sighting{*id, *prefix, std::move(said->announcement)};
 }
 
 void server_seeker::say_farewell(const udp_socket& socket) {

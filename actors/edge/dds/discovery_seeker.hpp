@@ -1,13 +1,15 @@
 #pragma once
 
 #include "actors/edge/dds/discovery_address.hpp"
-#include "actors/edge/dds/rtps/discovery_probe.hpp"
+#include "actors/edge/dds/discovery_sighting.hpp"
 
 #include <chrono>
+#include <cstdint>
 #include <deque>
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 /// INTERNAL to this folder.
 namespace roscell {
@@ -43,9 +45,9 @@ public:
   server_seeker(const sockaddr_in& server, std::string local_address,
                 std::chrono::milliseconds max_interval, report_function report);
 
-  /// Blocks until a server with a well-known prefix answers, or until `wake`
-  /// is raised: then it gives none, and `wake` is taken back.
-  std::optional<guid_prefix> seek(wake_event& wake);
+  /// Blocks until a server with a well-known prefix tells its own data, or
+  /// until `wake` is raised: then it gives none, and `wake` is taken back.
+  std::optional<server_sighting> seek(wake_event& wake);
 
 private:
   using clock = std::chrono::steady_clock;
@@ -53,13 +55,18 @@ private:
   void ask(const udp_socket& socket);
 
   /// Waits for an answer until `deadline`; sets `woken` when `wake` was raised.
-  std::optional<guid_prefix> await(const udp_socket& socket, wake_event& wake,
-                                   clock::time_point deadline, bool& woken);
+  std::optional<server_sighting> await(const udp_socket& socket,
+                                       wake_event& wake,
+                                       clock::time_point deadline, bool& woken);
 
   /// Reads all that has come.
-  std::optional<guid_prefix> receive(const udp_socket& socket);
+  std::optional<server_sighting> receive(const udp_socket& socket);
 
-  /// Takes the questions back that the server may still remember.
+  /// What a datagram from the address tells; none: not enough.
+  std::optional<server_sighting>
+  sighting_in(std::vector<std::uint8_t>& message);
+
+  /// Takes the questions back, which a server of an earlier version remembers.
   void say_farewell(const udp_socket& socket);
 
   void send(const udp_socket& socket, const std::vector<std::uint8_t>& bytes);

@@ -1,6 +1,5 @@
 #include "actors/edge/dds/discovery_server.hpp"
 
-#include "actors/edge/dds/announcement.hpp"
 #include "actors/edge/dds/discovery_address.hpp"
 #include "actors/edge/dds/discovery_participant.hpp"
 #include "actors/edge/dds/herald.hpp"
@@ -88,9 +87,13 @@ public:
 
   bool open(const cell_server_options& options, std::uint16_t port) {
     port_ = port;
+    auto answers = udp_socket::bind(options.address, 0);
+    if (std::holds_alternative<edge_error>(answers))
+      return false;
     guard_ = std::make_shared<discovery_guard>(
         options.server_id,
-        options.numbers ? options.numbers : std::make_shared<number_reserve>());
+        options.numbers ? options.numbers : std::make_shared<number_reserve>(),
+        std::get<udp_socket>(std::move(answers)));
     graph_ = options.graph ? options.graph : std::make_shared<ros_graph>();
     if (options.remote && !prepare_for(*options.remote, options.address))
       return false;
@@ -99,6 +102,7 @@ public:
         [this](const sighting& seen) { on_client(seen); }, graph_);
     if (participant_ == nullptr || (introducer_ && !learn_words(options)))
       return false;
+    guard_->speak(options.announcement);
     graph_->begin_service();
     serves_ = true;
     greeter_.start();
@@ -146,18 +150,15 @@ public:
     guard_->end_doubt(id);
   }
 
-  void forget_clients(const std::string& uuid,
-                      std::chrono::steady_clock::time_point before) {
-    guard_->forget_clients(uuid, before);
-  }
-
   void forget(std::uint8_t id) {
     guard_->forget(id);
   }
 
   void update_announcement(const std::string& bytes) {
-    if (participant_ != nullptr)
-      participant_->update_announcement(bytes);
+    if (participant_ == nullptr)
+      return;
+    guard_->speak(bytes);
+    participant_->update_announcement(bytes);
   }
 
   void close() {
@@ -226,8 +227,7 @@ private:
         introduce(introducer::first_pause);
       return;
     }
-    const auto said = decode(seen.announcement);
-    guard_->appeared(seen.prefix, said ? said->uuid : std::string{});
+    guard_->appeared(seen.prefix);
     if (is_the_remote)
       introducer_->rest();
   }
@@ -300,11 +300,6 @@ void cell_server::lose(std::uint8_t id) {
 
 void cell_server::end_doubt(std::uint8_t id) {
   impl_->end_doubt(id);
-}
-
-void cell_server::forget_clients(const std::string& uuid,
-                                 std::chrono::steady_clock::time_point before) {
-  impl_->forget_clients(uuid, before);
 }
 
 void cell_server::forget(std::uint8_t id) {

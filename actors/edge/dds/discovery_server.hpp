@@ -39,25 +39,25 @@ struct cell_server_options {
   std::shared_ptr<ros_graph> graph; ///< Null: one of its own.
 };
 
-/// A discovery server: the SERVER participant that ROS 2 programs of the cell,
-/// and our own `cell_client`s, register with. The coordinator runs the cell's,
-/// and each member one for the programs on its host, whose remote server is the
-/// cell's. It hears programs of its own host at 127.0.0.1, too.
+/// A discovery server: the SERVER participant that ROS 2 programs of the cell
+/// register with. The coordinator runs the cell's, and each member one for the
+/// programs on its host, whose remote server is the cell's. It hears programs
+/// of its own host at 127.0.0.1, too. Who only asks who is there is answered
+/// with the announcement (rtps/probe_responder.hpp).
 ///
 /// What is known of another server lasts as long as the session between the two
 /// nodes, whoever of them ends or moves: at its end both `lose` each other, at
 /// the next one they `meet`, and tell each other anew all that they know
 /// (lives/discovery_guard.hpp). Programs do not notice: they go on to be known.
 ///
-/// Fast DDS itself would take 110 ms to tell a new client the announcement.
-/// We send it as soon as a client appears, to all clients, as Fast DDS cannot
-/// do less; so only while there are at most `max_greeted_clients`, and at most
-/// once in `greeting_interval`.
+/// Fast DDS itself would take 110 ms to make itself known to a new client,
+/// which a ROS 2 node's start waits for. We do so as soon as a client appears,
+/// to all clients, as Fast DDS cannot do less; so only while there are at most
+/// `max_greeted_clients`, and at most once in `greeting_interval`.
 ///
 /// A killed server (no farewell) that starts again at the same address, with
 /// the same `numbers`, finds its clients again as they announce themselves,
-/// within their announcement period; what they do not notice is written at
-/// `cell_client`.
+/// within their announcement period.
 ///
 /// Two servers of one process must not have the same id: Fast DDS would mix
 /// them up.
@@ -103,15 +103,10 @@ public:
   /// forgotten.
   void end_doubt(std::uint8_t id);
 
-  /// With these the node of this UUID has looked for this server, before it had
-  /// one of its own. Their farewell may have been lost.
-  void forget_clients(const std::string& uuid,
-                      std::chrono::steady_clock::time_point before);
-
   /// Its node is not of the cell any more: all that it has told of ends.
   void forget(std::uint8_t id);
 
-  /// Tells all clients. `schema_violation` when it is too long.
+  /// Tells all clients, and who asks. `schema_violation` when it is too long.
   std::optional<edge_error> update_announcement(const std::string& bytes);
 
   /// Says farewell to the clients, who notice at once, and ends. Takes a few

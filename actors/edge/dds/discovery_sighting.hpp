@@ -2,6 +2,7 @@
 
 #include "actors/edge/dds/rtps/discovery_probe.hpp"
 
+#include <cstdint>
 #include <functional>
 #include <string>
 
@@ -20,6 +21,13 @@ struct sighting {
   guid_prefix prefix{};
   std::string name;         ///< The participant's name, at most 255 bytes.
   std::string announcement; ///< Its USER_DATA, empty if over the limit.
+};
+
+/// What a discovery server says of itself to who asks.
+struct server_sighting {
+  std::uint8_t server_id = 0;
+  guid_prefix prefix{};
+  std::string announcement; ///< USER_DATA as it came, foreign bytes included.
 };
 
 /// Called on a thread of Fast DDS, one call at a time for one participant.

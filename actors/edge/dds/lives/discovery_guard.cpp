@@ -2,6 +2,7 @@
 
 #include "actors/edge/dds/rtps/discovery_probe.hpp"
 
+#include <chrono>
 #include <utility>
 
 #include <arpa/inet.h>
@@ -23,10 +24,19 @@ sockaddr_in nowhere() {
 } // namespace
 
 discovery_guard::discovery_guard(std::uint8_t own_id,
-                                 std::shared_ptr<number_reserve> numbers)
-    : lives_(own_id), numbers_(server_prefix(own_id), std::move(numbers)) {}
+                                 std::shared_ptr<number_reserve> numbers,
+                                 udp_socket socket)
+    : own_(server_prefix(own_id)), probes_(std::move(socket)), lives_(own_id),
+      numbers_(own_, std::move(numbers)) {}
 
-bool discovery_guard::take_in(std::uint8_t* message, std::size_t size) {
+void discovery_guard::speak(const std::string& announcement) {
+  probes_.speak_for(own_, announcement);
+}
+
+bool discovery_guard::take_in(std::uint8_t* message, std::size_t size,
+                              const sockaddr_in& from) {
+  if (probes_.take(message, size, from))
+    return false;
   if (!lives_.take_in(message, size, std::chrono::steady_clock::now()))
     return false;
   numbers_.take_in(message, size);
@@ -55,10 +65,9 @@ void discovery_guard::set_inlet(inlet x) {
   inlet_ = std::move(x);
 }
 
-void discovery_guard::appeared(const guid_prefix& who,
-                               const std::string& uuid) {
+void discovery_guard::appeared(const guid_prefix& who) {
   std::lock_guard<std::mutex> lock{table_mutex_};
-  table_.appeared(who, uuid, std::chrono::steady_clock::now());
+  table_.appeared(who);
 }
 
 void discovery_guard::gone(const guid_prefix& who) {
@@ -92,16 +101,6 @@ void discovery_guard::end_doubt(std::uint8_t id) {
   {
     std::lock_guard<std::mutex> lock{table_mutex_};
     dead = table_.doubted(id);
-  }
-  bury(dead);
-}
-
-void discovery_guard::forget_clients(const std::string& uuid,
-                                     time_point before) {
-  std::vector<guid_prefix> dead;
-  {
-    std::lock_guard<std::mutex> lock{table_mutex_};
-    dead = table_.of_node(uuid, before);
   }
   bury(dead);
 }

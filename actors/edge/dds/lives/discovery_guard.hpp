@@ -4,8 +4,8 @@
 #include "actors/edge/dds/lives/participant_table.hpp"
 #include "actors/edge/dds/lives/server_lives.hpp"
 #include "actors/edge/dds/rtps/participant_news.hpp"
+#include "actors/edge/dds/rtps/probe_responder.hpp"
 
-#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -19,23 +19,29 @@ namespace roscell {
 
 /// What stands between a discovery server of Fast DDS and the wire, so that
 /// whatever ends and begins again is a new one to those who knew it: the lives
-/// of other servers, the numbers of the own one, and the table of those who
-/// are known. May be used by several threads.
+/// of other servers, the numbers of the own one, the table of those who are
+/// known, and the answers to those who only ask who is there. May be used by
+/// several threads.
 class discovery_guard {
 public:
-  using time_point = participant_table::time_point;
-
   /// Gives Fast DDS a message as if it had come.
   using inlet = std::function<void(const std::vector<std::uint8_t>&)>;
 
-  discovery_guard(std::uint8_t own_id, std::shared_ptr<number_reserve> numbers);
+  /// Answers leave by the socket.
+  discovery_guard(std::uint8_t own_id, std::shared_ptr<number_reserve> numbers,
+                  udp_socket socket);
 
   server_lives& lives() {
     return lives_;
   }
 
-  /// Prepares a safe message that has come; false: Fast DDS must not see it.
-  bool take_in(std::uint8_t* message, std::size_t size);
+  /// From now on those who ask are answered with this.
+  void speak(const std::string& announcement);
+
+  /// Prepares a safe message that has come from there; false: Fast DDS must not
+  /// see it.
+  bool take_in(std::uint8_t* message, std::size_t size,
+               const sockaddr_in& from);
 
   /// Prepares a message that shall go; false: nobody may see it.
   bool let_out(std::uint8_t* message, std::size_t size);
@@ -43,8 +49,8 @@ public:
   /// From now on; empty: the server ends.
   void set_inlet(inlet x);
 
-  /// Fast DDS knows a participant, of the node with this UUID or of none.
-  void appeared(const guid_prefix& who, const std::string& uuid);
+  /// Fast DDS knows a participant.
+  void appeared(const guid_prefix& who);
 
   /// Fast DDS does not know it any more.
   void gone(const guid_prefix& who);
@@ -56,9 +62,6 @@ public:
   /// Fast DDS forgets what server `id` has told of and is in doubt.
   void end_doubt(std::uint8_t id);
 
-  /// Fast DDS forgets those of the node `uuid` that told of themselves before.
-  void forget_clients(const std::string& uuid, time_point before);
-
   /// Fast DDS forgets server `id` and all that it has told of.
   void forget(std::uint8_t id);
 
@@ -67,6 +70,8 @@ private:
   std::vector<guid_prefix> end_life(std::uint8_t id);
   void bury(const std::vector<guid_prefix>& dead);
 
+  const guid_prefix own_;
+  probe_responder probes_;
   server_lives lives_;
   const number_shift numbers_;
   std::mutex table_mutex_;

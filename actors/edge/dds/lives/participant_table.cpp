@@ -14,10 +14,9 @@ void participant_table::told_itself(const guid_prefix& who) {
   told_.erase(who);
 }
 
-void participant_table::appeared(const guid_prefix& who,
-                                 const std::string& uuid, time_point now) {
+void participant_table::appeared(const guid_prefix& who) {
   if (told_.count(who) == 0 && selves_.size() < most)
-    selves_.emplace(who, self_told{{}, now}).first->second.uuid = uuid;
+    selves_.insert(who);
 }
 
 void participant_table::gone(const guid_prefix& who) {
@@ -49,15 +48,6 @@ std::vector<guid_prefix> participant_table::told_by(std::uint8_t id) const {
   std::vector<guid_prefix> result;
   for (const auto& [who, x] : told_)
     if (x.id == id)
-      result.push_back(who);
-  return result;
-}
-
-std::vector<guid_prefix> participant_table::of_node(const std::string& uuid,
-                                                    time_point before) const {
-  std::vector<guid_prefix> result;
-  for (const auto& [who, x] : selves_)
-    if (!uuid.empty() && x.uuid == uuid && x.since < before)
       result.push_back(who);
   return result;
 }

@@ -2,12 +2,10 @@
 
 #include "dds/server_ids.hpp"
 
-#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <map>
 #include <set>
-#include <string>
 #include <vector>
 
 /// INTERNAL to actors/edge/dds.
@@ -22,8 +20,6 @@ namespace roscell {
 /// server's next life tells of those that are there, which ends the doubt.
 class participant_table {
 public:
-  using time_point = std::chrono::steady_clock::time_point;
-
   /// More than these are not remembered.
   static constexpr std::size_t most = 4096;
 
@@ -33,9 +29,8 @@ public:
   /// It has told of itself, so that nobody else is needed to know it.
   void told_itself(const guid_prefix& who);
 
-  /// It is known, and says that it is of the node with this UUID, or of none.
-  void appeared(const guid_prefix& who, const std::string& uuid,
-                time_point now);
+  /// It is known.
+  void appeared(const guid_prefix& who);
 
   /// It is not known any more.
   void gone(const guid_prefix& who);
@@ -52,22 +47,14 @@ public:
   /// Whether that participant is known by what server `id` has told.
   bool was_told_by(std::uint8_t id, const guid_prefix& who) const;
 
-  /// Those of a node that told of themselves, and were known before.
-  std::vector<guid_prefix> of_node(const std::string& uuid,
-                                   time_point before) const;
-
 private:
   struct teller {
     std::uint8_t id = 0;
     bool doubted = false;
   };
-  struct self_told {
-    std::string uuid;
-    time_point since;
-  };
 
   std::map<guid_prefix, teller> told_;
-  std::map<guid_prefix, self_told> selves_;
+  std::set<guid_prefix> selves_; // Known by what they tell themselves.
 };
 
 } // namespace roscell

@@ -22,11 +22,11 @@ constexpr std::int64_t max_gap = 1 << 16;
 /// about; none for any other writer.
 std::optional<described_entity> subject_of(std::uint32_t big_endian_entity) {
   switch (big_endian_entity) {
-  case 0x000100c2:
+  case discovery_writer::participants:
     return described_entity::participant;
-  case 0x000003c2:
+  case discovery_writer::publications:
     return described_entity::writer;
-  case 0x000004c2:
+  case discovery_writer::subscriptions:
     return described_entity::reader;
   default:
     return std::nullopt;

@@ -1,6 +1,5 @@
 #include "actors/edge/dds/rtps/discovery_probe.hpp"
 
-#include "actors/edge/dds/rtps/discovery_wire.hpp"
 #include "actors/edge/dds/rtps/parameter_ids.hpp"
 
 #include <algorithm>
@@ -83,27 +82,45 @@ bytes locator(const sockaddr_in& at) {
   return result;
 }
 
-bytes participant_data(const guid_prefix& self, const sockaddr_in& reply_to) {
+/// What every participant says of itself, up to the sentinel: `type` is what
+/// Fast DDS calls CLIENT or SERVER.
+bytes participant_data(const guid_prefix& self, const char* type) {
   bytes result{0, 3, 0, 0}; // PL_CDR_LE
   put_parameter(result, parameter::protocol_version, {2, 3, 0, 0});
   put_parameter(result, parameter::vendor_id, {1, 0x0f, 0, 0});
   put_parameter(result, parameter::participant_guid,
                 guid_bytes(self, participant_entity));
+  // It has a participant announcer (1) and a participant detector (2).
+  put_parameter(result, parameter::builtin_endpoint_set, {3, 0, 0, 0});
+  bytes value{1, 0, 0, 0}; // One property.
+  put_text(value, "PARTICIPANT_TYPE");
+  put_text(value, type);
+  put_parameter(result, parameter::property_list, value);
+  return result;
+}
+
+bytes probe_data(const guid_prefix& self, const sockaddr_in& reply_to) {
+  auto result = participant_data(self, "CLIENT");
   put_parameter(result, parameter::metatraffic_unicast_locator,
                 locator(reply_to));
   bytes value;
   put(value, probe_lease_seconds);
   put(value, std::uint32_t{0});
   put_parameter(result, parameter::lease_duration, value);
-  // It has a participant announcer (1) and a participant detector (2).
-  put_parameter(result, parameter::builtin_endpoint_set, {3, 0, 0, 0});
   value.clear();
   put_text(value, probe_name);
   put_parameter(result, parameter::entity_name, value);
-  value = {1, 0, 0, 0}; // One property.
-  put_text(value, "PARTICIPANT_TYPE");
-  put_text(value, "CLIENT");
-  put_parameter(result, parameter::property_list, value);
+  put_parameter(result, parameter::sentinel, {});
+  return result;
+}
+
+bytes server_data(const guid_prefix& self, const std::string& announcement) {
+  auto result = participant_data(self, "SERVER");
+  bytes value;
+  put(value, static_cast<std::uint32_t>(announcement.size()));
+  put_all(value, announcement);
+  value.resize((value.size() + 3) / 4 * 4);
+  put_parameter(result, parameter::user_data, value);
   put_parameter(result, parameter::sentinel, {});
   return result;
 }
@@ -158,8 +175,12 @@ std::vector<std::uint8_t> probe_question(const guid_prefix& self,
   put_parameter(qos, parameter::related_sample_identity,
                 sample_identity(self, 1));
   put_parameter(qos, parameter::sentinel, {});
-  return data_message(self, 1 | 2 | 4, 1, qos,
-                      participant_data(self, reply_to));
+  return data_message(self, 1 | 2 | 4, 1, qos, probe_data(self, reply_to));
+}
+
+std::vector<std::uint8_t> probe_reply(const guid_prefix& server,
+                                      const std::string& announcement) {
+  return data_message(server, 1 | 4, 1, {}, server_data(server, announcement));
 }
 
 std::vector<std::uint8_t> death_notice(const guid_prefix& self,
@@ -187,26 +208,6 @@ std::optional<guid_prefix> probe_answer(const std::uint8_t* datagram,
     return std::nullopt;
   std::copy_n(datagram + rtps_header.size(), result.size(), result.begin());
   return result;
-}
-
-bool is_introduction(std::uint8_t* datagram, std::size_t size) {
-  if (!probe_answer(datagram, size))
-    return false;
-  const auto header_bytes = rtps_header.size() + guid_prefix{}.size();
-  wire_cursor in{datagram + header_bytes, size - header_bytes};
-  while (in.good() && !in.at_end()) {
-    const auto kind = in.u8();
-    in.little_endian((in.u8() & 1) != 0);
-    auto body = in.take(in.u16());
-    if (kind != data_submessage || !body.skip(8))
-      continue;
-    const auto writer = body.take(pdp_writer_entity.size());
-    if (writer.good()
-        && std::equal(pdp_writer_entity.begin(), pdp_writer_entity.end(),
-                      writer.position()))
-      return true;
-  }
-  return false;
 }
 
 } // namespace roscell

@@ -8,10 +8,13 @@
 
 #include <fastrtps/utils/IPLocator.h>
 
+#include <cstring>
 #include <mutex>
 #include <set>
 #include <utility>
 #include <vector>
+
+#include <arpa/inet.h>
 
 namespace roscell {
 
@@ -30,6 +33,15 @@ struct guarded_descriptor : ChainingTransportDescriptor {
 
   std::shared_ptr<discovery_guard> guard;
 };
+
+sockaddr_in address_of(const rtps::Locator_t& x) {
+  sockaddr_in result{};
+  result.sin_family = AF_INET;
+  result.sin_port = htons(rtps::IPLocator::getPhysicalPort(x));
+  std::memcpy(&result.sin_addr, rtps::IPLocator::getIPv4(x),
+              sizeof(result.sin_addr));
+  return result;
+}
 
 class guarded_transport : public ChainingTransport {
 public:
@@ -102,7 +114,8 @@ public:
                                                    : arrival::direct;
     auto* const message = const_cast<rtps::octet*>(data);
     if (make_safe(message, size, how)
-        && (!descriptor_.guard || descriptor_.guard->take_in(message, size)))
+        && (!descriptor_.guard
+            || descriptor_.guard->take_in(message, size, address_of(remote))))
       next->OnDataReceived(data, size, local, remote);
   }
 

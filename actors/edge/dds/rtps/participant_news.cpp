@@ -10,10 +10,6 @@ namespace roscell {
 
 namespace {
 
-constexpr std::uint32_t participant_writer = 0x000100c2;
-constexpr std::uint32_t publications_writer = 0x000003c2;
-constexpr std::uint32_t subscriptions_writer = 0x000004c2;
-
 /// The participant that a parameter list is about. Leaves `in` behind the list.
 std::optional<guid_prefix> subject_in(wire_cursor& in) {
   std::optional<guid_prefix> result;
@@ -59,8 +55,9 @@ std::optional<participant_news> news_of(const submessage_view& x) {
 }
 
 bool is_of_discovery(std::uint32_t writer) {
-  return writer == participant_writer || writer == publications_writer
-         || writer == subscriptions_writer;
+  return writer == discovery_writer::participants
+         || writer == discovery_writer::publications
+         || writer == discovery_writer::subscriptions;
 }
 
 /// The header of a submessage whose body begins at `body`.
@@ -115,7 +112,7 @@ std::vector<participant_news> participants_in(std::uint8_t* message,
                                               std::size_t size) {
   std::vector<participant_news> result;
   for_each_submessage(message, size, [&result](const submessage_view& x) {
-    if (writer_of(x) != participant_writer)
+    if (writer_of(x) != discovery_writer::participants)
       return true;
     if (const auto news = news_of(x))
       result.push_back(*news);

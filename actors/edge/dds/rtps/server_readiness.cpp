@@ -1,5 +1,6 @@
 #include "actors/edge/dds/rtps/server_readiness.hpp"
 
+#include "actors/edge/dds/rtps/own_words.hpp"
 #include "actors/edge/dds/rtps/submessages.hpp"
 
 #include <algorithm>
@@ -82,7 +83,7 @@ server_readiness::hear(clock::time_point deadline) {
       return std::nullopt;
     const auto size = recv(socket_->fd(), datagram.data(), datagram.size(), 0);
     if (size <= 0
-        || !is_introduction(datagram.data(), static_cast<std::size_t>(size)))
+        || !own_words_in(datagram.data(), static_cast<std::size_t>(size)))
       continue;
     datagram.resize(static_cast<std::size_t>(size));
     address_to_anybody(datagram);

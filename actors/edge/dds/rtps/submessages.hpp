@@ -30,6 +30,13 @@ constexpr std::uint8_t data = 4;
 constexpr std::uint8_t key = 8;
 } // namespace submessage_flag
 
+/// The writers of what discovery tells (9.3.1.5).
+namespace discovery_writer {
+constexpr std::uint32_t participants = 0x000100c2;
+constexpr std::uint32_t publications = 0x000003c2;
+constexpr std::uint32_t subscriptions = 0x000004c2;
+} // namespace discovery_writer
+
 /// Of the protocol, its version, the vendor and the sender's prefix.
 constexpr std::size_t rtps_header_bytes = 20;
 constexpr std::size_t rtps_sender_at = 8;

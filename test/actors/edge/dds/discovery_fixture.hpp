@@ -1,8 +1,8 @@
 #pragma once
 
-#include "actors/edge/dds/discovery_client.hpp"
 #include "actors/edge/dds/discovery_server.hpp"
 #include "actors/edge/dds/discovery_setup.hpp"
+#include "actors/edge/dds/server_inquiry.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -48,12 +48,11 @@ private:
   std::vector<std::string> entries_;
 };
 
-inline cell_client_events writing_to(diary& to) {
-  cell_client_events result;
+inline server_inquiry_events writing_to(diary& to) {
+  server_inquiry_events result;
   result.on_server = [&to](const server_sighting& seen) {
     to.add(std::to_string(seen.server_id) + ' ' + seen.announcement);
   };
-  result.on_server_lost = [&to] { to.add("lost"); };
   result.on_waiting = [&to](const std::string& why) { to.add(why); };
   return result;
 }
@@ -76,20 +75,18 @@ inline std::unique_ptr<cell_server> must_open(const cell_server_options& x,
   return std::get<0>(std::move(result));
 }
 
-inline std::unique_ptr<cell_client> must_open(const cell_client_options& x,
-                                              cell_client_events events) {
-  auto result = cell_client::open(x, std::move(events));
+inline std::unique_ptr<server_inquiry>
+must_open(const server_inquiry_options& x, server_inquiry_events events) {
+  auto result = server_inquiry::open(x, std::move(events));
   if (auto* error = std::get_if<edge_error>(&result))
     FAIL(error->message);
   return std::get<0>(std::move(result));
 }
 
-inline cell_client_options client_of(std::uint16_t port) {
-  prepare_dds_environment();
-  cell_client_options result;
+inline server_inquiry_options asking(std::uint16_t port) {
+  server_inquiry_options result;
   result.server_address = "127.0.0.1";
   result.server_port = port;
-  result.announcement = "member";
   return result;
 }
 

@@ -1,7 +1,4 @@
-#include "actors/edge/dds/announcement.hpp"
 #include "test/actors/edge/dds/discovery_fixture.hpp"
-
-#include <chrono>
 
 using namespace roscell;
 using namespace roscell::test;
@@ -11,7 +8,7 @@ namespace {
 constexpr std::uint8_t cell_id = 1;
 constexpr std::uint8_t member_id = 2;
 
-/// What the cell's server sees: "+client a", "-client a", "+server".
+/// What the cell's server sees: "+server", "-server".
 on_sighting writing(diary& to) {
   return [&to](const sighting& seen) {
     if (seen.what == sighting::kind::changed)
@@ -19,10 +16,7 @@ on_sighting writing(diary& to) {
     const bool ended =
         seen.what == sighting::kind::left || seen.what == sighting::kind::lost;
     const std::string sign = ended ? "-" : "+";
-    const auto said = decode(seen.announcement);
-    if (said)
-      to.add(sign + "client " + said->node);
-    else if (seen.prefix[0] == server_prefix(0)[0])
+    if (seen.prefix[0] == server_prefix(0)[0])
       to.add(sign + "server");
   };
 }
@@ -51,18 +45,6 @@ struct pair_of_servers {
     cell->lose(member_id);
     member->lose(cell_id);
   }
-
-  std::unique_ptr<cell_client> client(const std::string& name,
-                                      std::uint16_t port,
-                                      const std::string& uuid = "some") {
-    announcement said;
-    said.role = "member";
-    said.node = name;
-    said.uuid = uuid;
-    auto options = client_of(port);
-    options.announcement = encode(said);
-    return must_open(options, {});
-  }
 };
 
 } // namespace
@@ -78,17 +60,4 @@ TEST_CASE("servers that met again know each other anew") {
     REQUIRE(both.seen.wait_for("+server", n));
     CHECK(both.seen.wait_for("-server", n - 1));
   }
-}
-
-TEST_CASE("those are forgotten with whom a node has looked for the server") {
-  pair_of_servers both;
-  const auto a = both.client("a", both.cell->port(), "uuid of a");
-  const auto b = both.client("b", both.cell->port(), "uuid of b");
-  REQUIRE(both.seen.wait_for("+client a"));
-  REQUIRE(both.seen.wait_for("+client b"));
-  const auto now = std::chrono::steady_clock::now();
-  both.cell->forget_clients("uuid of a", now);
-  CHECK(both.seen.wait_for("-client a"));
-  const auto after = both.seen.entries();
-  CHECK(std::count(after.begin(), after.end(), "-client b") == 0);
 }

@@ -3,7 +3,6 @@
 #include <catch2/catch.hpp>
 
 using namespace roscell;
-using namespace std::chrono_literals;
 
 namespace {
 
@@ -13,7 +12,6 @@ guid_prefix nth(unsigned n) {
 }
 
 using found = std::vector<guid_prefix>;
-const participant_table::time_point start{};
 
 } // namespace
 
@@ -39,7 +37,7 @@ TEST_CASE("what a server that is lost has told of is in doubt until it is told "
 TEST_CASE("who tells of itself is not known by what another server tells") {
   participant_table table;
   table.told_itself(nth(1));
-  table.appeared(nth(1), "", start);
+  table.appeared(nth(1));
   table.told_by(7, nth(1));
   table.doubt(7);
   CHECK(table.doubted(7).empty());
@@ -48,30 +46,13 @@ TEST_CASE("who tells of itself is not known by what another server tells") {
   CHECK(table.told_by(7) == found{nth(1)});
 }
 
-TEST_CASE("of a node those are found that told of themselves before") {
-  participant_table table;
-  table.told_by(7, nth(5)); // Another server knows it.
-  table.appeared(nth(1), "a", start + 1s);
-  table.appeared(nth(2), "a", start + 2s);
-  table.appeared(nth(3), "b", start + 1s);
-  table.appeared(nth(4), "", start + 1s); // Says nothing of a node.
-  table.appeared(nth(5), "a", start + 1s);
-  table.appeared(nth(1), "a", start + 9s); // Again.
-  CHECK(table.of_node("a", start + 2s) == found{nth(1)});
-  CHECK(table.of_node("a", start + 3s) == found{nth(1), nth(2)});
-  CHECK(table.of_node("", start + 3s).empty());
-  table.gone(nth(1));
-  CHECK(table.of_node("a", start + 2s).empty());
-}
-
 TEST_CASE("a flood of participants costs a bounded table") {
   participant_table table;
   for (unsigned n = 0; n < participant_table::most + 10; ++n)
     table.told_by(7, nth(n));
   CHECK(table.told_by(7).size() == participant_table::most);
   for (unsigned n = 0; n < participant_table::most + 10; ++n)
-    table.appeared(nth(1'000'000 + n), "a", start);
-  CHECK(table.of_node("a", start + 1s).size() == participant_table::most);
+    table.appeared(nth(1'000'000 + n));
   // Those that are known can still be told of.
   table.told_by(8, nth(0));
   CHECK(table.told_by(8) == found{nth(0)});

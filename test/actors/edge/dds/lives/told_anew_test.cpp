@@ -30,10 +30,11 @@ datagram passed_on(const guid_prefix& who, std::uint8_t by) {
 }
 
 struct guarded {
-  discovery_guard guard{asked, std::make_shared<number_reserve>()};
+  discovery_guard guard{asked, std::make_shared<number_reserve>(),
+                        std::get<udp_socket>(udp_socket::bind("127.0.0.1", 0))};
 
   void hear(datagram what) {
-    REQUIRE(guard.take_in(what.data(), what.size()));
+    REQUIRE(guard.take_in(what.data(), what.size(), sockaddr_in{}));
   }
 
   /// What the wire gets.

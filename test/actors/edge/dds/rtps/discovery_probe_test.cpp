@@ -31,28 +31,6 @@ TEST_CASE("an answer is any RTPS datagram and names its sender",
     CHECK(probe_answer(bytes.data(), bytes.size()) == self);
 }
 
-TEST_CASE("only a participant's data is an introduction", "[discovery]") {
-  auto data = probe_question(make_probe_prefix(), sockaddr_in{});
-  CHECK(is_introduction(data.data(), data.size()));
-  auto of_a_topic = data;
-  of_a_topic[34] = 3; // The writer's id, 0x000100c2, becomes 0x000300c2.
-  CHECK_FALSE(is_introduction(of_a_topic.data(), of_a_topic.size()));
-  auto heartbeat = data;
-  heartbeat[20] = 7;
-  CHECK_FALSE(is_introduction(heartbeat.data(), heartbeat.size()));
-  // The data may come behind something else.
-  auto second = data;
-  second.insert(second.begin() + 20, {9, 3, 0, 0});
-  CHECK(is_introduction(second.data(), second.size()));
-}
-
-TEST_CASE("a datagram that is cut off anywhere is no introduction",
-          "[discovery]") {
-  auto data = probe_question(make_probe_prefix(), sockaddr_in{});
-  for (std::size_t size = 0; size < data.size(); ++size)
-    CHECK_FALSE(is_introduction(data.data(), size));
-}
-
 TEST_CASE("what is no RTPS datagram is no answer", "[discovery]") {
   auto bytes = probe_farewell(make_probe_prefix());
   for (std::size_t size = 0; size < 20; ++size)
