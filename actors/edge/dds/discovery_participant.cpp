@@ -23,6 +23,10 @@ namespace {
 using namespace eprosima::fastrtps::rtps;
 using eprosima::fastrtps::Duration_t;
 
+/// Wanted of the kernel, which lends memory only to datagrams that wait: so
+/// that a server hears all of a large cell that starts at one moment.
+constexpr std::uint32_t server_buffer_bytes = 4 * 1024 * 1024;
+
 Duration_t to_duration(std::chrono::seconds x) {
   return {static_cast<std::int32_t>(x.count()), 0};
 }
@@ -126,8 +130,9 @@ RTPSParticipantAttributes make_attributes(const participant_settings& settings,
   RTPSParticipantAttributes result;
   result.setName("roscell");
   result.useBuiltinTransports = false;
-  const host_transport_options udp{settings.address,
-                                   settings.max_message_bytes};
+  const host_transport_options udp{
+      settings.address, settings.max_message_bytes,
+      settings.serves_programs ? server_buffer_bytes : 0};
   result.userTransports.push_back(guarded(
       settings.serves_programs ? host_transport(udp) : udp_transport(udp),
       settings.guard));
