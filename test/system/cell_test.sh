@@ -212,6 +212,15 @@ test_a_node_leaves_in_order_on_sigterm() {
   expect "rows" "$(get head /v1/cell | jq '.nodes | length')" 1
 }
 
+test_a_node_goes_on_when_its_terminal_ends() {
+  start_cell arm
+  kill -HUP "${pid[head]}" "${pid[arm]}"
+  echo_task greet arm | to head request > "$scratch/reply.json" \
+    || fail "refused: $(cat "$scratch/reply.json")"
+  stop_node arm TERM
+  await head '.event == "node_left" and .subject == "arm"' > /dev/null
+}
+
 test_a_coordinator_that_deploys_ends_within_5_s_of_sigterm() {
   local asked begin took
   # The skill never says that it is ready.

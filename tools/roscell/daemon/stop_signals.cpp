@@ -26,6 +26,8 @@ sigset_t taken_signals() {
 } // namespace
 
 stop_signals::stop_signals() {
+  // The end of a terminal, or of an ssh session, is none of the node.
+  std::signal(SIGHUP, SIG_IGN);
   const auto wanted = taken_signals();
   pthread_sigmask(SIG_BLOCK, &wanted, nullptr);
   signal_fd_ = signalfd(-1, &wanted, SFD_CLOEXEC);

@@ -6,7 +6,8 @@
 namespace roscell::cli {
 
 /// Waits for SIGINT and SIGTERM, or for `end`, without a signal handler.
-/// Blocks both signals for the calling thread and those it makes later.
+/// Blocks both signals for the calling thread and those it makes later. SIGHUP
+/// is ignored by the process from then on.
 class stop_signals {
 public:
   using time_point = std::chrono::steady_clock::time_point;
