@@ -24,9 +24,6 @@ void on_served(self_pointer self, const discovery_place& place,
     return;
   st.programs->address = reply.address;
   publish_environment(self);
-  // The server hears from the coordinator's what the CLIENT heard.
-  if (st.phase == membership_phase::joined)
-    self->send(st.parts.discovery, forget_coordinator{});
   if (st.standing == node_state::member)
     store_membership(self);
 }
@@ -60,6 +57,8 @@ uint16_t program_port(const membership_status& st) {
 
 void serve_programs_of(self_pointer self, const node_registered& reply) {
   auto& st = self->state;
+  // Nobody has to be looked for any more.
+  self->send(st.parts.discovery, forget_coordinator{});
   if (reply.discovery.empty())
     return stop_programs(self);
   const auto& place = reply.discovery.front();

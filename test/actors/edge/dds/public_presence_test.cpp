@@ -264,12 +264,12 @@ TEST_CASE("the first presences of a host take the places that peers try",
   }
 }
 
-TEST_CASE("presence, discovery server and client work side by side",
+TEST_CASE("presence, discovery server and inquiry work side by side",
           "[presence]") {
   diary members;
   diary seen;
   auto server = must_open(local_server(7, "cell"));
-  auto client = must_open(client_of(server->port()), writing_to(members));
+  auto inquiry = must_open(asking(server->port()), writing_to(members));
   auto first = must_open(at_home(saying("coordinator", "first")),
                          writing_presence_to(seen));
   auto second = must_open(at_home(saying("independent", "second")));

@@ -15,7 +15,7 @@ endpoint_guid guid(std::uint8_t who, std::uint16_t number = 0) {
   return result;
 }
 
-guid_prefix prefix(std::uint8_t who) {
+guid_prefix numbered_prefix(std::uint8_t who) {
   return {who};
 }
 
@@ -31,7 +31,7 @@ TEST_CASE("the graph holds an end as long as it is there, in ROS 2's words") {
   ros_graph graph;
   graph.add(guid(1), scan());
   graph.add(guid(2), scan(false));
-  graph.name_participant(prefix(2), "/");
+  graph.name_participant(numbered_prefix(2), "/");
   CHECK(graph.endpoints()
         == std::vector<graph_endpoint>{
             {"/scan", "sensor_msgs/msg/LaserScan", true, true, "volatile", ""},
@@ -46,7 +46,7 @@ TEST_CASE("the ends of a participant go with it") {
   graph.add(guid(1, 1), scan());
   graph.add(guid(1, 2), scan(false));
   graph.add(guid(2, 1), scan());
-  graph.remove_participant(prefix(1));
+  graph.remove_participant(numbered_prefix(1));
   CHECK(graph.endpoints().size() == 1);
 }
 

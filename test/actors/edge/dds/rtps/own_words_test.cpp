@@ -8,13 +8,13 @@ using namespace roscell;
 
 namespace {
 
-using message = std::vector<std::uint8_t>;
+using datagram = std::vector<std::uint8_t>;
 
-std::optional<own_words> words_in(message x) {
+std::optional<own_words> words_in(datagram x) {
   return own_words_in(x.data(), x.size());
 }
 
-message question() {
+datagram question() {
   return probe_question(make_probe_prefix(), sockaddr_in{});
 }
 

@@ -13,7 +13,7 @@ using namespace roscell;
 
 namespace {
 
-using message = std::vector<std::uint8_t>;
+using datagram = std::vector<std::uint8_t>;
 
 udp_socket any_socket() {
   return std::get<udp_socket>(udp_socket::bind("127.0.0.1", 0));
@@ -28,12 +28,12 @@ struct asked_responder {
     answers.speak_for(server_prefix(3), "hello");
   }
 
-  bool take(message x) {
+  bool take(datagram x) {
     return answers.take(x.data(), x.size(), asks.local());
   }
 
   /// What has come of an answer; empty: none.
-  message answer() const {
+  datagram answer() const {
     std::array<std::uint8_t, 2048> result{};
     const auto size = recv(asks.fd(), result.data(), result.size(), 0);
     return {result.begin(), result.begin() + std::max<ssize_t>(size, 0)};
