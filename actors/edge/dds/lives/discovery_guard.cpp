@@ -41,8 +41,10 @@ bool discovery_guard::take_in(std::uint8_t* message, std::size_t size,
     return false;
   numbers_.take_in(message, size);
   const auto news = participants_in(message, size);
-  if (!news.empty())
-    note(sender_of(message), news);
+  if (news.empty())
+    return true;
+  if (const auto by = note(sender_of(message), news); by != 0)
+    raise_own_news(message, size, by);
   return true;
 }
 
@@ -75,17 +77,25 @@ void discovery_guard::gone(const guid_prefix& who) {
   table_.gone(who);
 }
 
-void discovery_guard::note(const guid_prefix& from,
-                           const std::vector<participant_news>& news) {
+std::int64_t discovery_guard::note(const guid_prefix& from,
+                                   const std::vector<participant_news>& news) {
   std::lock_guard<std::mutex> lock{table_mutex_};
+  const bool is_server = lives_.is_another_server(from);
+  std::int64_t raised_by = 0;
   for (const auto& x : news) {
     if (x.ended)
       continue;
-    if (x.who == from)
-      table_.told_itself(from);
-    else if (lives_.is_another_server(from))
-      table_.told_by(server_lives::id_of(from), x.who);
+    if (x.who != from) {
+      if (is_server)
+        table_.told_by(server_lives::id_of(from), x.who);
+      continue;
+    }
+    table_.told_itself(from);
+    // Each life of a server is another participant already.
+    if (!is_server)
+      raised_by = speakers_.hear(from, std::chrono::steady_clock::now());
   }
+  return raised_by;
 }
 
 void discovery_guard::lose(std::uint8_t id) {

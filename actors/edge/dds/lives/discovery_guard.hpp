@@ -3,6 +3,7 @@
 #include "actors/edge/dds/lives/number_shift.hpp"
 #include "actors/edge/dds/lives/participant_table.hpp"
 #include "actors/edge/dds/lives/server_lives.hpp"
+#include "actors/edge/dds/lives/speaker_lives.hpp"
 #include "actors/edge/dds/rtps/participant_news.hpp"
 #include "actors/edge/dds/rtps/probe_responder.hpp"
 
@@ -66,7 +67,9 @@ public:
   void forget(std::uint8_t id);
 
 private:
-  void note(const guid_prefix& from, const std::vector<participant_news>& news);
+  /// Returns what the numbers of the sender are to be raised by.
+  std::int64_t note(const guid_prefix& from,
+                    const std::vector<participant_news>& news);
   std::vector<guid_prefix> end_life(std::uint8_t id);
   void bury(const std::vector<guid_prefix>& dead);
 
@@ -76,6 +79,7 @@ private:
   const number_shift numbers_;
   std::mutex table_mutex_;
   participant_table table_;
+  speaker_lives speakers_;
   std::mutex inlet_mutex_;
   inlet inlet_;
 };

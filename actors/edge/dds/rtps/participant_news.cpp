@@ -2,6 +2,7 @@
 
 #include "actors/edge/dds/rtps/parameter_ids.hpp"
 #include "actors/edge/dds/rtps/submessages.hpp"
+#include "actors/edge/dds/rtps/wire_numbers.hpp"
 
 #include <algorithm>
 #include <optional>
@@ -119,6 +120,23 @@ std::vector<participant_news> participants_in(std::uint8_t* message,
     return true;
   });
   return result;
+}
+
+void raise_own_news(std::uint8_t* message, std::size_t size, std::int64_t by) {
+  const auto sender = sender_of(message);
+  for_each_submessage(message, size, [&](const submessage_view& x) {
+    if (writer_of(x) != discovery_writer::participants
+        || (x.flags & submessage_flag::inline_qos) == 0)
+      return true;
+    const auto news = news_of(x);
+    if (!news || news->ended || news->who != sender)
+      return true;
+    auto qos = x.body;
+    qos.skip(12);
+    qos.sequence_number();
+    raise_identity(qos, sender, by);
+    return true;
+  });
 }
 
 void leave_out(std::uint8_t* message, std::size_t size,

@@ -23,6 +23,9 @@ guid_prefix sender_of(const std::uint8_t* message);
 std::vector<participant_news> participants_in(std::uint8_t* message,
                                               std::size_t size);
 
+/// Raises the numbers of what the sender tells of itself, but not of its end.
+void raise_own_news(std::uint8_t* message, std::size_t size, std::int64_t by);
+
 /// Whether the participant `to` is not to be told anything of `who`.
 using unwanted_news =
     std::function<bool(const guid_prefix& to, const guid_prefix& who)>;
