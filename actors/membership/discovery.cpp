@@ -68,14 +68,12 @@ caf::result<caf::ok_atom> find(discovery_self self,
   options.server_address = server->address;
   options.server_port = server->port;
   options.address = st.config.address;
-  server_inquiry_events events;
-  events.on_server =
-      [context = st.context,
-       listener = caf::actor_cast<discovery_listener_actor>(
-           self->current_sender())](const server_sighting& sighting) {
+  auto opened = server_inquiry::open(
+      options, [context = st.context,
+                listener = caf::actor_cast<discovery_listener_actor>(
+                    self->current_sender())](const server_sighting& sighting) {
         on_server(context, listener, sighting);
-      };
-  auto opened = server_inquiry::open(options, std::move(events));
+      });
   if (auto* why = std::get_if<edge_error>(&opened))
     return to_caf(*why);
   st.inquiry = std::get<std::unique_ptr<server_inquiry>>(std::move(opened));

@@ -19,9 +19,7 @@ namespace roscell {
 
 struct discovery_config {
   std::string address; ///< Local IPv4 address.
-  uint32_t domain_id = 0;
-  std::string node; ///< Name, for the announcement.
-  std::string uuid;
+  std::string node;    ///< Name, for events.
   uint32_t public_domain_id = 99;
   std::vector<std::string> peers;  ///< "HOST[:PORT]" besides multicast.
   uint16_t discovery_port = 11811; ///< Of the node's own discovery server.

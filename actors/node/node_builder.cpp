@@ -199,8 +199,7 @@ private:
     const auto& config = parts_.config;
     return start<caf::detached>(
         discovery, parts_.context,
-        discovery_config{config.address, config.ros_domain_id, config.name,
-                         parts_.identity.uuid, config.public_domain_id,
+        discovery_config{config.address, config.name, config.public_domain_id,
                          config.peers, config.discovery_port,
                          parts_.edges->graph, parts_.edges->numbers,
                          parts_.edges->discovery.get()});

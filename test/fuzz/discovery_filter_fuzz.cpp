@@ -1,6 +1,6 @@
 #include "actors/edge/dds/lives/discovery_guard.hpp"
 #include "actors/edge/dds/rtps/discovery_filter.hpp"
-#include "actors/edge/dds/rtps/own_words.hpp"
+#include "actors/edge/dds/rtps/participant_news.hpp"
 
 #include <cstdint>
 #include <cstdlib>

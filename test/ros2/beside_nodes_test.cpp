@@ -21,11 +21,10 @@ public:
     server_inquiry_options options;
     options.server_address = "127.0.0.1";
     options.server_port = home.port();
-    server_inquiry_events events;
-    events.on_server = [say = log.say()](const server_sighting& seen) {
-      say("server says " + seen.announcement);
-    };
-    auto opened = server_inquiry::open(options, std::move(events));
+    auto opened = server_inquiry::open(
+        options, [say = log.say()](const server_sighting& seen) {
+          say("server says " + seen.announcement);
+        });
     if (auto* error = std::get_if<edge_error>(&opened))
       FAIL(error->message);
     inquiry_ = std::get<0>(std::move(opened));

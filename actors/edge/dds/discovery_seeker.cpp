@@ -1,11 +1,11 @@
 #include "actors/edge/dds/discovery_seeker.hpp"
 
-#include "actors/edge/dds/rtps/own_words.hpp"
+#include "actors/edge/dds/rtps/discovery_probe.hpp"
+#include "actors/edge/dds/rtps/participant_news.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cstring>
 #include <utility>
 
 #include <poll.h>
@@ -23,9 +23,6 @@ using namespace std::chrono_literals;
 /// datagram costs little.
 constexpr auto first_interval = 20ms;
 
-/// An answer that takes this long is worth a word to the person who waits.
-constexpr auto patience = 1000ms;
-
 /// More questions than this are not asked within the lease of a probe.
 constexpr std::size_t max_remembered = 12;
 
@@ -36,25 +33,15 @@ int to_timeout(std::chrono::milliseconds limit) {
   return limit.count() < 0 ? -1 : static_cast<int>(limit.count());
 }
 
-/// ICMP errors wait in a queue of their own, and `poll` returns at once as
-/// long as there are any.
-void drain_errors(int fd) {
-  std::array<char, 512> control{};
-  msghdr message{};
-  message.msg_control = control.data();
-  message.msg_controllen = control.size();
-  while (recvmsg(fd, &message, MSG_ERRQUEUE | MSG_DONTWAIT) >= 0)
-    message.msg_controllen = control.size();
-}
-
-edge_result<udp_socket> open_socket(const std::string& local_address) {
-  auto result = udp_socket::bind(local_address, 0);
-  // With this, a closed port is told to a socket that is not connected, as
-  // ours must be: a server answers from another port than it listens on.
-  int on = 1;
-  if (auto* socket = std::get_if<udp_socket>(&result))
-    setsockopt(socket->fd(), IPPROTO_IP, IP_RECVERR, &on, sizeof(on));
-  return result;
+/// What a datagram tells of the server that has sent it; none: not enough, as
+/// the first one of an earlier version may be.
+std::optional<server_sighting> sighting_in(std::vector<std::uint8_t>& message) {
+  const auto prefix = probe_answer(message.data(), message.size());
+  const auto id = prefix ? server_id_of(*prefix) : std::nullopt;
+  auto said = id ? own_words_in(message.data(), message.size()) : std::nullopt;
+  if (!said)
+    return std::nullopt;
+  return server_sighting{*id, *prefix, std::move(said->announcement)};
 }
 
 } // namespace
@@ -77,32 +64,20 @@ bool wake_event::wait(std::chrono::milliseconds limit) {
   return eventfd_read(fd_, &ignored) == 0;
 }
 
-server_seeker::server_seeker(const sockaddr_in& server,
-                             std::string local_address,
-                             std::chrono::milliseconds max_interval,
-                             report_function report)
-    : server_(server), local_address_(std::move(local_address)),
-      max_interval_(max_interval), report_(std::move(report)) {}
-
 std::optional<server_sighting> server_seeker::seek(wake_event& wake) {
-  auto opened = open_socket(local_address_);
-  if (auto* error = std::get_if<edge_error>(&opened)) {
-    report(error->message);
+  auto opened = udp_socket::bind(local_address_, 0);
+  if (std::holds_alternative<edge_error>(opened)) {
     wake.wait(max_interval_);
     return std::nullopt;
   }
   auto& socket = std::get<udp_socket>(opened);
-  auto begin = clock::now();
   std::chrono::milliseconds interval = first_interval;
   for (bool woken = false; !woken;) {
     ask(socket);
     if (auto found = await(socket, wake, clock::now() + interval, woken)) {
       say_farewell(socket);
-      reported_.clear();
       return found;
     }
-    if (reported_.empty() && clock::now() - begin > patience)
-      report("no answer from " + endpoint_text(server_));
     interval = std::min(2 * interval, max_interval_);
   }
   return std::nullopt;
@@ -146,41 +121,16 @@ server_seeker::receive(const udp_socket& socket) {
   socklen_t from_size = sizeof(from);
   for (;;) {
     datagram.resize(longest_answer);
-    auto size = recvfrom(socket.fd(), datagram.data(), datagram.size(), 0,
-                         reinterpret_cast<sockaddr*>(&from), &from_size);
-    if (size < 0 && errno == ECONNREFUSED) {
-      report("nothing listens on UDP " + endpoint_text(server_));
-      drain_errors(socket.fd());
-      continue;
-    }
-    if (size < 0) {
-      drain_errors(socket.fd());
+    const auto size = recvfrom(socket.fd(), datagram.data(), datagram.size(), 0,
+                               reinterpret_cast<sockaddr*>(&from), &from_size);
+    if (size < 0)
       return std::nullopt;
-    }
     datagram.resize(static_cast<std::size_t>(size));
+    // It answers from another port than it listens on.
     if (from.sin_addr.s_addr == server_.sin_addr.s_addr)
       if (auto found = sighting_in(datagram))
         return found;
   }
-}
-
-std::optional<server_sighting>
-server_seeker::sighting_in(std::vector<std::uint8_t>& message) {
-  const auto prefix = probe_answer(message.data(), message.size());
-  if (!prefix)
-    return std::nullopt;
-  const auto id = server_id_of(*prefix);
-  if (!id) {
-    report("the discovery server at " + endpoint_text(server_)
-           + " has the GUID prefix " + to_text(*prefix)
-           + ", none of the well-known ones");
-    return std::nullopt;
-  }
-  // One of an earlier version may first ask for more.
-  auto said = own_words_in(message.data(), message.size());
-  if (!said)
-    return std::nullopt;
-  return server_sighting{*id, *prefix, std::move(said->announcement)};
 }
 
 void server_seeker::say_farewell(const udp_socket& socket) {
@@ -189,22 +139,11 @@ void server_seeker::say_farewell(const udp_socket& socket) {
   asked_.clear();
 }
 
+/// What is lost, or cannot be sent now, is asked again.
 void server_seeker::send(const udp_socket& socket,
                          const std::vector<std::uint8_t>& bytes) {
-  auto* to = reinterpret_cast<const sockaddr*>(&server_);
-  if (sendto(socket.fd(), bytes.data(), bytes.size(), 0, to, sizeof(server_))
-          < 0
-      && errno != ECONNREFUSED)
-    report("cannot send to " + endpoint_text(server_) + ": "
-           + std::strerror(errno));
-}
-
-void server_seeker::report(const std::string& reason) {
-  if (reason == reported_)
-    return;
-  reported_ = reason;
-  if (report_)
-    report_(reason);
+  sendto(socket.fd(), bytes.data(), bytes.size(), MSG_NOSIGNAL,
+         reinterpret_cast<const sockaddr*>(&server_), sizeof(server_));
 }
 
 } // namespace roscell

@@ -6,9 +6,9 @@
 #include <chrono>
 #include <cstdint>
 #include <deque>
-#include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 /// INTERNAL to this folder.
@@ -39,14 +39,14 @@ private:
 /// Asks one address for the discovery server behind it, until it answers.
 class server_seeker {
 public:
-  using report_function = std::function<void(const std::string&)>;
-
-  /// `report` is told why there is no answer yet, whenever the reason changes.
   server_seeker(const sockaddr_in& server, std::string local_address,
-                std::chrono::milliseconds max_interval, report_function report);
+                std::chrono::milliseconds max_interval)
+      : server_(server), local_address_(std::move(local_address)),
+        max_interval_(max_interval) {}
 
   /// Blocks until a server with a well-known prefix tells its own data, or
-  /// until `wake` is raised: then it gives none, and `wake` is taken back.
+  /// until `wake` is raised: then it gives none, and `wake` is taken back. None
+  /// also after a pause in which there was no socket to be had.
   std::optional<server_sighting> seek(wake_event& wake);
 
 private:
@@ -62,21 +62,14 @@ private:
   /// Reads all that has come.
   std::optional<server_sighting> receive(const udp_socket& socket);
 
-  /// What a datagram from the address tells; none: not enough.
-  std::optional<server_sighting>
-  sighting_in(std::vector<std::uint8_t>& message);
-
   /// Takes the questions back, which a server of an earlier version remembers.
   void say_farewell(const udp_socket& socket);
 
   void send(const udp_socket& socket, const std::vector<std::uint8_t>& bytes);
-  void report(const std::string& reason);
 
   sockaddr_in server_;
   std::string local_address_;
   std::chrono::milliseconds max_interval_;
-  report_function report_;
-  std::string reported_;
   std::deque<guid_prefix> asked_; // The latest, as those who asked.
 };
 

@@ -38,14 +38,10 @@ edge_result<std::string> local_address(const server_inquiry_options& options) {
 
 class server_inquiry::impl {
 public:
-  impl(const server_inquiry_options& options, server_inquiry_events events)
-      : events_(std::move(events)),
+  impl(const server_inquiry_options& options, on_server_found callback)
+      : callback_(std::move(callback)),
         seeker_(*to_socket_address(options.server_address, options.server_port),
-                options.address, longest_pause,
-                [this](const std::string& reason) {
-                  if (events_.on_waiting)
-                    events_.on_waiting(reason);
-                }),
+                options.address, longest_pause),
         thread_([this] { run(); }) {}
 
   ~impl() {
@@ -72,11 +68,10 @@ private:
     if (closing_ || known_ == seen.announcement)
       return;
     known_ = seen.announcement;
-    if (events_.on_server)
-      events_.on_server(seen);
+    callback_(seen);
   }
 
-  const server_inquiry_events events_;
+  const on_server_found callback_;
   wake_event wake_;
   std::atomic<bool> closing_{false};
   std::optional<std::string> known_; // What was told last.
@@ -88,7 +83,7 @@ server_inquiry::server_inquiry(std::unique_ptr<impl> x) : impl_(std::move(x)) {}
 
 edge_result<std::unique_ptr<server_inquiry>>
 server_inquiry::open(const server_inquiry_options& options,
-                     server_inquiry_events events) {
+                     on_server_found callback) {
   if (auto error = check(options))
     return *std::move(error);
   auto address = local_address(options);
@@ -96,8 +91,8 @@ server_inquiry::open(const server_inquiry_options& options,
     return *error;
   auto resolved = options;
   resolved.address = std::get<std::string>(address);
-  return std::unique_ptr<server_inquiry>{
-      new server_inquiry(std::make_unique<impl>(resolved, std::move(events)))};
+  return std::unique_ptr<server_inquiry>{new server_inquiry(
+      std::make_unique<impl>(resolved, std::move(callback)))};
 }
 
 server_inquiry::~server_inquiry() = default;

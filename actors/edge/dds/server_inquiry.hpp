@@ -18,13 +18,9 @@ struct server_inquiry_options {
   std::string address;
 };
 
-/// Called on the inquiry's thread, one at a time. They must not call it.
-struct server_inquiry_events {
-  /// The server has answered, with another announcement than before.
-  std::function<void(const server_sighting&)> on_server;
-  /// The server does not answer yet, and why. Called when the reason changes.
-  std::function<void(const std::string&)> on_waiting;
-};
+/// The server has answered, with another announcement than before. Called on
+/// the inquiry's thread, which must not be called from there.
+using on_server_found = std::function<void(const server_sighting&)>;
 
 /// Asks one address who serves discovery there, until it is closed: with 20 ms
 /// between the first questions, then with growing pauses up to `longest_pause`,
@@ -40,7 +36,7 @@ public:
   /// such local address, or no route) or `schema_violation` (an option is out
   /// of bounds).
   static edge_result<std::unique_ptr<server_inquiry>>
-  open(const server_inquiry_options& options, server_inquiry_events events);
+  open(const server_inquiry_options& options, on_server_found callback);
 
   /// Calls `close`.
   ~server_inquiry();
@@ -48,7 +44,7 @@ public:
   server_inquiry(const server_inquiry&) = delete;
   server_inquiry& operator=(const server_inquiry&) = delete;
 
-  /// No event is called any more when it returns.
+  /// The callback is not called any more when it returns.
   void close();
 
 private:

@@ -1,5 +1,6 @@
 #include "actors/edge/dds/rtps/participant_news.hpp"
 
+#include "actors/edge/dds/rtps/discovery_probe.hpp"
 #include "actors/edge/dds/rtps/parameter_ids.hpp"
 #include "actors/edge/dds/rtps/submessages.hpp"
 #include "actors/edge/dds/rtps/wire_numbers.hpp"
@@ -11,22 +12,60 @@ namespace roscell {
 
 namespace {
 
-/// The participant that a parameter list is about. Leaves `in` behind the list.
-std::optional<guid_prefix> subject_in(wire_cursor& in) {
-  std::optional<guid_prefix> result;
+/// Of a DATA: flags, the distance to the inline QoS, reader and writer.
+constexpr std::size_t before_number = 12;
+
+/// Calls `visit(id, value)` for the parameters of a list. Leaves `in` behind
+/// the list, or bad where it has no end.
+template <class Visit>
+void for_each_parameter(wire_cursor& in, Visit visit) {
   while (in.good()) {
     const auto id = in.u16();
     const auto value = in.take(in.u16());
-    if (id == parameter_id::sentinel)
-      break;
+    if (id == parameter_id::sentinel || !in.good())
+      return;
+    visit(id, value);
+  }
+}
+
+/// The participant that a parameter list is about. Leaves `in` behind the list.
+std::optional<guid_prefix> subject_in(wire_cursor& in) {
+  std::optional<guid_prefix> result;
+  for_each_parameter(in, [&result](std::uint16_t id, const wire_cursor& value) {
     if ((id == parameter_id::participant_guid
          || id == parameter_id::endpoint_guid || id == parameter_id::key_hash)
         && value.size() >= guid_prefix{}.size()) {
       result.emplace();
       std::copy_n(value.position(), result->size(), result->begin());
     }
-  }
+  });
   return result;
+}
+
+/// A CDR string or sequence of bytes: its length, then as many.
+std::string counted_bytes(wire_cursor in) {
+  const auto bytes = in.take(in.u32());
+  return {bytes.position(), bytes.position() + bytes.size()};
+}
+
+/// Of the participant whose parameter list is there.
+own_words words_in(wire_cursor in) {
+  own_words result;
+  for_each_parameter(in, [&result](std::uint16_t id, const wire_cursor& value) {
+    if (id == parameter_id::user_data)
+      result.announcement = counted_bytes(value);
+    else if (id == parameter_id::entity_name)
+      result.name = counted_bytes(value);
+  });
+  result.name.erase(std::find(result.name.begin(), result.name.end(), '\0'),
+                    result.name.end());
+  return result;
+}
+
+/// Leaves `in`, which is behind the inline QoS, at the list of a payload.
+void enter_payload(wire_cursor& in) {
+  const auto encapsulation = in.big_endian_u32() >> 16;
+  in.little_endian(encapsulation == 3); // PL_CDR_LE
 }
 
 /// The entity that has written a DATA; 0: it is none.
@@ -39,15 +78,14 @@ std::uint32_t writer_of(const submessage_view& x) {
 /// Whose participant, reader or writer a DATA of discovery is about.
 std::optional<participant_news> news_of(const submessage_view& x) {
   auto in = x.body;
-  in.skip(12);
+  in.skip(before_number);
   in.sequence_number();
   std::optional<guid_prefix> who;
   if ((x.flags & submessage_flag::inline_qos) != 0)
     who = subject_in(in);
   const bool ended = (x.flags & submessage_flag::data) == 0;
   if (!ended && !who) {
-    const auto encapsulation = in.big_endian_u32() >> 16;
-    in.little_endian(encapsulation == 3); // PL_CDR_LE
+    enter_payload(in);
     who = subject_in(in);
   }
   if (!who)
@@ -84,17 +122,14 @@ void skip_number(const submessage_view& data) {
     return;
   auto after = data.body;
   after.skip(before_endpoints + endpoints_bytes);
-  const auto next = static_cast<std::uint64_t>(after.sequence_number() + 1);
+  const auto next = after.sequence_number() + 1;
   std::copy_n(body + before_endpoints, endpoints_bytes + number_bytes, body);
   const bool little = data.body.is_little_endian();
-  const auto put = [little](std::uint8_t* at, std::uint32_t value) {
-    for (unsigned i = 0; i < 4; ++i)
-      at[i] = static_cast<std::uint8_t>(value >> 8 * (little ? i : 3 - i));
-  };
-  auto* const base = body + endpoints_bytes + number_bytes;
-  put(base, static_cast<std::uint32_t>(next >> 32));
-  put(base + 4, static_cast<std::uint32_t>(next));
-  put(base + number_bytes, 0); // No number behind it is skipped.
+  auto base = data.body;
+  base.skip(endpoints_bytes + number_bytes);
+  put_number(base, next);
+  base.skip(number_bytes);
+  put_word(base, 0); // No number behind it is skipped.
   put_header(body, submessage_kind::gap, little, gap_bytes);
   if (room > gap_bytes)
     put_header(body + gap_bytes + header_bytes, submessage_kind::pad, little,
@@ -122,6 +157,28 @@ std::vector<participant_news> participants_in(std::uint8_t* message,
   return result;
 }
 
+std::optional<own_words> own_words_in(std::uint8_t* message, std::size_t size) {
+  const auto sender = probe_answer(message, size);
+  std::optional<own_words> result;
+  if (!sender)
+    return result;
+  for_each_submessage(message, size, [&](const submessage_view& x) {
+    auto in = x.body;
+    if (writer_of(x) != discovery_writer::participants
+        || (x.flags & submessage_flag::data) == 0 || !in.skip(before_number))
+      return true;
+    in.sequence_number();
+    if ((x.flags & submessage_flag::inline_qos) != 0)
+      subject_in(in);
+    enter_payload(in);
+    const auto list = in;
+    if (subject_in(in) == sender && in.good())
+      result = words_in(list);
+    return !result;
+  });
+  return result;
+}
+
 void raise_own_news(std::uint8_t* message, std::size_t size, std::int64_t by) {
   const auto sender = sender_of(message);
   for_each_submessage(message, size, [&](const submessage_view& x) {
@@ -132,7 +189,7 @@ void raise_own_news(std::uint8_t* message, std::size_t size, std::int64_t by) {
     if (!news || news->ended || news->who != sender)
       return true;
     auto qos = x.body;
-    qos.skip(12);
+    qos.skip(before_number);
     qos.sequence_number();
     raise_identity(qos, sender, by);
     return true;

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
+#include <string>
 #include <vector>
 
 /// INTERNAL to actors/edge/dds.
@@ -22,6 +24,16 @@ guid_prefix sender_of(const std::uint8_t* message);
 /// of.
 std::vector<participant_news> participants_in(std::uint8_t* message,
                                               std::size_t size);
+
+/// What a participant tells of itself.
+struct own_words {
+  std::string name;         ///< Of the participant; may be empty.
+  std::string announcement; ///< Its USER_DATA; may be empty.
+};
+
+/// The first thing that the sender of a message tells of itself in it, none if
+/// that is nothing. Any bytes will do.
+std::optional<own_words> own_words_in(std::uint8_t* message, std::size_t size);
 
 /// Raises the numbers of what the sender tells of itself, but not of its end.
 void raise_own_news(std::uint8_t* message, std::size_t size, std::int64_t by);

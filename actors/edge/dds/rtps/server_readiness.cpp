@@ -1,6 +1,6 @@
 #include "actors/edge/dds/rtps/server_readiness.hpp"
 
-#include "actors/edge/dds/rtps/own_words.hpp"
+#include "actors/edge/dds/rtps/participant_news.hpp"
 #include "actors/edge/dds/rtps/submessages.hpp"
 
 #include <algorithm>

@@ -48,13 +48,10 @@ private:
   std::vector<std::string> entries_;
 };
 
-inline server_inquiry_events writing_to(diary& to) {
-  server_inquiry_events result;
-  result.on_server = [&to](const server_sighting& seen) {
+inline on_server_found writing_to(diary& to) {
+  return [&to](const server_sighting& seen) {
     to.add(std::to_string(seen.server_id) + ' ' + seen.announcement);
   };
-  result.on_waiting = [&to](const std::string& why) { to.add(why); };
-  return result;
 }
 
 inline cell_server_options local_server(std::uint8_t id, std::string says) {
@@ -76,8 +73,8 @@ inline std::unique_ptr<cell_server> must_open(const cell_server_options& x,
 }
 
 inline std::unique_ptr<server_inquiry>
-must_open(const server_inquiry_options& x, server_inquiry_events events) {
-  auto result = server_inquiry::open(x, std::move(events));
+must_open(const server_inquiry_options& x, on_server_found callback) {
+  auto result = server_inquiry::open(x, std::move(callback));
   if (auto* error = std::get_if<edge_error>(&result))
     FAIL(error->message);
   return std::get<0>(std::move(result));

@@ -1,7 +1,7 @@
 #include "actors/edge/dds/rtps/probe_responder.hpp"
 
 #include "actors/edge/dds/rtps/discovery_probe.hpp"
-#include "actors/edge/dds/rtps/own_words.hpp"
+#include "actors/edge/dds/rtps/participant_news.hpp"
 
 #include <catch2/catch.hpp>
 

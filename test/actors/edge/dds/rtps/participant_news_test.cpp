@@ -1,8 +1,13 @@
-#include "actors/edge/dds/rtps/own_words.hpp"
+#include "actors/edge/dds/rtps/participant_news.hpp"
 
 #include "actors/edge/dds/rtps/discovery_probe.hpp"
+#include "actors/edge/dds/rtps/submessages.hpp"
 
 #include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <optional>
+#include <vector>
 
 using namespace roscell;
 
@@ -16,6 +21,16 @@ std::optional<own_words> words_in(datagram x) {
 
 datagram question() {
   return probe_question(make_probe_prefix(), sockaddr_in{});
+}
+
+/// The number in the identity of the sample of a message with one DATA.
+std::int64_t identity_in(datagram message, const guid_prefix& author) {
+  const auto at = std::search(message.begin() + rtps_header_bytes,
+                              message.end(), author.begin(), author.end());
+  REQUIRE(message.end() - at >= 24);
+  wire_cursor in{&*at, 24};
+  in.skip(16);
+  return in.sequence_number();
 }
 
 } // namespace
@@ -57,4 +72,21 @@ TEST_CASE("words that are cut off anywhere are none", "[discovery]") {
   for (const auto& data : {question(), probe_reply(server_prefix(3), "hello")})
     for (std::size_t size = 0; size < data.size(); ++size)
       CHECK_FALSE(words_in({data.begin(), data.begin() + size}));
+}
+
+TEST_CASE("what is raised is a participant's own word, and not of its end") {
+  const auto who = make_probe_prefix();
+  auto word = probe_question(who, {});
+  constexpr std::int64_t raised = std::int64_t{1} << 32;
+  const auto before = identity_in(word, who);
+  raise_own_news(word.data(), word.size(), raised);
+  CHECK(identity_in(word, who) == before + raised);
+  auto passed_on = probe_question(who, {});
+  const auto server = server_prefix(7);
+  std::copy(server.begin(), server.end(), passed_on.begin() + rtps_sender_at);
+  for (auto other : {probe_farewell(who), passed_on}) {
+    const auto same = other;
+    raise_own_news(other.data(), other.size(), raised);
+    CHECK(other == same);
+  }
 }
