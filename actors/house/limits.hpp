@@ -607,9 +607,11 @@ constexpr milliseconds grace{1000};
 constexpr size_t lingered_bytes = mib;
 /// TCP connections that have not shown the bearer token yet. When one more
 /// comes, the one that was silent for longest is closed: a crowd of silent
-/// connections keeps nobody out who speaks at once. Members become trusted in
-/// their handshake, and those of a whole cell may come at one moment.
-constexpr size_t strangers = 320;
+/// connections keeps nobody out who speaks at once.
+constexpr size_t strangers = 64;
+/// TCP connections that shake hands for a session, with the same rule: those of
+/// a whole cell may come at one moment.
+constexpr size_t joining = 256;
 /// TCP connections that have shown it; one more is answered with 503.
 constexpr size_t trusted = 192;
 /// Connections to the Unix socket that are served at a time, those that wait

@@ -179,7 +179,7 @@ bool http_connection::on_header() {
   }
   if (std::get<http_caller>(caller) == http_caller::stranger)
     return check_body(shared_->limits.public_body_bytes);
-  if (!shared_->table.trust(this)) {
+  if (!shared_->table.promote(this, http_group::trusted)) {
     refuse_crowd();
     return false;
   }

@@ -28,6 +28,8 @@ void http_connection::begin_session() {
         503, error_code::conflict, "too many sessions are open",
         "one node coordinates " + std::to_string(shared_->limits.sessions)
             + " sessions; use another coordinator");
+  if (!shared_->table.promote(this, http_group::joining))
+    return refuse_crowd();
   start_session(acceptor);
 }
 

@@ -94,7 +94,7 @@ void http_listener::rest() {
   if (!std::exchange(complained_, true))
     shared_->core->log("cannot take connections: "
                        + std::generic_category().message(why));
-  shared_->table.evict_stranger();
+  shared_->table.evict_from(http_group::strangers);
   pause_.expires_after(limits::http::shortage_pause);
   pause_.async_wait([self = shared_from_this()](error ec) {
     if (!ec && self->listening_.is_open())

@@ -14,7 +14,7 @@ edge_error crowd_words() {
 }
 
 connection_table::connection_table(const http_limits& limits)
-    : limits_{limits.strangers, limits.trusted, limits.local},
+    : limits_{limits.strangers, limits.joining, limits.trusted, limits.local},
       waiting_limit_(limits.waiting) {
   // nop
 }
@@ -24,8 +24,10 @@ bool connection_table::full(http_group group) {
 }
 
 bool connection_table::make_room(http_group group) {
-  if (group == http_group::strangers && full(group))
-    evict_stranger();
+  const bool unproven =
+      group == http_group::strangers || group == http_group::joining;
+  if (unproven && full(group))
+    evict_from(group);
   return !full(group)
          || (group == http_group::local && queue_.size() < waiting_limit_);
 }
@@ -54,17 +56,17 @@ void connection_table::serve_next() {
   }
 }
 
-bool connection_table::trust(const http_connection* connection) {
+bool connection_table::promote(const http_connection* connection,
+                               http_group group) {
   const auto i = entries_.find(connection);
   if (i == entries_.end())
     return false;
-  auto& group = i->second.group;
-  if (group != http_group::strangers)
+  if (i->second.group != http_group::strangers)
     return true;
-  if (full(http_group::trusted))
+  if (!make_room(group))
     return false;
-  --count(group);
-  group = http_group::trusted;
+  --count(i->second.group);
+  i->second.group = group;
   ++count(group);
   return true;
 }
@@ -83,10 +85,10 @@ void connection_table::remove(const http_connection* connection) {
   serve_next();
 }
 
-void connection_table::evict_stranger() {
+void connection_table::evict_from(http_group group) {
   std::shared_ptr<http_connection> silent;
   for (const auto& [key, entry] : entries_)
-    if (entry.group == http_group::strangers
+    if (entry.group == group
         && (!silent || key->last_heard() < silent->last_heard()))
       silent = entry.connection;
   if (silent)

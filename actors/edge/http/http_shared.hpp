@@ -23,6 +23,7 @@ edge_error crowd_words();
 /// Whom a connection comes from; each group has its own allowance.
 enum class http_group {
   strangers, ///< TCP, no bearer token shown yet.
+  joining,   ///< TCP, asks for a session, and has proved nothing yet.
   trusted,   ///< TCP, showed it.
   local,     ///< The Unix socket.
 };
@@ -32,20 +33,21 @@ class connection_table {
 public:
   explicit connection_table(const http_limits& limits);
 
-  /// Whether one more can be added. Makes room among strangers by closing one.
+  /// Whether one more can be added. Makes room among those who have proved
+  /// nothing by closing one.
   bool make_room(http_group group);
 
   /// Serves the connection, or a local one when it is its turn.
   void add(const std::shared_ptr<http_connection>& connection,
            http_group group);
 
-  /// Moves a stranger to the trusted; false if there is no room.
-  bool trust(const http_connection* connection);
+  /// Moves a stranger to another group; false if there is no room.
+  bool promote(const http_connection* connection, http_group group);
 
   void remove(const http_connection* connection);
 
-  /// Closes the stranger that was silent for longest, if there is one.
-  void evict_stranger();
+  /// Closes the one of a group that was silent for longest, if there is one.
+  void evict_from(http_group group);
 
   std::vector<std::shared_ptr<http_connection>> all() const;
 
@@ -67,9 +69,9 @@ private:
   bool full(http_group group);
   void serve_next();
 
-  std::array<size_t, 3> limits_;
+  std::array<size_t, 4> limits_;
   size_t waiting_limit_;
-  std::array<size_t, 3> counts_{};
+  std::array<size_t, 4> counts_{};
   /// Local clients that wait for their turn.
   std::deque<const http_connection*> queue_;
   std::unordered_map<const http_connection*, entry> entries_;

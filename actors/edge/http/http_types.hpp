@@ -25,6 +25,7 @@ struct http_limits {
   std::chrono::milliseconds write = limits::http::write;
   std::chrono::milliseconds grace = limits::http::grace;
   size_t strangers = limits::http::strangers;
+  size_t joining = limits::http::joining;
   size_t trusted = limits::http::trusted;
   size_t local = limits::http::local;
   size_t waiting = limits::http::waiting;

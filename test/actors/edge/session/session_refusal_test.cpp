@@ -80,6 +80,27 @@ std::string outside_address() {
 
 } // namespace
 
+TEST_CASE("members of a whole cell may shake hands at one moment") {
+  http_limits limits;
+  limits.strangers = 2;
+  limits.joining = 3;
+  acceptor_fixture node{impatient(), site_token, limits};
+  std::vector<raw_client> members;
+  for (int i = 0; i < 3; ++i)
+    members.push_back(open_websocket(node));
+  raw_client stranger{node.server->port()};
+  stranger.send("GET /healthz HTTP/1.1\r\n\r\n");
+  stranger.read_until("hello");
+  for (auto& x : members)
+    CHECK_FALSE(x.is_closed());
+  // One more makes room for itself among its like.
+  members.push_back(open_websocket(node));
+  CHECK_NOTHROW(members.front().read_to_end());
+  for (std::size_t i = 1; i < members.size(); ++i)
+    CHECK_FALSE(members[i].is_closed());
+  CHECK_FALSE(stranger.is_closed());
+}
+
 TEST_CASE("with a wrong site token there is no session, and both hear why") {
   acceptor_fixture node;
   const auto why = expect_error(node.join({}, "wrong"));
