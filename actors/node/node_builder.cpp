@@ -57,6 +57,7 @@ public:
     parts_.services = std::make_shared<node_services>();
     parts_.services->context = parts_.context;
     parts_.services->name = parts_.config.name;
+    parts_.services->graph = parts_.edges->graph;
     parts_.services->examine_host = one_at_a_time(additions_.examine_host);
     parts_.identity = data_.identity;
     parts_.identity.name = parts_.config.name;

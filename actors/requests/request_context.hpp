@@ -1,5 +1,6 @@
 #pragma once
 
+#include "actors/edge/dds/ros_graph.hpp"
 #include "actors/house/house.hpp"
 #include "actors/requests/cost/cost_meter.hpp"
 #include "actors/requests/history/request_history.hpp"
@@ -28,6 +29,8 @@ struct node_services {
   membership_actor membership;
   node_actor node;
   reach_prober_actor prober;
+  /// What the node's discovery server knows; null: it has none.
+  std::shared_ptr<ros_graph> graph;
   /// Looks at the node's host, for as long as it takes; null: this program
   /// cannot.
   std::function<findings()> examine_host;

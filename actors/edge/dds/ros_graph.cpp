@@ -28,7 +28,23 @@ guid_prefix prefix_of(const endpoint_guid& x) {
   return result;
 }
 
+/// Of whichever life (lives/server_lives.hpp).
+bool is_server(const guid_prefix& x) {
+  constexpr std::size_t id_at = 2;
+  constexpr std::size_t life_at = 8;
+  const auto model = server_prefix(x[id_at]);
+  return std::equal(x.begin(), x.begin() + life_at, model.begin());
+}
+
 } // namespace
+
+participant_counts ros_graph::participants() {
+  const std::lock_guard guard{mutex_};
+  participant_counts result;
+  for (const auto& [who, name] : names_)
+    ++(is_server(who) ? result.servers : result.programs);
+  return result;
+}
 
 void ros_graph::name_participant(const guid_prefix& who,
                                  const std::string& name) {

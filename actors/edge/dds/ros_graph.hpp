@@ -34,6 +34,12 @@ struct graph_endpoint {
   }
 };
 
+/// How many participants a discovery server knows.
+struct participant_counts {
+  std::size_t servers = 0; ///< Other discovery servers.
+  std::size_t programs = 0;
+};
+
 /// The ends of ROS 2 topics that a discovery server knows. Those of other kinds
 /// (services, what is no ROS 2) are left out. May be used by several threads.
 class ros_graph {
@@ -60,6 +66,8 @@ public:
 
   /// Whether there is one. Else nothing is known of anybody.
   bool is_served();
+
+  participant_counts participants();
 
   /// All of them, in the order of their GUIDs.
   std::vector<graph_endpoint> endpoints();

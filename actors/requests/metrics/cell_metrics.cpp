@@ -144,6 +144,13 @@ void write_cost(const own_cost& cost, double booted_unix_s, exposition& to) {
   to.sample({}, cost.written_bytes);
 }
 
+void write_participants(const participant_counts& known, exposition& to) {
+  to.gauge("roscell_discovery_participants",
+           "DDS participants that the node's discovery server knows.");
+  to.sample({{"kind", "program"}}, static_cast<double>(known.programs));
+  to.sample({{"kind", "server"}}, static_cast<double>(known.servers));
+}
+
 void write_cell(const cell_measured& cell, exposition& to) {
   std::vector<resource_line> lines;
   to.gauge("roscell_node_state", "1 for the state in which a node is.");

@@ -40,6 +40,8 @@ std::string text_of(scrape_pointer self) {
   const auto& st = self->state;
   exposition result{st.format};
   write_cost(read_own_cost(), read_boot_time(), result);
+  if (st.services->graph)
+    write_participants(st.services->graph->participants(), result);
   if (st.cell) {
     write_cell(*st.cell, result);
     write_instances(st.cell->instances, result);

@@ -41,6 +41,22 @@ TEST_CASE("the graph holds an end as long as it is there, in ROS 2's words") {
   CHECK(graph.endpoints().size() == 1);
 }
 
+TEST_CASE("servers of whichever life are told from programs") {
+  ros_graph graph;
+  graph.name_participant(server_prefix(3), "roscell");
+  auto later = server_prefix(4);
+  later.back() = 0;
+  graph.name_participant(later, "roscell");
+  graph.name_participant(later, "roscell");
+  auto program = later;
+  program[1] = 0;
+  graph.name_participant(program, "/");
+  CHECK(graph.participants().servers == 2);
+  CHECK(graph.participants().programs == 1);
+  graph.remove_participant(later);
+  CHECK(graph.participants().servers == 1);
+}
+
 TEST_CASE("the ends of a participant go with it") {
   ros_graph graph;
   graph.add(guid(1, 1), scan());

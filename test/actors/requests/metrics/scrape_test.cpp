@@ -29,6 +29,7 @@ struct kept_answer : reply_sink {
 struct scraped_cell : paper_cell {
   fake_agent& arm;
   instance_row& row;
+  std::shared_ptr<ros_graph> graph;
 
   scraped_cell()
       : arm(add("arm")),
@@ -41,6 +42,7 @@ struct scraped_cell : paper_cell {
     auto services = std::make_shared<node_services>();
     services->context = context;
     services->coordinator = coordinator;
+    services->graph = graph;
     auto result = std::make_shared<kept_answer>();
     start_scrape(time.system, services, responder{result},
                  exposition_format::text);
@@ -74,6 +76,22 @@ TEST_CASE_METHOD(scraped_cell, "a scraper gets what nodes tell at once",
   CHECK(text.find("roscell_node_state{node=\"arm\",state=\"active\"} 1\n")
         != std::string::npos);
   CHECK(text.find("roscell_tasks{state=\"running\"} 1\n") != std::string::npos);
+}
+
+TEST_CASE_METHOD(scraped_cell,
+                 "a scraper gets whom the node's discovery server knows",
+                 "[metrics]") {
+  const auto family = "roscell_discovery_participants";
+  CHECK(scrape()->text.find(family) == std::string::npos);
+  graph = std::make_shared<ros_graph>();
+  graph->name_participant(server_prefix(3), "roscell");
+  graph->name_participant(guid_prefix{1}, "/echo");
+  graph->name_participant(guid_prefix{2}, "/say");
+  const auto text = scrape()->text;
+  CHECK(text.find(std::string{family} + "{kind=\"server\"} 1\n")
+        != std::string::npos);
+  CHECK(text.find(std::string{family} + "{kind=\"program\"} 2\n")
+        != std::string::npos);
 }
 
 TEST_CASE_METHOD(scraped_cell,
