@@ -48,9 +48,19 @@ bool discovery_guard::take_in(std::uint8_t* message, std::size_t size,
   return true;
 }
 
+std::vector<std::uint8_t> discovery_guard::sequel_of(std::uint8_t* message,
+                                                     std::size_t size) {
+  const auto from = sender_of(message);
+  if (!lives_.is_another_server(from) || !introduces_itself(message, size))
+    return {};
+  return first_heartbeats(from);
+}
+
 /// Who has told of a participant in its last life is not told of it in this
 /// one: Fast DDS would take that for a sign that it need not tell of it anew.
 bool discovery_guard::let_out(std::uint8_t* message, std::size_t size) {
+  if (is_introduced_too_often(message, size))
+    return false;
   leave_out(message, size, [this](const auto& to, const auto& who) {
     std::lock_guard<std::mutex> lock{table_mutex_};
     return lives_.is_another_server(to)
@@ -60,6 +70,16 @@ bool discovery_guard::let_out(std::uint8_t* message, std::size_t size) {
     return false;
   numbers_.let_out(message, size);
   return true;
+}
+
+bool discovery_guard::is_introduced_too_often(std::uint8_t* message,
+                                              std::size_t size) {
+  const auto to = introduced_to(message, size);
+  if (!to || !lives_.is_another_server(*to))
+    return false;
+  std::lock_guard<std::mutex> lock{table_mutex_};
+  return !pacing_.ask(server_lives::id_of(*to),
+                      std::chrono::steady_clock::now());
 }
 
 void discovery_guard::set_inlet(inlet x) {
@@ -75,6 +95,8 @@ void discovery_guard::appeared(const guid_prefix& who) {
 void discovery_guard::gone(const guid_prefix& who) {
   std::lock_guard<std::mutex> lock{table_mutex_};
   table_.gone(who);
+  if (lives_.is_another_server(who))
+    pacing_.forget(server_lives::id_of(who));
 }
 
 std::int64_t discovery_guard::note(const guid_prefix& from,
@@ -133,6 +155,8 @@ std::vector<guid_prefix> discovery_guard::end_life(std::uint8_t id) {
   if (lives_.has_spoken(id))
     result.push_back(lives_.present(id));
   lives_.lose(id);
+  std::lock_guard<std::mutex> lock{table_mutex_};
+  pacing_.forget(id);
   return result;
 }
 

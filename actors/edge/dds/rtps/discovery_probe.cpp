@@ -196,6 +196,30 @@ std::vector<std::uint8_t> death_notice(const guid_prefix& self,
   return data_message(self, 1 | 2, number, qos, {});
 }
 
+std::vector<std::uint8_t> first_heartbeats(const guid_prefix& server) {
+  constexpr std::uint8_t heartbeat = 0x07;
+  constexpr std::uint8_t flags = 1 | 2; // Little-endian, no answer is wanted.
+  constexpr std::uint16_t body_bytes = 28;
+  // Of participants, publications, subscriptions and liveliness.
+  constexpr std::array<std::array<std::uint8_t, 3>, 4> entities{
+      {{0, 1, 0}, {0, 0, 3}, {0, 0, 4}, {0, 2, 0}}};
+  bytes result(rtps_header.begin(), rtps_header.end());
+  put_all(result, server);
+  for (const auto& entity : entities) {
+    result.push_back(heartbeat);
+    result.push_back(flags);
+    put(result, body_bytes);
+    put_all(result, entity);
+    result.push_back(0xc7); // A reader,
+    put_all(result, entity);
+    result.push_back(0xc2);         // and a writer, with a key.
+    put_sequence_number(result, 1); // The first that there is,
+    put_sequence_number(result, 0); // and the last.
+    put(result, std::uint32_t{1});  // Of its HEARTBEATs.
+  }
+  return result;
+}
+
 std::vector<std::uint8_t> probe_farewell(const guid_prefix& self) {
   return death_notice(self, 2, self);
 }

@@ -41,6 +41,9 @@ std::vector<std::uint8_t> death_notice(const guid_prefix& self,
                                        std::uint32_t number,
                                        const guid_prefix& dead);
 
+/// HEARTBEATs of all writers of a discovery server: nothing is written yet.
+std::vector<std::uint8_t> first_heartbeats(const guid_prefix& server);
+
 /// Takes the introduction back.
 std::vector<std::uint8_t> probe_farewell(const guid_prefix& self);
 

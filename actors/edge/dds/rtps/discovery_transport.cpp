@@ -113,10 +113,19 @@ public:
     auto how = rtps::IPLocator::isMulticast(local) ? arrival::multicast
                                                    : arrival::direct;
     auto* const message = const_cast<rtps::octet*>(data);
-    if (make_safe(message, size, how)
-        && (!descriptor_.guard
-            || descriptor_.guard->take_in(message, size, address_of(remote))))
-      next->OnDataReceived(data, size, local, remote);
+    if (!make_safe(message, size, how))
+      return;
+    const auto& guard = descriptor_.guard;
+    if (!guard)
+      return next->OnDataReceived(data, size, local, remote);
+    if (!guard->take_in(message, size, address_of(remote)))
+      return;
+    next->OnDataReceived(data, size, local, remote);
+    const auto sequel = guard->sequel_of(message, size);
+    if (!sequel.empty())
+      next->OnDataReceived(sequel.data(),
+                           static_cast<std::uint32_t>(sequel.size()), local,
+                           remote);
   }
 
 private:

@@ -157,6 +157,34 @@ std::vector<participant_news> participants_in(std::uint8_t* message,
   return result;
 }
 
+bool introduces_itself(std::uint8_t* message, std::size_t size) {
+  const auto news = participants_in(message, size);
+  const auto sender = sender_of(message);
+  return std::any_of(news.begin(), news.end(), [&sender](const auto& x) {
+    return x.who == sender && !x.ended;
+  });
+}
+
+std::optional<guid_prefix> introduced_to(std::uint8_t* message,
+                                         std::size_t size) {
+  std::optional<guid_prefix> result;
+  int data = 0;
+  const bool sound =
+      for_each_submessage(message, size, [&](const submessage_view& x) {
+        if (x.kind == submessage_kind::info_dst
+            && x.body.size() >= guid_prefix{}.size())
+          std::copy_n(x.body.position(), guid_prefix{}.size(),
+                      result.emplace().begin());
+        else if (x.kind == submessage_kind::data)
+          ++data;
+        return x.kind != submessage_kind::acknack
+               && x.kind != submessage_kind::gap;
+      });
+  if (!sound || data != 1 || !introduces_itself(message, size))
+    return std::nullopt;
+  return result;
+}
+
 std::optional<own_words> own_words_in(std::uint8_t* message, std::size_t size) {
   const auto sender = probe_answer(message, size);
   std::optional<own_words> result;

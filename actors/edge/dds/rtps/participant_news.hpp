@@ -25,6 +25,14 @@ guid_prefix sender_of(const std::uint8_t* message);
 std::vector<participant_news> participants_in(std::uint8_t* message,
                                               std::size_t size);
 
+/// Whom a message that is sound introduces its sender to; none if it tells of
+/// anything else, but for a HEARTBEAT.
+std::optional<guid_prefix> introduced_to(std::uint8_t* message,
+                                         std::size_t size);
+
+/// Whether its sender tells that it is there.
+bool introduces_itself(std::uint8_t* message, std::size_t size);
+
 /// What a participant tells of itself.
 struct own_words {
   std::string name;         ///< Of the participant; may be empty.
