@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Measures how a cell bears many members that start at one moment: a coordinator
 # and N of them, each alone on a host (network namespaces on one bridge). Time
-# until all are in with the CPU that it takes, then CPU and wire of the
+# until all have joined, and until all are in: the cell's discovery server knows
+# each one's own, so that data may flow. The CPU that it takes, then CPU and wire of the
 # coordinator and of a member over the minute in which they get to know each
 # other and over the one after it, and the memory of both at the end. What is said
 # of a member is the median over up to 20 of them. One JSON line a figure. Needs
@@ -58,6 +59,18 @@ await_members() {
   exec {joined}<&-
   [[ ${#in[@]} -eq $members ]] \
     || fail "${#in[@]} of $members are in after $all_in_s s"
+}
+
+# await_servers: until the cell's discovery server knows that of each of them.
+await_servers() {
+  local end=$((SECONDS + all_in_s))
+  local known="roscell_discovery_participants{kind=\"server\"} $members"
+  until curl -sS --unix-socket "$scratch/head/node.sock" http://node/metrics \
+    | grep -xF "$known" > /dev/null; do
+    [[ $SECONDS -lt $end ]] \
+      || fail "discovery does not know all of $members after $all_in_s s"
+    timeout 0.05 tail -f /dev/null
+  done
 }
 
 # cpu_s_of NAME...: CPU time of all of these.
@@ -142,6 +155,8 @@ head_cpu=$(cpu_s_of head)
 begin=$(now_ms)
 flock -u "$gate"
 await_members
+figure "members: all of $members have joined" $(($(now_ms) - begin)) ms
+await_servers
 figure "members: all of $members in" $(($(now_ms) - begin)) ms
 figure "members: CPU of all starts" "$(cpu_s_of "${names[@]}")" s
 figure "coordinator: CPU until all are in" \
