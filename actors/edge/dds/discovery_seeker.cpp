@@ -127,9 +127,25 @@ server_seeker::receive(const udp_socket& socket) {
       return std::nullopt;
     datagram.resize(static_cast<std::size_t>(size));
     // It answers from another port than it listens on.
-    if (from.sin_addr.s_addr == server_.sin_addr.s_addr)
-      if (auto found = sighting_in(datagram))
-        return found;
+    if (from.sin_addr.s_addr != server_.sin_addr.s_addr)
+      continue;
+    if (auto found = sighting_in(datagram))
+      return found;
+    answer(socket, datagram);
+  }
+}
+
+/// A server of an earlier version takes who asks for a client, and tells it by
+/// a HEARTBEAT that there is something to be asked for.
+void server_seeker::answer(const udp_socket& socket,
+                           std::vector<std::uint8_t>& datagram) {
+  for (const auto& self : asked_) {
+    const auto words =
+        heartbeat_answer(self, answers_ + 1, datagram.data(), datagram.size());
+    if (words.empty())
+      continue;
+    ++answers_;
+    send(socket, words);
   }
 }
 

@@ -61,6 +61,7 @@ private:
 
   /// Reads all that has come.
   std::optional<server_sighting> receive(const udp_socket& socket);
+  void answer(const udp_socket& socket, std::vector<std::uint8_t>& datagram);
 
   /// Takes the questions back, which a server of an earlier version remembers.
   void say_farewell(const udp_socket& socket);
@@ -71,6 +72,7 @@ private:
   std::string local_address_;
   std::chrono::milliseconds max_interval_;
   std::deque<guid_prefix> asked_; // The latest, as those who asked.
+  std::uint32_t answers_ = 0;     // To HEARTBEATs; a server counts them.
 };
 
 } // namespace roscell

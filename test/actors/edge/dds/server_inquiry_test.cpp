@@ -1,6 +1,9 @@
+#include "actors/edge/dds/discovery_address.hpp"
+#include "actors/edge/dds/discovery_participant.hpp"
 #include "actors/house/limits.hpp"
 #include "discovery_fixture.hpp"
 
+#include <algorithm>
 #include <atomic>
 
 using namespace roscell;
@@ -122,4 +125,27 @@ TEST_CASE("an inquiry refuses options that cannot work", "[discovery]") {
   auto error = error_of(server_inquiry::open(options, {}));
   CHECK(error.code == error_code::unreachable);
   CHECK(error.hint.find("lo 127.0.0.1") != std::string::npos);
+}
+
+TEST_CASE("who asks finds a server that takes it for a client") {
+  // As those of earlier versions are: one of Fast DDS, behind no guard.
+  prepare_dds_environment();
+  participant_settings settings;
+  settings.address = "127.0.0.1";
+  settings.announcement = "of an earlier version";
+  settings.serves_programs = true;
+  const auto port =
+      ntohs(std::get<udp_socket>(udp_socket::bind(settings.address, 0))
+                .local()
+                .sin_port);
+  auto attributes = make_attributes(settings, port);
+  const auto prefix = server_prefix(9);
+  std::copy(prefix.begin(), prefix.end(), attributes.prefix.value);
+  attributes.builtin.discovery_config.discoveryProtocol =
+      eprosima::fastrtps::rtps::DiscoveryProtocol_t::SERVER;
+  const auto server = rtps_participant::create(0, attributes, {});
+  REQUIRE(server);
+  diary seen;
+  const auto inquiry = must_open(asking(port), writing_to(seen));
+  CHECK(seen.wait_for("9 of an earlier version"));
 }
