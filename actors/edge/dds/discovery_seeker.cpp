@@ -1,6 +1,7 @@
 #include "actors/edge/dds/discovery_seeker.hpp"
 
 #include "actors/edge/dds/rtps/discovery_probe.hpp"
+#include "actors/edge/dds/rtps/heartbeats.hpp"
 #include "actors/edge/dds/rtps/participant_news.hpp"
 
 #include <algorithm>

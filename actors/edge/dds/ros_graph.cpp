@@ -1,5 +1,7 @@
 #include "actors/edge/dds/ros_graph.hpp"
 
+#include "actors/edge/dds/lives/server_lives.hpp"
+
 #include <algorithm>
 #include <string_view>
 #include <utility>
@@ -28,21 +30,13 @@ guid_prefix prefix_of(const endpoint_guid& x) {
   return result;
 }
 
-/// Of whichever life (lives/server_lives.hpp).
-bool is_server(const guid_prefix& x) {
-  constexpr std::size_t id_at = 2;
-  constexpr std::size_t life_at = 8;
-  const auto model = server_prefix(x[id_at]);
-  return std::equal(x.begin(), x.begin() + life_at, model.begin());
-}
-
 } // namespace
 
 participant_counts ros_graph::participants() {
   const std::lock_guard guard{mutex_};
   participant_counts result;
   for (const auto& [who, name] : names_)
-    ++(is_server(who) ? result.servers : result.programs);
+    ++(server_lives::is_server(who) ? result.servers : result.programs);
   return result;
 }
 

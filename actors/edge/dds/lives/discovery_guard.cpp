@@ -1,6 +1,7 @@
 #include "actors/edge/dds/lives/discovery_guard.hpp"
 
 #include "actors/edge/dds/rtps/discovery_probe.hpp"
+#include "actors/edge/dds/rtps/heartbeats.hpp"
 
 #include <chrono>
 #include <utility>
@@ -59,14 +60,15 @@ std::vector<std::uint8_t> discovery_guard::sequel_of(std::uint8_t* message,
 /// Who has told of a participant in its last life is not told of it in this
 /// one: Fast DDS would take that for a sign that it need not tell of it anew.
 bool discovery_guard::let_out(std::uint8_t* message, std::size_t size) {
-  if (is_introduced_too_often(message, size))
-    return false;
   leave_out(message, size, [this](const auto& to, const auto& who) {
     std::lock_guard<std::mutex> lock{table_mutex_};
     return lives_.is_another_server(to)
            && table_.was_told_by(server_lives::id_of(to), who);
   });
   if (!lives_.let_out(message, size))
+    return false;
+  // Behind that, since what went to a life that has ended was not said.
+  if (is_introduced_too_often(message, size))
     return false;
   numbers_.let_out(message, size);
   return true;

@@ -63,9 +63,13 @@ guid_prefix server_lives::present(std::uint8_t id) const {
   return result;
 }
 
-bool server_lives::is_another_server(const guid_prefix& prefix) const {
-  return begins_server(prefix.data()) && id_of(prefix) != own_
+bool server_lives::is_server(const guid_prefix& prefix) {
+  return begins_server(prefix.data())
          && (prefix[life_at] == later_life || is_first_life(prefix.data()));
+}
+
+bool server_lives::is_another_server(const guid_prefix& prefix) const {
+  return is_server(prefix) && id_of(prefix) != own_;
 }
 
 void server_lives::lose(std::uint8_t id) {

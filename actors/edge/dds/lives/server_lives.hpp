@@ -36,10 +36,14 @@ public:
   /// As Fast DDS knows the present life of server `id`.
   guid_prefix present(std::uint8_t id) const;
 
-  /// The server with a prefix of any life; the own one's is not among them.
+  /// The server with that prefix, of any life.
   static std::uint8_t id_of(const guid_prefix& prefix) {
     return prefix[2];
   }
+
+  /// Whether it is the prefix of a server in any life.
+  static bool is_server(const guid_prefix& prefix);
+  /// And not of the own one.
   bool is_another_server(const guid_prefix& prefix) const;
 
   /// Its present life has ended, and nothing of it is heard from now on.

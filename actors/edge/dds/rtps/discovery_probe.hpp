@@ -41,18 +41,6 @@ std::vector<std::uint8_t> death_notice(const guid_prefix& self,
                                        std::uint32_t number,
                                        const guid_prefix& dead);
 
-/// What a server of an earlier version wants to hear before it sends its own
-/// data: the answer, number `count` of the prober, to a HEARTBEAT of its
-/// participants' writer, which asks for all that it has. Empty: `datagram`
-/// holds none that is for `self`.
-std::vector<std::uint8_t> heartbeat_answer(const guid_prefix& self,
-                                           std::uint32_t count,
-                                           std::uint8_t* datagram,
-                                           std::size_t size);
-
-/// HEARTBEATs of all writers of a discovery server: nothing is written yet.
-std::vector<std::uint8_t> first_heartbeats(const guid_prefix& server);
-
 /// Takes the introduction back.
 std::vector<std::uint8_t> probe_farewell(const guid_prefix& self);
 

@@ -1,3 +1,4 @@
+#include "actors/edge/dds/lives/server_lives.hpp"
 #include "actors/edge/dds/ros_graph.hpp"
 
 #include <catch2/catch.hpp>
@@ -44,8 +45,10 @@ TEST_CASE("the graph holds an end as long as it is there, in ROS 2's words") {
 TEST_CASE("servers of whichever life are told from programs") {
   ros_graph graph;
   graph.name_participant(server_prefix(3), "roscell");
-  auto later = server_prefix(4);
-  later.back() = 0;
+  server_lives lives{1};
+  lives.lose(4);
+  const auto later = lives.present(4);
+  REQUIRE(later != server_prefix(4));
   graph.name_participant(later, "roscell");
   graph.name_participant(later, "roscell");
   auto program = later;

@@ -21,14 +21,6 @@ constexpr std::uint8_t asked = 3;
 constexpr std::uint8_t teller = 7;
 constexpr std::uint8_t hearer = 8;
 
-/// A participant's word of itself, as a server passes it on.
-datagram passed_on(const guid_prefix& who, std::uint8_t by) {
-  auto result = probe_question(who, {});
-  const auto sender = server_prefix(by);
-  std::copy(sender.begin(), sender.end(), result.begin() + rtps_sender_at);
-  return result;
-}
-
 struct guarded {
   discovery_guard guard{asked, std::make_shared<number_reserve>(),
                         std::get<udp_socket>(udp_socket::bind("127.0.0.1", 0))};
