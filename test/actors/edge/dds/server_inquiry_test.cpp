@@ -134,6 +134,9 @@ TEST_CASE("who asks finds a server that takes it for a client") {
   settings.address = "127.0.0.1";
   settings.announcement = "of an earlier version";
   settings.serves_programs = true;
+  // It says nothing by itself before the test is over.
+  settings.lease = std::chrono::hours{2};
+  settings.announcement_period = std::chrono::hours{1};
   const auto port =
       ntohs(std::get<udp_socket>(udp_socket::bind(settings.address, 0))
                 .local()
@@ -143,6 +146,7 @@ TEST_CASE("who asks finds a server that takes it for a client") {
   std::copy(prefix.begin(), prefix.end(), attributes.prefix.value);
   attributes.builtin.discovery_config.discoveryProtocol =
       eprosima::fastrtps::rtps::DiscoveryProtocol_t::SERVER;
+  attributes.builtin.discovery_config.initial_announcements.count = 0;
   const auto server = rtps_participant::create(0, attributes, {});
   REQUIRE(server);
   diary seen;

@@ -22,7 +22,7 @@ pauses(introduction_pacing& pacing, introduction_pacing::time_point start,
     const auto last = now;
     do
       now += 1ms;
-    while (!pacing.ask(7, now));
+    while (!pacing.ask(7, now) && now - last < 2 * longest);
     result.push_back(
         std::chrono::duration_cast<std::chrono::milliseconds>(now - last));
   }
