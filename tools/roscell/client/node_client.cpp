@@ -20,9 +20,9 @@ constexpr std::chrono::seconds answer_limit{15};
 
 /// A request may take minutes, but a node that has nothing to say meanwhile is
 /// asked whether it lives, which no work of its own keeps it from answering:
-/// one that is stopped costs a command 13 s.
+/// one that is stopped costs a command 11 s.
 http_client::proof_of_life proof_of_life() {
-  return {"/healthz", std::chrono::seconds{5}, std::chrono::seconds{8}};
+  return {"/healthz", std::chrono::seconds{4}, std::chrono::seconds{7}};
 }
 
 /// Of $ROSCELL_TIMEOUT, which those set who cannot wait, as completions of
