@@ -189,7 +189,38 @@ struct task_plan {
   }
 };
 
-/// Reply to `task_request`: every step runs.
+/// How a task request has found its task.
+enum class task_found {
+  started,  ///< There was none: the request has started it.
+  anew,     ///< It had ended: the request has started its next run.
+  running,  ///< All of it runs.
+  degraded, ///< Not all of it does, and `waits` says why.
+  finished, ///< It has ended, with 0,
+  failed,   ///< or not; and the request is not one for another run.
+};
+
+constexpr auto enum_words(task_found) {
+  return std::array<std::string_view, 6>{"started",  "anew",     "running",
+                                         "degraded", "finished", "failed"};
+}
+
+/// A step that does not run yet.
+struct awaited_step {
+  std::string step;
+  std::string instance;
+  std::string node;
+  std::string reason; ///< What it waits for, one sentence.
+
+  static constexpr auto fields() {
+    return field_list{required("step", &awaited_step::step),
+                      required("instance", &awaited_step::instance),
+                      required("node", &awaited_step::node),
+                      required("reason", &awaited_step::reason)};
+  }
+};
+
+/// Reply to `task_request`: how things stand once they have been put right as
+/// far as that can be done at once.
 struct task_accepted {
   static constexpr const char* type = "task_accepted";
   std::string task;
@@ -203,6 +234,9 @@ struct task_accepted {
   /// Steps that had ended and were started again by this request.
   std::vector<std::string> healed;
   std::vector<preempted_instance> preempted; ///< What has made way for it.
+  task_found found = task_found::started;
+  std::vector<awaited_step> waits; ///< Of a task that is `degraded`.
+  int64_t run = 1; ///< How often it has been started as a whole.
 
   static constexpr auto fields() {
     return field_list{required("task", &task_accepted::task),
@@ -213,7 +247,10 @@ struct task_accepted {
                       optional("refused", &task_accepted::refused),
                       optional("warnings", &task_accepted::warnings),
                       optional("healed", &task_accepted::healed),
-                      optional("preempted", &task_accepted::preempted)};
+                      optional("preempted", &task_accepted::preempted),
+                      optional("found", &task_accepted::found),
+                      optional("waits", &task_accepted::waits),
+                      optional("run", &task_accepted::run)};
   }
 };
 

@@ -193,6 +193,9 @@ struct instance_row {
   int64_t unsafe_since_unix_ms = 0;
   int64_t unsafe_until_unix_ms = 0; ///< It is ended then; 0: never.
   std::string waits; ///< For what it waits, one sentence; empty: for nothing.
+  /// When it was found that its host had interrupted it; 0: it runs again, or
+  /// never was.
+  int64_t interrupted_unix_ms = 0;
 
   static constexpr auto fields() {
     return field_list{
@@ -218,7 +221,8 @@ struct instance_row {
         optional("safe", &instance_row::safe),
         optional("unsafe_since_unix_ms", &instance_row::unsafe_since_unix_ms),
         optional("unsafe_until_unix_ms", &instance_row::unsafe_until_unix_ms),
-        optional("waits", &instance_row::waits)};
+        optional("waits", &instance_row::waits),
+        optional("interrupted_unix_ms", &instance_row::interrupted_unix_ms)};
   }
 };
 

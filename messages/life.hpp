@@ -59,6 +59,19 @@ struct node_loss_policy {
   }
 };
 
+/// What becomes of a step that its host has interrupted: by a reboot, a loss of
+/// power, or a signal to its supervision that its node has not sent.
+enum class boot_action {
+  usual,  ///< Nobody has said: see `boot_action_of`.
+  rejoin, ///< It is started again once the coordinator wants it to go on.
+  start,  ///< At once, without a coordinator.
+  stay,   ///< It waits until somebody restarts it.
+};
+
+constexpr auto enum_words(boot_action) {
+  return std::array<std::string_view, 4>{"usual", "rejoin", "start", "stay"};
+}
+
 /// What every data stream of one direction must do; 0: no bound.
 struct stream_bounds {
   double min_rate_hz = 0;
@@ -91,6 +104,7 @@ struct life_policy {
   bool safe_state = false;   ///< It says when it may be ended.
   double safe_timeout_s = 0; ///< It is ended after so long; 0: never.
   int64_t priority = 5;      ///< 0 to 9; where room is short the lower goes.
+  boot_action on_boot = boot_action::usual;
 
   static constexpr auto fields() {
     return field_list{optional("restart", &life_policy::restart),
@@ -98,9 +112,20 @@ struct life_policy {
                       optional("health", &life_policy::health),
                       optional("safe_state", &life_policy::safe_state),
                       optional("safe_timeout_s", &life_policy::safe_timeout_s),
-                      optional("priority", &life_policy::priority)};
+                      optional("priority", &life_policy::priority),
+                      optional("on_boot", &life_policy::on_boot)};
   }
 };
+
+/// What nobody may find moving, and what runs once, waits for a person, unless
+/// it says otherwise.
+constexpr boot_action boot_action_of(const life_policy& x) {
+  if (x.on_boot != boot_action::usual)
+    return x.on_boot;
+  return x.safe_state || x.restart.policy == restart_when::never
+             ? boot_action::stay
+             : boot_action::rejoin;
+}
 
 /// What one data stream of an instance does, as its skill has measured it.
 struct stream_figure {

@@ -35,6 +35,7 @@ struct deployment_option {
   std::string on_node_loss;
   std::string health;
   double safe_timeout_s = 0;
+  std::string on_boot; ///< A word of `boot_action`; empty: as `life_of` says.
 
   static constexpr auto fields() {
     return field_list{
@@ -49,7 +50,8 @@ struct deployment_option {
         raw_json("restart", &deployment_option::restart),
         raw_json("on_node_loss", &deployment_option::on_node_loss),
         raw_json("health", &deployment_option::health),
-        optional("safe_timeout_s", &deployment_option::safe_timeout_s)};
+        optional("safe_timeout_s", &deployment_option::safe_timeout_s),
+        optional("on_boot", &deployment_option::on_boot)};
   }
 };
 
@@ -103,17 +105,20 @@ struct skill_descriptor {
   std::vector<implementation_model> models;
   std::vector<ros2_program> ros2; ///< One for "ros2_standalone", else none.
   bool safe_state = false;        ///< It says when it may be ended.
+  bool may_start_alone = false;   ///< It may say `start`, safe state or not.
 
   static constexpr auto fields() {
-    return field_list{required("operation", &skill_descriptor::operation),
-                      optional("version", &skill_descriptor::version),
-                      required("engine", &skill_descriptor::engine),
-                      optional("entry_point", &skill_descriptor::entry_point),
-                      required("input", &skill_descriptor::input),
-                      required("output", &skill_descriptor::output),
-                      required("models", &skill_descriptor::models),
-                      one_or_many("ros2", &skill_descriptor::ros2),
-                      optional("safe_state", &skill_descriptor::safe_state)};
+    return field_list{
+        required("operation", &skill_descriptor::operation),
+        optional("version", &skill_descriptor::version),
+        required("engine", &skill_descriptor::engine),
+        optional("entry_point", &skill_descriptor::entry_point),
+        required("input", &skill_descriptor::input),
+        required("output", &skill_descriptor::output),
+        required("models", &skill_descriptor::models),
+        one_or_many("ros2", &skill_descriptor::ros2),
+        optional("safe_state", &skill_descriptor::safe_state),
+        optional("may_start_alone", &skill_descriptor::may_start_alone)};
   }
 };
 

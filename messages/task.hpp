@@ -30,6 +30,7 @@ struct task_step {
   std::string health;
   double safe_timeout_s = 0; ///< 0: as its skill says.
   int64_t priority = 5;      ///< 0 to 9.
+  std::string on_boot; ///< A word of `boot_action`; empty: as its skill says.
 
   static constexpr auto fields() {
     return field_list{required("id", &task_step::id),
@@ -46,7 +47,8 @@ struct task_step {
                       raw_json("on_node_loss", &task_step::on_node_loss),
                       raw_json("health", &task_step::health),
                       optional("safe_timeout_s", &task_step::safe_timeout_s),
-                      optional("priority", &task_step::priority)};
+                      optional("priority", &task_step::priority),
+                      optional("on_boot", &task_step::on_boot)};
   }
 };
 
@@ -62,19 +64,24 @@ constexpr auto enum_words(preemption) {
 }
 
 /// Allocates and starts the steps of a pipeline. Answered by `task_accepted`
-/// once all of them run; a second one with the same steps gets the same answer.
+/// once all of them run. A second one with the same steps starts again what has
+/// failed, and is told how the task stands; under a new id it is the next run
+/// of a task that has ended.
 struct task_request {
   static constexpr const char* type = "task_request";
   std::string task;
   std::vector<task_step> pipeline;
   preemption preempt = preemption::none;
   bool force = false; ///< What makes way is not waited for to be safe.
+  /// Under one id a task runs once. Empty: it has none.
+  std::string request_id;
 
   static constexpr auto fields() {
     return field_list{required("task", &task_request::task),
                       required("pipeline", &task_request::pipeline),
                       optional("preempt", &task_request::preempt),
-                      optional("force", &task_request::force)};
+                      optional("force", &task_request::force),
+                      optional("request_id", &task_request::request_id)};
   }
 };
 
@@ -208,13 +215,16 @@ struct task_row {
   int64_t submitted_unix_ms = 0;
   int64_t ended_unix_ms = 0; ///< Of a finished or failed one; 0: it goes on.
   std::vector<instance_row> instances;
+  int64_t run = 1; ///< How often it has been started as a whole.
 
   static constexpr auto fields() {
     return field_list{
-        required("task", &task_row::task), required("state", &task_row::state),
+        required("task", &task_row::task),
+        required("state", &task_row::state),
         required("submitted_unix_ms", &task_row::submitted_unix_ms),
         optional("ended_unix_ms", &task_row::ended_unix_ms),
-        required("instances", &task_row::instances)};
+        required("instances", &task_row::instances),
+        optional("run", &task_row::run)};
   }
 };
 

@@ -68,6 +68,7 @@ caf::result<instance_deployed> begin(container_supervisor_self self,
   x.row.spec = spec;
   x.row.node = self->state.config.node;
   x.row.trouble = self->state.trouble;
+  x.started_in = self->state.config.boot;
   x.confirmed = true;
   spawn_actor(self, x, false);
   auto promise = self->make_response_promise<instance_deployed>();

@@ -33,6 +33,9 @@ struct container_supervisor_config {
   std::vector<instance_row> restored;
   /// Where the node was when the programs of these were started, by instance.
   std::map<std::string, std::string> started_at;
+  /// In which boot of the host they were.
+  std::map<std::string, std::string> started_in;
+  std::string boot; ///< The present one; empty: not known.
   /// What an earlier run may have left and no record knows: it is ended.
   std::vector<std::string> strays;
   bool may_be_lost = false; ///< By a cell: it is no coordination node.
@@ -53,6 +56,7 @@ struct supervised_instance {
   bool acknowledged = false; ///< The coordinator keeps that it has ended.
   bool log_dropped = false;  ///< What it left is gone, or is going.
   int deaths = 0;            ///< Of its actor, since it ran last.
+  std::string started_in;    ///< The boot of the host; empty: not known.
 };
 
 /// A removal that waits for its instances to be gone, or to wait themselves.

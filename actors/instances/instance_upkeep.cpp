@@ -27,10 +27,21 @@ void on_ended(container_supervisor_pointer self, const std::string& instance,
     trim_ended(self);
 }
 
+namespace {
+
+/// Empty where there is none.
+std::string word_of(const std::map<std::string, std::string>& words,
+                    const std::string& instance) {
+  const auto i = words.find(instance);
+  return i == words.end() ? std::string{} : i->second;
+}
+
+} // namespace
+
 void spawn_actor(container_supervisor_pointer self, supervised_instance& x,
                  bool adopt, const std::string& renewal) {
   auto& st = self->state;
-  const auto started = st.config.started_at.find(x.row.spec.instance);
+  const auto& id = x.row.spec.instance;
   skill_instance_config config{
       st.config.context,
       caf::actor_cast<container_supervisor_actor>(self),
@@ -46,7 +57,9 @@ void spawn_actor(container_supervisor_pointer self, supervised_instance& x,
       x.confirmed,
       st.contact_boot_ms,
       st.config.address,
-      adopt && started != st.config.started_at.end() ? started->second : "",
+      adopt ? word_of(st.config.started_at, id) : "",
+      st.config.boot,
+      adopt ? x.started_in : "",
       renewal,
       st.config.tell_environment};
   x.actor = spawn(self->system(), st.config.context, skill_instance, config);
@@ -125,12 +138,13 @@ void on_down(container_supervisor_pointer self, const caf::down_msg& down) {
 
 namespace {
 
-/// Only what may go to another node needs to hear of it.
-template <class Fact>
-void pass_to_movable(container_supervisor_pointer self, const Fact& fact) {
-  for (const auto& [instance, x] : self->state.instances)
-    if (x.actor && x.row.spec.life.on_node_loss.policy == loss_action::move)
-      self->send(x.actor, fact);
+/// What may go to another node hears of every word that reaches the cell, what
+/// does not run may wait for one, and of a registration all hear: some may not
+/// know yet that they do not run.
+bool heeds_contact(const supervised_instance& x, bool registered) {
+  return x.actor
+         && (registered || x.row.state != instance_state::running
+             || x.row.spec.life.on_node_loss.policy == loss_action::move);
 }
 
 } // namespace
@@ -160,12 +174,21 @@ void on_contact(container_supervisor_pointer self, const contact_proven& fact) {
       x->confirmed = true;
   // Where the node has no discovery server of its own nothing else tells.
   renew_moved(self);
-  pass_to_movable(self, fact);
+  for (const auto& [instance, x] : self->state.instances) {
+    if (!heeds_contact(x, !fact.kept.empty()))
+      continue;
+    contact_proven own{fact.boot_ms, {}};
+    if (x.confirmed)
+      own.kept.push_back(instance);
+    self->send(x.actor, std::move(own));
+  }
 }
 
 void on_contact_lost(container_supervisor_pointer self) {
   self->state.out_of_contact = true;
-  pass_to_movable(self, contact_lost{});
+  for (const auto& [instance, x] : self->state.instances)
+    if (x.actor)
+      self->send(x.actor, contact_lost{});
 }
 
 void restore(container_supervisor_pointer self) {
@@ -176,6 +199,7 @@ void restore(container_supervisor_pointer self) {
     auto& x = st.instances[row.spec.instance];
     x.row = std::move(row);
     x.row.node = st.config.node;
+    x.started_in = word_of(st.config.started_in, x.row.spec.instance);
     // Nobody knows what it has done meanwhile.
     if (is_live(x.row.state))
       x.row.figures = {};

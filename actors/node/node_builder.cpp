@@ -2,6 +2,7 @@
 
 #include "actors/cell/cell_coordinator.hpp"
 #include "actors/edge/host/address_claim.hpp"
+#include "actors/edge/host/boot_id.hpp"
 #include "actors/house/edge_failure.hpp"
 #include "actors/instances/actor_skills/runtime_switch.hpp"
 #include "actors/instances/container_supervisor.hpp"
@@ -128,6 +129,8 @@ private:
     supervision.address = config.address;
     supervision.restored = data_.instances;
     supervision.started_at = data_.started_at;
+    supervision.started_in = data_.started_in;
+    supervision.boot = this_boot();
     supervision.strays = data_.strays;
     supervision.may_be_lost = !config.coordinator;
     parts_.services->supervisor = start(container_supervisor, supervision);

@@ -188,16 +188,24 @@ caf::error load_self(const node_config& config, node_data& data, bool existed) {
   return raise_incarnation(data, *table);
 }
 
-/// With each row goes the address at which its program was started.
+/// A word beside a row, if there is one.
+void keep_word(const json& document, const char* name,
+               const std::string& instance,
+               std::map<std::string, std::string>& words) {
+  if (const auto i = document.find(name); i != document.end() && i->is_string())
+    words[instance] = i->get<std::string>();
+}
+
+/// With each row goes the address at which its program was started, and in
+/// which boot of the host that was.
 caf::error load_instances(const node_config& config, node_data& data) {
   const auto found = read_table(config, data, "instances");
   if (!found)
     return found.error();
   for (const auto& [key, document] : *found)
     if (auto x = understand<instance_row>(data, "instances", key, document)) {
-      if (const auto at = document.find("address");
-          at != document.end() && at->is_string())
-        data.started_at[x->spec.instance] = at->get<std::string>();
+      keep_word(document, "address", x->spec.instance, data.started_at);
+      keep_word(document, "boot", x->spec.instance, data.started_in);
       data.instances.push_back(std::move(*x));
     }
   return caf::none;

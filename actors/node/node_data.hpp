@@ -44,6 +44,8 @@ struct node_data {
   std::vector<instance_row> instances;
   /// Where the node was when their programs were started, by instance.
   std::map<std::string, std::string> started_at;
+  /// In which boot of the host they were.
+  std::map<std::string, std::string> started_in;
   std::vector<task_record> tasks;
   std::vector<unread_record> unread; ///< They stay where they are.
   std::vector<std::string> strays;   ///< Instances that no record knows.

@@ -72,6 +72,24 @@ std::optional<failure> check_move(const life_policy& x,
                           + ", and \"safe_timeout_s\"");
 }
 
+std::optional<failure> check_boot(const life_policy& x,
+                                  const skill_descriptor& descriptor) {
+  if (x.on_boot != boot_action::start)
+    return std::nullopt;
+  if (x.on_node_loss.policy == loss_action::move)
+    return refuse("/on_boot",
+                  "a step that moves when its node is lost may run elsewhere "
+                  "by the time its node is back",
+                  R"(say "rejoin", or "on_node_loss": {"policy": "wait"})");
+  if (x.safe_state && !descriptor.may_start_alone)
+    return refuse("/on_boot",
+                  "a step that has to be safe before it ends does not start "
+                  "without its coordinator",
+                  R"(say "rejoin", or in its skill.json "may_start_alone": )"
+                  "true");
+  return std::nullopt;
+}
+
 std::optional<failure> check_health(const task_step& step,
                                     const health_policy& x,
                                     const skill_descriptor& descriptor) {
@@ -103,6 +121,9 @@ life_policy life_of(const task_step& step, const deployment_option& option,
   result.safe_timeout_s =
       step.safe_timeout_s > 0 ? step.safe_timeout_s : option.safe_timeout_s;
   result.priority = step.priority;
+  const auto& word = step.on_boot.empty() ? option.on_boot : step.on_boot;
+  if (!word.empty())
+    result.on_boot = json(word).get<boot_action>();
   return result;
 }
 
@@ -113,6 +134,8 @@ std::optional<failure> check_life(const task_step& step,
   if (auto why = check_restart(life.restart))
     return why;
   if (auto why = check_move(life, descriptor))
+    return why;
+  if (auto why = check_boot(life, descriptor))
     return why;
   return check_health(step, life.health, descriptor);
 }

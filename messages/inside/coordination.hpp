@@ -176,11 +176,15 @@ struct task_rolled_back {
 /// their intent is recorded, so that two never count on the same resources.
 struct claim_task {
   std::string task;
-  std::string request; ///< JSON of the task request.
+  std::string request;    ///< JSON of the task request.
+  std::string request_id; ///< Under which it runs once; may be empty.
+  bool force = false; ///< Hosts that start steps of that name alone are off.
 
   static constexpr auto fields() {
     return field_list{required("task", &claim_task::task),
-                      required("request", &claim_task::request)};
+                      required("request", &claim_task::request),
+                      optional("force", &claim_task::force),
+                      optional("request_id", &claim_task::request_id)};
   }
 };
 

@@ -140,11 +140,15 @@ struct container_adopted {
   bool running = false;
   std::string container; ///< The runtime's id of it; empty: there is none.
   int exit_code = -1;    ///< Of one that ended meanwhile; negative: not known.
+  bool recorded = false; ///< Its shim has written down how it ended,
+  bool terminated = false; ///< and that it had been told to from outside.
 
   static constexpr auto fields() {
     return field_list{required("running", &container_adopted::running),
                       required("container", &container_adopted::container),
-                      required("exit_code", &container_adopted::exit_code)};
+                      required("exit_code", &container_adopted::exit_code),
+                      optional("recorded", &container_adopted::recorded),
+                      optional("terminated", &container_adopted::terminated)};
   }
 };
 
@@ -190,11 +194,13 @@ struct container_exited {
   std::string instance;
   std::string container;
   int exit_code = -1;
+  bool terminated = false; ///< Its shim was told to end it, by whomever.
 
   static constexpr auto fields() {
     return field_list{required("instance", &container_exited::instance),
                       required("container", &container_exited::container),
-                      required("exit_code", &container_exited::exit_code)};
+                      required("exit_code", &container_exited::exit_code),
+                      optional("terminated", &container_exited::terminated)};
   }
 };
 

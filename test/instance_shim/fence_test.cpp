@@ -34,6 +34,13 @@ struct fence_file {
             == static_cast<ssize_t>(sizeof(boot_ms)));
   }
 
+  /// Empty, as a host makes it for a container.
+  std::string exit_file() const {
+    const auto result = folder / "exit";
+    std::ofstream{result};
+    return result;
+  }
+
   temp_folder folder;
   std::string path = folder / "fence";
 };
@@ -53,8 +60,9 @@ struct fenced_run : shim_run {
 child_process run_plain(const std::string& script, const fence_file& fence,
                         const std::vector<std::string>& before = {}) {
   auto words = before;
-  words.insert(words.end(), {shim, "--fence", fence.path, "--stop-signal", "2",
-                             "--", "/bin/sh", "-c", script});
+  words.insert(words.end(),
+               {shim, "--exit", fence.exit_file(), "--fence", fence.path,
+                "--stop-signal", "2", "--", "/bin/sh", "-c", script});
   return child_process{words, {{"PATH", "/usr/sbin:/usr/bin:/sbin:/bin"}}};
 }
 
@@ -181,7 +189,7 @@ TEST_CASE("without a folder the shim gives output and exit code unchanged") {
   }
   SECTION("of a command that cannot be run") {
     child_process process{
-        {shim, "--fence", fence.path, "--", "/does/not/exist"}, {}};
+        {shim, "--exit", fence.exit_file(), "--", "/does/not/exist"}, {}};
     CHECK(process.wait() == 127);
     CHECK_THAT(process.output(), Contains("/does/not/exist"));
   }

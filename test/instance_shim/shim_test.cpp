@@ -40,6 +40,31 @@ TEST_CASE("the shim records the signal that ended its child") {
   CHECK(run.exit()["signal"] == 9);
 }
 
+TEST_CASE("the shim records that it was told to end its child") {
+  const bool told = GENERATE(false, true);
+  shim_run run{"trap 'exit 0' TERM; echo up; while :; do sleep 0.01; done"};
+  REQUIRE((run.wait_for("pid") && run.wait_for_log("up")));
+  // A signal to the child alone is an end as any other.
+  ::kill(static_cast<pid_t>(run.pids()[told ? 0 : 2]), SIGTERM);
+  CHECK(run.process.wait() == 0);
+  CHECK(run.exit()["code"] == 0);
+  CHECK(run.exit().value("terminated", false) == told);
+}
+
+TEST_CASE("in a container the shim records the end in a file of the host") {
+  temp_folder folder;
+  const auto file = folder / "exit";
+  std::ofstream{file} << std::string(256, '\0');
+  child_process process{
+      {shim, "--exit", file, "--", "/bin/sh", "-c", "echo out; exit 3"}, {}};
+  CHECK(process.wait() == 3);
+  CHECK(json::parse(content_of(file))["code"] == 3);
+  CHECK(names_in(folder / "") == std::vector<std::string>{"exit"});
+  // Nothing runs whose end nobody would know.
+  child_process other{{shim, "--exit", folder / "none", "--", "/bin/true"}, {}};
+  CHECK(other.wait() == 1);
+}
+
 TEST_CASE("the shim notes when what stands in a log was written") {
   shim_run run{"echo one; sleep 0.05; echo two"};
   CHECK(run.process.wait() == 0);
@@ -226,6 +251,9 @@ TEST_CASE("the shim explains a wrong command line") {
            {shim, "--dir", "/tmp/x", "--log-bytes", "4k", "--", "/bin/true"},
            {shim, "--dir", "/tmp/x", "--log-bytes", "-1", "--", "/bin/true"},
            {shim, "--log-bytes", "4096", "--fence", "/f", "--", "/bin/true"},
+           {shim, "--exit", "/e", "--dir", "/tmp/x", "--log-bytes", "4096",
+            "--", "/bin/true"},
+           {shim, "--fence", "/f", "--", "/bin/true"},
            {shim, "--stop-signal", "2", "--", "/bin/true"}}) {
     child_process process{arguments, {}};
     CHECK(process.wait() == 2);

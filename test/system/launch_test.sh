@@ -8,7 +8,7 @@ variants=(docker podman rootless)
 before_all() {
   start_engine || return
   mkdir -p "$suite/build/bin" "$suite/build/skills"
-  cp "$ROSCELL" "$suite/build/bin"
+  cp "$ROSCELL" "$ROSCELL_BUILD/bin/roscell-instance-shim" "$suite/build/bin"
   cp -r "$ROSCELL_BUILD/skills/echo" "$suite/build/skills"
   jq '.models[].deployments[].resources |= (.cpu = 0 | .memory_mib = 1024)' \
     "$ROSCELL_BUILD/skills/echo/skill.json" > "$suite/build/skills/echo/skill.json"

@@ -6,7 +6,7 @@
 /// In the folder DIR:
 ///   pid           "<shim pid> <shim start time> <child pid>", once started
 ///   log.<offset>  output of the command from that byte on; at most two files
-///   exit          {"code","signal","at_unix_ms"}, durable before the shim ends
+///   exit          how it ended, durable before the shim ends; see records.hpp
 ///   *.tmp         not yet complete; to be ignored
 ///
 /// SIGTERM to the shim is passed on to the command's process group, as the
@@ -20,8 +20,8 @@
 /// when the fence has passed. Nothing is started without it then.
 ///
 /// Without a folder it is the first process of a container, whose engine keeps
-/// the log and the exit: the output is left alone, and the exit code is that of
-/// the command, 128 + n after signal n.
+/// the log: the output is left alone, and the exit code is that of the command,
+/// 128 + n after signal n. How it ended goes into a file of the host as well.
 
 #include "tools/instance_shim/child.hpp"
 #include "tools/instance_shim/log_files.hpp"
@@ -85,12 +85,21 @@ int start_failed(const options& o) {
   return complain("start", o.command[0]);
 }
 
+child_end end_of(const supervision& x) {
+  return {x.wait_status, x.fenced, x.terminated};
+}
+
 /// The first process of a container.
 int run_plain(const options& o, supervision& x) {
+  exit_record record{o.exit_file};
+  if (!record.is_open())
+    return complain("open", o.exit_file);
   x.child = start_child(o, -1);
   if (x.child < 0)
     return start_failed(o);
   supervise(x);
+  // The engine tells the exit code all the same.
+  record.write(end_of(x), nullptr);
   return WIFSIGNALED(x.wait_status) ? 128 + WTERMSIG(x.wait_status)
                                     : WEXITSTATUS(x.wait_status);
 }
@@ -118,7 +127,7 @@ int run_recorded(const options& o, supervision& x) {
   x.output = pipe[0];
   x.log = &log;
   supervise(x);
-  return record.write(x.wait_status, x.fenced, log) ? 0 : 1;
+  return record.write(end_of(x), &log) ? 0 : 1;
 }
 
 int run(const options& o) {

@@ -30,11 +30,10 @@ bool read_signal(const char* text, int& result) {
 
 bool usage() {
   ::dprintf(
-      2,
-      "usage: roscell-instance-shim {--dir DIR --log-bytes N | --fence FILE} "
-      "[--fence FILE] [--cwd DIR] [--stop-signal S] -- COMMAND "
-      "[ARGS...]\n"
-      "N is a whole number of at least 1024, S one from 1 to 31.\n");
+      2, "usage: roscell-instance-shim {--dir DIR --log-bytes N | --exit FILE} "
+         "[--fence FILE] [--cwd DIR] [--stop-signal S] -- COMMAND "
+         "[ARGS...]\n"
+         "N is a whole number of at least 1024, S one from 1 to 31.\n");
   return false;
 }
 
@@ -50,6 +49,8 @@ bool read_options(int argc, char** argv, options& result) {
       result.working_dir = value;
     else if (std::strcmp(argv[i], "--fence") == 0)
       result.fence = value;
+    else if (std::strcmp(argv[i], "--exit") == 0)
+      result.exit_file = value;
     else if (std::strcmp(argv[i], "--log-bytes") == 0
                  ? !read_bytes(value, result.log_bytes)
                  : std::strcmp(argv[i], "--stop-signal") != 0
@@ -57,11 +58,12 @@ bool read_options(int argc, char** argv, options& result) {
       return usage();
   }
   result.command = argv + i + 1;
-  const auto logs = result.directory != nullptr && result.log_bytes > 0;
-  const auto only_fences = result.directory == nullptr && result.log_bytes == 0
-                           && result.fence != nullptr;
+  const auto logs = result.directory != nullptr && result.log_bytes > 0
+                    && result.exit_file == nullptr;
+  const auto only_records = result.directory == nullptr && result.log_bytes == 0
+                            && result.exit_file != nullptr;
   const auto has_command = i + 1 < argc && std::strcmp(argv[i], "--") == 0;
-  return ((logs || only_fences) && has_command) || usage();
+  return ((logs || only_records) && has_command) || usage();
 }
 
 } // namespace roscell::shim

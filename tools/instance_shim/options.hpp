@@ -9,8 +9,9 @@ struct options {
   /// Where the records and the log go; null: nowhere, and the output stays the
   /// shim's own.
   const char* directory = nullptr;
-  std::uint64_t log_bytes = 0; ///< most bytes of log that are kept
-  const char* fence = nullptr; ///< file with the fence; null: there is none
+  std::uint64_t log_bytes = 0;     ///< most bytes of log that are kept
+  const char* fence = nullptr;     ///< file with the fence; null: there is none
+  const char* exit_file = nullptr; ///< takes the record where nothing else goes
   const char* working_dir = nullptr; ///< of the command; null: the shim's own
   int stop_signal = 15;              ///< what asks the command to end
   char** command = nullptr;          ///< the command and its arguments

@@ -42,16 +42,18 @@ long long unix_ms() {
   return now.tv_sec * 1000LL + now.tv_nsec / 1'000'000;
 }
 
-int format_exit(int wait_status, bool fenced, char* text) {
+int format_exit(const child_end& end, char* text) {
   char code[16] = "null";
   char signal[16] = "null";
-  if (WIFSIGNALED(wait_status))
-    std::snprintf(signal, sizeof(signal), "%d", WTERMSIG(wait_status));
+  if (WIFSIGNALED(end.wait_status))
+    std::snprintf(signal, sizeof(signal), "%d", WTERMSIG(end.wait_status));
   else
-    std::snprintf(code, sizeof(code), "%d", WEXITSTATUS(wait_status));
-  return std::snprintf(
-      text, record_bytes, "{\"code\":%s,\"signal\":%s,\"at_unix_ms\":%lld%s}\n",
-      code, signal, unix_ms(), fenced ? ",\"fenced\":true" : "");
+    std::snprintf(code, sizeof(code), "%d", WEXITSTATUS(end.wait_status));
+  return std::snprintf(text, record_bytes,
+                       "{\"code\":%s,\"signal\":%s,\"at_unix_ms\":%lld%s%s}\n",
+                       code, signal, unix_ms(),
+                       end.fenced ? ",\"fenced\":true" : "",
+                       end.terminated ? ",\"terminated\":true" : "");
 }
 
 } // namespace
@@ -77,27 +79,37 @@ exit_record::exit_record(int directory) : directory_(directory) {
     ::posix_fallocate(file_, 0, record_bytes);
 }
 
+exit_record::exit_record(const char* file)
+    : file_(::open(file, O_WRONLY | O_CLOEXEC | O_NOFOLLOW)) {
+  // nop
+}
+
 exit_record::~exit_record() {
   if (file_ >= 0)
     ::close(file_);
 }
 
-bool exit_record::write(int wait_status, bool fenced, log_files& log) {
+bool exit_record::write(const child_end& end, log_files* log) {
   char text[record_bytes];
-  auto size = format_exit(wait_status, fenced, text);
+  auto size = format_exit(end, text);
   if (store(text, size))
     return true;
+  if (log == nullptr)
+    return false;
   // A file system that cannot reserve room may be full: the end of the child
   // is worth more than its old output.
-  log.drop_older();
+  log->drop_older();
   return store(text, size);
 }
 
 bool exit_record::store(const char* text, int size) {
-  return ::pwrite(file_, text, static_cast<std::size_t>(size), 0) == size
-         && ::ftruncate(file_, size) == 0 && ::fsync(file_) == 0
-         && ::renameat(directory_, "exit.tmp", directory_, "exit") == 0
-         && ::fsync(directory_) == 0;
+  const bool written =
+      ::pwrite(file_, text, static_cast<std::size_t>(size), 0) == size
+      && ::ftruncate(file_, size) == 0 && ::fsync(file_) == 0;
+  return written
+         && (directory_ < 0
+             || (::renameat(directory_, "exit.tmp", directory_, "exit") == 0
+                 && ::fsync(directory_) == 0));
 }
 
 } // namespace roscell::shim

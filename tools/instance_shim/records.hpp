@@ -11,28 +11,44 @@ class log_files;
 /// in one line. The file appears complete or not at all.
 bool write_pid(int directory, pid_t child);
 
+/// How a child has ended.
+struct child_end {
+  int wait_status = 0;     ///< As of waitpid(2).
+  bool fenced = false;     ///< By its fence.
+  bool terminated = false; ///< After the shim was asked to end it.
+};
+
 /// The record of how the child ended. Its room on the disk is taken when it is
 /// made, so that it can be written even when the disk is full by then.
 class exit_record {
 public:
-  /// Removes the record of an earlier run.
+  /// As `exit` in that folder, where it appears complete or not at all. Removes
+  /// the record of an earlier run.
   explicit exit_record(int directory);
+
+  /// Into an empty file that is there, which no other can take the place of:
+  /// that of a host, in a container.
+  explicit exit_record(const char* file);
 
   ~exit_record();
 
   exit_record(const exit_record&) = delete;
   exit_record& operator=(const exit_record&) = delete;
 
-  /// Writes `exit` as JSON, {"code", "signal", "at_unix_ms"}, of which one of
-  /// the first two is null, and "fenced": true where its fence has ended it.
-  /// `wait_status` is that of waitpid(2). Returns true when the record would
-  /// survive a loss of power.
-  bool write(int wait_status, bool fenced, log_files& log);
+  bool is_open() const {
+    return file_ >= 0;
+  }
+
+  /// Writes JSON, {"code", "signal", "at_unix_ms"}, of which one of the first
+  /// two is null, "fenced": true where its fence has ended it, and
+  /// "terminated": true where the shim was asked to. A null log is nobody's.
+  /// Returns true when the record would survive a loss of power.
+  bool write(const child_end& end, log_files* log);
 
 private:
   bool store(const char* text, int size);
 
-  const int directory_;
+  const int directory_ = -1; ///< Negative: it is written in its place.
   int file_ = -1;
 };
 

@@ -33,6 +33,7 @@ bool on_signal(supervision& x) {
   signalfd_siginfo info{};
   auto ended = false;
   while (::read(x.signals, &info, sizeof(info)) == sizeof(info)) {
+    x.terminated = x.terminated || info.ssi_signo == SIGTERM;
     // The numbers of a child that has ended may be a stranger's by now.
     if (info.ssi_signo == SIGCHLD)
       ended = reap(x.child, x.wait_status) || ended;

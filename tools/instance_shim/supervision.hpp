@@ -16,8 +16,9 @@ struct supervision {
   int output = -1;      ///< Of the command, not blocking; negative: not ours.
   log_files* log = nullptr; ///< Takes the output; null: it is not ours.
   fence* limit = nullptr;
-  int wait_status = 0; ///< Of the child, once it has ended.
-  bool fenced = false; ///< It was killed because its fence had passed.
+  int wait_status = 0;     ///< Of the child, once it has ended.
+  bool fenced = false;     ///< It was killed because its fence had passed.
+  bool terminated = false; ///< The shim was asked to end it, by SIGTERM.
 };
 
 /// The shim's descriptor for the signals that it takes, or -1 with errno set.

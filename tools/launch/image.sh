@@ -27,7 +27,8 @@ COPY tools/install.sh tools/
 RUN tools/install.sh
 COPY . .
 RUN cmake --preset release -DBUILD_TESTING=OFF && . tools/building.sh \\
- && ninja -C build/release -j "\$(build_jobs)" roscell skills/all \\
+ && ninja -C build/release -j "\$(build_jobs)" roscell instance_shim \\
+    skills/all \\
  && tools/launch/pack.sh build/release /out $video
 FROM $base
 COPY --from=build /out /

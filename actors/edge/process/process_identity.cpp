@@ -49,8 +49,9 @@ std::vector<std::string_view> fields_of(std::string_view text) {
   return result;
 }
 
-fs::path proc_file(pid_t pid, const char* name) {
-  return fs::path{"/proc"} / std::to_string(pid) / name;
+fs::path proc_file(pid_t pid, const char* name,
+                   const fs::path& proc = "/proc") {
+  return proc / std::to_string(pid) / name;
 }
 
 bool has_argument(pid_t pid, const std::string& ending) {
@@ -81,8 +82,9 @@ std::optional<process_identity> process_of(std::string_view container) {
   return identity_of(container.substr(0, colon), container.substr(colon + 1));
 }
 
-std::optional<process_identity> identify(pid_t pid) {
-  const auto text = read_small_file(proc_file(pid, "stat"), max_record_bytes);
+std::optional<process_identity> identify(pid_t pid, const fs::path& proc) {
+  const auto text =
+      read_small_file(proc_file(pid, "stat", proc), max_record_bytes);
   if (!text)
     return std::nullopt;
   // The name may itself hold blanks and parentheses.
@@ -133,8 +135,8 @@ std::optional<process_identity> read_pid_record(const fs::path& dir) {
   return identity_of(fields[0], fields[1]);
 }
 
-std::optional<int> read_exit_record(const fs::path& dir) {
-  const auto text = read_small_file(dir / "exit", max_record_bytes);
+std::optional<recorded_end> read_exit_record(const fs::path& dir) {
+  const auto text = read_small_file(dir / exit_record_name, max_record_bytes);
   const auto record = text ? json::parse(*text, nullptr, false) : json(nullptr);
   if (!record.is_object())
     return std::nullopt;
@@ -142,13 +144,18 @@ std::optional<int> read_exit_record(const fs::path& dir) {
     const auto i = record.find(name);
     return i != record.end() && i->is_number_integer() ? i->get<int64_t>() : -1;
   };
+  const auto terminated = record.find("terminated");
+  recorded_end result;
+  result.terminated = terminated != record.end() && *terminated == true;
   const auto code = field("code");
   const auto signal = field("signal");
   if (code >= 0 && code <= 255)
-    return static_cast<int>(code);
-  if (signal > 0 && signal < 128)
-    return static_cast<int>(128 + signal);
-  return std::nullopt;
+    result.exit_code = static_cast<int>(code);
+  else if (signal > 0 && signal < 128)
+    result.exit_code = static_cast<int>(128 + signal);
+  else
+    return std::nullopt;
+  return result;
 }
 
 } // namespace roscell

@@ -25,7 +25,9 @@ std::string to_container(const process_identity& process);
 std::optional<process_identity> process_of(std::string_view container);
 
 /// Who has the number now.
-std::optional<process_identity> identify(pid_t pid);
+/// @param proc where proc(5) is.
+std::optional<process_identity>
+identify(pid_t pid, const std::filesystem::path& proc = "/proc");
 
 /// A descriptor for the process that can be polled for its end and signalled
 /// without mistaking another process for it. Empty if it is gone. One of its
@@ -47,8 +49,17 @@ std::optional<int> reap(int pidfd);
 std::optional<process_identity>
 read_pid_record(const std::filesystem::path& dir);
 
-/// How the command of that shim ended, as the file `exit` says: its exit code,
-/// or 128 + n after signal n. Nothing as long as it has not ended in order.
-std::optional<int> read_exit_record(const std::filesystem::path& dir);
+/// The file in which a shim writes how its command has ended.
+constexpr const char* exit_record_name = "exit";
+
+/// How the command of a shim has ended.
+struct recorded_end {
+  int exit_code = -1;      ///< 128 + n after signal n.
+  bool terminated = false; ///< The shim had been told to end it.
+};
+
+/// What that file says, in its folder. Nothing as long as it has not
+/// ended in order.
+std::optional<recorded_end> read_exit_record(const std::filesystem::path& dir);
 
 } // namespace roscell

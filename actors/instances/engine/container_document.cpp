@@ -18,9 +18,10 @@ namespace {
 
 constexpr int64_t mib = 1024 * 1024;
 
-/// Where a container with a fence has what keeps it.
-constexpr const char* container_shim = "/opt/roscell/instance-shim";
-constexpr const char* container_fence_file = "/opt/roscell/fence";
+/// Where a container has what supervises it.
+constexpr const char* shim_inside = "/opt/roscell/instance-shim";
+constexpr const char* exit_file_inside = "/opt/roscell/exit";
+constexpr const char* fence_inside = "/opt/roscell/fence";
 
 /// Docker refuses less.
 constexpr int64_t least_memory = 6 * mib;
@@ -124,14 +125,14 @@ bool is_of_base(const start_container& wish) {
   return !wish.command.empty() && wish.command.front().front() == '/';
 }
 
-/// The shim runs what the container would have run.
-std::vector<std::string> fenced_command(const start_container& wish) {
-  std::vector<std::string> result{container_shim,
-                                  "--fence",
-                                  container_fence_file,
+/// The shim runs what the image would have run.
+std::vector<std::string> shim_command(const start_container& wish) {
+  std::vector<std::string> result{shim_inside, "--exit", exit_file_inside,
                                   "--stop-signal",
-                                  std::to_string(wish.stop_signal),
-                                  "--"};
+                                  std::to_string(wish.stop_signal)};
+  if (is_fenced(wish))
+    result.insert(result.end(), {"--fence", fence_inside});
+  result.push_back("--");
   auto program = wish.command;
   if (!is_of_base(wish))
     program.at(0) = std::string{image_skill_dir} + '/' + program.at(0);
@@ -156,15 +157,13 @@ json container_document(const start_container& wish,
                         const container_files& files,
                         const container_setting& setting,
                         const std::string& notify_dir,
-                        const container_fence& fence) {
+                        const container_shim& shim) {
   auto seen = files;
-  if (is_fenced(wish)) {
-    seen.mounts.push_back({fence.shim, container_shim, true});
-    seen.mounts.push_back({fence.file, container_fence_file, true});
-  }
-  // The shim is asked to end in one way, and passes it on in the skill's.
-  const auto stop_signal = is_fenced(wish) ? SIGTERM : wish.stop_signal;
-  json result{{"Image", wish.image},
+  seen.mounts.push_back({shim.program, shim_inside, true});
+  seen.mounts.push_back({shim.exit_file, exit_file_inside, false});
+  if (is_fenced(wish))
+    seen.mounts.push_back({shim.fence, fence_inside, true});
+  return json{{"Image", wish.image},
               {"User", user_of(setting)},
               {"Env", environment_json(wish)},
               {"Labels", labels_json(wish, setting)},
@@ -172,13 +171,10 @@ json container_document(const start_container& wish,
               // check would only cost.
               {"Healthcheck", {{"Test", json::array({"NONE"})}}},
               {"HostConfig", host_json(wish, seen, setting, notify_dir)},
-              {"StopSignal", std::to_string(stop_signal)}};
-  // Else the image says which.
-  if (is_fenced(wish))
-    result["Entrypoint"] = fenced_command(wish);
-  else if (is_of_base(wish))
-    result["Entrypoint"] = wish.command;
-  return result;
+              // The shim is asked to end in one way, and passes it on in the
+              // skill's.
+              {"StopSignal", std::to_string(SIGTERM)},
+              {"Entrypoint", shim_command(wish)}};
 }
 
 } // namespace roscell

@@ -22,21 +22,22 @@ struct container_setting {
   bool rootless = false;
 };
 
-/// What keeps the fence of a container, on the host.
-struct container_fence {
-  std::string shim; ///< Becomes its first process.
-  std::string file; ///< actors/edge/process/fence_file.hpp
+/// What supervises a container from within, on the host.
+struct container_shim {
+  std::string program;   ///< Becomes its first process.
+  std::string exit_file; ///< Where that writes how the container has ended.
+  std::string fence;     ///< actors/edge/process/fence_file.hpp
 };
 
 /// The name of an instance's container, by which it is found.
 std::string container_name(const std::string& instance);
 
 /// The body of POST /containers/create. `notify_dir` is the host's folder with
-/// the instance's NOTIFY_SOCKET; `fence` counts where the wish has one.
+/// the instance's NOTIFY_SOCKET; a fence counts where the wish has one.
 json container_document(const start_container& wish,
                         const container_files& files,
                         const container_setting& setting,
                         const std::string& notify_dir,
-                        const container_fence& fence = {});
+                        const container_shim& shim);
 
 } // namespace roscell

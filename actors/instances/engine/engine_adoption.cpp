@@ -1,3 +1,4 @@
+#include "actors/edge/process/process_identity.hpp"
 #include "actors/instances/engine/engine_containers.hpp"
 #include "actors/instances/engine/engine_parts.hpp"
 #include "actors/instances/instance_id.hpp"
@@ -11,6 +12,16 @@ using adoption_promise = caf::typed_response_promise<container_adopted>;
 
 void do_adopt(engine_runtime_pointer self, const adopt_container& wish,
               adoption_promise promise);
+
+/// Its shim is asked first: an engine that ended with its host knows less.
+container_adopted ended_container(engine_runtime_pointer self,
+                                  const std::string& instance,
+                                  const json& found) {
+  const auto end = read_exit_record(notify_dir(self, instance));
+  return {false, text_at(found, "Id"),
+          end ? end->exit_code : exit_code_of(found), end.has_value(),
+          end && end->terminated};
+}
 
 void on_inspected(engine_runtime_pointer self, const adopt_container& wish,
                   const engine_answered& x, adoption_promise promise) {
@@ -36,7 +47,7 @@ void on_inspected(engine_runtime_pointer self, const adopt_container& wish,
     // The node ended before it was started.
     promise.deliver(container_adopted{});
   else
-    promise.deliver(container_adopted{false, id, exit_code_of(found)});
+    promise.deliver(ended_container(self, instance, found));
   forget(self, instance);
 }
 

@@ -5,6 +5,7 @@
 #include "actors/edge/process/child_watch.hpp"
 #include "actors/edge/process/fence_file.hpp"
 #include "actors/edge/process/notify_socket.hpp"
+#include "actors/edge/process/process_identity.hpp"
 #include "actors/house/edge_failure.hpp"
 #include "actors/instances/life/told_words.hpp"
 #include "messages/failure.hpp"
@@ -45,6 +46,10 @@ fs::path notify_dir(engine_runtime_pointer self, const std::string& instance) {
 
 fs::path fence_file(engine_runtime_pointer self, const std::string& instance) {
   return fence_path(notify_dir(self, instance));
+}
+
+fs::path exit_file(engine_runtime_pointer self, const std::string& instance) {
+  return notify_dir(self, instance) / exit_record_name;
 }
 
 fs::path shim_file(engine_runtime_pointer self) {
@@ -153,7 +158,9 @@ void on_container_ended(engine_runtime_pointer self,
   const auto words = receive_notifications(x->notify_socket->get());
   if (words.ready || words.stopping || !words.status.empty())
     self->send(st.listener, told_words(instance, words, false));
-  self->send(st.listener, container_exited{instance, id, exit_code});
+  const auto end = read_exit_record(notify_dir(self, instance));
+  self->send(st.listener,
+             container_exited{instance, id, exit_code, end && end->terminated});
   forget(self, instance);
 }
 

@@ -25,6 +25,10 @@ std::filesystem::path notify_dir(engine_runtime_pointer self,
 std::filesystem::path fence_file(engine_runtime_pointer self,
                                  const std::string& instance);
 
+/// The host's file in which the instance's shim writes how it has ended.
+std::filesystem::path exit_file(engine_runtime_pointer self,
+                                const std::string& instance);
+
 /// The host's copy of the shim, for containers.
 std::filesystem::path shim_file(engine_runtime_pointer self);
 

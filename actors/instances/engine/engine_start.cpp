@@ -1,4 +1,5 @@
 #include "actors/edge/http/http_target.hpp"
+#include "actors/edge/io/unique_fd.hpp"
 #include "actors/edge/process/environment_file.hpp"
 #include "actors/edge/process/fence_file.hpp"
 #include "actors/house/edge_failure.hpp"
@@ -9,7 +10,13 @@
 #include "actors/instances/instance_id.hpp"
 #include "messages/failure.hpp"
 
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
 #include <chrono>
+#include <cstring>
 #include <filesystem>
 #include <memory>
 #include <system_error>
@@ -124,7 +131,8 @@ json body_of(engine_runtime_pointer self, const start_container& wish,
   const auto& config = self->state.config;
   auto document = container_document(
       wish, files, config.setting, notify_dir(self, wish.instance).string(),
-      {shim_file(self).string(), fence_file(self, wish.instance).string()});
+      {shim_file(self).string(), exit_file(self, wish.instance).string(),
+       fence_file(self, wish.instance).string()});
   return is_podman(self)
              ? podman_document(container_name(wish.instance), document)
              : document;
@@ -157,11 +165,26 @@ caf::error copy_shim(engine_runtime_pointer self) {
 caf::error set_fence(engine_runtime_pointer self, const start_container& wish) {
   if (wish.fence_boot_ms == 0)
     return {};
-  if (auto error = copy_shim(self))
-    return error;
   const auto why =
       make_fence(fence_file(self, wish.instance), wish.fence_boot_ms);
   return why ? to_caf(*why) : caf::error{};
+}
+
+/// An empty file, on a disk that may be full when it is written to.
+caf::error make_exit_file(engine_runtime_pointer self,
+                          const std::string& instance) {
+  constexpr off_t room = 256;
+  const auto path = exit_file(self, instance);
+  ::unlink(path.c_str());
+  const unique_fd file{::open(path.c_str(),
+                              O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC,
+                              S_IRUSR | S_IWUSR)};
+  if (!file)
+    return fail(error_code::engine_failed,
+                "cannot make '" + path.string() + "': " + std::strerror(errno),
+                "", "the data directory must be writable");
+  ::posix_fallocate(file.get(), 0, room);
+  return {};
 }
 
 } // namespace
@@ -175,10 +198,14 @@ caf::result<container_started> start(engine_runtime_pointer self,
   const auto files = files_of(wish);
   if (const auto* error = std::get_if<edge_error>(&files))
     return to_caf(*error);
+  if (auto error = copy_shim(self))
+    return error;
   if (auto error = set_fence(self, wish))
     return error;
   engine_container fresh;
   if (auto error = open_words(self, wish.instance, fresh))
+    return error;
+  if (auto error = make_exit_file(self, wish.instance))
     return error;
   make_environment_file(environment_file_of(
       container_notify_path(self->state.config.data_dir, wish.instance)));

@@ -24,7 +24,9 @@ void on_exited(skill_instance_pointer self, const container_exited& x) {
   if (st.concluding || x.container != st.row.container)
     return;
   st.row.exit_code = x.exit_code;
-  if (st.row.state == instance_state::running && x.exit_code == 0)
+  if (x.terminated && st.row.state != instance_state::stopping)
+    interrupt(self, told_to_end);
+  else if (st.row.state == instance_state::running && x.exit_code == 0)
     conclude(self, instance_state::stopped, "finished");
   else if (st.row.state == instance_state::running)
     conclude(self, instance_state::failed,
@@ -169,6 +171,7 @@ skill_instance(skill_instance_pointer self,
   self->state.row = config.row;
   self->state.has_run = has_run_before(config.row);
   self->state.started_at = config.started_at;
+  self->state.started_in = config.started_in;
   watch_until_own_end(self, config.supervisor);
   // The program goes on, and the next supervisor adopts it.
   self->set_down_handler(

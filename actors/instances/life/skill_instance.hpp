@@ -37,6 +37,8 @@ struct skill_instance_config {
   std::string address; ///< The node's, at which programs are started.
   /// Of one that is adopted: where the node was then; empty: not known.
   std::string started_at;
+  std::string boot;       ///< The present one of the host; empty: not known.
+  std::string started_in; ///< The one in which an adopted one was started.
   /// Why one that is adopted is to be started again, unless its program goes on
   /// when it is told; empty: it goes on.
   std::string renewal;
@@ -87,6 +89,7 @@ struct skill_instance_state {
   std::optional<std::string> farewell;
 
   std::string started_at; ///< Where the node was when this run began.
+  std::string started_in; ///< The boot of the host in which it did.
 
   /// It is started again when it ends, whatever its policy says: that is why
   /// it is to end.

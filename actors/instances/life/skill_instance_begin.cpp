@@ -39,6 +39,7 @@ void on_built(skill_instance_pointer self, const std::string& image,
   const auto& spec = st.row.spec;
   st.row.image = image;
   st.started_at = st.config.address;
+  st.started_in = st.config.boot;
   if (!may_start(self))
     return wait_for_contact(self);
   enter(self, instance_state::starting);
@@ -121,6 +122,7 @@ void build(skill_instance_pointer self) {
 /// must know what to look for.
 void begin_anew(skill_instance_pointer self) {
   self->state.started_at = self->state.config.address;
+  self->state.started_in = self->state.config.boot;
   enter(self, instance_state::pending);
   ask<record_stored>(
       self, self->state.config.store, limits::instance::disk,
@@ -181,6 +183,8 @@ void on_found_ended(skill_instance_pointer self, const container_adopted& x) {
     st.farewell = st.row.reason;
   if (st.row.state == instance_state::stopping)
     conclude(self, instance_state::stopped, st.row.reason);
+  else if (const auto* why = interruption_of(st, x))
+    interrupt(self, why);
   else if (st.row.state == instance_state::running && x.exit_code == 0)
     conclude(self, instance_state::stopped, "finished");
   else
@@ -195,7 +199,7 @@ void on_adopted(skill_instance_pointer self, const container_adopted& x) {
                            || row.state >= instance_state::running;
   if (x.running)
     resume(self, x.container);
-  else if (was_started)
+  else if (was_started || is_of_other_boot(self->state))
     on_found_ended(self, x);
   else
     begin_anew(self);

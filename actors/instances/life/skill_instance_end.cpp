@@ -53,19 +53,6 @@ void forget_run(skill_instance_state& st) {
   forget_health(st);
 }
 
-/// It is started again after `pause`; none: once the node is back in its cell.
-void back_off(skill_instance_pointer self, const std::string& reason,
-              std::optional<milliseconds> pause) {
-  auto& st = self->state;
-  forget_run(st);
-  st.row.next_start_unix_ms = pause ? unix_now_ms() + pause->count() : 0;
-  st.row.waits = pause ? "" : "waits for its node to be back in its cell";
-  enter(self, instance_state::backing_off, reason);
-  note(self);
-  if (pause)
-    limit(self, *pause);
-}
-
 run_end end_of(skill_instance_pointer self, instance_state last) {
   const auto& since = self->state.ready_since;
   run_end result;
@@ -103,6 +90,11 @@ bool failed_when_told(skill_instance_pointer self, const run_end& end) {
          && self->clock().now() - *told < 2 * limits::instance::watchdog;
 }
 
+void back_to_cell(skill_instance_pointer self, const std::string& reason) {
+  back_off(self, reason, std::nullopt,
+           "waits for its node to be back in its cell");
+}
+
 /// The log is read, so its folder may go.
 void go_on(skill_instance_pointer self, instance_state last,
            const std::string& reason, const std::string& log) {
@@ -110,6 +102,10 @@ void go_on(skill_instance_pointer self, instance_state last,
   auto& row = st.row;
   const auto& policy = row.spec.life.restart;
   const auto end = end_of(self, last);
+  if (row.interrupted_unix_ms > 0) {
+    keep_run(row, reason, log);
+    return await_start(self, reason);
+  }
   if ((st.renewing || failed_when_told(self, end)) && !st.farewell) {
     keep_run(row, reason, log);
     return back_off(self, reason, milliseconds{0});
@@ -119,7 +115,8 @@ void go_on(skill_instance_pointer self, instance_state last,
     const auto pause = restart_delay(policy, end, row.attempts, jitter_of(row));
     if (pause || was_fenced(self)) {
       keep_run(row, reason, log);
-      return back_off(self, reason, was_fenced(self) ? std::nullopt : pause);
+      return was_fenced(self) ? back_to_cell(self, reason)
+                              : back_off(self, reason, pause);
     }
   }
   if (end.failed)
@@ -132,6 +129,18 @@ void go_on(skill_instance_pointer self, instance_state last,
 }
 
 } // namespace
+
+void back_off(skill_instance_pointer self, const std::string& reason,
+              std::optional<milliseconds> pause, const std::string& waits) {
+  auto& st = self->state;
+  forget_run(st);
+  st.row.next_start_unix_ms = pause ? unix_now_ms() + pause->count() : 0;
+  st.row.waits = waits;
+  enter(self, instance_state::backing_off, reason);
+  note(self);
+  if (pause)
+    limit(self, *pause);
+}
 
 void conclude(skill_instance_pointer self, instance_state last,
               const std::string& reason) {
@@ -164,7 +173,8 @@ void resume_pause(skill_instance_pointer self) {
   ++st.phase;
   const auto until = st.row.next_start_unix_ms;
   if (until == 0)
-    return wait_for_contact(self);
+    return st.row.interrupted_unix_ms > 0 ? await_start(self, st.row.reason)
+                                          : wait_for_contact(self);
   report(self);
   limit(self, rest_of_delay(st.row.spec.life.restart, until, unix_now_ms()));
 }
@@ -174,7 +184,7 @@ void wait_for_contact(skill_instance_pointer self) {
   const auto reason = st.row.reason.empty()
                           ? "its node has not heard of its cell"
                           : st.row.reason;
-  back_off(self, reason, std::nullopt);
+  back_to_cell(self, reason);
 }
 
 void start_again(skill_instance_pointer self) {
@@ -182,7 +192,8 @@ void start_again(skill_instance_pointer self) {
   if (!may_start(self))
     return wait_for_contact(self);
   ++st.row.restarts;
-  ++st.row.attempts;
+  if (std::exchange(st.row.interrupted_unix_ms, 0) == 0)
+    ++st.row.attempts;
   st.row.next_start_unix_ms = 0;
   st.row.waits.clear();
   st.row.exit_code = -1;

@@ -215,12 +215,13 @@ void on_contact(skill_instance_pointer self, const contact_proven& fact) {
   // The first word after a loss tells what is wanted; the others tell nothing.
   if (std::exchange(st.out_of_contact, false) || named)
     st.config.confirmed = named;
-  if (!st.config.confirmed || !moves_on_loss(st))
+  if (!st.config.confirmed)
     return;
   st.config.contact_boot_ms = std::max(st.config.contact_boot_ms, fact.boot_ms);
-  if (st.row.state == instance_state::backing_off
-      && st.row.next_start_unix_ms == 0)
+  if (waits_for_contact(st))
     return start_again(self);
+  if (!moves_on_loss(st))
+    return;
   const auto fence = fence_of(st);
   if (st.row.container.empty() || fence <= st.fence_boot_ms)
     return;

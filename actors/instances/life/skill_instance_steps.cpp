@@ -71,6 +71,8 @@ store_record record_of(const skill_instance_state& st) {
   json value = st.row;
   if (!st.started_at.empty())
     value["address"] = st.started_at;
+  if (!st.started_in.empty())
+    value["boot"] = st.started_in;
   return {"instances", st.row.spec.instance,
           value.dump(-1, ' ', false, json::error_handler_t::replace)};
 }

@@ -57,8 +57,8 @@ void enter(skill_instance_pointer self, instance_state next,
 /// Sets the deadline of the present state.
 void limit(skill_instance_pointer self, std::chrono::milliseconds span);
 
-/// What the store keeps of it: its row, and where the node was when its program
-/// was started.
+/// What the store keeps of it: its row, and where the node was, and in which
+/// boot of its host, when its program was started.
 store_record record_of(const skill_instance_state& st);
 
 /// Writes how things stand. A restarted node finds the program without it,
@@ -78,8 +78,38 @@ void resume_pause(skill_instance_pointer self);
 /// It is not started before the node is back in its cell.
 void wait_for_contact(skill_instance_pointer self);
 
+/// It is started again after `pause`; none: once what it waits for has come.
+void back_off(skill_instance_pointer self, const std::string& reason,
+              std::optional<std::chrono::milliseconds> pause,
+              const std::string& waits = {});
+
 /// The pause is over, or what was waited for has come.
 void start_again(skill_instance_pointer self);
+
+// -- skill_instance_interruption.cpp: what the host has ended, not its work
+// ----
+
+/// Why a program has ended whose shim was told to end it.
+constexpr const char* told_to_end =
+    "it was interrupted: something outside its cell told it to end, as a host "
+    "does that shuts down";
+
+/// The same for one that has been found ended; null if it has ended by itself.
+const char* interruption_of(const skill_instance_state& st,
+                            const container_adopted& found);
+
+/// Whether it was begun before its host was started.
+bool is_of_other_boot(const skill_instance_state& st);
+
+/// The program was ended by its host. That is no end of its work: it is started
+/// again as its step says, unless it was to go.
+void interrupt(skill_instance_pointer self, const std::string& reason);
+
+/// It has ended for such a reason: it waits for what its step says.
+void await_start(skill_instance_pointer self, const std::string& reason);
+
+/// Whether it is started as soon as the coordinator wants it to go on.
+bool waits_for_contact(const skill_instance_state& st);
 
 // -- skill_instance_leave.cpp: safe before it ends, gone before it is elsewhere
 

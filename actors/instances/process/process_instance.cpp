@@ -79,10 +79,21 @@ program shim_for(const process_runtime_config& config, const fs::path& dir,
 /// Without a record, readers of the log would wait for more.
 void clear_up_after_killed_shim(const fs::path& dir) {
   std::error_code error;
-  if (!fs::is_directory(dir, error) || fs::exists(dir / "exit", error))
+  if (!fs::is_directory(dir, error)
+      || fs::exists(dir / exit_record_name, error))
     return;
   kill_marked_processes(folder_variable, dir.string());
-  std::ofstream{dir / "exit"} << R"({"code":null,"signal":null})" << '\n';
+  std::ofstream{dir / exit_record_name} << R"({"code":null,"signal":null})"
+                                        << '\n';
+}
+
+/// What its shim has written down of its end; with another exit code where it
+/// has not.
+void take_end(const fs::path& dir, process_instance& x, int otherwise) {
+  const auto end = read_exit_record(dir);
+  x.recorded = end.has_value();
+  x.exit_code = end ? end->exit_code : otherwise;
+  x.terminated = end && end->terminated;
 }
 
 std::string variable(const char* name, const char* otherwise) {
@@ -136,7 +147,7 @@ edge_result<process_instance> take_over(const process_runtime_config& config,
     if (pidfd)
       reap(pidfd.get());
     clear_up_after_killed_shim(dir);
-    result.exit_code = read_exit_record(dir).value_or(-1);
+    take_end(dir, result, -1);
     return result;
   }
   auto socket = open_notify_socket(notify_path(dir));
@@ -153,7 +164,7 @@ void conclude(const process_runtime_config& config, const std::string& instance,
   const auto shim_code = reap(x.pidfd->get()).value_or(0);
   clear_up_after_killed_shim(dir);
   // A shim that did its work ends with 0, whatever became of its command.
-  x.exit_code = read_exit_record(dir).value_or(shim_code != 0 ? shim_code : -1);
+  take_end(dir, x, shim_code != 0 ? shim_code : -1);
   x.pidfd = nullptr;
   x.notify_socket = nullptr;
 }

@@ -34,7 +34,9 @@ struct process_instance {
   std::string container; ///< Empty: there never was one.
   shared_fd pidfd;       ///< Of the shim; null: it has ended.
   shared_fd notify_socket;
-  int exit_code = -1; ///< 128 + n after signal n; negative: not known.
+  int exit_code = -1;      ///< 128 + n after signal n; negative: not known.
+  bool recorded = false;   ///< Its shim has written down how it ended,
+  bool terminated = false; ///< and that it had been told to.
 
   bool runs() const {
     return pidfd != nullptr;

@@ -112,7 +112,8 @@ caf::result<container_adopted> adopt(process_runtime_pointer self,
   if (is_outdated(*std::get<running_process*>(found), wish.container))
     return container_adopted{false, wish.container, -1};
   const auto& x = std::get<running_process*>(found)->process;
-  return container_adopted{x.runs(), x.container, x.exit_code};
+  return container_adopted{x.runs(), x.container, x.exit_code, x.recorded,
+                           x.terminated};
 }
 
 /// By the io thread, like all words of the instance, so that none overtakes
@@ -257,8 +258,8 @@ void on_end(process_runtime_pointer self, const program_ended& fact) {
   x.stage = ending::none;
   x.next_stage.reset();
   const auto code = x.process.exit_code;
-  self->send(st.listener,
-             container_exited{fact.instance, fact.container, code});
+  self->send(st.listener, container_exited{fact.instance, fact.container, code,
+                                           x.process.terminated});
   for (auto& promise : std::exchange(x.stoppers, {}))
     promise.deliver(container_stopped{code});
   serve_followers(self, fact.instance);

@@ -137,15 +137,18 @@ TEST_CASE_METHOD(data_fixture, "Programs that no record knows are found",
   CHECK(open().strays == std::vector<std::string>{"t-b-2"});
 }
 
-TEST_CASE_METHOD(data_fixture,
-                 "Where a program was started is known after a restart",
-                 "[node_data]") {
+TEST_CASE_METHOD(
+    data_fixture,
+    "Where a program was started, and in which boot, is known after "
+    "a restart",
+    "[node_data]") {
   open();
   instance_row row;
   row.spec.instance = "t-a-2";
   auto record = json(row);
   put("instances", "t-a-2", record.dump());
   record["address"] = "10.0.0.5";
+  record["boot"] = "b-1";
   record["spec"]["instance"] = "t-a-1";
   put("instances", "t-a-1", record.dump());
   const auto data = open();
@@ -153,6 +156,9 @@ TEST_CASE_METHOD(data_fixture,
   CHECK(data.instances.size() == 2);
   CHECK(data.started_at
         == std::map<std::string, std::string>{{"t-a-1", "10.0.0.5"}});
+  // An earlier version has not written it down.
+  CHECK(data.started_in
+        == std::map<std::string, std::string>{{"t-a-1", "b-1"}});
 }
 
 } // namespace roscell::test

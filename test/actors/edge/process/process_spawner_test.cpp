@@ -132,8 +132,18 @@ TEST_CASE("the records of a shim are read as they are written") {
     folder.write("exit", text);
     return read_exit_record(folder.path());
   };
-  CHECK(exit(R"({"code":3,"signal":null,"at_unix_ms":1})") == 3);
-  CHECK(exit(R"({"code":null,"signal":9,"at_unix_ms":1})") == 137);
+  const auto ended = exit(R"({"code":3,"signal":null,"at_unix_ms":1})");
+  REQUIRE(ended);
+  CHECK(ended->exit_code == 3);
+  CHECK_FALSE(ended->terminated);
+  const auto killed = exit(R"({"code":null,"signal":9,"at_unix_ms":1})");
+  REQUIRE(killed);
+  CHECK(killed->exit_code == 137);
+  const auto told =
+      exit(R"({"code":0,"signal":null,"at_unix_ms":1,"terminated":true})");
+  REQUIRE(told);
+  CHECK(told->exit_code == 0);
+  CHECK(told->terminated);
 }
 
 TEST_CASE("records of anything else are none") {

@@ -25,7 +25,8 @@ start_container echo_wish() {
 }
 
 json document(const start_container& wish, const container_files& files = {}) {
-  return container_document(wish, files, {"uuid", 1024 * 1024}, "/n");
+  return container_document(wish, files, {"uuid", 1024 * 1024}, "/n",
+                            {"/the/shim", "/the/exit", "/the/fence"});
 }
 
 io_endpoint file(const std::string& path) {
@@ -66,7 +67,15 @@ TEST_CASE("a container shares network and memory, and is told where to speak") {
         == json::array({{{"Type", "bind"},
                          {"Source", "/n"},
                          {"Target", "/run/roscell"},
-                         {"ReadOnly", true}}}));
+                         {"ReadOnly", true}},
+                        {{"Type", "bind"},
+                         {"Source", "/the/shim"},
+                         {"Target", "/opt/roscell/instance-shim"},
+                         {"ReadOnly", true}},
+                        {{"Type", "bind"},
+                         {"Source", "/the/exit"},
+                         {"Target", "/opt/roscell/exit"},
+                         {"ReadOnly", false}}}));
   CHECK(host["LogConfig"]["Config"]["max-size"] == "524288");
   CHECK(host["LogConfig"]["Config"]["max-file"] == "2");
 }
@@ -127,7 +136,8 @@ TEST_CASE("an instance without a GPU asks an engine for none") {
 TEST_CASE("an engine without root has the node's user as its root") {
   container_setting setting{"uuid", 1024 * 1024};
   setting.rootless = true;
-  CHECK(container_document(echo_wish(), {}, setting, "/n")["User"] == "0:0");
+  CHECK(container_document(echo_wish(), {}, setting, "/n", {})["User"]
+        == "0:0");
 }
 
 TEST_CASE("a library path of the deployment does not hide the image's") {
@@ -136,36 +146,31 @@ TEST_CASE("a library path of the deployment does not hide the image's") {
   CHECK(document(wish)["Env"][1] == "LD_LIBRARY_PATH=/opt/roscell/lib:/mine");
 }
 
-TEST_CASE("a container with a fence runs its program under the shim") {
+TEST_CASE("a container runs its program under the shim") {
   auto wish = echo_wish();
   wish.stop_signal = SIGINT;
-  wish.fence_boot_ms = 1;
-  std::string program;
-  SECTION("one of the skill") {
-    wish.command = {"bin/echo", "a"};
-    program = "/opt/roscell/skill/bin/echo";
+  const bool of_base = GENERATE(false, true);
+  wish.command = {of_base ? "/bin/bash" : "bin/echo", "a"};
+  const auto* program = of_base ? "/bin/bash" : "/opt/roscell/skill/bin/echo";
+  json expected{"/opt/roscell/instance-shim", "--exit", "/opt/roscell/exit",
+                "--stop-signal", "2"};
+  SECTION("without a fence") {
+    // nop
   }
-  SECTION("one of the base image") {
-    wish.command = {"/bin/bash", "a"};
-    program = "/bin/bash";
+  SECTION("with one") {
+    wish.fence_boot_ms = 1;
+    expected.insert(expected.end(), {"--fence", "/opt/roscell/fence"});
+    const auto mounts = document(wish)["HostConfig"]["Mounts"];
+    REQUIRE(mounts.size() == 4);
+    CHECK(mounts[3]["Source"] == "/the/fence");
+    CHECK(mounts[3]["Target"] == "/opt/roscell/fence");
+    CHECK(mounts[3]["ReadOnly"] == true);
   }
-  const auto x = container_document(wish, {}, {"uuid", 1024 * 1024}, "/n",
-                                    {"/the/shim", "/the/fence"});
-  CHECK(x["Entrypoint"]
-        == json{"/opt/roscell/instance-shim", "--fence", "/opt/roscell/fence",
-                "--stop-signal", "2", "--", program, "a"});
+  expected.insert(expected.end(), {"--", program, "a"});
+  const auto x = document(wish);
+  CHECK(x["Entrypoint"] == expected);
   // The shim asks the program in the program's way.
   CHECK(x["StopSignal"] == "15");
-  const auto& mounts = x["HostConfig"]["Mounts"];
-  REQUIRE(mounts.size() == 3);
-  CHECK(mounts[1]
-        == json{{"Type", "bind"},
-                {"Source", "/the/shim"},
-                {"Target", "/opt/roscell/instance-shim"},
-                {"ReadOnly", true}});
-  CHECK(mounts[2]["Source"] == "/the/fence");
-  CHECK(mounts[2]["Target"] == "/opt/roscell/fence");
-  CHECK(mounts[2]["ReadOnly"] == true);
 }
 
 TEST_CASE("inputs can be read, outputs written") {

@@ -15,6 +15,7 @@ start_container podman_wish() {
   start_container wish;
   wish.instance = "i";
   wish.image = "roscell/echo:1";
+  wish.command = {"bin/echo"};
   wish.environment = {{"A", "1=2"}};
   wish.labels = {{"task", "t"}};
   return wish;
@@ -24,7 +25,8 @@ json podman_form(const start_container& wish,
                  const container_files& files = {}) {
   return podman_document(
       "roscell-i",
-      container_document(wish, files, {"uuid", 1024 * 1024}, "/n"));
+      container_document(wish, files, {"uuid", 1024 * 1024}, "/n",
+                         {"/the/shim", "/the/exit", "/the/fence"}));
 }
 
 } // namespace
@@ -42,7 +44,7 @@ TEST_CASE("Podman is told of the same container in its own words") {
   CHECK(x["labels"] == json{{"roscell.node", "uuid"}, {"roscell.task", "t"}});
   CHECK(x["netns"]["nsmode"] == "host");
   CHECK(x["ipcns"]["nsmode"] == "host");
-  REQUIRE(x["mounts"].size() == 3);
+  REQUIRE(x["mounts"].size() == 5);
   CHECK(x["mounts"][1]
         == json{{"type", "bind"},
                 {"source", "/in"},
@@ -73,24 +75,19 @@ TEST_CASE("Podman is told of a program of the base image and how it ends") {
   wish.command = {"/bin/bash", "-c", "true"};
   wish.stop_signal = SIGINT;
   const auto x = podman_form(wish);
-  CHECK(x["entrypoint"] == json{"/bin/bash", "-c", "true"});
-  CHECK(x["stop_signal"] == SIGINT);
-  wish.command = {"bin/echo"};
-  CHECK(podman_form(wish).count("entrypoint") == 0);
+  CHECK(x["entrypoint"]
+        == json{"/opt/roscell/instance-shim", "--exit", "/opt/roscell/exit",
+                "--stop-signal", "2", "--", "/bin/bash", "-c", "true"});
+  CHECK(x["stop_signal"] == SIGTERM);
 }
 
 TEST_CASE("Podman is told of the same fence") {
   auto wish = podman_wish();
-  wish.command = {"bin/echo"};
-  wish.stop_signal = SIGINT;
   wish.fence_boot_ms = 1;
-  const auto x = podman_document(
-      "roscell-i", container_document(wish, {}, {"uuid", 1024 * 1024}, "/n",
-                                      {"/the/shim", "/the/fence"}));
+  const auto x = podman_form(wish);
   CHECK(x["entrypoint"][0] == "/opt/roscell/instance-shim");
-  CHECK(x["stop_signal"] == SIGTERM);
-  REQUIRE(x["mounts"].size() == 3);
-  CHECK(x["mounts"][2]
+  REQUIRE(x["mounts"].size() == 4);
+  CHECK(x["mounts"][3]
         == json{{"type", "bind"},
                 {"source", "/the/fence"},
                 {"destination", "/opt/roscell/fence"},
