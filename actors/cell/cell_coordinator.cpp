@@ -19,6 +19,7 @@
 #include "actors/cell/tasks/cell_resources.hpp"
 #include "actors/cell/tasks/cell_tasks.hpp"
 #include "actors/cell/tasks/task_changes.hpp"
+#include "actors/cell/tasks/task_claims.hpp"
 #include "actors/cell/tasks/task_endings.hpp"
 #include "actors/cell/tasks/task_preemption.hpp"
 #include "actors/cell/tasks/task_removals.hpp"

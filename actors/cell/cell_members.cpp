@@ -10,6 +10,7 @@
 #include "actors/cell/state/node_whereabouts.hpp"
 #include "actors/cell/state/task_story.hpp"
 #include "actors/cell/tasks/cell_instances.hpp"
+#include "actors/cell/tasks/node_names.hpp"
 #include "actors/cell/tasks/task_removals.hpp"
 #include "actors/house/limits.hpp"
 #include "actors/house/watching.hpp"
@@ -87,8 +88,11 @@ void on_registration_kept(coordinator_pointer self,
   const auto& node = request.registration;
   const auto& who = node.identity;
   member_actor former;
-  if (const auto* old = st.registry.find_uuid(who.uuid))
+  std::string former_name = who.name;
+  if (const auto* old = st.registry.find_uuid(who.uuid)) {
     former = old->member;
+    former_name = old->row.identity.name;
+  }
   auto* entry = st.registry.accept(who.uuid, request.member, now_of(self));
   if (!entry) {
     promise.deliver(
@@ -100,6 +104,8 @@ void on_registration_kept(coordinator_pointer self,
     self->send(former, close_session{"the node has registered anew"});
   st.places.forget(who.uuid);
   st.free_nodes.registered(who);
+  if (former_name != who.name)
+    rename_node(self, former_name, who.name);
   publish(self, {who.uuid});
   st.context.tell("node_joined", who.name,
                   {{"uuid", who.uuid},

@@ -30,8 +30,8 @@ void answer_memory::finish(const std::string& id, const std::string& answer) {
   const auto known = requests_.find(id);
   if (known == requests_.end())
     return;
+  bytes_ += answer.size() - known->second.answer.size();
   known->second.answer = answer;
-  bytes_ += answer.size();
   trim();
 }
 

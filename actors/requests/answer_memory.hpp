@@ -27,7 +27,8 @@ public:
   /// An `unknown` one is worked on from now on.
   void begin(const std::string& id, const std::string& body);
 
-  /// It has been done, unless it was forgotten meanwhile.
+  /// It has been done, for the first time or once more, unless it was forgotten
+  /// meanwhile.
   void finish(const std::string& id, const std::string& answer);
 
   /// It was refused, and may be tried again under its id.

@@ -145,6 +145,12 @@ void dispatch(request_router_self self, const request_runner& run,
           });
 }
 
+/// Whether its first answer may have become wrong: a task that ran then may not
+/// run now. The coordinator keeps itself that it does nothing twice.
+bool is_looked_at_anew(const std::string& type) {
+  return type == task_request::type;
+}
+
 /// Handles a request with an id. False if it is to be worked on.
 bool recall(request_router_self self, const std::string& type,
             const std::string& id, const std::string& body,
@@ -159,6 +165,8 @@ bool recall(request_router_self self, const std::string& type,
     st.waiting[id].push_back(promise);
     return true;
   case standing::answered:
+    if (is_looked_at_anew(type))
+      return false;
     promise.deliver(request_routed{st.memory.answer(id), ""});
     return true;
   case standing::taken:

@@ -132,6 +132,24 @@ void deployment_book::forget_node(const std::string& node) {
   told_.erase(node);
 }
 
+std::set<std::string> deployment_book::rename_node(const std::string& from,
+                                                   const std::string& to) {
+  std::set<std::string> result;
+  for (auto& [task, steps] : by_task_)
+    for (auto& x : steps)
+      if (x.node == from) {
+        x.node = to;
+        result.insert(task);
+      }
+  if (auto rows = told_.extract(from)) {
+    for (auto& [instance, row] : rows.mapped())
+      row.node = to;
+    rows.key() = to;
+    told_.insert(std::move(rows));
+  }
+  return result;
+}
+
 const instance_row* deployment_book::told(const std::string& node,
                                           const std::string& instance) const {
   const auto rows = told_.find(node);

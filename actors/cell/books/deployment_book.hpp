@@ -89,6 +89,11 @@ public:
 
   void forget_node(const std::string& node);
 
+  /// A node has another name from now on. Returns the tasks that have something
+  /// there.
+  std::set<std::string> rename_node(const std::string& from,
+                                    const std::string& to);
+
   /// What a node has told; null if nothing.
   const instance_row* told(const std::string& node,
                            const std::string& instance) const;

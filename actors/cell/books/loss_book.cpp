@@ -1,6 +1,7 @@
 #include "actors/cell/books/loss_book.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace roscell {
@@ -10,6 +11,19 @@ void loss_book::lose(lost_step x, std::chrono::milliseconds after) {
   x.ended_by = x.due;
   const auto instance = x.instance;
   steps_.emplace(instance, std::move(x));
+}
+
+void loss_book::lose_sight(lost_step x) {
+  x.due = x.ended_by = time_point::max();
+  x.is_alone = true;
+  const auto instance = x.instance;
+  steps_.emplace(instance, std::move(x));
+}
+
+void loss_book::see_again(const std::string& uuid) {
+  for (auto i = steps_.begin(); i != steps_.end();)
+    i = i->second.is_alone && i->second.uuid == uuid ? steps_.erase(i)
+                                                     : std::next(i);
 }
 
 void loss_book::forget(const std::string& instance) {

@@ -23,6 +23,9 @@ struct lost_step {
   backoff pause = backoff{};
   std::string trouble;   ///< Why it has no place; empty: not tried yet.
   bool given_up = false; ///< What returns of it is to end.
+  /// It is not placed anew: its host starts it alone, whenever that is switched
+  /// on.
+  bool is_alone = false;
 };
 
 /// Steps that move because their nodes are lost. Pure; told the time.
@@ -33,6 +36,13 @@ public:
   /// The node of an instance is lost; it moves `after` the node's last word.
   /// One that is known to be lost stays as it is.
   void lose(lost_step x, std::chrono::milliseconds after);
+
+  /// The same of one that its host starts alone: it does not move, and may run
+  /// at any time until its node is back.
+  void lose_sight(lost_step x);
+
+  /// Forgets those of a node that is back.
+  void see_again(const std::string& uuid);
 
   /// It is back, has moved, or is wanted no more.
   void forget(const std::string& instance);

@@ -13,6 +13,10 @@ ROSCELL_CODEC(task_record)
 
 namespace {
 
+/// Requests that are remembered as of one run: a person or a program sends one,
+/// and the same again where it got no answer.
+constexpr size_t most_request_ids = 16;
+
 bool has(const std::vector<std::string>& list, const std::string& wanted) {
   return std::find(list.begin(), list.end(), wanted) != list.end();
 }
@@ -91,7 +95,8 @@ const task_entry* task_book::find(const std::string& task) const {
 }
 
 claim_standing task_book::standing_of(const std::string& task,
-                                      const std::string& request) const {
+                                      const std::string& request,
+                                      const std::string& id) const {
   const auto* entry = find(task);
   if (!entry)
     return claim_standing::unknown;
@@ -99,13 +104,34 @@ claim_standing task_book::standing_of(const std::string& task,
     return claim_standing::other_body;
   if (entry->ending)
     return claim_standing::ending;
-  return entry->state == task_state::deploying ? claim_standing::deploying
-                                               : claim_standing::accepted;
+  if (entry->state == task_state::deploying)
+    return claim_standing::deploying;
+  return is_settled(entry->state) && !id.empty() && !is_of_run(task, id)
+             ? claim_standing::next_run
+             : claim_standing::accepted;
+}
+
+bool task_book::is_of_run(const std::string& task,
+                          const std::string& id) const {
+  const auto* entry = find(task);
+  return entry && has(entry->request_ids, id);
 }
 
 void task_book::begin(const std::string& task, const std::string& request,
-                      int64_t now_unix_ms) {
-  entries_[task] = {request, "", task_state::deploying, now_unix_ms, false};
+                      const std::string& id, int64_t now_unix_ms) {
+  task_entry fresh;
+  fresh.request = request;
+  fresh.submitted_unix_ms = now_unix_ms;
+  if (!id.empty())
+    fresh.request_ids.push_back(id);
+  if (const auto* former = find(task))
+    fresh.run = former->run + 1;
+  entries_[task] = std::move(fresh);
+}
+
+void task_book::take_back(const task_record& former) {
+  entries_.erase(former.task);
+  apply(former);
 }
 
 bool task_book::begin_ending(const std::string& task) {
@@ -120,6 +146,8 @@ void task_book::apply(const task_record& record) {
   entry.state = record.state;
   entry.submitted_unix_ms = record.submitted_unix_ms;
   entry.ended_unix_ms = record.ended_unix_ms;
+  entry.run = record.run;
+  entry.request_ids = record.request_ids;
 }
 
 void task_book::forget(const std::string& task) {
@@ -178,6 +206,8 @@ task_record record_of(const std::string& task, const task_entry& entry,
   task_record result{task, entry.request, entry.accepted, entry.state,
                      entry.submitted_unix_ms};
   result.ended_unix_ms = entry.ended_unix_ms;
+  result.run = entry.run;
+  result.request_ids = entry.request_ids;
   for (const auto& x : deployments.of_task(task)) {
     result.specs.push_back(x.spec);
     result.nodes.push_back(x.node);
@@ -207,6 +237,29 @@ task_record with_placement(task_record record, const task_accepted& decision,
   record.accepted = decision_text(decision);
   record.specs = std::move(specs);
   record.nodes = std::move(nodes);
+  record.ends.clear();
+  record.tentative.clear();
+  return record;
+}
+
+task_record with_request(task_record record, const std::string& id) {
+  auto& ids = record.request_ids;
+  if (has(ids, id))
+    return record;
+  ids.push_back(id);
+  if (ids.size() > most_request_ids)
+    ids.erase(ids.begin());
+  return record;
+}
+
+task_record with_renamed(task_record record, const std::string& from,
+                         const std::string& to) {
+  std::replace(record.nodes.begin(), record.nodes.end(), from, to);
+  auto decision = decision_in(record.task, record.accepted);
+  for (auto& allocation : decision.allocations)
+    if (allocation.node == from)
+      allocation.node = to;
+  record.accepted = decision_text(std::move(decision));
   return record;
 }
 
@@ -293,6 +346,7 @@ task_accepted reply_of(const std::string& task, const task_entry& entry,
                        const deployment_book& deployments) {
   auto result = decision_in(task, entry.accepted);
   result.instances.clear();
+  result.run = entry.run;
   for (const auto& x : deployments.of_task(task)) {
     if (x.tentative)
       continue;

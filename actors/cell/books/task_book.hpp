@@ -28,6 +28,9 @@ struct task_record {
   std::vector<instance_end> ends;     ///< Of those that have ended.
   std::vector<std::string> tentative; ///< Instances of a move that goes on.
   int64_t ended_unix_ms = 0; ///< When its last step ended; 0: it goes on.
+  int64_t run = 1;           ///< How often it has been started as a whole.
+  /// Of the requests that are of this run, the newest last.
+  std::vector<std::string> request_ids;
 
   static constexpr auto fields() {
     return field_list{
@@ -40,7 +43,9 @@ struct task_record {
         required("nodes", &task_record::nodes),
         optional("ends", &task_record::ends),
         optional("tentative", &task_record::tentative),
-        optional("ended_unix_ms", &task_record::ended_unix_ms)};
+        optional("ended_unix_ms", &task_record::ended_unix_ms),
+        optional("run", &task_record::run),
+        optional("request_ids", &task_record::request_ids)};
   }
 };
 
@@ -52,6 +57,8 @@ struct task_entry {
   int64_t submitted_unix_ms = 0;
   bool ending = false; ///< Its instances are being removed.
   int64_t ended_unix_ms = 0;
+  int64_t run = 1;
+  std::vector<std::string> request_ids;
 };
 
 /// How a claim stands to what the book knows.
@@ -61,6 +68,7 @@ enum class claim_standing {
   ending,     ///< The task is being terminated.
   deploying,  ///< The same request is being deployed.
   accepted,   ///< The same request has been done.
+  next_run,   ///< It has been done, has ended, and is asked for once more.
 };
 
 /// The coordinator's tasks. Pure. What changes of a task is proposed as a
@@ -69,22 +77,32 @@ class task_book {
 public:
   const task_entry* find(const std::string& task) const;
 
+  /// @param id Of the request; empty: it has none, and asks for no other run.
   claim_standing standing_of(const std::string& task,
-                             const std::string& request) const;
+                             const std::string& request,
+                             const std::string& id) const;
+
+  /// Whether the task's present run, or its last one, was asked for under that
+  /// id.
+  bool is_of_run(const std::string& task, const std::string& id) const;
 
   bool is_full() const {
     return entries_.size() >= limits::task::most;
   }
 
-  /// A task begins to be deployed. Nothing of it is durable yet.
+  /// A task begins to be deployed, for the first time or once more. Nothing of
+  /// it is durable yet.
   void begin(const std::string& task, const std::string& request,
-             int64_t now_unix_ms);
+             const std::string& id, int64_t now_unix_ms);
 
   /// Its instances are being removed from now on. False if they were already.
   bool begin_ending(const std::string& task);
 
   /// The store has kept this.
   void apply(const task_record& record);
+
+  /// Its next run has come to nothing: it is as it was before that.
+  void take_back(const task_record& former);
 
   /// The store has removed it, or never had it.
   void forget(const std::string& task);
@@ -126,12 +144,15 @@ task_record record_of(const std::string& task, const task_entry& entry,
 /// What the record says is deployed where.
 std::vector<deployment> deployments_in(const task_record& record);
 
-/// With what was placed, from a task that had nothing placed.
+/// With what was placed, in place of what an earlier run had placed.
 task_record with_placement(task_record record, const task_accepted& decision,
                            std::vector<instance_spec> specs,
                            std::vector<std::string> nodes);
 
 task_record with_state(task_record record, task_state state);
+
+/// With a request that has found the task's run going on.
+task_record with_request(task_record record, const std::string& id);
 
 /// With ends of instances. The state follows when it was the last one.
 task_record with_ends(task_record record, const std::vector<instance_end>& ends,
@@ -166,6 +187,10 @@ task_record without(task_record record,
 /// a task that was being deployed or ended: nodes stop its instances when they
 /// register.
 std::optional<task_record> restored(task_record record);
+
+/// What each node that has another name now is called, in all of a record.
+task_record with_renamed(task_record record, const std::string& from,
+                         const std::string& to);
 
 /// The reply to the request, with its instances where they are now.
 task_accepted reply_of(const std::string& task, const task_entry& entry,

@@ -1,5 +1,6 @@
 #include "actors/cell/moves/lost_steps.hpp"
 
+#include "actors/cell/moves/lost_remains.hpp"
 #include "actors/cell/moves/move_stages.hpp"
 #include "actors/cell/state/coordinator_timer.hpp"
 #include "actors/cell/state/task_story.hpp"
@@ -22,11 +23,6 @@ using std::chrono::milliseconds;
 milliseconds patience_of(const instance_spec& spec) {
   return milliseconds{
       static_cast<int64_t>(spec.life.on_node_loss.after_s * 1000)};
-}
-
-bool moves(const deployment& x) {
-  return x.spec.life.on_node_loss.policy == loss_action::move && !x.end
-         && !x.tentative;
 }
 
 /// Whether it is still to be placed anew.
@@ -119,31 +115,13 @@ void clear_and_place(coordinator_pointer self,
   end_one(self, all);
 }
 
-/// Whether it is there and no task wants it, where a fence ends it.
-bool is_left_over(const cell_coordinator_state& st, const instance_row& row) {
-  return is_live(row.state) && !st.deployments.find(row.spec.instance)
-         && row.spec.life.on_node_loss.policy == loss_action::move;
-}
-
-/// Whether its node can be told to end it.
-bool is_back(const cell_coordinator_state& st, const lost_step& x) {
-  const auto* node = st.registry.find_name(x.node);
-  return node && node->agent && node->row.identity.uuid == x.uuid;
-}
-
-std::optional<milliseconds> fenced_for(coordinator_pointer self,
-                                       const lost_step& x) {
-  const auto left =
-      std::chrono::ceil<milliseconds>(x.ended_by - self->clock().now());
-  return left.count() > 0 ? std::optional{left} : std::nullopt;
-}
-
-failure still_there(const std::string& instance, const std::string& node,
-                    const std::string& why, const std::string& when) {
-  return {error_code::conflict,
-          "'" + instance + "' of the task that had this name may still run "
-              + "on '" + node + "': " + why,
-          "/task", "send it again " + when + ", or choose another task id"};
+/// Nothing is heard of it any more.
+void lose_step(cell_coordinator_state& st, const instance_spec& spec,
+               lost_step x) {
+  if (may_move(spec))
+    st.losses.lose(std::move(x), patience_of(spec));
+  else if (starts_alone(spec))
+    st.losses.lose_sight(std::move(x));
 }
 
 } // namespace
@@ -154,16 +132,14 @@ void lose_steps_of(coordinator_pointer self, const std::string& node,
   auto& st = self->state;
   for (const auto& [task, entry] : st.tasks.entries())
     for (const auto& x : st.deployments.of_task(task))
-      if (x.node == node && moves(x))
-        st.losses.lose({task, x.spec.instance, node, uuid, since},
-                       patience_of(x.spec));
+      if (x.node == node && !x.end && !x.tentative)
+        lose_step(st, x.spec, {task, x.spec.instance, node, uuid, since});
   // What nobody wants any more may run on there for as long, from now on.
   for (const auto& x : st.deployments.rows_on(node)) {
     if (!is_left_over(st, x))
       continue;
     st.losses.forget(x.spec.instance);
-    st.losses.lose({x.spec.task, x.spec.instance, node, uuid, since},
-                   patience_of(x.spec));
+    lose_step(st, x.spec, {x.spec.task, x.spec.instance, node, uuid, since});
   }
   set_timer(self);
 }
@@ -182,6 +158,7 @@ void lose_steps_of_all(coordinator_pointer self) {
 
 void find_steps_of(coordinator_pointer self, const node_registration& node) {
   auto& st = self->state;
+  st.losses.see_again(node.identity.uuid);
   for (const auto& [task, entry] : st.tasks.entries())
     for (const auto& x : st.deployments.of_task(task)) {
       const auto& instance = x.spec.instance;
@@ -197,33 +174,6 @@ bool is_elsewhere(const cell_coordinator_state& st, const std::string& instance,
                   const std::string& uuid) {
   const auto* lost = st.losses.find(instance);
   return lost && lost->uuid != uuid;
-}
-
-std::optional<milliseconds> may_run_on(coordinator_pointer self,
-                                       const std::string& instance) {
-  const auto& st = self->state;
-  const auto* lost = st.losses.find(instance);
-  return lost && !is_back(st, *lost) ? fenced_for(self, *lost) : std::nullopt;
-}
-
-std::optional<failure> remains_of(coordinator_pointer self,
-                                  const std::string& task) {
-  const auto& st = self->state;
-  for (const auto& x : st.losses.of_task(task)) {
-    const auto left = is_back(st, x) ? std::nullopt : fenced_for(self, x);
-    if (!left)
-      continue;
-    const auto s = std::chrono::ceil<std::chrono::seconds>(*left).count();
-    return still_there(x.instance, x.node, "its node is away",
-                       "in " + std::to_string(s)
-                           + " s, when it has been ended there");
-  }
-  for (const auto& row : st.deployments.rows_of(task))
-    if (is_left_over(st, row) && !is_away(st, row.node))
-      return still_there(row.spec.instance, row.node,
-                         "its node was away, and is ending it",
-                         "once it has ended");
-  return std::nullopt;
 }
 
 void move_lost_steps(coordinator_pointer self) {
@@ -248,10 +198,12 @@ void move_lost_steps(coordinator_pointer self) {
 std::string wait_of_lost(const cell_coordinator_state& st,
                          const instance_row& row) {
   const auto* x = st.losses.find(row.spec.instance);
-  if (!x && !st.deployments.find(row.spec.instance))
+  if ((!x || x->is_alone) && !st.deployments.find(row.spec.instance))
     return "no longer wanted, ends once node '" + row.node + "' is back";
   if (!x)
     return "waits for node '" + row.node + "'";
+  if (x->is_alone)
+    return "waits for node '" + row.node + "', which may start it alone";
   if (!x->trouble.empty())
     return "waits for a place: " + x->trouble;
   return "moves unless node '" + row.node + "' is back within "

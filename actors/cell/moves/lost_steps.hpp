@@ -28,16 +28,6 @@ void find_steps_of(coordinator_pointer self, const node_registration& node);
 bool is_elsewhere(const cell_coordinator_state& st, const std::string& instance,
                   const std::string& uuid);
 
-/// How long the fence may let an instance run on where its node is away; none
-/// if it surely does not, or its node can be told to end it.
-std::optional<std::chrono::milliseconds>
-may_run_on(coordinator_pointer self, const std::string& instance);
-
-/// Why a task must not be begun yet: a step of its name that was lost, and that
-/// nobody wants any more, may still run.
-std::optional<failure> remains_of(coordinator_pointer self,
-                                  const std::string& task);
-
 /// Places anew what has been lost for long enough.
 void move_lost_steps(coordinator_pointer self);
 

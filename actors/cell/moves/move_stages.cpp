@@ -1,5 +1,6 @@
 #include "actors/cell/moves/move_stages.hpp"
 
+#include "actors/cell/moves/lost_remains.hpp"
 #include "actors/cell/moves/lost_steps.hpp"
 #include "actors/cell/tasks/task_changes.hpp"
 #include "actors/cell/tasks/task_removals.hpp"
@@ -77,6 +78,21 @@ failure still_fenced(const moved_step& x, std::chrono::milliseconds left) {
               + " s, and moves by itself then; or say \"terminate\""};
 }
 
+/// Why the old one may run where nobody can end it.
+std::optional<failure> may_run_there(coordinator_pointer self,
+                                     const task_move& move,
+                                     const moved_step& x) {
+  const auto& instance = x.change.old_instance;
+  if (move.kind == move_kind::lost)
+    return std::nullopt;
+  const auto* lost = self->state.losses.find(instance);
+  if (lost && lost->is_alone)
+    return may_start_alone(instance, x.from);
+  if (const auto left = may_run_on(self, instance))
+    return still_fenced(x, *left);
+  return std::nullopt;
+}
+
 void deploy_step(coordinator_pointer self, const move_ptr& move,
                  const moved_step& x) {
   const auto& node = x.change.place.node;
@@ -92,9 +108,8 @@ void deploy_step(coordinator_pointer self, const move_ptr& move,
   if (!self->state.deployments.find(x.change.spec.instance, node)
       || !(self->state.tasks.*still_of(*move))(x.task))
     return end_deployment(self, move);
-  if (const auto left = may_run_on(self, x.change.old_instance);
-      left && move->kind != move_kind::lost)
-    return end_with(still_fenced(x, *left));
+  if (auto why = may_run_there(self, *move, x))
+    return end_with(*why);
   const auto* entry = self->state.registry.find_name(node);
   if (!entry || !entry->agent)
     return end_with({error_code::conflict, "the node left meanwhile"});

@@ -5,9 +5,11 @@
 #include "actors/cell/moves/rebalancing.hpp"
 #include "actors/cell/state/task_story.hpp"
 #include "actors/cell/streams/cell_streams.hpp"
+#include "actors/cell/tasks/node_names.hpp"
 #include "actors/cell/tasks/task_endings.hpp"
 #include "actors/cell/tasks/task_removals.hpp"
 #include "actors/house/limits.hpp"
+#include "actors/house/wall_clock.hpp"
 #include "messages/failure.hpp"
 
 #include <algorithm>
@@ -80,6 +82,19 @@ void apply_here(coordinator_pointer self, const node_registration& own,
           .then([](const instances_removed&) {}, ignore);
 }
 
+/// What nobody wants any more has run on meanwhile, or begun anew.
+void tell_unwanted(coordinator_pointer self, const instance_row& x,
+                   const std::string& node) {
+  json data{{"task", x.spec.task},
+            {"step", x.spec.step},
+            {"node", node},
+            {"state", to_word(x.state)}};
+  if (x.since_unix_ms > 0)
+    data["for_s"] =
+        std::max<int64_t>(0, unix_now_ms() - x.since_unix_ms) / 1000;
+  tell_of_task(self, "instance_unwanted", x.spec.task, x.spec.instance, data);
+}
+
 /// The node that speaks: a member speaks for its own only.
 std::optional<std::string> node_of_sender(coordinator_pointer self) {
   auto& st = self->state;
@@ -132,25 +147,38 @@ void tell_change(coordinator_pointer self, instance_row x,
   tell_of_task(self, "instance_changed", x.spec.task, x.spec.instance, data);
 }
 
+namespace {
+
+/// What the coordination node runs, as it would tell it in a registration.
+void take_up_own(coordinator_pointer self, instance_description& known) {
+  const auto& st = self->state;
+  node_registration own;
+  own.identity = st.setup.self;
+  own.instances = std::move(known.instances);
+  follow_own_name(self, own);
+  contact_proven fact{st.context.boot_now_ms(self->system()), {}};
+  for (const auto& x : take_up_instances(self, own)) {
+    apply_here(self, own, x);
+    if (x.what != verdict::stop)
+      fact.kept.push_back(x.instance);
+  }
+  self->send(st.setup.supervisor, std::move(fact));
+}
+
+} // namespace
+
 void reconcile_own_node(coordinator_pointer self) {
   const auto& st = self->state;
   if (!st.setup.supervisor)
     return;
   self->request(st.setup.supervisor, limits::resource::collection,
                 instance_query{})
-      .then(
-          [self](instance_description& known) {
-            node_registration own;
-            own.identity = self->state.setup.self;
-            own.instances = std::move(known.instances);
-            for (const auto& x : take_up_instances(self, own))
-              apply_here(self, own, x);
-          },
-          [self](const caf::error& why) {
-            self->state.context.tell("reconciliation_failed",
-                                     self->state.setup.self.name,
-                                     {{"reason", to_failure(why).message}});
-          });
+      .then([self](instance_description& known) { take_up_own(self, known); },
+            [self](const caf::error& why) {
+              self->state.context.tell("reconciliation_failed",
+                                       self->state.setup.self.name,
+                                       {{"reason", to_failure(why).message}});
+            });
 }
 
 std::vector<instance_verdict> take_up_instances(coordinator_pointer self,
@@ -164,8 +192,10 @@ std::vector<instance_verdict> take_up_instances(coordinator_pointer self,
   for (auto x : node.instances) {
     if (!is_wanted(st, x.spec.instance, name)) {
       // It is there until the node has ended it.
-      if (is_live(x.state))
+      if (is_live(x.state)) {
+        tell_unwanted(self, x, name);
         st.deployments.tell(name, std::move(x));
+      }
       continue;
     }
     // A node that registers says less of an instance than the task knows.

@@ -1,17 +1,14 @@
 #include "actors/cell/tasks/cell_tasks.hpp"
 
-#include "actors/cell/moves/lost_steps.hpp"
 #include "actors/cell/state/coordinator_store.hpp"
 #include "actors/cell/state/task_story.hpp"
-#include "actors/cell/tasks/cell_resources.hpp"
 #include "actors/cell/tasks/task_changes.hpp"
+#include "actors/cell/tasks/task_claims.hpp"
 #include "actors/cell/tasks/task_endings.hpp"
 #include "actors/cell/tasks/task_preemption.hpp"
-#include "actors/cell/tasks/task_restart.hpp"
+#include "actors/cell/tasks/task_removals.hpp"
 #include "actors/cell/tasks/task_turns.hpp"
-#include "actors/house/limits.hpp"
 #include "actors/house/wall_clock.hpp"
-#include "actors/house/watching.hpp"
 #include "messages/failure.hpp"
 
 #include <algorithm>
@@ -22,96 +19,6 @@
 namespace roscell {
 
 namespace {
-
-using claim_promise = caf::typed_response_promise<task_claimed>;
-
-task_claimed known_reply(const cell_coordinator_state& st,
-                         const std::string& task) {
-  return {true, reply_of(task, *st.tasks.find(task), st.deployments), {}};
-}
-
-caf::error refuse_crowd(const std::string& what) {
-  return fail(error_code::conflict, what, "/task",
-              "send it again when some are done");
-}
-
-/// The same request again heals what of its task has failed.
-void answer_accepted(coordinator_pointer self, const std::string& task,
-                     claim_promise promise) {
-  const auto healed = failed_steps(self->state, task);
-  if (healed.empty()) {
-    promise.deliver(known_reply(self->state, task));
-    return;
-  }
-  heal_task(self, task,
-            [self, task, healed, promise](const failure* why) mutable {
-              if (why) {
-                promise.deliver(to_error(*why));
-              } else if (!self->state.tasks.is_kept(task)) {
-                promise.deliver(terminated_meanwhile(task));
-              } else {
-                auto reply = known_reply(self->state, task);
-                reply.accepted.healed = healed;
-                promise.deliver(std::move(reply));
-              }
-            });
-}
-
-/// Answers a claim whose task is known, or whose name is not free yet. True if
-/// that settles it.
-bool answer_known(coordinator_pointer self, const claim_task& request,
-                  claim_promise promise) {
-  auto& st = self->state;
-  const auto& task = request.task;
-  switch (st.tasks.standing_of(task, request.request)) {
-  case claim_standing::unknown: {
-    const auto why = remains_of(self, task);
-    if (why)
-      promise.deliver(to_error(*why));
-    return why.has_value();
-  }
-  case claim_standing::other_body:
-    promise.deliver(fail(
-        error_code::task_exists, "task '" + task + "' exists with another body",
-        "/task", "choose another task id, or terminate this one"));
-    break;
-  case claim_standing::ending:
-    promise.deliver(fail(error_code::conflict,
-                         "task '" + task + "' is being terminated", "/task",
-                         "send it again once it has ended"));
-    break;
-  case claim_standing::accepted:
-    answer_accepted(self, task, promise);
-    break;
-  case claim_standing::deploying: {
-    auto& waiting = st.desk.waiters[task].same_requests;
-    if (waiting.size() >= limits::task::same_requests)
-      promise.deliver(refuse_crowd("too many wait for task '" + task + "'"));
-    else
-      waiting.push_back(std::move(promise));
-  }
-  }
-  return true;
-}
-
-/// The task is the claimant's; it is told what it can be placed on.
-void grant_turn(coordinator_pointer self, const claim_task& request,
-                const caf::actor_addr& owner, uint64_t turn,
-                claim_promise promise) {
-  auto& st = self->state;
-  st.tasks.begin(request.task, request.request, unix_now_ms());
-  auto& waiters = st.desk.waiters[request.task];
-  waiters.owner = owner;
-  waiters.turn = turn;
-  collect_resources_of_cell(self, [self, task = request.task, turn,
-                                   promise](cell_resources&& found) mutable {
-    auto& desk = self->state.desk;
-    if (self->state.tasks.is_deploying(task) && desk.waiters[task].turn == turn)
-      promise.deliver(task_claimed{false, {}, std::move(found)});
-    else
-      promise.deliver(terminated_meanwhile(task));
-  });
-}
 
 caf::error node_left(const std::string& node) {
   return fail(error_code::conflict,
@@ -157,6 +64,16 @@ void refuse_unwritten(coordinator_pointer self, const std::string& task,
             });
 }
 
+/// What the run before has left on its nodes is not wanted any more. A node
+/// that is away is told so when it registers.
+void remove_former(coordinator_pointer self,
+                   const std::optional<task_record>& former) {
+  if (!former)
+    return;
+  for (const auto& x : deployments_in(*former))
+    remove_instance(self, {x.node, former->task, x.spec.instance}, [] {});
+}
+
 void on_accepted(coordinator_pointer self, const std::string& task,
                  caf::typed_response_promise<task_accepted> promise) {
   auto& st = self->state;
@@ -166,11 +83,16 @@ void on_accepted(coordinator_pointer self, const std::string& task,
   }
   auto& waiters = st.desk.waiters[task];
   waiters.owner = nullptr;
-  promise.deliver(reply_of(task, *st.tasks.find(task), st.deployments));
+  auto reply = reply_of(task, *st.tasks.find(task), st.deployments);
+  reply.found = waiters.former ? task_found::anew : task_found::started;
+  remove_former(self, std::exchange(waiters.former, std::nullopt));
+  promise.deliver(std::move(reply));
   for (auto& other : std::exchange(waiters.same_requests, {}))
     other.deliver(known_reply(st, task));
-  tell_of_task(self, "task_accepted", task, task,
-               {{"instances", st.deployments.of_task(task).size()}});
+  json data{{"instances", st.deployments.of_task(task).size()}};
+  if (const auto run = st.tasks.find(task)->run; run > 1)
+    data["run"] = run;
+  tell_of_task(self, "task_accepted", task, task, data);
   record_ends(self, task);
   settle_ended(self, task);
   settle_awaited_deployments(self);
@@ -197,30 +119,6 @@ void restore_tasks(coordinator_pointer self) {
     st.tasks.apply(*record);
     st.deployments.place(record->task, deployments_in(*record));
   }
-}
-
-caf::result<task_claimed> claim_task_turn(coordinator_pointer self,
-                                          const claim_task& request) {
-  auto& st = self->state;
-  // The promise takes the message's sender, so it is looked at before.
-  const auto sender = self->current_sender();
-  const auto owner = caf::actor_cast<caf::actor_addr>(sender);
-  if (sender)
-    watch_until_its_end(self, sender);
-  auto promise = self->make_response_promise<task_claimed>();
-  if (answer_known(self, request, promise))
-    return promise;
-  if (st.tasks.is_full() || st.desk.waiting.size() >= limits::task::waiting) {
-    promise.deliver(refuse_crowd("the cell has too many tasks"));
-    return promise;
-  }
-  take_turn(self, owner, [self, request, owner, promise](uint64_t turn) {
-    if (answer_known(self, request, promise))
-      end_turn(self, turn);
-    else
-      grant_turn(self, request, owner, turn, promise);
-  });
-  return promise;
 }
 
 caf::result<intent_recorded> hold_placement(coordinator_pointer self,

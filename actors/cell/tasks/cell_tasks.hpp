@@ -2,15 +2,14 @@
 
 #include "actors/cell/state/coordinator_state.hpp"
 
-/// What the CELL COORDINATOR does about task requests: claim, intent, and the
-/// word that all steps run. How tasks end is in task_endings.hpp.
+/// What the CELL COORDINATOR does about tasks that are deployed: the intent,
+/// and the word that all steps run. How they are claimed is in task_claims.hpp,
+/// how they end in task_endings.hpp.
 namespace roscell {
 
 /// Takes up the tasks that an earlier run of the coordinator has stored.
 void restore_tasks(coordinator_pointer self);
 
-caf::result<task_claimed> claim_task_turn(coordinator_pointer self,
-                                          const claim_task& request);
 caf::result<intent_recorded> hold_placement(coordinator_pointer self,
                                             const record_intent& intent);
 caf::result<task_accepted> accept_task(coordinator_pointer self,

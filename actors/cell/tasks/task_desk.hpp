@@ -13,6 +13,7 @@
 #include <deque>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,8 @@ struct task_waiters {
   caf::actor_addr owner; ///< The pipeline that deploys it.
   uint64_t turn = 0;     ///< That it was given.
   bool force = false;    ///< It is ended without waiting for safety.
+  /// The run before the one that is being deployed; none: this is the first.
+  std::optional<task_record> former;
   std::vector<caf::typed_response_promise<task_claimed>> same_requests;
   std::vector<caf::typed_response_promise<task_terminated>> terminations;
   /// Called once all of it is gone.

@@ -204,6 +204,26 @@ caf::result<task_terminated> terminate_task(coordinator_pointer self,
   return promise;
 }
 
+namespace {
+
+/// The task is as it was before its deployment began: there was none, or its
+/// run before had ended. Where that cannot be written down its record goes when
+/// there is room; the next start drops what was being deployed, too.
+void take_back(coordinator_pointer self, const std::string& task,
+               const std::optional<task_record>& former, bool is_unwritten) {
+  auto& st = self->state;
+  if (is_unwritten && !former)
+    forget_refused(self, "tasks", task);
+  st.tasks.forget(task);
+  st.deployments.forget_task(task);
+  if (!former)
+    return;
+  st.tasks.take_back(*former);
+  st.deployments.place(task, deployments_in(*former));
+}
+
+} // namespace
+
 void roll_back(coordinator_pointer self, const std::string& task,
                const std::string& reason,
                const std::vector<std::string>& also_on,
@@ -211,16 +231,18 @@ void roll_back(coordinator_pointer self, const std::string& task,
   auto& st = self->state;
   st.tasks.begin_ending(task);
   st.desk.waiters[task].owner = nullptr;
-  const bool begun = !st.deployments.of_task(task).empty();
+  // Before it was placed there was nothing to be begun.
+  const bool begun = !st.tasks.find(task)->accepted.empty();
   task_removal removal{task, also_on};
   removal.done = [self, task, reason, begun, done](const auto&) {
     pending_change change;
-    // Its record goes when there is room; the next start drops it, too.
-    change.done = [self, task, reason, begun, done](const failure* why) {
-      if (why)
-        forget_refused(self, "tasks", task);
-      self->state.tasks.forget(task);
-      self->state.deployments.forget_task(task);
+    const auto former =
+        std::exchange(self->state.desk.waiters[task].former, std::nullopt);
+    if (former)
+      change.make = [former](const task_record&) { return *former; };
+    change.done = [self, task, reason, begun, former,
+                   done](const failure* why) {
+      take_back(self, task, former, why != nullptr);
       tell_rolled_back(self, task, reason, begun);
       done();
     };

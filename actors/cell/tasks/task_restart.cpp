@@ -24,6 +24,15 @@ bool has_failed(const deployment& x) {
          && (x.end->state != instance_state::stopped || x.end->exit_code != 0);
 }
 
+/// Its node has gone from the cell for good.
+bool is_nowhere(const cell_coordinator_state& st, const deployment& x) {
+  return !x.end && !x.tentative && !st.registry.find_name(x.node);
+}
+
+bool is_to_be_healed(const cell_coordinator_state& st, const deployment& x) {
+  return has_failed(x) || is_nowhere(st, x);
+}
+
 bool has(const instance_list& list, const std::string& instance) {
   return std::find(list.begin(), list.end(), instance) != list.end();
 }
@@ -166,22 +175,36 @@ void heed_ended(coordinator_pointer self, const std::string& task,
 
 } // namespace
 
-std::vector<std::string> failed_steps(const cell_coordinator_state& st,
-                                      const std::string& task) {
+std::vector<std::string> steps_to_heal(const cell_coordinator_state& st,
+                                       const std::string& task) {
   std::vector<std::string> result;
   for (const auto& x : st.deployments.of_task(task))
-    if (has_failed(x))
+    if (is_to_be_healed(st, x))
       result.push_back(x.spec.step);
   return result;
 }
 
 void heal_task(coordinator_pointer self, const std::string& task,
                const done_handler& done) {
-  instance_list failed;
-  for (const auto& x : self->state.deployments.of_task(task))
-    if (has_failed(x))
-      failed.push_back(x.spec.instance);
-  take_turn_to_start(self, task, failed, {}, done);
+  const auto& st = self->state;
+  instance_list wanted;
+  std::string gone;
+  for (const auto& x : st.deployments.of_task(task)) {
+    if (!is_to_be_healed(st, x))
+      continue;
+    wanted.push_back(x.spec.instance);
+    if (is_nowhere(st, x))
+      gone = "step '" + x.spec.step + "' was on node '" + x.node
+             + "', which the cell does not have any more, and has no other "
+               "place: ";
+  }
+  take_turn_to_start(self, task, wanted, {}, [gone, done](const failure* why) {
+    if (!why || gone.empty())
+      return done(why);
+    auto problem = *why;
+    problem.message = gone + problem.message;
+    done(&problem);
+  });
 }
 
 void start_ended(coordinator_pointer self, const std::string& task,

@@ -10,12 +10,13 @@
 /// to begin anew.
 namespace roscell {
 
-/// The steps of a task that have ended otherwise than with 0.
-std::vector<std::string> failed_steps(const cell_coordinator_state& st,
-                                      const std::string& task);
+/// The steps of a task that have ended otherwise than with 0, and those whose
+/// node has gone from the cell.
+std::vector<std::string> steps_to_heal(const cell_coordinator_state& st,
+                                       const std::string& task);
 
-/// Starts what of a task has ended otherwise than with 0, where it fits. All or
-/// nothing; `done` gets the failure, or null once it runs.
+/// Starts these anew, where they fit. All or nothing; `done` gets the failure,
+/// or null once they run.
 void heal_task(coordinator_pointer self, const std::string& task,
                const std::function<void(const failure*)>& done);
 

@@ -63,10 +63,35 @@ task_row describe_task(const cell_coordinator_state& st,
                   state_now(st, task, entry),
                   entry.submitted_unix_ms,
                   entry.ended_unix_ms,
-                  {}};
+                  {},
+                  entry.run};
   for (const auto& x : st.deployments.of_task(task))
     result.instances.push_back(shown(st, st.deployments.row_of(x)));
   return result;
+}
+
+task_found found_as(task_state state) {
+  switch (state) {
+  case task_state::finished:
+    return task_found::finished;
+  case task_state::failed:
+    return task_found::failed;
+  case task_state::degraded:
+    return task_found::degraded;
+  default:
+    return task_found::running;
+  }
+}
+
+/// Why a step does not run as it should, in a sentence.
+std::string reason_of(const cell_coordinator_state& st, const deployment& x) {
+  const auto row = shown(st, st.deployments.row_of(x));
+  if (!row.waits.empty())
+    return row.waits;
+  if (!row.health_reason.empty())
+    return to_string(row.health) + ": " + row.health_reason;
+  return row.reason.empty() ? to_string(row.state)
+                            : to_string(row.state) + ": " + row.reason;
 }
 
 /// Before it is placed a task has nothing to be shown.
@@ -84,6 +109,20 @@ bool is_present(const cell_coordinator_state& st, const std::string& node) {
 caf::error unknown_thing(const std::string& what, const std::string& id) {
   return fail(error_code::unknown_task, "no " + what + " '" + id + "' is known",
               "/" + what, "`roscell " + what + "s` lists them");
+}
+
+task_accepted standing_reply(const cell_coordinator_state& st,
+                             const std::string& task) {
+  const auto& entry = *st.tasks.find(task);
+  auto result = reply_of(task, entry, st.deployments);
+  result.found = found_as(state_now(st, task, entry));
+  if (result.found != task_found::degraded)
+    return result;
+  for (const auto& x : st.deployments.of_task(task))
+    if (!x.tentative && !is_healthy(st, x))
+      result.waits.push_back(
+          {x.spec.step, x.spec.instance, x.node, reason_of(st, x)});
+  return result;
 }
 
 std::vector<task_row> describe_all_tasks(const cell_coordinator_state& st) {

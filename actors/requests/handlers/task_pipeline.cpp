@@ -67,7 +67,8 @@ std::optional<failure> think_otherwise(const what_if& other,
 
 void claim(const request_context& context, task_request request,
            outcome<claimed_task> done) {
-  claim_task wish{request.task, text_of(request)};
+  claim_task wish{request.task, text_of(request), request.request_id,
+                  request.force};
   // Without the coordinator nobody wants what is deployed.
   watch_until_own_end(context.self, context.services->coordinator);
   ask<task_claimed>(context, context.services->coordinator, limits::task::claim,

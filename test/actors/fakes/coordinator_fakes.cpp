@@ -89,6 +89,7 @@ caf::behavior agent(caf::event_based_actor* self, fake_agent* x) {
           result.instances.push_back(row);
         return result;
       },
+      [=](const contact_proven& fact) { x->kept = fact.kept; },
       [=](const figures_query&) -> caf::result<figures_report> {
         if (!x->mute)
           return figures_of(*x);
@@ -464,6 +465,11 @@ installed_skill echo_skill() {
   }
   result.models = {model};
   return {std::string(64, 'a'), result};
+}
+
+json placement_in(json accepted) {
+  accepted.erase("found");
+  return accepted;
 }
 
 json echo_step(const std::string& id, int cores, const std::string& node) {

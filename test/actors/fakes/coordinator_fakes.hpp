@@ -47,7 +47,8 @@ struct fake_agent {
   std::vector<instance_removal> removals;
   std::vector<registration_switch> orders; ///< To go elsewhere.
   std::vector<std::string> closed;         ///< Reasons of `close_session`.
-  caf::actor deployer;                     ///< The pipeline that asked last.
+  std::vector<std::string> kept; ///< Instances of the coordination node.
+  caf::actor deployer;           ///< The pipeline that asked last.
 
   std::vector<std::pair<caf::response_promise, instance_spec>> starting;
   std::vector<std::pair<caf::response_promise, resource_report>> reports;
@@ -139,6 +140,9 @@ private:
 
 json reply_of(const pending_reply& x);
 std::string error_of(const json& reply);
+
+/// Without how the request has found its task, and what had gone before.
+json placement_in(json accepted);
 
 installed_skill echo_skill();
 

@@ -88,14 +88,14 @@ TEST_CASE_METHOD(three_nodes, "An instance is told all that it needs to know",
   CHECK(spec.input[0].endpoint == "/data/in");
 }
 
-TEST_CASE_METHOD(three_nodes, "The same task again gets the first reply",
+TEST_CASE_METHOD(three_nodes, "The same task again changes nothing",
                  "[task_pipeline]") {
   const auto first = request(both("t"));
-  CHECK(request(both("t")) == first);
+  CHECK(placement_in(request(both("t"))) == placement_in(first));
   // A request id is not part of the task.
   auto again = both("t");
   again["request_id"] = "another";
-  CHECK(request(again) == first);
+  CHECK(placement_in(request(again)) == placement_in(first));
   CHECK(running() == 2);
 }
 
@@ -112,7 +112,7 @@ TEST_CASE_METHOD(three_nodes,
   time.settle();
   REQUIRE(*second);
   CHECK(reply_of(first).at("type") == "task_accepted");
-  CHECK(reply_of(second) == reply_of(first));
+  CHECK(placement_in(reply_of(second)) == placement_in(reply_of(first)));
   CHECK(left.deployments.size() == 1);
 }
 

@@ -35,7 +35,8 @@ struct request_options {
 std::variant<std::string, failure> body_of(const request_options& options,
                                            std::string text) {
   const auto format = format_of(options.file, text);
-  if (format == document_format::json && !options.preemption.preempt)
+  if (format == document_format::json && !options.preemption.preempt
+      && !options.preemption.force)
     return text;
   auto parsed = parse_document(text, format);
   if (auto* why = std::get_if<failure>(&parsed))
@@ -77,7 +78,7 @@ int request_and_wait(const request_options& options, const std::string& text,
     print_text(marked_errors(options.file, text, reply));
     return exit_code_of_refusal(reply);
   }
-  return wait_until_ended(node, task_of(body), since);
+  return wait_until_ended(node, reply.get<task_accepted>(), since);
 }
 
 int send_request(const request_options& options) {

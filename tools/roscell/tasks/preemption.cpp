@@ -11,22 +11,22 @@ void add_preemption_options(CLI::App& command, preemption_options& options) {
       "--preempt", options.preempt,
       "Where the task does not fit, show which instances of lower priority "
       "would have to go");
-  auto* yes = command
-                  .add_flag("--yes", options.yes,
-                            "End these, once they are safe, and start them "
-                            "elsewhere where there is room")
-                  ->needs(preempt);
   command
-      .add_flag("--force", options.force,
-                "Do not wait for those that are not safe")
-      ->needs(yes);
+      .add_flag("--yes", options.yes,
+                "End these, once they are safe, and start them elsewhere where "
+                "there is room")
+      ->needs(preempt);
+  command.add_flag("--force", options.force,
+                   "Do not wait for those that are not safe; and hosts that "
+                   "would start steps of the task alone stay off");
 }
 
 void apply(const preemption_options& options, json& request) {
-  if (!options.preempt || !request.is_object()
+  if (!request.is_object()
       || request.value("type", json{}) != task_request::type)
     return;
-  request["preempt"] = options.yes ? "yes" : "show";
+  if (options.preempt)
+    request["preempt"] = options.yes ? "yes" : "show";
   if (options.force)
     request["force"] = true;
 }

@@ -1,3 +1,4 @@
+#include "actors/edge/io/crypto.hpp"
 #include "schemas/message_catalogue.hpp"
 #include "tools/roscell/client/event_words.hpp"
 #include "tools/roscell/client/node_client.hpp"
@@ -56,10 +57,19 @@ void print_warnings(const std::vector<std::string>& warnings) {
     print_note("warning: " + printable(warning));
 }
 
+/// Somebody who types the command wants the task to run: once more, where it
+/// has ended. Programs that may have to repeat themselves say an id of theirs.
+void add_request_id(json& request) {
+  constexpr size_t bytes = 16;
+  if (request.count("request_id") == 0)
+    request["request_id"] = "run-" + to_hex(random_bytes(bytes));
+}
+
 int run_task(const task_options& options) {
   const auto file = read_task_file(options.subject);
   auto request = file.request();
   apply(options.preemption, request);
+  add_request_id(request);
   if (auto why = validate_request(request))
     throw wrong_document{file, *why};
   const auto task = request.value("task", "");
@@ -74,8 +84,11 @@ int run_task(const task_options& options) {
                           : accepted_view(accepted, stdout_style()));
   if (!options.as_json())
     print_warnings(accepted.warnings);
-  return options.wait_finished ? wait_until_ended(node, task, since)
-                               : exit_done;
+  if (options.wait_finished)
+    return wait_until_ended(node, accepted, since);
+  if (accepted.found == task_found::degraded)
+    wait_until_whole(node, accepted, parse_duration(options.timeout));
+  return exit_done;
 }
 
 /// What is not safe yet is waited for, unless a program has asked.
@@ -145,8 +158,10 @@ void add_run(CLI::App& app, action& chosen) {
   auto options = std::make_shared<task_options>();
   auto* command = add_task_command(
       app, "run", "Start a task and wait until all of it runs.",
-      "The same file again changes nothing where the task runs, and starts "
-      "again what has\nfailed of it. Standard error tells what goes on, and "
+      "The same file again changes nothing where the task runs, starts again "
+      "what has failed\nof it, waits for what is away, and starts a task that "
+      "has "
+      "ended once more as a whole.\nStandard error tells what goes on, and "
       "shows each place of the file that\nis wrong.\n\n"
       "Examples:\n  roscell run task.yaml\n"
       "  roscell new task echo | roscell run -",

@@ -16,8 +16,33 @@ std::string placed_view(const std::vector<placed_instance>& instances,
 
 } // namespace
 
+namespace {
+
+/// What has become of a task by the request, or was so before.
+std::string found_words(const task_accepted& task) {
+  switch (task.found) {
+  case task_found::started:
+    return " runs";
+  case task_found::anew:
+    return " runs once more, run " + std::to_string(task.run);
+  case task_found::running:
+    return task.healed.empty() ? " runs already" : " runs";
+  case task_found::degraded:
+    return " is degraded";
+  case task_found::finished:
+    return " has finished, and was asked for by this request_id or by none: a "
+           "new one starts it once more";
+  case task_found::failed:
+    break;
+  }
+  return " has failed, and was asked for by this request_id: a new one starts "
+         "it once more";
+}
+
+} // namespace
+
 std::string accepted_view(const task_accepted& task, const text_style& style) {
-  auto text = "task " + printable(task.task) + " runs";
+  auto text = "task " + printable(task.task) + found_words(task);
   if (!task.optimal)
     text += ", maybe not where it would be best";
   text += "\n\n" + placed_view(task.instances, style);

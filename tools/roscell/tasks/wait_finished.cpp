@@ -2,6 +2,7 @@
 
 #include "messages/node.hpp"
 #include "messages/task.hpp"
+#include "tools/roscell/client/change_signal.hpp"
 #include "tools/roscell/client/event_words.hpp"
 #include "tools/roscell/exit_code.hpp"
 #include "tools/roscell/view/format.hpp"
@@ -55,6 +56,18 @@ int exit_code_of(const task_row& row) {
   return failed->exit_code > 0 ? failed->exit_code : exit_refused;
 }
 
+task_row look_at(const node_client& node, const std::string& task) {
+  const auto found =
+      node.get("/v1/tasks/" + percent_encode(task)).get<task_description>();
+  return found.tasks.at(0);
+}
+
+/// "step 'camera' on arm-2: waits for node 'arm-2'".
+std::string waiting_words(const awaited_step& x) {
+  return "step '" + printable(x.step) + "' on " + printable(x.node) + ": "
+         + printable(x.reason);
+}
+
 } // namespace
 
 uint64_t last_event_of_coordinator(const node_client& node) {
@@ -67,22 +80,49 @@ uint64_t last_event_of_coordinator(const node_client& node) {
   return kept.empty() ? 0 : kept.back().sequence;
 }
 
-int wait_until_ended(const node_client& node, const std::string& task,
+int wait_until_ended(const node_client& node, const task_accepted& begun,
                      uint64_t since) {
-  const auto end = await(node, task, since, [](const std::string& what) {
-    return what == "task_finished" || what == "task_failed"
-           || what == "task_terminated";
-  });
-  if (end.what == "task_terminated")
-    throw command_error{exit_refused,
-                        "task '" + printable(task) + "' was terminated", ""};
-  const auto tasks =
-      node.get("/v1/tasks/" + percent_encode(task)).get<task_description>();
-  const auto& row = tasks.tasks.at(0);
-  print_note("task '" + printable(task) + "' "
-             + (end.what == "task_finished" ? "finished" : "failed")
+  const auto& task = begun.task;
+  const bool has_ended =
+      begun.found == task_found::finished || begun.found == task_found::failed;
+  if (!has_ended) {
+    const auto end = await(node, task, since, [](const std::string& what) {
+      return what == "task_finished" || what == "task_failed"
+             || what == "task_terminated";
+    });
+    if (end.what == "task_terminated")
+      throw command_error{exit_refused,
+                          "task '" + printable(task) + "' was terminated", ""};
+  }
+  const auto row = look_at(node, task);
+  print_note("task '" + printable(task) + "' " + to_string(row.state)
              + duration_text(row));
   return exit_code_of(row);
+}
+
+void wait_until_whole(const node_client& node, const task_accepted& begun,
+                      std::chrono::milliseconds limit) {
+  const auto until = std::chrono::steady_clock::now() + limit;
+  const auto& task = begun.task;
+  print_note("task '" + printable(task) + "' is there, but not all of it runs");
+  for (const auto& x : begun.waits)
+    print_note(waiting_words(x));
+  change_signal changes{node};
+  auto row = look_at(node, task);
+  // A member hears little of other nodes, so the last look is at the end.
+  for (auto news = true; row.state == task_state::degraded && news;
+       row = look_at(node, task))
+    news = changes.wait_until(until);
+  if (row.state == task_state::degraded)
+    throw command_error{
+        exit_refused,
+        "not all of task '" + printable(task) + "' runs after "
+            + format_number(static_cast<double>(limit.count()) / 1000, 0)
+            + " s",
+        "it goes on by itself as soon as it can; `roscell tasks "
+            + printable(task)
+            + "` shows what it waits for, --timeout waits "
+              "longer, and `roscell stop` ends it"};
 }
 
 void wait_until_gone(const node_client& node, const std::string& task,

@@ -80,22 +80,108 @@ struct both_books {
 TEST_CASE("A claim is granted once, and only for the same body",
           "[task_book]") {
   task_book tasks;
-  CHECK(tasks.standing_of("t", "{}") == claim_standing::unknown);
-  tasks.begin("t", "{}", 5);
-  CHECK(tasks.standing_of("t", "{}") == claim_standing::deploying);
-  CHECK(tasks.standing_of("t", "[]") == claim_standing::other_body);
+  CHECK(tasks.standing_of("t", "{}", "") == claim_standing::unknown);
+  tasks.begin("t", "{}", "", 5);
+  CHECK(tasks.standing_of("t", "{}", "") == claim_standing::deploying);
+  CHECK(tasks.standing_of("t", "[]", "") == claim_standing::other_body);
   tasks.apply(record("t", task_state::running, {"a"}));
-  CHECK(tasks.standing_of("t", "{}") == claim_standing::accepted);
+  CHECK(tasks.standing_of("t", "{}", "") == claim_standing::accepted);
   CHECK(tasks.begin_ending("t"));
   CHECK_FALSE(tasks.begin_ending("t"));
-  CHECK(tasks.standing_of("t", "{}") == claim_standing::ending);
+  CHECK(tasks.standing_of("t", "{}", "") == claim_standing::ending);
   tasks.forget("t");
-  CHECK(tasks.standing_of("t", "{}") == claim_standing::unknown);
+  CHECK(tasks.standing_of("t", "{}", "") == claim_standing::unknown);
+}
+
+TEST_CASE("An ended task is asked for once more under a new id only",
+          "[task_book]") {
+  task_book tasks;
+  tasks.begin("t", "{}", "one", 5);
+  const auto state =
+      GENERATE(task_state::running, task_state::finished, task_state::failed);
+  auto kept = record("t", state, {"a"});
+  kept.request_ids = {"one"};
+  kept = with_request(kept, "two");
+  tasks.apply(kept);
+  const auto other = state == task_state::running ? claim_standing::accepted
+                                                  : claim_standing::next_run;
+  CHECK(tasks.standing_of("t", "{}", "one") == claim_standing::accepted);
+  CHECK(tasks.standing_of("t", "{}", "two") == claim_standing::accepted);
+  CHECK(tasks.standing_of("t", "{}", "") == claim_standing::accepted);
+  CHECK(tasks.standing_of("t", "{}", "three") == other);
+  CHECK(tasks.standing_of("t", "[]", "three") == claim_standing::other_body);
+}
+
+TEST_CASE("A next run is counted, and taken back when it comes to nothing",
+          "[task_book]") {
+  both_books books;
+  auto first = record("t", task_state::running, {"a"});
+  first = with_ends(first, {end_of("t-0", 0)}, 7);
+  first.request_ids = {"one"};
+  books.apply(first);
+  REQUIRE(books.tasks.find("t")->state == task_state::finished);
+  books.tasks.begin("t", "{}", "two", 9);
+  CHECK(books.tasks.is_deploying("t"));
+  CHECK(books.tasks.find("t")->run == 2);
+  CHECK(books.tasks.is_of_run("t", "two"));
+  CHECK_FALSE(books.tasks.is_of_run("t", "one"));
+  SECTION("it is placed: nothing of the run before counts") {
+    auto next = record_of("t", *books.tasks.find("t"), books.deployments);
+    next = with_placement(next, decision_of("t", {"b"}),
+                          {spec_of("t", "s0", "t-9")}, {"b"});
+    next = with_ends(with_state(next, task_state::running), {}, 10);
+    CHECK(next.state == task_state::running);
+    CHECK(next.run == 2);
+    CHECK(next.ends.empty());
+  }
+  SECTION("it is not") {
+    books.tasks.begin_ending("t");
+    books.tasks.take_back(first);
+    CHECK(books.tasks.find("t")->state == task_state::finished);
+    CHECK(books.tasks.find("t")->run == 1);
+    CHECK(books.tasks.is_kept("t"));
+    CHECK(books.tasks.is_of_run("t", "one"));
+  }
+}
+
+TEST_CASE("The requests that are remembered of a run are bounded",
+          "[task_book]") {
+  auto x = record("t", task_state::running, {"a"});
+  for (int i = 0; i < 100; ++i)
+    x = with_request(x, "id" + std::to_string(i));
+  CHECK(x.request_ids.size() == 16);
+  CHECK(x.request_ids.back() == "id99");
+  CHECK(with_request(x, "id99").request_ids == x.request_ids);
+}
+
+TEST_CASE("A node's new name stands wherever its old one stood",
+          "[task_book]") {
+  both_books books;
+  books.apply(record("t", task_state::running, {"a", "b"}));
+  books.apply(record("u", task_state::running, {"b"}));
+  instance_row row;
+  row.spec = spec_of("t", "s0", "t-0");
+  row.state = instance_state::running;
+  books.deployments.tell("a", row);
+  CHECK(books.deployments.rename_node("a", "c") == std::set<std::string>{"t"});
+  CHECK(books.deployments.find("t-0", "c"));
+  CHECK_FALSE(books.deployments.find("t-0", "a"));
+  REQUIRE(books.deployments.told("c", "t-0"));
+  CHECK(books.deployments.told("c", "t-0")->node == "c");
+  CHECK(books.deployments.rows_on("a").empty());
+  const auto kept = with_renamed(
+      record_of("t", *books.tasks.find("t"), books.deployments), "a", "c");
+  CHECK(kept.nodes == std::vector<std::string>{"c", "b"});
+  books.apply(kept);
+  const auto reply = books.reply("t");
+  CHECK(reply.allocations[0].node == "c");
+  CHECK(reply.instances[0].node == "c");
+  CHECK(reply.instances[1].node == "b");
 }
 
 TEST_CASE("A task is what the store has kept of it", "[task_book]") {
   task_book tasks;
-  tasks.begin("t", "{}", 5);
+  tasks.begin("t", "{}", "", 5);
   CHECK(tasks.is_deploying("t"));
   CHECK_FALSE(tasks.is_running("t"));
   tasks.apply(record("t", task_state::running, {"a"}));
@@ -235,7 +321,7 @@ TEST_CASE("Tasks are bounded", "[task_book]") {
   task_book tasks;
   for (size_t i = 0; i < limits::task::most; ++i) {
     CHECK_FALSE(tasks.is_full());
-    tasks.begin("t" + std::to_string(i), "{}", 0);
+    tasks.begin("t" + std::to_string(i), "{}", "", 0);
   }
   CHECK(tasks.is_full());
 }

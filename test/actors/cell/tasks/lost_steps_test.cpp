@@ -271,6 +271,56 @@ TEST_CASE_METHOD(lossy_cell,
   CHECK(request(again).at("type") == "task_accepted");
 }
 
+/// A step on `left` that its host starts alone.
+struct alone_cell : lossy_cell {
+  alone_cell() : lossy_cell(alone_step()) {
+    // nop
+  }
+
+  static json alone_step() {
+    auto result = echo_step("s0", 1);
+    result["on_boot"] = "start";
+    return result;
+  }
+};
+
+TEST_CASE_METHOD(alone_cell,
+                 "What its host may start alone is started nowhere else",
+                 "[lost_steps]") {
+  const json release{
+      {"type", "node_release"}, {"node", "left"}, {"instances", "reschedule"}};
+  lose(left);
+  CHECK(waits() == "waits for node 'left', which may start it alone");
+  time.advance(24h);
+  CHECK(request(release).at("error").at("code") == "conflict");
+  CHECK(right.running.empty());
+  CHECK(node_of_a() == "left");
+}
+
+TEST_CASE_METHOD(alone_cell,
+                 "A task is not begun anew while a host may start it alone",
+                 "[lost_steps]") {
+  auto again = echo_task("a", {alone_step()});
+  lose(left);
+  request(termination("a"));
+  time.advance(24h);
+  CHECK(request(again).at("error").at("code") == "conflict");
+  CHECK(right.running.empty());
+  SECTION("its node is back, and has ended it") {
+    const auto row = left.running.begin()->second;
+    REQUIRE(enter(left));
+    CHECK(count("instance_unwanted") == 1);
+    auto ended = row;
+    ended.state = instance_state::stopped;
+    left.tell(ended);
+    time.settle();
+  }
+  SECTION("somebody says that the host stays off") {
+    again["force"] = true;
+  }
+  CHECK(request(again).at("type") == "task_accepted");
+}
+
 TEST_CASE_METHOD(lossy_cell, "A node that leaves in order is lost, too",
                  "[lost_steps]") {
   depart(left);

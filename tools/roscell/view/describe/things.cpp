@@ -98,6 +98,7 @@ void describe_task(page& out, const known_cell& known, const std::string& name,
       continue;
     out.fact("State", to_string(row.state));
     out.fact("Submitted", time_words(row.submitted_unix_ms, style));
+    out.fact("Run", std::to_string(row.run));
   }
   out.fact("Allocation", allocation_words(known, name));
   const auto steps = of_task(known, name);
@@ -128,6 +129,7 @@ void describe_instance(page& out, const known_cell& known,
   out.fact("Gives nothing", row.figures.remark);
   out.fact("May be ended", safety_words(row));
   out.fact("Waits", row.waits);
+  out.fact("Interrupted", time_words(row.interrupted_unix_ms, style));
   out.fact("Exit code", row.exit_code < 0 ? "" : std::to_string(row.exit_code));
   out.fact("Trouble", row.trouble);
   out.fact("Frames",

@@ -1,0 +1,163 @@
+#include "actors/cell/tasks/task_claims.hpp"
+
+#include "actors/cell/moves/lost_remains.hpp"
+#include "actors/cell/tasks/cell_resources.hpp"
+#include "actors/cell/tasks/task_changes.hpp"
+#include "actors/cell/tasks/task_endings.hpp"
+#include "actors/cell/tasks/task_restart.hpp"
+#include "actors/cell/tasks/task_turns.hpp"
+#include "actors/cell/tasks/task_views.hpp"
+#include "actors/house/limits.hpp"
+#include "actors/house/wall_clock.hpp"
+#include "actors/house/watching.hpp"
+#include "messages/failure.hpp"
+
+#include <utility>
+#include <vector>
+
+namespace roscell {
+
+namespace {
+
+using claim_promise = caf::typed_response_promise<task_claimed>;
+
+caf::error refuse_crowd(const std::string& what) {
+  return fail(error_code::conflict, what, "/task",
+              "send it again when some are done");
+}
+
+/// A request that finds its task going on is one of its run: sent once more
+/// after the run has ended it starts no other one. If that cannot be written
+/// down it is answered all the same.
+void join_run(coordinator_pointer self, const claim_task& request) {
+  const auto& id = request.request_id;
+  if (id.empty() || self->state.tasks.is_of_run(request.task, id))
+    return;
+  pending_change change;
+  change.make = [id](task_record record) {
+    return with_request(std::move(record), id);
+  };
+  change_task(self, request.task, std::move(change));
+}
+
+/// The same request again heals what of its task has failed, unless it has been
+/// done under its id.
+void answer_accepted(coordinator_pointer self, const claim_task& request,
+                     claim_promise promise) {
+  const auto& task = request.task;
+  const bool was_done = self->state.tasks.is_of_run(task, request.request_id);
+  join_run(self, request);
+  const auto healed =
+      was_done ? std::vector<std::string>{} : steps_to_heal(self->state, task);
+  if (healed.empty()) {
+    promise.deliver(known_reply(self->state, task));
+    return;
+  }
+  heal_task(self, task,
+            [self, task, healed, promise](const failure* why) mutable {
+              if (why) {
+                promise.deliver(to_error(*why));
+              } else if (!self->state.tasks.is_kept(task)) {
+                promise.deliver(terminated_meanwhile(task));
+              } else {
+                auto reply = known_reply(self->state, task);
+                reply.accepted.healed = healed;
+                promise.deliver(std::move(reply));
+              }
+            });
+}
+
+/// Answers a claim whose task is known, or whose name is not free yet. True if
+/// that settles it.
+bool answer_known(coordinator_pointer self, const claim_task& request,
+                  claim_promise promise) {
+  auto& st = self->state;
+  const auto& task = request.task;
+  switch (st.tasks.standing_of(task, request.request, request.request_id)) {
+  case claim_standing::unknown:
+  case claim_standing::next_run: {
+    const auto why = remains_of(self, task, request.force);
+    if (why)
+      promise.deliver(to_error(*why));
+    return why.has_value();
+  }
+  case claim_standing::other_body:
+    promise.deliver(fail(
+        error_code::task_exists, "task '" + task + "' exists with another body",
+        "/task", "choose another task id, or terminate this one"));
+    break;
+  case claim_standing::ending:
+    promise.deliver(fail(error_code::conflict,
+                         "task '" + task + "' is being terminated", "/task",
+                         "send it again once it has ended"));
+    break;
+  case claim_standing::accepted:
+    answer_accepted(self, request, promise);
+    break;
+  case claim_standing::deploying: {
+    join_run(self, request);
+    auto& waiting = st.desk.waiters[task].same_requests;
+    if (waiting.size() >= limits::task::same_requests)
+      promise.deliver(refuse_crowd("too many wait for task '" + task + "'"));
+    else
+      waiting.push_back(std::move(promise));
+  }
+  }
+  return true;
+}
+
+/// The task is the claimant's; it is told what it can be placed on.
+void grant_turn(coordinator_pointer self, const claim_task& request,
+                const caf::actor_addr& owner, uint64_t turn,
+                claim_promise promise) {
+  auto& st = self->state;
+  auto& waiters = st.desk.waiters[request.task];
+  if (const auto* entry = st.tasks.find(request.task))
+    waiters.former = record_of(request.task, *entry, st.deployments);
+  st.tasks.begin(request.task, request.request, request.request_id,
+                 unix_now_ms());
+  waiters.owner = owner;
+  waiters.turn = turn;
+  collect_resources_of_cell(self, [self, task = request.task, turn,
+                                   promise](cell_resources&& found) mutable {
+    auto& desk = self->state.desk;
+    if (self->state.tasks.is_deploying(task) && desk.waiters[task].turn == turn)
+      promise.deliver(task_claimed{false, {}, std::move(found)});
+    else
+      promise.deliver(terminated_meanwhile(task));
+  });
+}
+
+} // namespace
+
+caf::result<task_claimed> claim_task_turn(coordinator_pointer self,
+                                          const claim_task& request) {
+  auto& st = self->state;
+  // The promise takes the message's sender, so it is looked at before.
+  const auto sender = self->current_sender();
+  const auto owner = caf::actor_cast<caf::actor_addr>(sender);
+  if (sender)
+    watch_until_its_end(self, sender);
+  auto promise = self->make_response_promise<task_claimed>();
+  if (answer_known(self, request, promise))
+    return promise;
+  if ((st.tasks.is_full() && !st.tasks.find(request.task))
+      || st.desk.waiting.size() >= limits::task::waiting) {
+    promise.deliver(refuse_crowd("the cell has too many tasks"));
+    return promise;
+  }
+  take_turn(self, owner, [self, request, owner, promise](uint64_t turn) {
+    if (answer_known(self, request, promise))
+      end_turn(self, turn);
+    else
+      grant_turn(self, request, owner, turn, promise);
+  });
+  return promise;
+}
+
+task_claimed known_reply(const cell_coordinator_state& st,
+                         const std::string& task) {
+  return {true, standing_reply(st, task), {}};
+}
+
+} // namespace roscell
