@@ -41,15 +41,16 @@ test_data_flow_after_bad_days_of_a_host_with_containers() {
   local -A name=([stop_node]="a node was stopped and started"
     [kill_node]="a node was killed"
     [kill_programs]="all that runs on a host was killed"
-    [kill_host]="the power of a host was cut")
+    [kill_host]="the power of a host was cut"
+    [shut_down]="a host was shut down")
   [[ $variant != rootless || $(of_matrix suite whole) == whole ]] \
     || skip "in the whole matrix only (tools/bench/days_bench.sh)"
   start_day_with_engine
-  for what in $(of_matrix "kill_node kill_host" \
-    "stop_node kill_node kill_programs kill_host"); do
+  for what in $(of_matrix "kill_node kill_host shut_down" \
+    "stop_node kill_node kill_programs kill_host shut_down"); do
     day_begins "${name[$what]}"
     "$what" right
-    [[ $what != kill_host ]] || boot_engine
+    [[ $what != kill_host && $what != shut_down ]] || boot_engine
     start_host right
     day_ends 5
   done

@@ -5,7 +5,7 @@
 
 . test/system/scenes/days_scene.sh
 
-slow=(test_data_flow_after_an_address_was_away test_data_flow_after_a_cable_was_out test_data_flow_after_an_address_has_changed test_data_flow_after_a_host_has_slept test_data_flow_after_a_coordinator_was_killed)
+slow=(test_data_flow_after_an_address_was_away test_data_flow_after_a_cable_was_out test_data_flow_after_an_address_has_changed test_data_flow_after_a_host_has_slept test_data_flow_after_a_coordinator_was_killed test_data_flow_after_all_hosts_were_off)
 
 test_data_flow_after_a_node_was_stopped_and_started() {
   start_day
@@ -33,6 +33,40 @@ test_data_flow_after_the_power_of_a_host_was_cut() {
   kill_host right
   start_host right
   day_ends 5
+}
+
+test_data_flow_after_a_host_was_shut_down() {
+  start_day
+  shut_down right
+  start_host right
+  day_ends 5
+  day_begins "a coordinator was shut down"
+  shut_down head
+  start_host head
+  await_member left
+  await_member right
+  day_ends 5
+}
+
+# A site that is switched off in the evening and on in the morning, in any order.
+test_data_flow_after_all_hosts_were_off() {
+  local order name end=shut_down
+  start_day
+  while read -r order; do
+    day_begins "all hosts were off ($end), and came as $order"
+    for name in right left head; do "$end" "$name"; done
+    for name in $order; do start_node_of "$name"; done
+    await_member left
+    await_member right
+    start_guest
+    day_ends 15
+    [[ $end == shut_down ]] && end=kill_host || end=shut_down
+  done < <(of_matrix $'head left right\nright left head' "$(orders_of_hosts)")
+}
+
+orders_of_hosts() {
+  printf '%s\n' "head left right" "head right left" "left head right" \
+    "right head left" "left right head" "right left head"
 }
 
 test_data_flow_after_a_cable_was_out() {

@@ -232,7 +232,7 @@ test_what_runs_makes_way_for_a_task_of_higher_priority() {
   has_line "it makes way for task 'high'" <<< "$text" || fail "$text"
   to head stop high > /dev/null
   to head run "$scratch/low.json" > "$scratch/said" || fail "$(cat "$scratch/said")"
-  has_line 'started again: a' "$scratch/said" || fail "$(cat "$scratch/said")"
+  has_line 'runs once more, run 2' "$scratch/said" || fail "$(cat "$scratch/said")"
 }
 
 test_a_cell_is_brought_nearer_to_its_optimum() {

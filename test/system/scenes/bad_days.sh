@@ -38,6 +38,20 @@ kill_host() {
   cat /proc/sys/kernel/random/uuid > "$scratch/$1.boot"
 }
 
+# shut_down NAME: as systemd does it: the node ends first, which leaves what it runs,
+# then all else is told to, and what does not obey is killed. The next boot has another
+# id.
+shut_down() {
+  local host number
+  host=$(host_of "$1")
+  stop_node "$1"
+  ip netns pids "$host" | xargs -r kill -TERM
+  for number in $(ip netns pids "$host"); do
+    timeout 15 tail --pid="$number" -f /dev/null || kill -KILL "$number"
+  done
+  cat /proc/sys/kernel/random/uuid > "$scratch/$1.boot"
+}
+
 # await_end NAME: of its node, which was killed.
 await_end() {
   timeout "$deadline_s" tail --pid="${pid[$1]}" -f /dev/null \
