@@ -80,7 +80,7 @@ stream() {
 await_picture() {
   local before
   before=$(< "$scratch/data/$1.before")
-  timeout 120 grep -m $((before + 1)) frame_id > /dev/null \
+  timeout 120 grep -m $((before + 1)) frame_id > "$scratch/data/$1.matches" \
     < <(exec tail --pid=$$ -n +1 -F "$scratch/data/$1" 2> /dev/null) \
     || echo "stream $1: no picture in 120 s" >&2
   now_ms
