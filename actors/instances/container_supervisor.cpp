@@ -225,6 +225,7 @@ container_supervisor_actor::behavior_type
 container_supervisor(container_supervisor_self self,
                      const container_supervisor_config& config) {
   self->state.config = config;
+  self->state.environment = config.environment;
   self->set_down_handler(
       [self](const caf::down_msg& down) { on_down(self, down); });
   start_runtime(self);
@@ -241,8 +242,7 @@ container_supervisor(container_supervisor_self self,
       },
       [self](const use_environment& x) {
         self->state.environment = x.environment;
-        if (!x.environment.empty())
-          renew_moved(self);
+        renew_moved(self);
       },
       [self](const contact_proven& x) { on_contact(self, x); },
       [self](const contact_lost&) { on_contact_lost(self); },

@@ -39,6 +39,10 @@ struct container_supervisor_config {
   /// What an earlier run may have left and no record knows: it is ended.
   std::vector<std::string> strays;
   bool may_be_lost = false; ///< By a cell: it is no coordination node.
+  /// What a node with a cell of its own says of it to instances, from the first
+  /// one on. A member is told it later, by `use_environment`, which may be
+  /// empty.
+  std::map<std::string, std::string> environment;
   environment_teller tell_environment; ///< Empty: no instance can be told.
 };
 

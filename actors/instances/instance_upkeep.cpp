@@ -36,6 +36,23 @@ std::string word_of(const std::map<std::string, std::string>& words,
   return i == words.end() ? std::string{} : i->second;
 }
 
+/// A program that takes part in DDS is bound to an address of its host.
+bool is_bound(const container_supervisor_state& st, const instance_spec& spec) {
+  constexpr const char* server = "ROS_DISCOVERY_SERVER";
+  return spec.environment.count(server) > 0 || st.environment.count(server) > 0;
+}
+
+/// Why an instance must be started again: empty where it was started at this
+/// address. To be asked once it is known where it finds the cell now.
+std::string renewal_of(const container_supervisor_state& st,
+                       const instance_spec& spec) {
+  const auto& here = st.config.address;
+  const auto there = word_of(st.config.started_at, spec.instance);
+  if (there.empty() || there == here || !is_bound(st, spec))
+    return {};
+  return "the address of this host has changed from " + there + " to " + here;
+}
+
 } // namespace
 
 void spawn_actor(container_supervisor_pointer self, supervised_instance& x,
@@ -62,6 +79,8 @@ void spawn_actor(container_supervisor_pointer self, supervised_instance& x,
       adopt ? x.started_in : "",
       renewal,
       st.config.tell_environment};
+  if (!renewal.empty())
+    st.config.started_at[id] = st.config.address;
   x.actor = spawn(self->system(), st.config.context, skill_instance, config);
   watch_until_its_end(self, x.actor);
   caf::anon_send(x.actor, start_instance{});
@@ -116,12 +135,6 @@ void on_runtime_died(container_supervisor_pointer self,
       replace_actor(self, x);
 }
 
-/// A program that takes part in DDS is bound to an address of its host.
-bool is_bound(const container_supervisor_state& st, const instance_spec& spec) {
-  constexpr const char* server = "ROS_DISCOVERY_SERVER";
-  return spec.environment.count(server) > 0 || st.environment.count(server) > 0;
-}
-
 } // namespace
 
 void on_down(container_supervisor_pointer self, const caf::down_msg& down) {
@@ -151,16 +164,10 @@ bool heeds_contact(const supervised_instance& x, bool registered) {
 
 void renew_moved(container_supervisor_pointer self) {
   auto& st = self->state;
-  for (auto& [instance, address] : st.config.started_at) {
-    auto* x = find_instance(self, instance);
-    if (address == st.config.address || x == nullptr || !x->actor
-        || !is_bound(st, x->row.spec))
-      continue;
-    replace_actor(self, *x,
-                  "the address of this host has changed from " + address
-                      + " to " + st.config.address);
-    address = st.config.address;
-  }
+  for (auto& [instance, x] : st.instances)
+    if (x.actor)
+      if (const auto renewal = renewal_of(st, x.row.spec); !renewal.empty())
+        replace_actor(self, x, renewal);
 }
 
 void on_contact(container_supervisor_pointer self, const contact_proven& fact) {
@@ -172,8 +179,6 @@ void on_contact(container_supervisor_pointer self, const contact_proven& fact) {
   for (const auto& instance : fact.kept)
     if (auto* x = find_instance(self, instance))
       x->confirmed = true;
-  // Where the node has no discovery server of its own nothing else tells.
-  renew_moved(self);
   for (const auto& [instance, x] : self->state.instances) {
     if (!heeds_contact(x, !fact.kept.empty()))
       continue;
@@ -204,7 +209,9 @@ void restore(container_supervisor_pointer self) {
     if (is_live(x.row.state))
       x.row.figures = {};
     if (is_live(x.row.state))
-      spawn_actor(self, x, true);
+      spawn_actor(self, x, true,
+                  st.environment.empty() ? std::string{}
+                                         : renewal_of(st, x.row.spec));
   }
   trim_ended(self);
 }

@@ -18,7 +18,9 @@ void spawn_actor(container_supervisor_pointer self, supervised_instance& x,
 
 /// Starts again what an earlier run of the node has started at another address:
 /// the sockets of those programs are bound to that, and do not follow. To be
-/// called once it is known where they find the cell now.
+/// called when it has become known where they find the cell now, and not
+/// before: what is told an earlier place gets no data there, and is not told
+/// again.
 void renew_moved(container_supervisor_pointer self);
 
 /// An instance has ended: whoever waits for it hears why.

@@ -10,8 +10,10 @@ namespace roscell::membership_steps {
 
 namespace {
 
-/// Instances that run have the environment that they were started with: it
-/// names the server, whose id and port stay the same in a cell.
+/// To be called after each registration, also where there is nothing: what was
+/// started at another address waits for it. Instances that run have the
+/// environment that they were started with: it names the server, whose id and
+/// port stay the same in a cell.
 void publish_environment(self_pointer self) {
   self->send(self->state.parts.supervisor,
              use_environment{program_environment(self->state)});
@@ -34,6 +36,7 @@ void on_unserved(self_pointer self, const caf::error& why) {
   tell(self, "edge_trouble",
        {{"message",
          "this node's own discovery server: " + to_failure(why).message}});
+  publish_environment(self);
 }
 
 void ask_to_serve(self_pointer self, uint16_t port, bool remote_is_there,
@@ -59,8 +62,10 @@ void serve_programs_of(self_pointer self, const node_registered& reply) {
   auto& st = self->state;
   // Nobody has to be looked for any more.
   self->send(st.parts.discovery, forget_coordinator{});
-  if (reply.discovery.empty())
-    return stop_programs(self);
+  if (reply.discovery.empty()) {
+    stop_programs(self);
+    return publish_environment(self);
+  }
   const auto& place = reply.discovery.front();
   const auto port = program_port(st);
   if (!st.programs || !(st.programs->place == place))

@@ -133,6 +133,7 @@ private:
     supervision.boot = this_boot();
     supervision.strays = data_.strays;
     supervision.may_be_lost = !config.coordinator;
+    supervision.environment = parts_.edges->environment;
     parts_.services->supervisor = start(container_supervisor, supervision);
     resource_probe_config probing;
     probing.host.data_dir = config.data_dir.string();
@@ -181,9 +182,6 @@ private:
     parts_.services->coordinator = coordinator;
     caf::anon_send(parts_.services->supervisor,
                    listen_to_instances{coordinator});
-    // What was started before may know the server at an earlier address.
-    caf::anon_send(parts_.services->supervisor,
-                   use_environment{parts_.edges->environment});
     admit_sessions(
         system_, parts_.context, *parts_.edges,
         {config.name, parts_.identity.uuid, config.cell, data_.incarnation},

@@ -161,14 +161,19 @@ caf::behavior local_parts(caf::event_based_actor* self, fake_site* site,
           self->send(node->membership, announcement(site->base));
       },
       [=](const forget_coordinator&) { node->searching = false; },
-      [=](const serve_programs& x) {
+      [=](const serve_programs& x) -> caf::result<programs_served> {
+        if (node->serving_refusal)
+          return to_error(*node->serving_refusal);
         node->served = x;
         const auto port = x.port != 0 ? x.port : 11811;
         return programs_served{"10.0.0.9:" + std::to_string(port)};
       },
       [=](const stop_serving&) { node->served.reset(); },
       [](const follow_server&) { return caf::ok_atom_v; },
-      [=](const use_environment& x) { node->environment = x.environment; },
+      [=](const use_environment& x) {
+        node->environment = x.environment;
+        ++node->environments;
+      },
       [](const announce_presence&) {
         // Nobody else is on this site.
       },

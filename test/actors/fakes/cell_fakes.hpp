@@ -56,13 +56,15 @@ struct fake_node {
   caf::actor local; ///< Plays every part that a membership works with.
   bool searching = false;
   size_t searches = 0;
-  std::optional<serve_programs> served;           ///< Its own discovery server.
+  std::optional<serve_programs> served; ///< Its own discovery server.
+  std::optional<failure> serving_refusal;
   std::map<std::string, std::string> environment; ///< Of its instances.
-  wire_ptr link;                                  ///< The latest.
-  std::optional<failure> refusal;                 ///< Of sessions.
-  address_scouted scouted; ///< What the scout sees; nothing answers.
-  size_t looks = 0;        ///< Of the scout.
-  size_t claims = 0;       ///< Of its address.
+  size_t environments = 0;        ///< How often they were told one.
+  wire_ptr link;                  ///< The latest.
+  std::optional<failure> refusal; ///< Of sessions.
+  address_scouted scouted;        ///< What the scout sees; nothing answers.
+  size_t looks = 0;               ///< Of the scout.
+  size_t claims = 0;              ///< Of its address.
   std::map<std::string, std::string> names; ///< Of hosts, to addresses.
   std::vector<std::string> sought;          ///< Discovery servers.
   std::optional<failure> deployment_refusal;

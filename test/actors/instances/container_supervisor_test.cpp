@@ -390,7 +390,9 @@ TEST_CASE("programs of another address are started again at the present one") {
   b.config.started_at = {{"moved", "10.0.0.5"}, {"stayed", "10.0.0.9"}};
   b.runtime->adoption = {true, "c0", -1};
   b.start();
-  // Where it is to find the cell is not known yet.
+  // Where it is to find the cell is not known yet, also if it is wanted.
+  caf::anon_send(b.supervisor, contact_proven{1, {"moved", "stayed"}});
+  b.settle();
   CHECK(b.runtime->stopped.empty());
   for (int i = 0; i < 2; ++i) {
     caf::anon_send(b.supervisor, use_environment{{{"ROS_DISCOVERY_SERVER",
@@ -407,6 +409,34 @@ TEST_CASE("programs of another address are started again at the present one") {
   CHECK(b.runtime->started[0].environment.at("ROS_DISCOVERY_SERVER")
         == "10.0.0.9:11811");
   CHECK(b.row("stayed").state == instance_state::running);
+}
+
+TEST_CASE("programs of a coordinator at another address are told its server "
+          "there and no other") {
+  supervisor_bench b;
+  instance_row moved;
+  moved.spec = echo_spec(b.catalogue.hash, "moved", "t");
+  moved.spec.environment = {{"ROS_DISCOVERY_SERVER", "10.0.0.5:11811"}};
+  moved.state = instance_state::running;
+  moved.container = "c0";
+  b.config.restored = {moved};
+  b.config.address = "10.0.0.9";
+  b.config.environment = {{"ROS_DISCOVERY_SERVER", "10.0.0.9:11812"}};
+  b.config.started_at = {{"moved", "10.0.0.5"}};
+  std::vector<std::string> told;
+  b.config.tell_environment =
+      [&told](const std::string&,
+              const std::map<std::string, std::string>& place) {
+        told.push_back(place.at("ROS_DISCOVERY_SERVER"));
+        return true;
+      };
+  b.runtime->adoption = {true, "c0", -1};
+  b.start();
+  caf::anon_send(b.supervisor, contact_proven{1, {"moved"}});
+  b.settle();
+  CHECK(told == words{"10.0.0.9:11812"});
+  CHECK(b.row("moved").state == instance_state::running);
+  CHECK(b.runtime->stopped.empty());
 }
 
 TEST_CASE("programs that know no discovery server do not mind an address") {

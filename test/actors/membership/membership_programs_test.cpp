@@ -68,4 +68,14 @@ TEST_CASE_METHOD(cell_fixture, "a member of a cell without places runs no "
   form_cell();
   CHECK_FALSE(node.served);
   CHECK(node.environment.empty());
+  // What was started at another address waits for the word.
+  CHECK(node.environments == 1);
+}
+
+TEST_CASE_METHOD(programs_test, "a member that cannot run its own server tells "
+                                "its instances that there is none") {
+  node.serving_refusal = failure{error_code::unreachable, "no port", "", ""};
+  form_cell();
+  CHECK(node.environment.empty());
+  CHECK(node.environments == 1);
 }
