@@ -376,19 +376,32 @@ TEST_CASE("instances of an earlier run are adopted at the start") {
   CHECK(reply(b.remove("t")).instances == words{"f", "r"});
 }
 
+namespace {
+
+/// A node at 10.0.0.9, and a program that was started when it was at 10.0.0.5,
+/// where it knew a discovery server.
+struct moved_bench : supervisor_bench {
+  moved_bench() {
+    instance_row moved;
+    moved.spec = echo_spec(catalogue.hash, "moved", "t");
+    moved.spec.environment = {{"ROS_DISCOVERY_SERVER", "10.0.0.5:11811"}};
+    moved.state = instance_state::running;
+    moved.container = "c0";
+    config.restored = {moved};
+    config.address = "10.0.0.9";
+    config.started_at = {{"moved", "10.0.0.5"}};
+    runtime->adoption = {true, "c0", -1};
+  }
+};
+
+} // namespace
+
 TEST_CASE("programs of another address are started again at the present one") {
-  supervisor_bench b;
-  instance_row moved;
-  moved.spec = echo_spec(b.catalogue.hash, "moved", "t");
-  moved.spec.environment = {{"ROS_DISCOVERY_SERVER", "10.0.0.5:11811"}};
-  moved.state = instance_state::running;
-  moved.container = "c0";
-  auto stayed = moved;
+  moved_bench b;
+  auto stayed = b.config.restored[0];
   stayed.spec.instance = "stayed";
-  b.config.restored = {moved, stayed};
-  b.config.address = "10.0.0.9";
-  b.config.started_at = {{"moved", "10.0.0.5"}, {"stayed", "10.0.0.9"}};
-  b.runtime->adoption = {true, "c0", -1};
+  b.config.restored.push_back(stayed);
+  b.config.started_at["stayed"] = "10.0.0.9";
   b.start();
   // Where it is to find the cell is not known yet, also if it is wanted.
   caf::anon_send(b.supervisor, contact_proven{1, {"moved", "stayed"}});
@@ -413,16 +426,8 @@ TEST_CASE("programs of another address are started again at the present one") {
 
 TEST_CASE("programs of a coordinator at another address are told its server "
           "there and no other") {
-  supervisor_bench b;
-  instance_row moved;
-  moved.spec = echo_spec(b.catalogue.hash, "moved", "t");
-  moved.spec.environment = {{"ROS_DISCOVERY_SERVER", "10.0.0.5:11811"}};
-  moved.state = instance_state::running;
-  moved.container = "c0";
-  b.config.restored = {moved};
-  b.config.address = "10.0.0.9";
+  moved_bench b;
   b.config.environment = {{"ROS_DISCOVERY_SERVER", "10.0.0.9:11812"}};
-  b.config.started_at = {{"moved", "10.0.0.5"}};
   std::vector<std::string> told;
   b.config.tell_environment =
       [&told](const std::string&,
@@ -430,7 +435,6 @@ TEST_CASE("programs of a coordinator at another address are told its server "
         told.push_back(place.at("ROS_DISCOVERY_SERVER"));
         return true;
       };
-  b.runtime->adoption = {true, "c0", -1};
   b.start();
   caf::anon_send(b.supervisor, contact_proven{1, {"moved"}});
   b.settle();
