@@ -1,5 +1,6 @@
 #include "actors/cell/state/member_servers.hpp"
 
+#include "actors/house/delay.hpp"
 #include "actors/house/limits.hpp"
 
 #include <chrono>
@@ -44,7 +45,7 @@ void doubt_silent_host(coordinator_pointer self, const registry_entry& entry) {
   follow_server wish;
   wish.server_id = entry.server_id;
   wish.contact = server_contact::settled;
-  caf::delayed_anon_send(discovery, silent_host, wish);
+  send_lasting_actor_later(discovery, silent_host, wish);
 }
 
 } // namespace roscell

@@ -3,7 +3,6 @@
 #include "actors/edge/dds/announcement.hpp"
 #include "actors/edge/dds/rtps/discovery_transport.hpp"
 #include "actors/house/limits.hpp"
-#include "dds/host_transport.hpp"
 
 #include <fastdds/rtps/RTPSDomain.h>
 #include <fastdds/rtps/participant/ParticipantDiscoveryInfo.h>
@@ -15,6 +14,8 @@
 #include <algorithm>
 #include <array>
 #include <utility>
+
+#include <pthread.h>
 
 namespace roscell {
 
@@ -101,6 +102,25 @@ sighting to_sighting(const ParticipantDiscoveryInfo& info) {
   return result;
 }
 
+/// Names the threads that this one makes meanwhile: they inherit its name.
+class name_of_threads {
+public:
+  explicit name_of_threads(const char* name) {
+    pthread_getname_np(pthread_self(), before_.data(), before_.size());
+    pthread_setname_np(pthread_self(), name);
+  }
+
+  ~name_of_threads() {
+    pthread_setname_np(pthread_self(), before_.data());
+  }
+
+  name_of_threads(const name_of_threads&) = delete;
+  name_of_threads& operator=(const name_of_threads&) = delete;
+
+private:
+  std::array<char, 16> before_{}; // As long as a name can be.
+};
+
 edge_error out_of_bounds(std::string message) {
   return {error_code::schema_violation, std::move(message), ""};
 }
@@ -130,17 +150,15 @@ RTPSParticipantAttributes make_attributes(const participant_settings& settings,
   RTPSParticipantAttributes result;
   result.setName("roscell");
   result.useBuiltinTransports = false;
-  const host_transport_options udp{
-      settings.address, settings.max_message_bytes,
-      settings.serves_programs ? server_buffer_bytes : 0};
-  result.userTransports.push_back(guarded(
-      settings.serves_programs ? host_transport(udp) : udp_transport(udp),
-      settings.guard));
+  result.userTransports.push_back(discovery_transport(
+      {settings.address, settings.max_sent_bytes, settings.max_heard_bytes,
+       settings.serves_programs ? server_buffer_bytes : 0,
+       settings.serves_programs, settings.guard}));
   result.userData.assign(settings.announcement.begin(),
                          settings.announcement.end());
   auto at = udp_locator(settings.address, port);
   result.builtin.metatrafficUnicastLocatorList.push_back(at);
-  // Sharing the port saves a receiving thread and its buffer.
+  // Sharing the port saves a socket.
   result.defaultUnicastLocatorList.push_back(at);
   // All ports are given above, so nothing depends on the domain's own.
   result.port.domainIDGain = 0;
@@ -165,6 +183,7 @@ std::unique_ptr<rtps_participant> rtps_participant::create(
   attributes.participantID = make_participant_id();
   std::unique_ptr<rtps_participant> result{
       new rtps_participant(std::move(callback), std::move(graph))};
+  const name_of_threads scope{"fast-dds"};
   result->participant_ =
       RTPSDomain::createParticipant(domain_id, true, attributes, result.get());
   if (result->participant_ == nullptr)

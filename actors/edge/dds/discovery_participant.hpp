@@ -32,9 +32,11 @@ struct participant_settings {
   /// Half of a lease would do; a third lets one announcement get lost.
   std::chrono::seconds announcement_period =
       limits::discovery::announcement_period;
-  /// The most bytes in one datagram, sent or received. It costs memory: a
-  /// buffer of this size for each direction.
-  std::uint32_t max_message_bytes = 16384;
+  /// The most bytes in one datagram that it sends: Fast DDS keeps seven buffers
+  /// of this size.
+  std::uint32_t max_sent_bytes = 4096;
+  /// In one that it hears.
+  std::uint32_t max_heard_bytes = 16384;
   /// Programs of others are its clients: it hears those of this host at
   /// 127.0.0.1, too, and answers what they ask about liveliness.
   bool serves_programs = false;

@@ -30,7 +30,10 @@ constexpr std::int32_t serve_repeat_period_ns = 20'000'000;
 constexpr std::chrono::seconds ready_limit{10};
 
 /// A ROS 2 node may put all its endpoints into one datagram of full size.
-constexpr std::uint32_t max_server_message_bytes = 65500;
+constexpr std::uint32_t max_heard_bytes = 65500;
+
+/// Eleven fragments in an Ethernet: of those of a full-sized one more get lost.
+constexpr std::uint32_t max_sent_bytes = 16384;
 
 participant_settings to_settings(const cell_server_options& options) {
   participant_settings result;
@@ -38,7 +41,8 @@ participant_settings to_settings(const cell_server_options& options) {
   result.announcement = options.announcement;
   result.lease = options.lease;
   result.announcement_period = options.announcement_period;
-  result.max_message_bytes = max_server_message_bytes;
+  result.max_heard_bytes = max_heard_bytes;
+  result.max_sent_bytes = max_sent_bytes;
   result.serves_programs = true;
   return result;
 }

@@ -7,7 +7,8 @@ namespace roscell {
 
 herald::herald(std::vector<milliseconds> delays, milliseconds pause,
                std::function<void()> say)
-    : delays_(std::move(delays)), pause_(pause), say_(std::move(say)) {
+    : delays_(std::move(delays)), pause_(pause), say_(std::move(say)),
+      next_(delays_.size()) {
   // nop
 }
 
@@ -16,50 +17,56 @@ herald::~herald() {
 }
 
 void herald::start() {
-  thread_ = std::thread{[this] { run(); }};
+  auto timer = dds_thread::shared()->make_timer([this] { on_ring(); });
+  const std::lock_guard lock{mutex_};
+  timer_ = std::move(timer);
+  if (std::exchange(asked_, false))
+    await(0);
 }
 
 void herald::ask() {
-  {
-    std::lock_guard<std::mutex> lock{mutex_};
+  const std::lock_guard lock{mutex_};
+  if (!timer_ || speaks_)
     asked_ = true;
-  }
-  changed_.notify_one();
+  else if (next_ != 0)
+    // Who asks during a later delay need not wait for its end.
+    await(0);
 }
 
 void herald::stop() {
+  std::unique_ptr<dds_thread::entry> ended;
   {
-    std::lock_guard<std::mutex> lock{mutex_};
-    closing_ = true;
+    const std::lock_guard lock{mutex_};
+    ended = std::move(timer_);
   }
-  changed_.notify_one();
-  if (thread_.joinable())
-    thread_.join();
+  // Ends here, unlocked: it waits for `on_ring`.
 }
 
-void herald::run() {
-  auto next = delays_.size(); // The delay it waits for; idle behind the last.
-  auto last = clock::now() - pause_;
-  std::unique_lock<std::mutex> lock{mutex_};
-  while (!closing_) {
-    if (next == delays_.size()) {
-      changed_.wait(lock, [this] { return closing_ || asked_; });
-      next = 0;
-    }
-    if (std::exchange(asked_, false))
-      next = 0;
-    // Who asks during a later delay need not wait for its end.
-    auto woken = [&] { return closing_ || (asked_ && next > 0); };
-    auto due = std::max(clock::now() + delays_[next], last + pause_);
-    if (changed_.wait_until(lock, due, woken))
-      continue;
-    asked_ = false;
-    ++next;
-    lock.unlock();
-    say_();
-    last = clock::now();
-    lock.lock();
+void herald::await(std::size_t which) {
+  next_ = which;
+  due_ = std::max(clock::now() + delays_[which], last_ + pause_);
+  timer_->call_at(due_);
+}
+
+void herald::on_ring() {
+  {
+    const std::lock_guard lock{mutex_};
+    // Somebody may have asked for another time meanwhile.
+    if (!timer_ || next_ == delays_.size() || clock::now() < due_)
+      return;
+    speaks_ = true;
   }
+  say_();
+  const std::lock_guard lock{mutex_};
+  speaks_ = false;
+  last_ = clock::now();
+  ++next_;
+  if (!timer_)
+    return;
+  if (std::exchange(asked_, false))
+    await(0);
+  else if (next_ < delays_.size())
+    await(next_);
 }
 
 } // namespace roscell

@@ -1,10 +1,12 @@
 #pragma once
 
+#include "actors/edge/dds/dds_thread.hpp"
+
 #include <chrono>
-#include <condition_variable>
+#include <cstddef>
 #include <functional>
+#include <memory>
 #include <mutex>
-#include <thread>
 #include <vector>
 
 /// INTERNAL to this folder.
@@ -12,13 +14,13 @@ namespace roscell {
 
 /// Says the same thing again after somebody asked for it, so that whoever
 /// missed it the first time hears it. Many who ask at once are served together.
-/// Has a thread of its own, which sleeps until it is asked.
 class herald {
 public:
   using milliseconds = std::chrono::milliseconds;
 
-  /// Once asked, it calls `say` after each of `delays` in turn; it starts anew
-  /// when it is asked meanwhile, and keeps `pause` between any two calls.
+  /// Once asked, it calls `say`, on the DDS thread, after each of `delays` in
+  /// turn; it starts anew when it is asked meanwhile, and keeps `pause` between
+  /// any two calls.
   herald(std::vector<milliseconds> delays, milliseconds pause,
          std::function<void()> say);
 
@@ -40,16 +42,21 @@ public:
 private:
   using clock = std::chrono::steady_clock;
 
-  void run();
+  /// Has the timer ring after delay `which`. Under the lock.
+  void await(std::size_t which);
+
+  void on_ring();
 
   const std::vector<milliseconds> delays_;
   const milliseconds pause_;
   const std::function<void()> say_;
   std::mutex mutex_; // Guards what follows.
-  std::condition_variable changed_;
-  bool closing_ = false;
   bool asked_ = false;
-  std::thread thread_;
+  bool speaks_ = false;  // `say` is being called.
+  std::size_t next_ = 0; // The delay it waits for; idle behind the last.
+  clock::time_point due_{};
+  clock::time_point last_{};
+  std::unique_ptr<dds_thread::entry> timer_; // Null: it does not serve.
 };
 
 } // namespace roscell

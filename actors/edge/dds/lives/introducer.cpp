@@ -8,15 +8,9 @@
 namespace roscell {
 
 introducer::introducer(udp_socket socket)
-    : socket_(std::move(socket)), thread_([this] { run(); }) {}
-
-introducer::~introducer() {
-  {
-    std::lock_guard<std::mutex> lock{mutex_};
-    closing_ = true;
-  }
-  changed_.notify_one();
-  thread_.join();
+    : socket_(std::move(socket)),
+      timer_(dds_thread::shared()->make_timer([this] { on_ring(); })) {
+  // nop
 }
 
 void introducer::set_words(std::vector<std::uint8_t> words) {
@@ -26,14 +20,11 @@ void introducer::set_words(std::vector<std::uint8_t> words) {
 
 void introducer::seek(const sockaddr_in& server,
                       std::chrono::milliseconds after) {
-  {
-    std::lock_guard<std::mutex> lock{mutex_};
-    server_ = server;
-    seeks_ = true;
-    anew_ = true;
-    pause_ = after;
-  }
-  changed_.notify_one();
+  std::lock_guard<std::mutex> lock{mutex_};
+  server_ = server;
+  seeks_ = true;
+  pause_ = after;
+  await();
 }
 
 void introducer::rest() {
@@ -41,19 +32,20 @@ void introducer::rest() {
   seeks_ = false;
 }
 
-void introducer::run() {
-  std::unique_lock<std::mutex> lock{mutex_};
-  while (!closing_) {
-    changed_.wait(lock, [this] { return closing_ || seeks_; });
-    anew_ = false;
-    // Woken early by whoever closes, or asks to begin anew.
-    if (changed_.wait_for(lock, pause_, [this] { return closing_ || anew_; })
-        || !seeks_)
-      continue;
-    sendto(socket_.fd(), words_.data(), words_.size(), MSG_NOSIGNAL,
-           reinterpret_cast<const sockaddr*>(&server_), sizeof(server_));
-    pause_ = std::clamp(2 * pause_, first_pause, longest_pause);
-  }
+void introducer::await() {
+  due_ = dds_thread::clock::now() + pause_;
+  timer_->call_at(due_);
+}
+
+void introducer::on_ring() {
+  std::lock_guard<std::mutex> lock{mutex_};
+  // Somebody may have asked for another time meanwhile.
+  if (!seeks_ || dds_thread::clock::now() < due_)
+    return;
+  sendto(socket_.fd(), words_.data(), words_.size(), MSG_NOSIGNAL,
+         reinterpret_cast<const sockaddr*>(&server_), sizeof(server_));
+  pause_ = std::clamp(2 * pause_, first_pause, longest_pause);
+  await();
 }
 
 } // namespace roscell

@@ -1,12 +1,12 @@
 #pragma once
 
+#include "actors/edge/dds/dds_thread.hpp"
 #include "actors/edge/dds/discovery_address.hpp"
 
 #include <chrono>
-#include <condition_variable>
 #include <cstdint>
+#include <memory>
 #include <mutex>
-#include <thread>
 #include <vector>
 
 /// INTERNAL to actors/edge/dds.
@@ -14,7 +14,7 @@ namespace roscell {
 
 /// Introduces a discovery server to another one until that one is known. Fast
 /// DDS by itself does so ten times a second, for ever, to each server that it
-/// has ever been told of. Has a thread of its own, which sleeps meanwhile.
+/// has ever been told of.
 class introducer {
 public:
   /// Between two introductions; each pause is twice as long as the one before.
@@ -23,7 +23,6 @@ public:
 
   /// Messages leave from the socket's address.
   explicit introducer(udp_socket socket);
-  ~introducer();
 
   introducer(const introducer&) = delete;
   introducer& operator=(const introducer&) = delete;
@@ -38,18 +37,18 @@ public:
   void rest();
 
 private:
-  void run();
+  /// After `pause_`. Under the lock.
+  void await();
+  void on_ring();
 
   const udp_socket socket_;
   std::mutex mutex_; // Guards what follows.
   std::vector<std::uint8_t> words_;
-  std::condition_variable changed_;
-  bool closing_ = false;
   bool seeks_ = false;
-  bool anew_ = false; // Somebody has asked to begin.
   std::chrono::milliseconds pause_ = first_pause;
+  dds_thread::clock::time_point due_{};
   sockaddr_in server_{};
-  std::thread thread_;
+  const std::unique_ptr<dds_thread::entry> timer_; // Uses all the others.
 };
 
 } // namespace roscell

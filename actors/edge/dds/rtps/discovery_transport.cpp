@@ -1,6 +1,8 @@
 #include "actors/edge/dds/rtps/discovery_transport.hpp"
 
+#include "actors/edge/dds/rtps/datagram_inlet.hpp"
 #include "actors/edge/dds/rtps/discovery_filter.hpp"
+#include "dds/host_transport.hpp"
 
 #include <fastdds/rtps/transport/ChainingTransport.h>
 #include <fastdds/rtps/transport/ChainingTransportDescriptor.h>
@@ -8,7 +10,6 @@
 
 #include <fastrtps/utils/IPLocator.h>
 
-#include <cstring>
 #include <mutex>
 #include <set>
 #include <utility>
@@ -23,44 +24,72 @@ namespace {
 namespace rtps = eprosima::fastrtps::rtps;
 using namespace eprosima::fastdds::rtps;
 
+std::shared_ptr<TransportDescriptorInterface>
+sending_transport(const discovery_transport_options& options) {
+  if (options.serves_programs)
+    return host_transport(
+        {options.address, options.max_sent_bytes, options.socket_buffer_bytes});
+  auto result = std::make_shared<UDPv4TransportDescriptor>();
+  result->interfaceWhiteList = {options.address};
+  result->maxMessageSize = options.max_sent_bytes;
+  return result;
+}
+
 struct guarded_descriptor : ChainingTransportDescriptor {
-  guarded_descriptor(std::shared_ptr<TransportDescriptorInterface> lower,
-                     std::shared_ptr<discovery_guard> whose)
-      : ChainingTransportDescriptor(std::move(lower)), guard(std::move(whose)) {
-  }
+  explicit guarded_descriptor(discovery_transport_options x)
+      : ChainingTransportDescriptor(sending_transport(x)),
+        options(std::move(x)) {}
 
   TransportInterface* create_transport() const override;
 
-  std::shared_ptr<discovery_guard> guard;
+  discovery_transport_options options;
 };
 
-sockaddr_in address_of(const rtps::Locator_t& x) {
-  sockaddr_in result{};
-  result.sin_family = AF_INET;
-  result.sin_port = htons(rtps::IPLocator::getPhysicalPort(x));
-  std::memcpy(&result.sin_addr, rtps::IPLocator::getIPv4(x),
-              sizeof(result.sin_addr));
+rtps::Locator_t locator_of(const sockaddr_in& x) {
+  rtps::Locator_t result;
+  result.kind = LOCATOR_KIND_UDPv4;
+  rtps::IPLocator::setPhysicalPort(result, ntohs(x.sin_port));
+  rtps::IPLocator::setIPv4(result,
+                           reinterpret_cast<const rtps::octet*>(&x.sin_addr));
   return result;
+}
+
+rtps::Locator_t with_address(rtps::Locator_t at, const std::string& address) {
+  rtps::IPLocator::setIPv4(at, address);
+  return at;
 }
 
 class guarded_transport : public ChainingTransport {
 public:
   explicit guarded_transport(const guarded_descriptor& descriptor)
-      : ChainingTransport(descriptor), descriptor_(descriptor) {}
+      : ChainingTransport(descriptor), descriptor_(descriptor),
+        inlet_({options().address, options().serves_programs,
+                options().max_heard_bytes, options().socket_buffer_bytes}) {}
 
   TransportDescriptorInterface* get_configuration() override {
     return &descriptor_;
   }
 
+  bool IsInputChannelOpen(const rtps::Locator_t& at) const override {
+    return IsLocatorSupported(at) && inlet_.is_open(port_of(at));
+  }
+
   bool OpenInputChannel(const rtps::Locator_t& at,
                         TransportReceiverInterface* receiver,
-                        std::uint32_t max_bytes) override {
-    if (!ChainingTransport::OpenInputChannel(at, receiver, max_bytes))
+                        std::uint32_t) override {
+    // Fast DDS does not send from an interface without a carrier; who heard
+    // there could not answer.
+    if (!is_locator_allowed(with_address(at, options().address)))
       return false;
-    // The channel of the messages' port, which is the same one, is asked for
-    // after that of discovery.
-    if (descriptor_.guard && !std::exchange(has_inlet_, true))
-      descriptor_.guard->set_inlet(
+    if (rtps::IPLocator::isMulticast(at))
+      return inlet_.open_group(rtps::IPLocator::toIPv4string(at), port_of(at),
+                               to(receiver, at));
+    if (!is_locator_allowed(at)
+        || !inlet_.open(port_of(at), to(receiver, at),
+                        to(receiver, with_address(at, "127.0.0.1"))))
+      return false;
+    if (options().guard)
+      options().guard->set_inlet(
           [at, receiver](const std::vector<std::uint8_t>& message) {
             receiver->OnDataReceived(
                 message.data(), static_cast<uint32_t>(message.size()), at, at);
@@ -69,9 +98,9 @@ public:
   }
 
   bool CloseInputChannel(const rtps::Locator_t& at) override {
-    if (descriptor_.guard)
-      descriptor_.guard->set_inlet({});
-    return ChainingTransport::CloseInputChannel(at);
+    if (options().guard)
+      options().guard->set_inlet({});
+    return inlet_.close(port_of(at));
   }
 
   bool OpenOutputChannel(SendResourceList& senders,
@@ -98,41 +127,63 @@ public:
     }
     Locators begin{opened.cbegin()};
     Locators end{opened.cend()};
-    if (!descriptor_.guard)
+    if (!options().guard)
       return lower->send(data, size, &begin, &end, timeout);
     // Fast DDS may send the same bytes again.
     std::vector<rtps::octet> message(data, data + size);
-    return !descriptor_.guard->let_out(message.data(), message.size())
+    return !options().guard->let_out(message.data(), message.size())
            || lower->send(message.data(), size, &begin, &end, timeout);
   }
 
   void receive(TransportReceiverInterface* next, const rtps::octet* data,
-               uint32_t size, const rtps::Locator_t& local,
+               std::uint32_t size, const rtps::Locator_t& local,
                const rtps::Locator_t& remote) override {
-    // The data are in the receiving thread's own buffer.
-    auto how = rtps::IPLocator::isMulticast(local) ? arrival::multicast
-                                                   : arrival::direct;
-    auto* const message = const_cast<rtps::octet*>(data);
-    if (!make_safe(message, size, how))
-      return;
-    const auto& guard = descriptor_.guard;
-    if (!guard)
-      return next->OnDataReceived(data, size, local, remote);
-    if (!guard->take_in(message, size, address_of(remote)))
-      return;
     next->OnDataReceived(data, size, local, remote);
-    const auto sequel = guard->sequel_of(message, size);
-    if (!sequel.empty())
-      next->OnDataReceived(sequel.data(),
-                           static_cast<std::uint32_t>(sequel.size()), local,
-                           remote);
   }
 
 private:
+  static std::uint16_t port_of(const rtps::Locator_t& at) {
+    return rtps::IPLocator::getPhysicalPort(at);
+  }
+
+  const discovery_transport_options& options() const {
+    return descriptor_.options;
+  }
+
+  /// Gives `next` what comes to `local`.
+  dds_thread::on_datagram to(TransportReceiverInterface* next,
+                             const rtps::Locator_t& local) {
+    return [this, next, local](std::uint8_t* message, std::size_t size,
+                               const sockaddr_in& from) {
+      hear(*next, local, message, size, from);
+    };
+  }
+
+  void hear(TransportReceiverInterface& next, const rtps::Locator_t& local,
+            std::uint8_t* message, std::size_t size, const sockaddr_in& from) {
+    const auto how = rtps::IPLocator::isMulticast(local) ? arrival::multicast
+                                                         : arrival::direct;
+    if (!make_safe(message, size, how))
+      return;
+    const auto remote = locator_of(from);
+    const auto& guard = options().guard;
+    if (guard && !guard->take_in(message, size, from))
+      return;
+    next.OnDataReceived(message, static_cast<std::uint32_t>(size), local,
+                        remote);
+    if (!guard)
+      return;
+    const auto sequel = guard->sequel_of(message, size);
+    if (!sequel.empty())
+      next.OnDataReceived(sequel.data(),
+                          static_cast<std::uint32_t>(sequel.size()), local,
+                          remote);
+  }
+
   guarded_descriptor descriptor_;
-  bool has_inlet_ = false;
   std::mutex mutex_;
   std::set<rtps::Locator_t> opened_;
+  datagram_inlet inlet_; // Last: it calls this.
 };
 
 TransportInterface* guarded_descriptor::create_transport() const {
@@ -142,18 +193,8 @@ TransportInterface* guarded_descriptor::create_transport() const {
 } // namespace
 
 std::shared_ptr<TransportDescriptorInterface>
-udp_transport(const host_transport_options& options) {
-  auto result = std::make_shared<UDPv4TransportDescriptor>();
-  result->interfaceWhiteList = {options.address};
-  result->maxMessageSize = options.max_message_bytes;
-  return result;
-}
-
-std::shared_ptr<TransportDescriptorInterface>
-guarded(std::shared_ptr<TransportDescriptorInterface> lower,
-        std::shared_ptr<discovery_guard> guard) {
-  return std::make_shared<guarded_descriptor>(std::move(lower),
-                                              std::move(guard));
+discovery_transport(discovery_transport_options options) {
+  return std::make_shared<guarded_descriptor>(std::move(options));
 }
 
 } // namespace roscell

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "actors/edge/dds/lives/discovery_guard.hpp"
-#include "dds/host_transport.hpp"
 
 #include <fastdds/rtps/transport/TransportDescriptorInterface.h>
 
@@ -12,16 +11,20 @@
 /// INTERNAL to this folder.
 namespace roscell {
 
-/// UDP over IPv4 on one local address only, no shared memory.
-std::shared_ptr<eprosima::fastdds::rtps::TransportDescriptorInterface>
-udp_transport(const host_transport_options& options);
+struct discovery_transport_options {
+  std::string address;                   ///< IPv4, of this host.
+  std::uint32_t max_sent_bytes = 0;      ///< In one datagram.
+  std::uint32_t max_heard_bytes = 0;     ///< Longer ones are dropped.
+  std::uint32_t socket_buffer_bytes = 0; ///< Wanted; 0: the kernel's own.
+  bool serves_programs = false; ///< Hears those of this host at 127.0.0.1.
+  std::shared_ptr<discovery_guard> guard; ///< A server's; others have none.
+};
 
-/// Puts a guard over a UDP transport: Fast DDS only sees the datagrams that are
-/// safe for it (discovery_filter.hpp). A discovery server's `guard` has a look
-/// at them, too (lives/discovery_guard.hpp); others have none: null.
+/// UDP over IPv4 on one local address only, no shared memory. Fast DDS sends as
+/// it always does. It hears on the DDS thread (dds_thread.hpp), and sees only
+/// the datagrams that are safe for it (discovery_filter.hpp). A discovery
+/// server's guard has a look at them, too (lives/discovery_guard.hpp).
 std::shared_ptr<eprosima::fastdds::rtps::TransportDescriptorInterface>
-guarded(std::shared_ptr<eprosima::fastdds::rtps::TransportDescriptorInterface>
-            lower,
-        std::shared_ptr<discovery_guard> guard);
+discovery_transport(discovery_transport_options options);
 
 } // namespace roscell
