@@ -90,5 +90,13 @@ if grep -rnE '(->|\.)monitor\(' --include='*.?pp' actors embedding skills tools 
   broken=1
 fi
 
+# A delayed message keeps its receiver, and cannot be taken back.
+if grep -rnE 'delayed_(anon_)?send|schedule_message' --include='*.?pp' \
+     actors embedding skills tools | grep -v '^actors/house/delay.hpp:'; then
+  echo "law: an actor has actors/house/alarm.hpp, which ends with it; what lives as" \
+    "long as its node is told later by actors/house/delay.hpp"
+  broken=1
+fi
+
 [[ $broken -eq 0 ]] && echo "law: kept"
 exit $broken

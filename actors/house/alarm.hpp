@@ -2,14 +2,19 @@
 
 #include <caf/atom.hpp>
 
-#include <algorithm>
 #include <chrono>
 #include <cstdint>
 
 namespace roscell {
 
-/// The one timer of an actor. CAF's delayed messages cannot be taken back, so
-/// each carries a number, and only the last one set may ring.
+/// The type of the clock's timeouts that `house.hpp` turns into ticks.
+constexpr auto alarm_timeout = caf::atom("alarm");
+
+/// The one timer of an actor that the house function has spawned. It is kept by
+/// the clock as a timeout, of which an actor has one at a time, and which ends
+/// with it: a delayed message cannot be taken back, and keeps the whole actor
+/// until it is due. A tick may be under way when the alarm is set anew, so each
+/// carries a number, and only the last one set may ring.
 class alarm {
 public:
   using time_point = std::chrono::steady_clock::time_point;
@@ -18,13 +23,16 @@ public:
   /// Whoever gets one looks what is due and sets the alarm anew.
   template <class Self>
   void set(Self* self, time_point when) {
-    if (set_ && due_ <= when)
-      return;
+    if (!set_ || when < due_)
+      set_anew(self, when);
+  }
+
+  /// Makes `self` get a tick at `when`, and not before.
+  template <class Self>
+  void set_anew(Self* self, time_point when) {
     set_ = true;
     due_ = when;
-    const auto now = self->clock().now();
-    self->delayed_send(self, std::max(when - now, time_point::duration{0}),
-                       caf::tick_atom_v, ++number_);
+    self->clock().set_ordinary_timeout(when, self, alarm_timeout, ++number_);
   }
 
   /// Whether tick `number` is the one that was set last.

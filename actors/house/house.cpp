@@ -2,6 +2,9 @@
 
 #include "messages/messages.hpp"
 
+#include <caf/sec.hpp>
+#include <caf/system_messages.hpp>
+
 namespace roscell {
 
 namespace {
@@ -31,6 +34,27 @@ void house::observe(metric which, metric_book::label_values labels,
                     double value) const {
   if (metrics)
     metrics->observe(which, labels, value);
+}
+
+caf::mailbox_element_ptr with_alarm_as_tick(caf::mailbox_element_ptr what) {
+  const auto& content = what->content();
+  if (!content.match_elements<caf::timeout_msg>())
+    return what;
+  const auto& timeout = content.get_as<caf::timeout_msg>(0);
+  if (timeout.type != alarm_timeout)
+    return what;
+  return caf::make_mailbox_element(what->sender, what->mid, {},
+                                   caf::tick_atom_v, timeout.timeout_id);
+}
+
+caf::error end_by_exception(const std::exception_ptr& thrown) {
+  try {
+    std::rethrow_exception(thrown);
+  } catch (const std::exception& what) {
+    return caf::make_error(caf::sec::runtime_error, std::string{what.what()});
+  } catch (...) {
+    return caf::sec::runtime_error;
+  }
 }
 
 } // namespace roscell

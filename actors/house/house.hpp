@@ -1,6 +1,8 @@
 #pragma once
 
 #include "actors/house/actor_directory.hpp"
+#include "actors/house/alarm.hpp"
+#include "actors/house/blocking_threads.hpp"
 #include "actors/house/boot_clock.hpp"
 #include "actors/house/metric_book.hpp"
 #include "messages/inside/introspection.hpp"
@@ -12,6 +14,7 @@
 #include <caf/typed_event_based_actor.hpp>
 
 #include <chrono>
+#include <exception>
 #include <functional>
 #include <memory>
 #include <string>
@@ -30,6 +33,9 @@ struct house {
   /// What is counted; null in tests that do not care.
   std::shared_ptr<metric_book> metrics;
 
+  /// Where actors that block work; null in tests that let all run as others.
+  std::shared_ptr<blocking_threads> blocking;
+
   /// Counts something, or measures it once.
   void count(metric which, metric_book::label_values labels,
              double amount = 1) const;
@@ -41,7 +47,19 @@ struct house {
             const json& data = nullptr) const;
 };
 
-/// An actor whose messages and handling times are counted.
+/// A timeout of an `alarm` as the tick that it is for; all else stays as it is.
+/// CAF would drop it: it knows its own timeouts only.
+caf::mailbox_element_ptr with_alarm_as_tick(caf::mailbox_element_ptr what);
+
+/// With which an actor ends that has thrown. CAF would print what was thrown,
+/// by a thread that is there for nothing else, and say nothing of it to those
+/// who watch the actor.
+caf::error end_by_exception(const std::exception_ptr& thrown);
+
+/// An actor whose messages and handling times are counted, and which leaves
+/// nothing in the clock: neither alarms when it ends nor, while it lives, the
+/// timeouts of requests that have been answered, which CAF 0.17.6 keeps until
+/// their time is up. It works on `threads`; null: where CAF has it work.
 template <class Handle, class State>
 class counted_actor final
     : public caf::stateful_actor<State, typename Handle::base> {
@@ -52,15 +70,33 @@ public:
 
   counted_actor(caf::actor_config& cfg,
                 std::shared_ptr<actor_counters> counters,
-                std::function<behavior_type(pointer)> init)
-      : super(cfg), counters_(std::move(counters)), init_(std::move(init)) {
+                std::function<behavior_type(pointer)> init,
+                std::shared_ptr<blocking_threads> threads)
+      : super(cfg), counters_(std::move(counters)), init_(std::move(init)),
+        threads_(std::move(threads)), works_there_(threads_ != nullptr) {
     counters_->begin(this->address());
+    this->set_exception_handler(
+        [](std::exception_ptr& thrown) { return end_by_exception(thrown); });
+    if (works_there_)
+      threads_->enter();
   }
 
   void enqueue(caf::mailbox_element_ptr what,
                caf::execution_unit* host) override {
     ++counters_->received;
-    super::enqueue(std::move(what), host);
+    super::enqueue(with_alarm_as_tick(std::move(what)),
+                   threads_ ? threads_.get() : host);
+  }
+
+  void launch(caf::execution_unit* host, bool lazy, bool hide) override {
+    super::launch(threads_ ? threads_.get() : host, lazy, hide);
+  }
+
+  bool cleanup(caf::error&& reason, caf::execution_unit* host) override {
+    const auto result = super::cleanup(std::move(reason), host);
+    if (std::exchange(works_there_, false))
+      threads_->leave();
+    return result;
   }
 
 protected:
@@ -75,8 +111,11 @@ protected:
     using namespace std::chrono;
     const working_as scope{this->id()};
     const auto begin = steady_clock::now();
+    const auto id = what.mid;
     const auto result = super::consume(what);
     if (result != caf::invoke_message_result::skipped) {
+      if (id.is_response())
+        this->clock().cancel_request_timeout(this, id);
       const auto spent = steady_clock::now() - begin;
       counters_->add(
           static_cast<uint64_t>(duration_cast<microseconds>(spent).count()));
@@ -87,19 +126,22 @@ protected:
 private:
   std::shared_ptr<actor_counters> counters_;
   std::function<behavior_type(pointer)> init_;
+  const std::shared_ptr<blocking_threads> threads_;
+  bool works_there_;
 };
 
-/// The one function that spawns actors. `function` is the actor's free function
+/// How all actors are spawned. `function` is the actor's free function
 /// `handle::behavior_type f(handle::stateful_pointer<state>, params...)`; its
 /// state has a `static constexpr const char* name`.
-template <caf::spawn_options Options = caf::no_spawn_options, class State,
-          class... Sigs, class... Params, class... Args>
+template <caf::spawn_options Options, class State, class... Sigs,
+          class... Params, class... Args>
 caf::typed_actor<Sigs...>
-spawn(caf::actor_system& system, const house& context,
-      caf::typed_behavior<Sigs...> (*function)(
-          caf::stateful_actor<State, caf::typed_event_based_actor<Sigs...>>*,
-          Params...),
-      Args&&... args) {
+spawn_on(std::shared_ptr<blocking_threads> threads, caf::actor_system& system,
+         const house& context,
+         caf::typed_behavior<Sigs...> (*function)(
+             caf::stateful_actor<State, caf::typed_event_based_actor<Sigs...>>*,
+             Params...),
+         Args&&... args) {
   using actor_type = counted_actor<caf::typed_actor<Sigs...>, State>;
   auto init = [function, captured = std::make_tuple(std::forward<Args>(
                              args)...)](typename actor_type::pointer self) {
@@ -107,7 +149,25 @@ spawn(caf::actor_system& system, const house& context,
                       captured);
   };
   return system.spawn<actor_type, Options>(
-      context.directory->enter(State::name), std::move(init));
+      context.directory->enter(State::name), std::move(init),
+      std::move(threads));
+}
+
+/// Spawns an actor that does not block.
+template <caf::spawn_options Options = caf::no_spawn_options, class Function,
+          class... Args>
+auto spawn(caf::actor_system& system, const house& context, Function function,
+           Args&&... args) {
+  return spawn_on<Options>(nullptr, system, context, function,
+                           std::forward<Args>(args)...);
+}
+
+/// Spawns an actor that blocks now and then, on a disk or on a library.
+template <class Function, class... Args>
+auto spawn_blocking(caf::actor_system& system, const house& context,
+                    Function function, Args&&... args) {
+  return spawn_on<caf::no_spawn_options>(context.blocking, system, context,
+                                         function, std::forward<Args>(args)...);
 }
 
 /// Shorthand for the clause that every behaviour has.

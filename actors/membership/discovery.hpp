@@ -33,7 +33,7 @@ struct discovery_config {
 
 /// Owns the participants of a node, its own discovery server and the public
 /// one, and its inquiry for a coordinator's. Making and deleting them takes
-/// some milliseconds, so this actor is spawned detached.
+/// some milliseconds, so it is spawned as one that blocks.
 struct discovery_state {
   static constexpr const char* name = "discovery";
 

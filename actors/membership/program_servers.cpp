@@ -1,6 +1,7 @@
 #include "actors/membership/program_servers.hpp"
 
 #include "actors/edge/io/socket_address.hpp"
+#include "actors/house/delay.hpp"
 #include "actors/house/edge_failure.hpp"
 
 #include <utility>
@@ -53,10 +54,10 @@ void begin_doubt(discovery_self self, const follow_server& wish) {
   auto& st = self->state;
   st.met[static_cast<uint8_t>(wish.server_id)] = ++st.meetings;
   if (wish.tells_anew)
-    caf::delayed_anon_send(discovery_actor{self}, doubt,
-                           follow_server{wish.server_id,
-                                         server_contact::settled, false,
-                                         st.meetings});
+    send_lasting_actor_later(discovery_actor{self}, doubt,
+                             follow_server{wish.server_id,
+                                           server_contact::settled, false,
+                                           st.meetings});
 }
 
 /// Another meeting may have begun since the one that this is about. Without a

@@ -24,7 +24,7 @@ struct instance_sample {
 };
 
 /// Reads the host when asked. A read of /proc and the first one of NVML can
-/// take long, so this actor is spawned detached.
+/// take long, so this actor is spawned as one that blocks.
 struct resource_probe_state {
   static constexpr const char* name = "resource-probe";
 

@@ -13,7 +13,7 @@
 
 namespace roscell {
 
-/// Owns the node's database. It blocks on the disk, so it is spawned detached.
+/// Owns the node's database. Spawned as one that blocks: it waits for the disk.
 struct state_store_state {
   static constexpr const char* name = "state-store";
 

@@ -10,6 +10,7 @@
 #include <caf/sec.hpp>
 #include <caf/send.hpp>
 
+#include <algorithm>
 #include <exception>
 #include <utility>
 
@@ -61,9 +62,17 @@ void begin(self_pointer self) {
   make_skill(self);
 }
 
+void set_timer(self_pointer self) {
+  auto& st = self->state;
+  const auto next = std::min(st.life_due, st.safety_due);
+  if (next != alarm::time_point::max())
+    st.timer.set(self, next);
+}
+
 void expect_life(self_pointer self) {
-  self->state.timer.set(self, self->clock().now()
-                                  + limits::instance::told_watchdog / 2);
+  self->state.life_due =
+      self->clock().now() + limits::instance::told_watchdog / 2;
+  set_timer(self);
 }
 
 void ask_life(self_pointer self) {
@@ -136,13 +145,35 @@ void on_ready(self_pointer self) {
 void on_safety_told(self_pointer self) {
   auto& st = self->state;
   const auto now = self->clock().now();
-  if (now < st.safety_quiet_until)
-    return self->delayed_send(self, st.safety_quiet_until - now, safety_told{});
+  if (now < st.safety_quiet_until) {
+    st.safety_due = st.safety_quiet_until;
+    return set_timer(self);
+  }
   st.safety_quiet_until = now + engine::heartbeat::least_word_pause;
   instance_notified fact;
   fact.instance = st.config.instance;
   fact.safe = st.config.side->take_safety();
   st.config.reports.notified(fact);
+}
+
+/// Whether what is due at this time is; if so, it is not any more.
+bool take_due(alarm::time_point& due, alarm::time_point now) {
+  if (now < due)
+    return false;
+  due = alarm::time_point::max();
+  return true;
+}
+
+void on_tick(self_pointer self, uint64_t number) {
+  auto& st = self->state;
+  if (!st.timer.rings(number))
+    return;
+  const auto now = self->clock().now();
+  if (take_due(st.life_due, now))
+    ask_life(self);
+  if (take_due(st.safety_due, now))
+    on_safety_told(self);
+  set_timer(self);
 }
 
 void end(self_pointer self, std::chrono::milliseconds grace) {
@@ -194,10 +225,7 @@ skill_keeper(self_pointer self, const skill_keeper_config& config) {
       [self](const end_skill& x) {
         end(self, std::chrono::milliseconds{x.grace_ms});
       },
-      [self](caf::tick_atom, uint64_t number) {
-        if (self->state.timer.rings(number))
-          ask_life(self);
-      },
+      [self](caf::tick_atom, uint64_t number) { on_tick(self, number); },
   };
 }
 

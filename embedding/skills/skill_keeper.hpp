@@ -41,6 +41,10 @@ struct skill_keeper_state {
   std::unique_ptr<engine::processing_times> times;
   std::chrono::steady_clock::time_point frame_begun;
   alarm::time_point safety_quiet_until; ///< No word on safety is told before.
+  /// When one is told that came earlier; max(): none did.
+  alarm::time_point safety_due = alarm::time_point::max();
+  /// When the instance is asked whether it lives; max(): it is being asked.
+  alarm::time_point life_due = alarm::time_point::max();
   alarm timer;
 };
 

@@ -4,9 +4,25 @@
 
 #include <fcntl.h>
 
+#include <algorithm>
 #include <cerrno>
 
 namespace roscell {
+
+namespace {
+
+/// Of a file read at once: more than most have.
+constexpr size_t step_bytes = 4096;
+
+ssize_t read_some(int fd, char* to, size_t bytes) {
+  ssize_t n = 0;
+  do {
+    n = ::read(fd, to, bytes);
+  } while (n < 0 && errno == EINTR);
+  return n;
+}
+
+} // namespace
 
 std::optional<std::string> read_small_file(const std::filesystem::path& path,
                                            size_t max_bytes) {
@@ -15,22 +31,23 @@ std::optional<std::string> read_small_file(const std::filesystem::path& path,
       ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY)};
   if (!fd)
     return std::nullopt;
-  std::string result(max_bytes + 1, '\0');
-  size_t size = 0;
-  while (size < result.size()) {
-    const auto n = ::read(fd.get(), &result[size], result.size() - size);
-    if (n < 0 && errno == EINTR)
-      continue;
+  std::string result;
+  for (;;) {
+    // A byte beyond what is allowed tells a file that is too long.
+    const auto size = result.size();
+    result.resize(size + std::min(step_bytes, max_bytes + 1 - size));
+    const auto n = read_some(fd.get(), &result[size], result.size() - size);
     if (n < 0)
       return std::nullopt;
-    if (n == 0)
-      break;
-    size += static_cast<size_t>(n);
+    result.resize(size + static_cast<size_t>(n));
+    if (result.size() > max_bytes)
+      return std::nullopt;
+    if (n > 0)
+      continue;
+    // Whoever keeps it keeps no more than it has.
+    result.shrink_to_fit();
+    return result;
   }
-  if (size > max_bytes)
-    return std::nullopt;
-  result.resize(size);
-  return result;
 }
 
 } // namespace roscell

@@ -48,8 +48,7 @@ program_place place_of(const reach_prober_config& config,
 /// Has ports open in the domain for a while from now on.
 std::optional<edge_error> keep_open(reach_prober_self self, unsigned domain) {
   auto& st = self->state;
-  st.closing = alarm{};
-  st.closing.set(self, self->clock().now() + reach_port_life);
+  st.closing.set_anew(self, self->clock().now() + reach_port_life);
   if (st.port && st.port_domain == domain)
     return std::nullopt;
   auto port = reach_port::open(*st.config.io,
