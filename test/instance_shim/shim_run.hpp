@@ -8,8 +8,10 @@
 
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <system_error>
 
 /// The instance shim with a shell script as its command.
 namespace roscell::test {
@@ -17,6 +19,12 @@ namespace roscell::test {
 using nlohmann::json;
 
 inline const std::string shim = test::build_dir() / "bin/roscell-instance-shim";
+
+/// What the shim in that folder says of its processes.
+inline std::string record_of_processes(const std::string& dir) {
+  std::error_code error;
+  return std::filesystem::read_symlink(dir + "/pid", error).string();
+}
 
 /// Runs a shell script under the shim, with its records in `dir`.
 struct shim_run {
@@ -45,7 +53,7 @@ struct shim_run {
   /// Waits for a file of the instance.
   bool wait_for(const std::string& name) {
     auto there = [&](const std::string& path) {
-      return std::ifstream{path}.good();
+      return std::filesystem::exists(std::filesystem::symlink_status(path));
     };
     return wait_in_folder(folder / "", [&] { return there(dir() + "/."); })
            && wait_in_folder(dir(), [&] { return there(dir() + "/" + name); });
@@ -63,7 +71,7 @@ struct shim_run {
 
   /// The numbers in `pid`: shim, start time, child.
   std::vector<unsigned long> pids() const {
-    std::istringstream text{content_of(dir() + "/pid")};
+    std::istringstream text{record_of_processes(dir())};
     std::vector<unsigned long> result(3);
     text >> result[0] >> result[1] >> result[2];
     return result;

@@ -146,13 +146,38 @@ TEST_CASE("a log that exists is continued at its absolute offset") {
   child_process second{command, {}};
   CHECK(second.wait() == 0);
   CHECK(names_in(folder / "i")
-        == std::vector<std::string>{"exit", "log.0", "log.6", "pid", "times.0",
-                                    "times.6"});
-  child_process third{command, {}};
-  CHECK(third.wait() == 0);
-  CHECK(names_in(folder / "i")
-        == std::vector<std::string>{"exit", "log.12", "log.6", "pid",
-                                    "times.12", "times.6"});
+        == std::vector<std::string>{"exit", "log.0", "pid", "times.0"});
+  CHECK(content_of(folder / "i/log.0")
+        == "hello\n[shim: started again]\nhello\n");
+  SECTION("in the next file where the newest is full") {
+    std::ofstream{folder / "i/log.0", std::ios::app} << std::string(2048, 'x');
+    const auto next = "log." + std::to_string(34 + 2048);
+    child_process third{command, {}};
+    CHECK(third.wait() == 0);
+    CHECK(names_in(folder / "i")
+          == std::vector<std::string>{"exit", "log.0", next, "pid", "times.0",
+                                      "times." + next.substr(4)});
+    CHECK(content_of(folder / ("i/" + next))
+          == "\n[shim: started again]\nhello\n");
+    // Of two files both go on; of three the oldest goes.
+    folder.write("i/log.7", "not the oldest\n");
+    child_process fourth{command, {}};
+    CHECK(fourth.wait() == 0);
+    CHECK_FALSE(std::filesystem::exists(folder / "i/log.0"));
+    CHECK(std::filesystem::exists(folder / "i/log.7"));
+  }
+  SECTION("with the times behind those of before") {
+    const auto size = std::filesystem::file_size(folder / "i/times.0");
+    // Half a note, and one of bytes that were lost with the power.
+    const std::int64_t lost[] = {1000, 1, 7};
+    std::ofstream{folder / "i/times.0", std::ios::app | std::ios::binary}.write(
+        reinterpret_cast<const char*>(lost), 20);
+    child_process third{command, {}};
+    CHECK(third.wait() == 0);
+    const auto after = std::filesystem::file_size(folder / "i/times.0");
+    CHECK(after % 16 == 0);
+    CHECK(after > size);
+  }
 }
 
 TEST_CASE("a log that cannot be written never holds the child back") {
@@ -233,7 +258,7 @@ TEST_CASE("the shim and its child survive the process that started them") {
            + " --log-bytes 4096 -- /bin/sleep 1000 & } | cat; kill -9 $$"},
       {{"PATH", "/usr/bin:/bin"}}};
   CHECK(parent.wait() == -SIGKILL);
-  std::istringstream text{content_of(dir + "/pid")};
+  std::istringstream text{record_of_processes(dir)};
   pid_t pid = 0;
   REQUIRE(text >> pid);
   CHECK(::kill(pid, 0) == 0);

@@ -66,6 +66,8 @@ log_files::log_files(int directory, std::uint64_t max_bytes)
     : directory_(directory), max_file_bytes_(max_bytes / 2) {
   find_newest();
   ensure_open();
+  if (start_ + size_ > 0)
+    note_start();
 }
 
 log_files::~log_files() {
@@ -90,30 +92,75 @@ void log_files::remove(std::uint64_t offset) {
   ::unlinkat(directory_, file_name{offset, "times"}.text, 0);
 }
 
-/// Keeps the newest file of an earlier run as the older one of this run.
+/// Keeps the two newest files of earlier runs.
 void log_files::find_newest() {
   auto copy = ::openat(directory_, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   auto* folder = copy < 0 ? nullptr : ::fdopendir(copy);
   if (folder == nullptr)
     return;
+  std::uint64_t newest = 0;
+  auto found = 0;
   while (const auto* entry = ::readdir(folder)) {
     std::uint64_t offset = 0;
     if (!parse(entry->d_name, offset))
       continue;
-    auto newer = !has_older_ || offset > older_start_;
-    auto victim = newer ? older_start_ : offset;
+    if (found++ == 0) {
+      newest = offset;
+      continue;
+    }
+    const auto older = std::min(newest, offset);
+    newest = std::max(newest, offset);
     if (has_older_)
-      remove(victim);
-    if (newer)
-      older_start_ = offset;
+      remove(std::min(older_start_, older));
+    older_start_ = has_older_ ? std::max(older_start_, older) : older;
     has_older_ = true;
   }
   ::closedir(folder);
-  if (!has_older_)
-    return;
-  start_ = older_start_ + size_of(directory_, file_name{older_start_}.text);
-  // An empty file is continued, for a new one would have the same name.
-  has_older_ = start_ != older_start_;
+  if (found > 0)
+    go_on_in(newest);
+}
+
+void log_files::go_on_in(std::uint64_t newest) {
+  start_ = newest;
+  size_ = size_of(directory_, file_name{newest}.text);
+  find_last_note();
+  if (is_full())
+    rotate();
+}
+
+/// What was noted of bytes that were lost with the power, or half of a note,
+/// would make the notes after it unreadable.
+void log_files::find_last_note() {
+  const file_name name{start_, "times"};
+  times_size_ = size_of(directory_, name.text);
+  times_size_ -= times_size_ % sizeof(time_note);
+  const auto file = ::openat(directory_, name.text, O_RDONLY | O_CLOEXEC);
+  time_note last{};
+  while (times_size_ > 0
+         && (::pread(file, &last, sizeof(last),
+                     static_cast<off_t>(times_size_ - sizeof(last)))
+                 != static_cast<ssize_t>(sizeof(last))
+             || last.offset >= start_ + size_))
+    times_size_ -= sizeof(last);
+  if (file >= 0)
+    ::close(file);
+}
+
+/// One log has all runs of its instance, and a reader wants to tell them apart.
+void log_files::note_start() {
+  constexpr char line[] = "\n[shim: started again]\n";
+  char last = '\n';
+  const auto whose = size_ > 0 ? start_ : older_start_;
+  const auto file =
+      ::openat(directory_, file_name{whose}.text, O_RDONLY | O_CLOEXEC);
+  const auto end =
+      static_cast<off_t>(size_ > 0 ? size_ : start_ - older_start_);
+  if (file >= 0 && ::pread(file, &last, 1, end - 1) != 1)
+    last = '\n';
+  if (file >= 0)
+    ::close(file);
+  const auto skipped = last == '\n' ? 1 : 0;
+  append(line + skipped, sizeof(line) - 1 - skipped);
 }
 
 bool log_files::ensure_open() {
@@ -121,6 +168,17 @@ bool log_files::ensure_open() {
     file_ = ::openat(directory_, file_name{start_}.text,
                      O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0640);
   return file_ >= 0;
+}
+
+/// What stands behind the last whole note is cut off.
+bool log_files::ensure_times_open() {
+  if (times_ >= 0)
+    return true;
+  times_ = ::openat(directory_, file_name{start_, "times"}.text,
+                    O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0640);
+  if (times_ >= 0 && ::ftruncate(times_, static_cast<off_t>(times_size_)) != 0)
+    close_file(times_);
+  return times_ >= 0;
 }
 
 /// Both files of a pair begin and end together.
@@ -133,14 +191,10 @@ bool log_files::is_full() const {
 /// before is the same. Half a note would make those after it unreadable.
 void log_files::note_time() {
   const auto now = now_ms();
-  if (times_size_ > 0 && now == noted_ms_)
+  if (now == noted_ms_)
     return;
-  if (times_ < 0)
-    times_ =
-        ::openat(directory_, file_name{start_, "times"}.text,
-                 O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0640);
   const time_note note{start_ + size_, now};
-  if (times_ < 0)
+  if (!ensure_times_open())
     return;
   const auto n = ::write(times_, &note, sizeof(note));
   if (n == static_cast<ssize_t>(sizeof(note))) {
@@ -163,6 +217,7 @@ void log_files::rotate() {
   start_ += size_;
   size_ = 0;
   times_size_ = 0;
+  noted_ms_ = 0;
 }
 
 /// Returns how many bytes were written.

@@ -16,7 +16,9 @@ namespace roscell::shim {
 class log_files {
 public:
   /// Continues the log in the folder `directory`, an open descriptor that must
-  /// stay open, or begins one.
+  /// stay open, with a line that says so, or begins one. It goes on in the
+  /// newest file: a program that is started again and again must not leave a
+  /// file each time.
   log_files(int directory, std::uint64_t max_bytes);
 
   ~log_files();
@@ -31,8 +33,12 @@ public:
 
 private:
   void find_newest();
+  void go_on_in(std::uint64_t newest);
+  void find_last_note();
+  void note_start();
   void remove(std::uint64_t offset);
   bool ensure_open();
+  bool ensure_times_open();
   bool is_full() const;
   void note_time();
   void rotate();

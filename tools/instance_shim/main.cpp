@@ -4,7 +4,8 @@
 /// `pid`. Single-threaded, and sleeps unless there is output or a signal.
 ///
 /// In the folder DIR:
-///   pid           "<shim pid> <shim start time> <child pid>", once started
+///   pid           a link to "<shim pid> <shim start time> <child pid>", which
+///                 is no file; once started
 ///   log.<offset>  output of the command from that byte on; at most two files
 ///   exit          how it ended, durable before the shim ends; see records.hpp
 ///   *.tmp         not yet complete; to be ignored

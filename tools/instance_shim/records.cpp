@@ -60,15 +60,11 @@ int format_exit(const child_end& end, char* text) {
 
 bool write_pid(int directory, pid_t child) {
   char text[96];
-  auto size = std::snprintf(text, sizeof(text), "%d %llu %d\n", ::getpid(),
-                            own_start_time(), child);
-  auto fd = ::openat(directory, "pid.tmp",
-                     O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-  if (fd < 0)
-    return false;
-  auto complete = ::write(fd, text, static_cast<std::size_t>(size)) == size;
-  ::close(fd);
-  return complete && ::renameat(directory, "pid.tmp", directory, "pid") == 0;
+  std::snprintf(text, sizeof(text), "%d %llu %d", ::getpid(), own_start_time(),
+                child);
+  ::unlinkat(directory, "pid.tmp", 0);
+  return ::symlinkat(text, directory, "pid.tmp") == 0
+         && ::renameat(directory, "pid.tmp", directory, "pid") == 0;
 }
 
 exit_record::exit_record(int directory) : directory_(directory) {

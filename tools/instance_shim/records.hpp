@@ -7,8 +7,9 @@ namespace roscell::shim {
 class log_files;
 
 /// Writes `pid` into the folder: the shim's process id and start time (field
-/// 22 of /proc/PID/stat, clock ticks since boot) and the child's process id,
-/// in one line. The file appears complete or not at all.
+/// 22 of /proc/PID/stat, clock ticks since boot) and the child's process id. It
+/// is where a link leads, which appears complete or not at all and takes no
+/// block of the disk: a program may be started again each second.
 bool write_pid(int directory, pid_t child);
 
 /// How a child has ended.

@@ -1,10 +1,13 @@
 #include "actors/cell/state/task_story.hpp"
 
 #include "actors/cell/state/coordinator_store.hpp"
+#include "actors/cell/state/coordinator_timer.hpp"
 #include "actors/house/limits.hpp"
 #include "actors/house/wall_clock.hpp"
 #include "messages/failure.hpp"
 
+#include <algorithm>
+#include <chrono>
 #include <utility>
 
 namespace roscell {
@@ -21,20 +24,53 @@ std::string bounded_text(json data) {
   return data.dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
-} // namespace
-
-void tell_of_task(coordinator_pointer self, const char* what,
-                  const std::string& task, const std::string& subject,
-                  const json& data) {
+/// Tells it, and takes it up into the history.
+void add_fact(coordinator_pointer self, const char* what,
+              const std::string& task, const std::string& subject,
+              const json& data) {
   auto& st = self->state;
   st.context.tell(what, subject, data);
   auto added = st.history.add(
       task, {0, unix_now_ms(), what, subject, bounded_text(data)});
   const auto& fact = added.record.fact;
-  record_fact(self, {"history", history_key(task, fact.sequence),
-                     json(added.record).dump()});
+  st.facts.push_back({"history", history_key(task, fact.sequence),
+                      json(added.record).dump(), true});
   for (auto& key : added.dropped)
-    record_fact(self, {"history", std::move(key), ""});
+    st.facts.push_back({"history", std::move(key), "", true});
+}
+
+void write_facts(coordinator_pointer self) {
+  auto& st = self->state;
+  st.facts_due = std::chrono::steady_clock::time_point::max();
+  keep_records(
+      self, std::exchange(st.facts, {}), [] {}, [](const failure&) {});
+}
+
+} // namespace
+
+void tell_of_task(coordinator_pointer self, const char* what,
+                  const std::string& task, const std::string& subject,
+                  const json& data) {
+  add_fact(self, what, task, subject, data);
+  write_facts(self);
+}
+
+void tell_of_repetition(coordinator_pointer self, const char* what,
+                        const std::string& task, const std::string& subject,
+                        const json& data) {
+  constexpr std::chrono::seconds span{2};
+  constexpr size_t most = 128;
+  add_fact(self, what, task, subject, data);
+  auto& st = self->state;
+  if (st.facts.size() >= most)
+    return write_facts(self);
+  st.facts_due = std::min(st.facts_due, self->clock().now() + span);
+  set_timer(self);
+}
+
+void write_due_facts(coordinator_pointer self) {
+  if (self->clock().now() >= self->state.facts_due)
+    write_facts(self);
 }
 
 caf::result<task_history> tell_history(const cell_coordinator_state& st,

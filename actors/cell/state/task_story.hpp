@@ -13,6 +13,16 @@ void tell_of_task(coordinator_pointer self, const char* what,
                   const std::string& task, const std::string& subject,
                   const json& data = json::object());
 
+/// The same of what may be told again and again. It is written a little later,
+/// together with what comes until then, or with the next fact that is not of
+/// that kind.
+void tell_of_repetition(coordinator_pointer self, const char* what,
+                        const std::string& task, const std::string& subject,
+                        const json& data);
+
+/// Writes what waits, if it is time.
+void write_due_facts(coordinator_pointer self);
+
 /// Errors: unknown_task.
 caf::result<task_history> tell_history(const cell_coordinator_state& st,
                                        const task_history_query& query);

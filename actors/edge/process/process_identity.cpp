@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <system_error>
 #include <vector>
 
 namespace roscell {
@@ -126,7 +127,11 @@ std::optional<int> reap(int pidfd) {
 }
 
 std::optional<process_identity> read_pid_record(const fs::path& dir) {
-  const auto text = read_small_file(dir / "pid", max_record_bytes);
+  std::error_code error;
+  const auto link = fs::read_symlink(dir / "pid", error);
+  // The shims of earlier versions have written a file.
+  const auto text = error ? read_small_file(dir / "pid", max_record_bytes)
+                          : std::optional{link.native()};
   if (!text)
     return std::nullopt;
   const auto fields = fields_of(*text);

@@ -128,6 +128,11 @@ TEST_CASE("the records of a shim are read as they are written") {
   const auto process = read_pid_record(folder.path());
   REQUIRE(process);
   CHECK(to_container(*process) == "12:345");
+  // Those of earlier versions were files.
+  std::filesystem::remove(folder.path() / "pid");
+  std::filesystem::create_symlink("13 346 14", folder.path() / "pid");
+  CHECK(to_container(*read_pid_record(folder.path())) == "13:346");
+  std::filesystem::remove(folder.path() / "pid");
   const auto exit = [&](const std::string& text) {
     folder.write("exit", text);
     return read_exit_record(folder.path());
