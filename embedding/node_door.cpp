@@ -26,7 +26,7 @@ void speak_without_workers(self_pointer self) {
 caf::result<node_reply> ask(self_pointer self, const node_request& x) {
   auto promise = self->make_response_promise<node_reply>();
   self->request(self->state.config.router, limits::request::router,
-                route_request{x.json, ""})
+                route_request{x.json, "", "the program around the node"})
       .then(
           [self, promise](request_routed& done) mutable {
             speak_without_workers(self);

@@ -24,8 +24,24 @@ using event_log_actor = introspected_actor::extend<
     // Adds a listener until it ends.
     caf::reacts_to<subscribe_events>,
     caf::replies_to<kept_events_query>::with<kept_events>,
-    // INTERNAL: refusals that were held back are to be told.
+    // From the node's history. Errors: internal (the disk cannot be read).
+    caf::replies_to<past_events_query>::with<kept_events>,
+    // INTERNAL: what was held back is to be told, or a batch to be written.
     caf::reacts_to<caf::tick_atom, uint64_t>>;
+
+/// The NODE HISTORY: what the node has told in earlier days, on its disk. It
+/// blocks there.
+using node_history_actor = introspected_actor::extend<
+    // Replies once they are on the disk. Errors: internal (no room, the disk
+    // cannot be written); nothing of the batch is there then.
+    caf::replies_to<event_batch>::with<events_written>,
+    // Errors: internal (the disk cannot be read).
+    caf::replies_to<past_events_query>::with<kept_events>,
+    // From a runtime, which has put it there.
+    caf::reacts_to<log_kept>,
+    // Errors: unknown_task (no log of that instance is kept).
+    caf::replies_to<log_query>::with<log_excerpt>,
+    caf::replies_to<kept_logs_query>::with<kept_logs>>;
 
 /// Who hears of exits and notifications: the container supervisor.
 using container_listener_actor =
@@ -91,7 +107,7 @@ using skill_instance_actor = introspected_actor::extend<
     caf::reacts_to<start_instance>, caf::reacts_to<stop_instance>,
     caf::reacts_to<container_exited>, caf::reacts_to<instance_notified>,
     caf::reacts_to<endpoints_missing>, caf::reacts_to<contact_proven>,
-    caf::reacts_to<contact_lost>,
+    caf::reacts_to<contact_lost>, caf::reacts_to<use_environment>,
     // INTERNAL: a deadline of phase number N has passed.
     caf::reacts_to<caf::tick_atom, uint64_t>>;
 
@@ -114,7 +130,9 @@ using container_supervisor_actor = introspected_actor::extend<
     caf::replies_to<instance_removal>::with<instances_removed>,
     // Errors: unknown_task (no such instance).
     caf::replies_to<instance_query>::with<instance_description>,
+    // The same. Where the instance is gone its kept log is read.
     caf::replies_to<log_query>::with<log_excerpt>,
+    caf::replies_to<kept_logs_query>::with<kept_logs>,
     caf::reacts_to<listen_to_instances>, caf::reacts_to<ends_acknowledged>,
     caf::reacts_to<use_environment>, caf::reacts_to<contact_proven>,
     caf::reacts_to<contact_lost>, caf::reacts_to<container_exited>,
@@ -147,7 +165,8 @@ using node_agent_actor = introspected_actor::extend<
     // Errors: timeout, unreachable.
     caf::replies_to<figures_query>::with<figures_report>,
     // Errors: unknown_task.
-    caf::replies_to<log_query>::with<log_excerpt>>;
+    caf::replies_to<log_query>::with<log_excerpt>,
+    caf::replies_to<kept_logs_query>::with<kept_logs>>;
 
 /// The RESOURCE PROBE: answers when asked, at once; it never polls.
 using resource_probe_actor = introspected_actor::extend<
@@ -312,6 +331,8 @@ using cell_coordinator_actor = introspected_actor::extend<
     caf::replies_to<task_query>::with<task_description>,
     caf::replies_to<instance_query>::with<instance_description>,
     caf::replies_to<log_query>::with<log_excerpt>,
+    // Replies once each node has told, or is not waited for any longer.
+    caf::replies_to<kept_logs_query>::with<kept_logs>,
     caf::replies_to<skill_query>::with<skill_list>,
     // Waits while the same request is being deployed. The task is the sender's
     // until all of it runs or the sender ends. Errors: task_exists, conflict.

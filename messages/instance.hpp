@@ -255,13 +255,19 @@ struct log_query {
   int64_t tail_lines = 0; ///< With a negative offset: how many; 0: the default.
   int64_t wait_ms = 0;    ///< At most 20,000.
   bool times = false;     ///< Also tell when each line was logged.
+  /// The log that was kept of an earlier run, even where one of that id is
+  /// there now. Without it a kept log is read where there is no other.
+  bool previous = false;
+  std::string node; ///< Whose kept log; empty: the newest one of the cell.
 
   static constexpr auto fields() {
     return field_list{required("instance", &log_query::instance),
                       optional("offset", &log_query::offset),
                       optional("tail_lines", &log_query::tail_lines),
                       optional("wait_ms", &log_query::wait_ms),
-                      optional("times", &log_query::times)};
+                      optional("times", &log_query::times),
+                      optional("previous", &log_query::previous),
+                      optional("node", &log_query::node)};
   }
 };
 

@@ -13,6 +13,9 @@
   X(instance_description)                                                      \
   X(log_query)                                                                 \
   X(log_excerpt)                                                               \
+  X(kept_logs_query)                                                           \
+  X(kept_logs)                                                                 \
+  X(log_kept)                                                                  \
   X(node_query)                                                                \
   X(node_description)                                                          \
   X(hello_query)                                                               \
@@ -83,6 +86,9 @@
   X(subscribe_events)                                                          \
   X(kept_events_query)                                                         \
   X(kept_events)                                                               \
+  X(event_batch)                                                               \
+  X(events_written)                                                            \
+  X(past_events_query)                                                         \
   X(prepare_image)                                                             \
   X(image_prepared)                                                            \
   X(start_container)                                                           \

@@ -4,6 +4,7 @@
 #include "actors/cell/cell_drains.hpp"
 #include "actors/cell/cell_figures.hpp"
 #include "actors/cell/cell_formation.hpp"
+#include "actors/cell/cell_logs.hpp"
 #include "actors/cell/cell_members.hpp"
 #include "actors/cell/cell_peers.hpp"
 #include "actors/cell/cell_places.hpp"
@@ -71,30 +72,6 @@ void on_down(coordinator_pointer self, const caf::actor_addr& gone) {
   on_peer_down(self, gone);
 }
 
-caf::result<log_excerpt> fetch_log(coordinator_pointer self,
-                                   const log_query& query) {
-  auto& registry = self->state.registry;
-  const auto instance = self->state.deployments.find_row(query.instance);
-  if (!instance)
-    return unknown_thing("instance", query.instance);
-  const auto* entry = registry.find_name(instance->node);
-  if (!entry || !entry->agent)
-    return fail(error_code::unreachable,
-                "node '" + instance->node + "', which has the log, is away",
-                "/instance", "try again when `roscell nodes` shows it active");
-  auto promise = self->make_response_promise<log_excerpt>();
-  self->request(entry->agent,
-                limits::log::coordinator
-                    + std::chrono::milliseconds{query.wait_ms},
-                query)
-      .then(
-          [promise](log_excerpt& x) mutable { promise.deliver(std::move(x)); },
-          [promise](caf::error& why) mutable {
-            promise.deliver(std::move(why));
-          });
-  return promise;
-}
-
 /// A member's user is served like one of this node.
 caf::result<request_routed> answer_member(coordinator_pointer self,
                                           const route_request& request) {
@@ -150,6 +127,7 @@ void on_tick(coordinator_pointer self, uint64_t number) {
   go_on_draining(self);
   settle_due_move(self);
   balance_if_due(self);
+  write_due_facts(self);
   set_timer(self);
 }
 
@@ -196,6 +174,7 @@ cell_coordinator(coordinator_pointer self, const house& context,
         return describe_instances_now(self, x);
       },
       [self](const log_query& x) { return fetch_log(self, x); },
+      [self](const kept_logs_query& x) { return collect_kept_logs(self, x); },
       [self](const skill_query& x) { return list_skills(self->state, x); },
       [self](const claim_task& x) { return claim_task_turn(self, x); },
       [self](const collect_resources&) { return answer_resources(self); },

@@ -675,14 +675,80 @@ constexpr size_t uuid_bytes = 64;
 /// The node's facts.
 namespace event {
 
-/// How many a listener that comes late can still get.
+/// How many are in memory, for a listener that comes late.
 constexpr size_t kept = 1000;
 /// Refusals of one kind that are told one by one in this time; those beyond
 /// are counted. Whoever provokes them without end adds six facts a minute.
 constexpr size_t refusals = 5;
 constexpr seconds refusal_window{60};
+/// What happens to one instance or task again and again is kept so often in
+/// this time, and then counted: told after such a time, then after times each
+/// twice the one before.
+constexpr size_t repetitions = 10;
+constexpr seconds repetition_window{60};
+constexpr minutes longest_repetition_window{60};
+/// Series that are looked at; what is beyond them is kept one by one.
+constexpr size_t series = 1024;
+
+static_assert(repetitions < kept && refusals < kept);
 
 } // namespace event
+
+/// What a node keeps on its disk of what was said: events, and logs of
+/// instances that are gone.
+namespace history {
+
+/// All of it; `--history-bytes` and `--history-age` set others.
+constexpr size_t bytes = 64 * mib;
+constexpr std::chrono::hours age{7 * 24};
+/// Events are written together: those of so much time, or so many. A loss of
+/// power takes no more. In between they are in memory, with those kept there.
+constexpr seconds batch_span{20};
+constexpr size_t batch = 256;
+/// For a batch on a slow disk, and for a part of the past.
+constexpr seconds disk{8};
+/// For the last batch, as a node that ends has `membership::stopping` for all.
+constexpr seconds last_batch{2};
+/// A file of events that is larger, or older, gets no more of them: it goes as
+/// a whole. At most as many files as `bytes` holds of them are there.
+constexpr size_t file_bytes = mib;
+constexpr std::chrono::hours file_age{12};
+/// Longest line that is read back; longer ones are not ours.
+constexpr size_t line_bytes = 64 * kib;
+/// Events and bytes in one part of an answer, and the most that can be asked
+/// for as the newest.
+constexpr size_t part = 256;
+constexpr size_t part_bytes = 256 * kib;
+constexpr size_t newest = 10'000;
+/// Numbers that are set aside at a time, and when it is done again.
+constexpr uint64_t numbers = 4096;
+/// The least that may be kept: less could hold not even one file.
+constexpr size_t least_bytes = 2 * file_bytes;
+
+/// Logs that are kept at most, however small they are,
+constexpr size_t logs = 2000;
+/// and of one instance: those of its last runs.
+constexpr size_t runs = 3;
+/// Logs that are told of at a time (messages/kept_log.hpp).
+constexpr size_t told_logs = 1000;
+/// Most bytes of what is noted beside a log.
+constexpr size_t about_bytes = 16 * kib;
+/// For the list of all kept logs of this node.
+constexpr seconds list{3};
+/// For a coordinator to have it from its members: those that are silent are
+/// left out.
+constexpr seconds member_list{5};
+constexpr seconds cell_list{7};
+
+static_assert(list <= member_list - session::margin);
+static_assert(member_list < cell_list && cell_list < local::answer);
+static_assert(2 * batch < event::kept);
+static_assert(last_batch < membership::stopping);
+static_assert(disk < local::answer);
+static_assert(2 * event::kept < numbers);
+static_assert(least_bytes < bytes);
+
+} // namespace history
 
 /// The folders of skills on a node.
 namespace skill {

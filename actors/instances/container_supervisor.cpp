@@ -1,10 +1,11 @@
 #include "actors/instances/container_supervisor.hpp"
 
 #include "actors/house/limits.hpp"
+#include "actors/house/wall_clock.hpp"
 #include "actors/instances/instance_id.hpp"
 #include "actors/instances/instance_removal.hpp"
 #include "actors/instances/instance_upkeep.hpp"
-#include "actors/instances/logs/log_following.hpp"
+#include "actors/instances/logs/supervised_logs.hpp"
 #include "messages/failure.hpp"
 
 #include <caf/result.hpp>
@@ -69,6 +70,7 @@ caf::result<instance_deployed> begin(container_supervisor_self self,
   x.row.node = self->state.config.node;
   x.row.trouble = self->state.trouble;
   x.started_in = self->state.config.boot;
+  x.began_unix_ms = unix_now_ms();
   x.confirmed = true;
   spawn_actor(self, x, false);
   auto promise = self->make_response_promise<instance_deployed>();
@@ -114,20 +116,6 @@ caf::result<instance_description> describe(container_supervisor_self self,
                 "there is no instance '" + query.instance + "'", "/instance",
                 "`roscell instances` lists them");
   return result;
-}
-
-caf::result<log_excerpt> read_log(container_supervisor_self self,
-                                  const log_query& query) {
-  if (find_instance(self, query.instance) == nullptr)
-    return fail(error_code::unknown_task,
-                "there is no instance '" + query.instance + "'", "/instance",
-                "`roscell instances` lists them");
-  auto promise = self->make_response_promise<log_excerpt>();
-  self->request(self->state.runtime, wait_of(query) + limits::log::runtime,
-                query)
-      .then([promise](const log_excerpt& x) mutable { promise.deliver(x); },
-            [promise](const caf::error& x) mutable { promise.deliver(x); });
-  return promise;
 }
 
 json summary(const container_supervisor_state& st) {
@@ -226,6 +214,7 @@ container_supervisor(container_supervisor_self self,
                      const container_supervisor_config& config) {
   self->state.config = config;
   self->state.environment = config.environment;
+  self->state.knows_place = !config.learns_place;
   self->set_down_handler(
       [self](const caf::down_msg& down) { on_down(self, down); });
   start_runtime(self);
@@ -237,13 +226,11 @@ container_supervisor(container_supervisor_self self,
       [self](const instance_removal& x) { return remove_instances(self, x); },
       [self](const instance_query& x) { return describe(self, x); },
       [self](const log_query& x) { return read_log(self, x); },
+      [self](const kept_logs_query& x) { return list_logs(self, x); },
       [self](const listen_to_instances& x) {
         self->state.listener = x.listener;
       },
-      [self](const use_environment& x) {
-        self->state.environment = x.environment;
-        renew_moved(self);
-      },
+      [self](const use_environment& x) { take_place(self, x); },
       [self](const contact_proven& x) { on_contact(self, x); },
       [self](const contact_lost&) { on_contact_lost(self); },
       [self](const ends_acknowledged& x) {

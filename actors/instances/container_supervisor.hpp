@@ -28,7 +28,8 @@ struct container_supervisor_config {
   /// That runtime needs an image of a skill before it can start it.
   bool builds_images = true;
   state_store_actor store;
-  graph_watch_actor graph; ///< Invalid: no ROS 2 program is looked after.
+  graph_watch_actor graph;    ///< Invalid: no ROS 2 program is looked after.
+  node_history_actor history; ///< Reads kept logs; invalid: there are none.
   /// What the store knew when the node started.
   std::vector<instance_row> restored;
   /// Where the node was when the programs of these were started, by instance.
@@ -43,6 +44,7 @@ struct container_supervisor_config {
   /// one on. A member is told it later, by `use_environment`, which may be
   /// empty.
   std::map<std::string, std::string> environment;
+  bool learns_place = false;           ///< It is such a member.
   environment_teller tell_environment; ///< Empty: no instance can be told.
 };
 
@@ -61,6 +63,7 @@ struct supervised_instance {
   bool log_dropped = false;  ///< What it left is gone, or is going.
   int deaths = 0;            ///< Of its actor, since it ran last.
   std::string started_in;    ///< The boot of the host; empty: not known.
+  int64_t began_unix_ms = 0; ///< Its deployment; 0: not known.
 };
 
 /// A removal that waits for its instances to be gone, or to wait themselves.
@@ -85,6 +88,7 @@ struct container_supervisor_state {
   int64_t contact_boot_ms = 0; ///< Of the last word that reached the cell.
   /// What this node says of the cell to instances that it starts.
   std::map<std::string, std::string> environment;
+  bool knows_place = true; ///< It has been said.
   std::map<std::string, supervised_instance> instances;
   std::vector<pending_removal> removals;
 };

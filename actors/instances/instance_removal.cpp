@@ -1,6 +1,7 @@
 #include "actors/instances/instance_removal.hpp"
 
 #include "actors/house/limits.hpp"
+#include "actors/instances/logs/supervised_logs.hpp"
 
 #include <caf/result.hpp>
 #include <caf/send.hpp>
@@ -89,7 +90,8 @@ void clean_instance(container_supervisor_pointer self,
         .then([=](const record_stored&) { on_gone(self, instance); }, on_error);
   };
   self->request(self->state.runtime, limits::instance::cleaning,
-                remove_container{instance, x->row.container})
+                remove_container{
+                    instance, x->row.container, false, {about_log_of(*x)}})
       .then(drop_record, on_error);
 }
 
@@ -109,15 +111,16 @@ std::vector<std::string> ended_instances(container_supervisor_pointer self) {
   return result;
 }
 
-/// Removes an ended instance's log; its row stays.
+/// Puts an ended instance's log into the history; its row stays.
 void drop_log(container_supervisor_pointer self, const std::string& instance,
               supervised_instance& x) {
   if (std::exchange(x.log_dropped, true))
     return;
   x.row.log_tail.clear();
   // One that cannot be removed is tried again with its row.
-  self->request(self->state.runtime, limits::instance::cleaning,
-                remove_container{instance, x.row.container})
+  self->request(
+          self->state.runtime, limits::instance::cleaning,
+          remove_container{instance, x.row.container, false, {about_log_of(x)}})
       .then([](const container_removed&) {}, [](const caf::error&) {});
 }
 

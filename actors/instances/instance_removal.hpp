@@ -16,7 +16,8 @@ using container_supervisor_pointer =
 supervised_instance* find_instance(container_supervisor_pointer self,
                                    const std::string& instance);
 
-/// Removes an ended instance's log, record and row.
+/// Removes an ended instance's record and row, and puts its log into the
+/// history.
 void clean_instance(container_supervisor_pointer self,
                     const std::string& instance);
 

@@ -70,6 +70,7 @@ void spawn_actor(container_supervisor_pointer self, supervised_instance& x,
       st.config.builds_images,
       st.config.graph,
       st.environment,
+      st.knows_place || !adopt,
       st.config.may_be_lost,
       x.confirmed,
       st.contact_boot_ms,
@@ -162,12 +163,20 @@ bool heeds_contact(const supervised_instance& x, bool registered) {
 
 } // namespace
 
-void renew_moved(container_supervisor_pointer self) {
+void take_place(container_supervisor_pointer self,
+                const use_environment& place) {
   auto& st = self->state;
-  for (auto& [instance, x] : st.instances)
-    if (x.actor)
-      if (const auto renewal = renewal_of(st, x.row.spec); !renewal.empty())
-        replace_actor(self, x, renewal);
+  st.environment = place.environment;
+  st.knows_place = true;
+  for (auto& [instance, x] : st.instances) {
+    if (!x.actor)
+      continue;
+    const auto renewal = renewal_of(st, x.row.spec);
+    if (renewal.empty())
+      self->send(x.actor, place);
+    else
+      replace_actor(self, x, renewal);
+  }
 }
 
 void on_contact(container_supervisor_pointer self, const contact_proven& fact) {
@@ -222,8 +231,13 @@ void end_strays(container_supervisor_pointer self) {
     if (!is_instance_id(instance))
       continue;
     const auto context = st.config.context;
+    kept_log about;
+    about.instance = instance;
+    about.node = st.config.node;
+    about.reason = "its node knew nothing of it";
+    about.ended_unix_ms = unix_now_ms();
     self->request(st.runtime, limits::instance::cleaning,
-                  remove_container{instance, {}})
+                  remove_container{instance, {}, false, {about}})
         .then(
             [=](const container_removed&) {
               context.tell("stray_ended", instance);

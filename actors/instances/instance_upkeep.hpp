@@ -16,12 +16,13 @@ namespace roscell {
 void spawn_actor(container_supervisor_pointer self, supervised_instance& x,
                  bool adopt, const std::string& renewal = {});
 
-/// Starts again what an earlier run of the node has started at another address:
-/// the sockets of those programs are bound to that, and do not follow. To be
-/// called when it has become known where they find the cell now, and not
-/// before: what is told an earlier place gets no data there, and is not told
-/// again.
-void renew_moved(container_supervisor_pointer self);
+/// It has become known where programs find the cell now: what waits for that is
+/// started, and what an earlier run of the node has started at another address
+/// is started again: the sockets of those programs are bound to that, and do
+/// not follow. Not before: what is told an earlier place gets no data there,
+/// and is not told again.
+void take_place(container_supervisor_pointer self,
+                const use_environment& place);
 
 /// An instance has ended: whoever waits for it hears why.
 void on_ended(container_supervisor_pointer self, const std::string& instance,

@@ -42,4 +42,28 @@ failure deployment_failure(const instance_row& row) {
           details.dump(-1, ' ', false, json::error_handler_t::replace)};
 }
 
+kept_log about_log_of(const instance_row& row) {
+  constexpr size_t reason_bytes = 256;
+  kept_log result;
+  result.instance = row.spec.instance;
+  result.task = row.spec.task;
+  result.step = row.spec.step;
+  result.node = row.node;
+  result.operation = row.spec.operation;
+  result.state = row.state;
+  result.exit_code = row.exit_code;
+  result.ended_unix_ms = row.since_unix_ms;
+  auto reason = row.reason;
+  // One that is started again tells of its end only there.
+  if (is_live(row.state) && !row.ends.empty()) {
+    const auto& end = row.ends.front();
+    result.state = instance_state::failed;
+    result.exit_code = end.exit_code;
+    result.ended_unix_ms = end.unix_ms;
+    reason = end.reason;
+  }
+  result.reason = valid_utf8(reason.substr(0, reason_bytes));
+  return result;
+}
+
 } // namespace roscell

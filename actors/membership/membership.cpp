@@ -121,12 +121,15 @@ void resume(self_pointer self) {
   auto& st = self->state;
   st.stored = st.config.restored;
   if (!takes_up_earlier_cell(st.config)) {
+    publish_environment(self);
     if (st.config.configured == "wait")
       show_presence(self);
     return;
   }
-  if (st.stored->discovery_server.empty())
+  if (st.stored->discovery_server.empty()) {
+    publish_environment(self);
     return show_presence(self);
+  }
   st.wanted = st.stored->discovery_server;
   st.origin = st.stored->origin;
   st.cell = st.stored->cell;

@@ -10,15 +10,6 @@ namespace roscell::membership_steps {
 
 namespace {
 
-/// To be called after each registration, also where there is nothing: what was
-/// started at another address waits for it. Instances that run have the
-/// environment that they were started with: it names the server, whose id and
-/// port stay the same in a cell.
-void publish_environment(self_pointer self) {
-  self->send(self->state.parts.supervisor,
-             use_environment{program_environment(self->state)});
-}
-
 void on_served(self_pointer self, const discovery_place& place,
                const programs_served& reply) {
   auto& st = self->state;
@@ -52,6 +43,11 @@ void ask_to_serve(self_pointer self, uint16_t port, bool remote_is_there,
 
 } // namespace
 
+void publish_environment(self_pointer self) {
+  self->send(self->state.parts.supervisor,
+             use_environment{program_environment(self->state)});
+}
+
 uint16_t program_port(const membership_status& st) {
   const auto at =
       st.programs ? parse_socket_address(st.programs->address) : std::nullopt;
@@ -77,7 +73,7 @@ void serve_programs_of(self_pointer self, const node_registered& reply) {
 void resume_programs(self_pointer self) {
   auto& st = self->state;
   if (!st.stored || st.stored->discovery.empty())
-    return;
+    return publish_environment(self);
   st.programs =
       program_service{st.stored->discovery.front(), st.stored->server_cell, {}};
   ask_to_serve(self, st.stored->discovery_port, false);

@@ -103,6 +103,9 @@ void on_request(self_pointer self, const session_inquiry& x) {
         self, x, limits::task::removal);
   else if (type == log_query::type)
     forward_log_query(self, x);
+  else if (type == kept_logs_query::type)
+    decode_and_forward<kept_logs, kept_logs_query>(
+        self, x, limits::history::member_list);
   else if (const auto limit = relayed_limit(type))
     on_relayed(self, x, *limit);
   else

@@ -105,6 +105,12 @@ void notify(self_pointer self, const instance_changed& fact);
 
 // -- membership_programs.cpp: the node's own discovery server -----------------
 
+/// To be called at the start and after each registration, also where there is
+/// nothing: what was interrupted, and what was started at another address,
+/// waits for it. Instances that run have the environment that they were started
+/// with: it names the server, whose id and port stay the same in a cell.
+void publish_environment(self_pointer self);
+
 /// Runs it where the cell wants it, from now on.
 void serve_programs_of(self_pointer self, const node_registered& reply);
 /// Takes up the one that an earlier run of the node had.

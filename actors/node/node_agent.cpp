@@ -218,6 +218,9 @@ node_agent_actor::behavior_type node_agent(node_agent_self self,
         return forward<log_excerpt>(
             self, limits::log::agent + std::chrono::milliseconds{x.wait_ms}, x);
       },
+      [self](const kept_logs_query& x) {
+        return forward<kept_logs>(self, limits::history::list, x);
+      },
   };
 }
 

@@ -11,6 +11,7 @@
 #include "actors/membership/join_scout.hpp"
 #include "actors/membership/membership.hpp"
 #include "actors/node/event_log.hpp"
+#include "actors/node/history/node_history.hpp"
 #include "actors/node/node.hpp"
 #include "actors/node/node_agent.hpp"
 #include "actors/node/node_runtime.hpp"
@@ -44,12 +45,13 @@ namespace {
 class node_builder {
 public:
   node_builder(caf::actor_system& system, node_config config, node_data data,
-               house context, std::shared_ptr<node_edges> edges,
-               capacity_bound bound, chosen_runtime runtime,
-               shared_skill_catalogue catalogue, node_additions additions)
-      : system_(system), data_(std::move(data)), bound_(std::move(bound)),
-        runtime_(std::move(runtime)), catalogue_(std::move(catalogue)),
-        additions_(std::move(additions)) {
+               house context, node_history_actor history,
+               std::shared_ptr<node_edges> edges, capacity_bound bound,
+               chosen_runtime runtime, shared_skill_catalogue catalogue,
+               node_additions additions)
+      : system_(system), data_(std::move(data)), history_(std::move(history)),
+        bound_(std::move(bound)), runtime_(std::move(runtime)),
+        catalogue_(std::move(catalogue)), additions_(std::move(additions)) {
     parts_.config = std::move(config);
     parts_.context = std::move(context);
     parts_.edges = std::move(edges);
@@ -87,10 +89,15 @@ private:
     return child;
   }
 
-  template <caf::spawn_options Options = caf::no_spawn_options, class Function,
-            class... Args>
+  template <class Function, class... Args>
   auto start(Function function, Args&&... args) {
-    return add(spawn<Options>(system_, parts_.context, function,
+    return add(
+        spawn(system_, parts_.context, function, std::forward<Args>(args)...));
+  }
+
+  template <class Function, class... Args>
+  auto start_blocking(Function function, Args&&... args) {
+    return add(spawn_blocking(system_, parts_.context, function,
                               std::forward<Args>(args)...));
   }
 
@@ -103,7 +110,7 @@ private:
   std::function<runtime_actor(container_listener_actor)> make_runtime() {
     auto programs =
         runtime_factory(system_, parts_.context, parts_.config, runtime_,
-                        data_.identity.uuid, *parts_.edges->io);
+                        data_.identity.uuid, *parts_.edges->io, history_);
     if (additions_.actor_skills.empty())
       return programs;
     return [&system = system_, context = parts_.context, programs,
@@ -116,7 +123,7 @@ private:
 
   void start_supervision() {
     auto& config = parts_.config;
-    store_ = start<caf::detached>(state_store, parts_.context, data_.database);
+    store_ = start_blocking(state_store, parts_.context, data_.database);
     container_supervisor_config supervision;
     supervision.context = parts_.context;
     supervision.node = config.name;
@@ -125,6 +132,7 @@ private:
     supervision.builds_images = !runtime_.socket.empty();
     supervision.tell_environment = make_environment_teller(config, runtime_);
     supervision.store = store_;
+    supervision.history = history_;
     supervision.graph = start(graph_watch, parts_.edges->graph);
     supervision.address = config.address;
     supervision.restored = data_.instances;
@@ -133,12 +141,13 @@ private:
     supervision.boot = this_boot();
     supervision.strays = data_.strays;
     supervision.may_be_lost = !config.coordinator;
+    supervision.learns_place = !config.coordinator;
     supervision.environment = parts_.edges->environment;
     parts_.services->supervisor = start(container_supervisor, supervision);
     resource_probe_config probing;
     probing.host.data_dir = config.data_dir.string();
     probing.bound = bound_;
-    const auto probe = start<caf::detached>(resource_probe, probing);
+    const auto probe = start_blocking(resource_probe, probing);
     mark_samples_at_beats(*parts_.edges, probe);
     parts_.agent =
         start(node_agent,
@@ -199,7 +208,7 @@ private:
 
   discovery_actor start_discovery() {
     const auto& config = parts_.config;
-    return start<caf::detached>(
+    return start_blocking(
         discovery, parts_.context,
         discovery_config{config.address, config.name, config.public_domain_id,
                          config.peers, config.discovery_port,
@@ -295,6 +304,7 @@ private:
 
   caf::actor_system& system_;
   node_data data_;
+  node_history_actor history_;
   capacity_bound bound_;
   chosen_runtime runtime_;
   node_parts parts_;
@@ -346,7 +356,10 @@ caf::expected<running_node> spawn_node(caf::actor_system& system,
     return data.error();
   house context{std::make_shared<actor_directory>(), {}};
   context.metrics = std::make_shared<metric_book>();
-  context.events = spawn(system, context, event_log);
+  context.blocking = std::make_shared<blocking_threads>(system);
+  const auto past = spawn_blocking(system, context, node_history, data->past);
+  context.events = spawn(system, context, event_log,
+                         event_log_setup{past, data->past->first_number()});
   auto edges = open_edges(config, *data, context);
   if (!edges) {
     caf::anon_send_exit(context.events, caf::exit_reason::user_shutdown);
@@ -363,10 +376,15 @@ caf::expected<running_node> spawn_node(caf::actor_system& system,
   result.token_file = data->token_file;
   result.runtime = runtime->name;
   result.runtime_reason = runtime->reason;
-  node_builder builder{system,           std::move(config),
-                       std::move(*data), context,
-                       *edges,           std::get<capacity_bound>(bound),
-                       *runtime,         std::move(*skills),
+  node_builder builder{system,
+                       std::move(config),
+                       std::move(*data),
+                       context,
+                       past,
+                       *edges,
+                       std::get<capacity_bound>(bound),
+                       *runtime,
+                       std::move(*skills),
                        additions};
   builder.build(result);
   return result;

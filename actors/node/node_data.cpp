@@ -116,6 +116,9 @@ caf::error open_database(const node_config& config, node_data& data) {
     return to_caf(*why);
   data.database = std::make_shared<sqlite_store>(
       std::get<sqlite_store>(std::move(database)));
+  // What the node is comes before what it has said.
+  data.database->set_room_maker(
+      [past = data.past] { return past->make_room(); });
   return caf::none;
 }
 
@@ -265,6 +268,9 @@ caf::expected<node_data> open_node_data(const node_config& config) {
     return to_caf(*why);
   data.lock = std::make_shared<directory_lock>(
       std::get<directory_lock>(std::move(lock)));
+  data.past = std::make_shared<history_folder>(
+      config.data_dir / "history",
+      history_bound{config.history_bytes, config.history_age});
   std::error_code ignored;
   const bool existed =
       !config.new_identity && fs::exists(database_of(config), ignored);

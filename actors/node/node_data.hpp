@@ -6,6 +6,7 @@
 #include "actors/cell/books/task_book.hpp"
 #include "actors/edge/disk/directory_lock.hpp"
 #include "actors/edge/disk/sqlite_store.hpp"
+#include "actors/edge/history/history_folder.hpp"
 #include "messages/inside/membership.hpp"
 #include "messages/node.hpp"
 #include "roscell/node_config.hpp"
@@ -32,6 +33,7 @@ struct unread_record {
 struct node_data {
   std::shared_ptr<directory_lock> lock; ///< Held while the node lives.
   std::shared_ptr<sqlite_store> database;
+  std::shared_ptr<history_folder> past; ///< Events, and logs of what is gone.
   node_identity identity;  ///< UUID and epoch; name and address are not set.
   bool is_new = false;     ///< It was made at this start.
   int64_t incarnation = 0; ///< Of the coordinator, already raised.

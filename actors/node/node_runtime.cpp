@@ -48,20 +48,26 @@ chosen_runtime choose_engine(const node_config& config,
               + (engine.rootless ? "', without root" : "'")};
 }
 
+fs::path kept_logs_dir(const node_config& config) {
+  return config.data_dir / "history" / "logs";
+}
+
 std::function<runtime_actor(container_listener_actor)>
 process_factory(caf::actor_system& system, const house& context,
                 const node_config& config, const chosen_runtime& chosen,
-                const io_thread& io) {
+                const io_thread& io, const node_history_actor& history) {
   process_runtime_config setup;
   setup.context = context;
   setup.instances_dir = config.data_dir / "instances";
   setup.shim = chosen.shim;
   setup.log_bytes = config.log_bytes;
+  setup.kept_logs = kept_logs_dir(config);
+  setup.history = history;
   setup.io = io.core();
   setup.environment = basic_environment();
   return [&system, context, setup](const container_listener_actor& listener) {
-    return runtime_actor{spawn<caf::detached>(system, context, process_runtime,
-                                              setup, listener)};
+    return runtime_actor{
+        spawn_blocking(system, context, process_runtime, setup, listener)};
   };
 }
 
@@ -91,9 +97,10 @@ caf::expected<chosen_runtime> choose_runtime(const node_config& config) {
 std::function<runtime_actor(container_listener_actor)>
 runtime_factory(caf::actor_system& system, const house& context,
                 const node_config& config, const chosen_runtime& chosen,
-                const std::string& node_uuid, const io_thread& io) {
+                const std::string& node_uuid, const io_thread& io,
+                const node_history_actor& history) {
   if (chosen.socket.empty())
-    return process_factory(system, context, config, chosen, io);
+    return process_factory(system, context, config, chosen, io, history);
   engine_runtime_config setup;
   setup.context = context;
   setup.socket = chosen.socket;
@@ -101,9 +108,11 @@ runtime_factory(caf::actor_system& system, const house& context,
   setup.shim = chosen.shim;
   setup.data_dir = config.data_dir;
   setup.io = io.core();
+  setup.kept_logs = kept_logs_dir(config);
+  setup.history = history;
   return [&system, context, setup](const container_listener_actor& listener) {
     return runtime_actor{
-        spawn<caf::detached>(system, context, engine_runtime, setup, listener)};
+        spawn_blocking(system, context, engine_runtime, setup, listener)};
   };
 }
 

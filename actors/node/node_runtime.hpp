@@ -35,7 +35,8 @@ caf::expected<chosen_runtime> choose_runtime(const node_config& config);
 std::function<runtime_actor(container_listener_actor)>
 runtime_factory(caf::actor_system& system, const house& context,
                 const node_config& config, const chosen_runtime& chosen,
-                const std::string& node_uuid, const io_thread& io);
+                const std::string& node_uuid, const io_thread& io,
+                const node_history_actor& history);
 
 /// Tells instances of that runtime, while they run, of other values of
 /// variables.

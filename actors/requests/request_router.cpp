@@ -78,6 +78,20 @@ bool is_remarkable(const std::string& type) {
          || type.compare(type.size() - query.size(), query.size(), query) != 0;
 }
 
+/// Whoever looks for it later finds who has asked for what.
+void note_begin(request_router_self self, const route_request& request,
+                const std::string& type, const json& document) {
+  if (!is_remarkable(type) || !request.only.empty())
+    return;
+  json data{{"request", type}};
+  if (!request.from.empty())
+    data["from"] = request.from;
+  if (const auto id = document.value("request_id", ""); !id.empty())
+    data["request_id"] = id;
+  self->state.services->context.tell("request_received", subject_of(document),
+                                     data);
+}
+
 void note_end(request_router_self self, const running_request& request,
               const request_routed& answer) {
   auto& history = *self->state.services->history;
@@ -247,6 +261,7 @@ caf::result<request_routed> route(request_router_self self,
                          "only a '" + request.only + "' is taken here", "/type",
                          "send it to /v1/requests"},
                         type);
+  note_begin(self, request, type, document);
   if (is_for_others(*st.services, type, document))
     return pass_to_node(self, type, std::move(document));
   const auto* run = st.registry->find(type);

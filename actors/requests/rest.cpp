@@ -47,7 +47,7 @@ rest_exchange(exchange_pointer self, const request_router_actor& router,
     finish_exchange(self, answer, node_ended());
   });
   self->request(router, limits::request::router,
-                route_request{what.text, what.only})
+                route_request{what.text, what.only, what.from})
       .then(
           [self, answer](const request_routed& done) {
             const int status = done.refusal.empty()
@@ -86,9 +86,14 @@ struct route_starter {
 
   void operator()(const event_stream_request& x) const {
     if (!x.follow)
-      return send_kept_events(system, services.context, answer, x.since);
+      return send_kept_events(system, services.context, answer,
+                              kept_events_query{x.since});
     start_event_stream(system, services.context,
                        answer.stream(event_stream_content), x.since);
+  }
+
+  void operator()(const past_events_request& x) const {
+    send_kept_events(system, services.context, answer, x.query);
   }
 
   void operator()(const log_stream_request& x) const {

@@ -65,10 +65,23 @@ bool flag(const http_request& request, const std::string& name) {
   return i != request.query.end() && i->second != "0" && i->second != "false";
 }
 
+rest_route past_events_route(const http_request& request, int64_t since) {
+  const auto time = number(request, "since_unix_ms", 0);
+  if (!time)
+    return bad_number("since_unix_ms");
+  const auto newest = number(request, "newest", 0);
+  if (!newest)
+    return bad_number("newest");
+  return past_events_request{
+      {static_cast<uint64_t>(since), *time, static_cast<uint64_t>(*newest)}};
+}
+
 rest_route event_route(const http_request& request) {
   const auto since = number(request, "since", 0);
   if (!since)
     return bad_number("since");
+  if (flag(request, "past"))
+    return past_events_route(request, *since);
   const bool follow = request.query.count("follow") == 0;
   return event_stream_request{static_cast<uint64_t>(*since),
                               follow || flag(request, "follow")};
@@ -88,6 +101,7 @@ rest_route log_route(const http_request& request, const std::string& id) {
     result.query.offset = *offset;
   }
   result.query.times = flag(request, "times");
+  result.query.previous = flag(request, "previous");
   result.follow = flag(request, "follow");
   return result;
 }
@@ -161,10 +175,10 @@ rest_route route_of(const http_request& request) {
   const auto parts = split(request.path);
   if (request.method == "POST") {
     if (request.path == "/v1/requests")
-      return json_request{request.body, ""};
+      return json_request{request.body, "", request.from};
     // Open to strangers: what it takes is proven in itself.
     if (request.path == registration_path)
-      return json_request{request.body, "registration_switch"};
+      return json_request{request.body, "registration_switch", request.from};
     return not_found(request);
   }
   if (request.path == "/healthz")

@@ -3,6 +3,7 @@
 #include "actors/edge/http/http_types.hpp"
 #include "actors/requests/metrics/exposition.hpp"
 #include "messages/failure.hpp"
+#include "messages/inside/history.hpp"
 #include "messages/instance.hpp"
 
 #include <cstdint>
@@ -22,10 +23,17 @@ struct metrics_request {
 /// `GET /v1/events?since=N&follow=0`: server-sent events.
 struct event_stream_request {
   uint64_t since = 0;
-  bool follow = true; ///< Else those that are kept, and no more.
+  bool follow = true; ///< Else those in memory, and no more.
 };
 
-/// `GET /v1/instances/{id}/logs?tail=N&offset=N&times=1&follow=1`: plain text.
+/// `GET /v1/events?past=1&since=N&since_unix_ms=T&newest=N`: a part of what is
+/// on the disk, in the same form; an empty one is the end.
+struct past_events_request {
+  past_events_query query;
+};
+
+/// `GET /v1/instances/{id}/logs?tail=N&offset=N&times=1&previous=1&follow=1`:
+/// plain text.
 struct log_stream_request {
   log_query query;
   bool follow = false;
@@ -35,12 +43,13 @@ struct log_stream_request {
 struct json_request {
   std::string text;
   std::string only; ///< The one message type that is allowed; empty: any.
+  std::string from; ///< Who asks.
 };
 
 /// What an HTTP request asks for, or why it asks for nothing.
 using rest_route =
-    std::variant<json_request, event_stream_request, log_stream_request,
-                 health_check, metrics_request, failure>;
+    std::variant<json_request, event_stream_request, past_events_request,
+                 log_stream_request, health_check, metrics_request, failure>;
 
 /// The paths of the REST interface; docs/operations.md lists them.
 rest_route route_of(const http_request& request);

@@ -15,12 +15,18 @@ namespace {
 
 constexpr const char* text_content = "text/plain; charset=utf-8";
 
-std::string server_sent(event x) {
-  x.time_unix_ms = to_wall_clock()(x.time_unix_ms);
+std::string server_sent(const event& x) {
   const auto data =
       message_json(x).dump(-1, ' ', false, json::error_handler_t::replace);
   return "id: " + std::to_string(x.sequence) + "\nevent: " + x.what
          + "\ndata: " + data + "\n\n";
+}
+
+/// What is in memory has its times by the node's own clock, what is on the disk
+/// by the wall clock.
+event with_wall_time(event x) {
+  x.time_unix_ms = to_wall_clock()(x.time_unix_ms);
+  return x;
 }
 
 struct event_stream_state {
@@ -38,7 +44,7 @@ event_stream(event_stream_actor::stateful_pointer<event_stream_state> self,
       },
       [self, stream](const event& x) {
         ++self->state.written;
-        if (!stream->write(server_sent(x)))
+        if (!stream->write(server_sent(with_wall_time(x))))
           self->quit();
       },
   };
@@ -52,22 +58,26 @@ struct event_reader_state {
 introspected_actor::behavior_type
 event_reader(introspected_actor::stateful_pointer<event_reader_state> self,
              const event_log_actor& events, const responder& answer,
-             uint64_t since) {
-  self->request(events, limits::local::part, kept_events_query{since})
-      .then(
-          [self, answer](const kept_events& kept) {
-            std::string text;
-            for (const auto& x : kept.events)
-              text += server_sent(x);
-            answer.reply(200, event_stream_content, text);
-            self->quit();
-          },
-          [self, answer](const caf::error& error) {
-            const auto why = to_failure(error);
-            answer.error(http_status(why.code), why.code, why.message,
-                         why.hint);
-            self->quit();
-          });
+             const event_question& which) {
+  const bool in_memory = std::holds_alternative<kept_events_query>(which);
+  const auto on_kept = [=](const kept_events& kept) {
+    std::string text;
+    for (const auto& x : kept.events)
+      text += server_sent(in_memory ? with_wall_time(x) : x);
+    answer.reply(200, event_stream_content, text);
+    self->quit();
+  };
+  const auto on_error = [self, answer](const caf::error& error) {
+    const auto why = to_failure(error);
+    answer.error(http_status(why.code), why.code, why.message, why.hint);
+    self->quit();
+  };
+  std::visit(
+      [&](const auto& query) {
+        self->request(events, limits::local::answer, query)
+            .then(on_kept, on_error);
+      },
+      which);
   return {[](const state_query&) { return state_of(json::object()); }};
 }
 
@@ -143,8 +153,8 @@ void start_event_stream(caf::actor_system& system, const house& context,
 }
 
 void send_kept_events(caf::actor_system& system, const house& context,
-                      const responder& answer, uint64_t since) {
-  spawn(system, context, event_reader, context.events, answer, since);
+                      const responder& answer, const event_question& which) {
+  spawn(system, context, event_reader, context.events, answer, which);
 }
 
 introspected_actor::behavior_type log_stream(log_pointer self,

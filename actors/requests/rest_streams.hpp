@@ -8,6 +8,7 @@
 
 #include <memory>
 #include <optional>
+#include <variant>
 
 /// Answers without an end: the event stream, and logs that are followed.
 namespace roscell {
@@ -20,10 +21,13 @@ void start_event_stream(caf::actor_system& system, const house& context,
                         const std::shared_ptr<http_stream>& stream,
                         uint64_t since);
 
-/// Answers with the facts that are kept after number `since`, in the same form,
-/// and with no others.
+/// Which of the facts that have been are wanted: those in memory, or a part of
+/// those on the disk.
+using event_question = std::variant<kept_events_query, past_events_query>;
+
+/// Answers with these, in the same form, and with no others.
 void send_kept_events(caf::actor_system& system, const house& context,
-                      const responder& answer, uint64_t since);
+                      const responder& answer, const event_question& which);
 
 struct log_stream_state {
   static constexpr const char* name = "log-stream";

@@ -2,6 +2,7 @@
 
 #include "roscell/web_page.hpp"
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -45,6 +46,10 @@ struct node_config {
   std::map<std::string, std::string> labels;
   std::vector<std::string> devices; ///< Offered besides those found.
   uint64_t log_bytes = 1024 * 1024; ///< Bound of one instance's log.
+  /// Bounds of what is kept of the past: events, and logs of instances that are
+  /// gone. The oldest goes first.
+  uint64_t history_bytes = 64 * 1024 * 1024;
+  std::chrono::seconds history_age = std::chrono::hours{7 * 24};
   /// What is shown to whoever asks over the Unix socket. Coordinators only.
   web_pages pages;
 };

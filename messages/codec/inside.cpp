@@ -2,6 +2,7 @@
 #include "messages/inside/agent.hpp"
 #include "messages/inside/coordination.hpp"
 #include "messages/inside/engine.hpp"
+#include "messages/inside/history.hpp"
 #include "messages/inside/introspection.hpp"
 #include "messages/inside/link.hpp"
 #include "messages/inside/measures.hpp"
@@ -68,6 +69,10 @@ ROSCELL_DESCRIBED(record_event)
 ROSCELL_DESCRIBED(subscribe_events)
 ROSCELL_DESCRIBED(kept_events_query)
 ROSCELL_DESCRIBED(kept_events)
+ROSCELL_DESCRIBED(event_batch)
+ROSCELL_DESCRIBED(events_written)
+ROSCELL_DESCRIBED(past_events_query)
+ROSCELL_DESCRIBED(log_kept)
 ROSCELL_DESCRIBED(send_frame)
 ROSCELL_DESCRIBED(frame_received)
 ROSCELL_DESCRIBED(send_beat)

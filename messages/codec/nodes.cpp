@@ -5,6 +5,7 @@
 #include "messages/insight/node_cost.hpp"
 #include "messages/insight/reach.hpp"
 #include "messages/instance.hpp"
+#include "messages/kept_log.hpp"
 #include "messages/node.hpp"
 #include "messages/resources.hpp"
 #include "messages/session.hpp"
@@ -30,6 +31,9 @@ ROSCELL_CODEC(instance_query)
 ROSCELL_CODEC(instance_description)
 ROSCELL_CODEC(log_query)
 ROSCELL_CODEC(log_excerpt)
+ROSCELL_CODEC(kept_log)
+ROSCELL_CODEC(kept_logs_query)
+ROSCELL_CODEC(kept_logs)
 ROSCELL_CODEC(node_identity)
 ROSCELL_CODEC(actor_row)
 ROSCELL_CODEC(node_query)

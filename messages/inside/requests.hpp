@@ -12,10 +12,12 @@ namespace roscell {
 struct route_request {
   std::string text; ///< Bytes from outside, not checked yet.
   std::string only; ///< The one type that is allowed; empty: any.
+  std::string from; ///< Who asks, for people to read: "user root", an address.
 
   static constexpr auto fields() {
     return field_list{required("text", &route_request::text),
-                      required("only", &route_request::only)};
+                      required("only", &route_request::only),
+                      optional("from", &route_request::from)};
   }
 };
 

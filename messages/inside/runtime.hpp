@@ -3,6 +3,7 @@
 #include "messages/actors.hpp"
 #include "messages/inside/introspection.hpp"
 #include "messages/instance.hpp"
+#include "messages/kept_log.hpp"
 #include "messages/session.hpp"
 
 #include <map>
@@ -107,15 +108,21 @@ struct container_stopped {
   }
 };
 
-/// Ends by force what still runs of an instance, and drops its log and all
-/// else that the runtime keeps of it.
+/// Ends by force what still runs of an instance, and drops all that the runtime
+/// keeps of it. Its log goes to the history if it is said what it is kept with.
 struct remove_container {
   std::string instance;
   std::string container; ///< Empty: whatever belongs to the instance.
+  /// It is started again at once: a runtime whose log of an instance is one for
+  /// all its runs goes on with that.
+  bool restarts = false;
+  std::vector<kept_log> about; ///< At most one.
 
   static constexpr auto fields() {
     return field_list{required("instance", &remove_container::instance),
-                      required("container", &remove_container::container)};
+                      required("container", &remove_container::container),
+                      optional("restarts", &remove_container::restarts),
+                      one_or_many("about", &remove_container::about)};
   }
 };
 

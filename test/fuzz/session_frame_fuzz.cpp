@@ -4,6 +4,7 @@
 #include "messages/allocation_report.hpp"
 #include "messages/cell.hpp"
 #include "messages/event.hpp"
+#include "messages/kept_log.hpp"
 #include "messages/reservation.hpp"
 #include "messages/session.hpp"
 #include "messages/task.hpp"
@@ -30,8 +31,9 @@ void check_message(const json& message) {
   if (message["type"] == "error")
     fuzz::check_refusal(failure_from(message));
   check_any<cell_query, cell_list_query, task_request, task_plan_query,
-            task_query, task_termination, instance_query, log_query, node_query,
-            skill_query, cell_description, cell_list, task_accepted, task_plan,
+            task_query, task_termination, instance_query, log_query,
+            kept_logs_query, kept_logs, node_query, skill_query,
+            cell_description, cell_list, task_accepted, task_plan,
             task_description, task_terminated, instance_description,
             log_excerpt, node_description, skill_list, event>(message);
   check_any<session_request, session_reply, session_notice, node_registration,

@@ -11,6 +11,7 @@
 #include "messages/insight/reach.hpp"
 #include "messages/insight/request_trace.hpp"
 #include "messages/insight/task_placement.hpp"
+#include "messages/kept_log.hpp"
 #include "messages/rebalance.hpp"
 #include "messages/reservation.hpp"
 #include "messages/session.hpp"
@@ -77,11 +78,12 @@ std::vector<trial> message_trials() {
                task_plan_query, task_query, task_history_query,
                task_placement_query, request_trace_query, actor_query,
                fresh_cell_query, task_termination, task_restart, instance_query,
-               log_query, node_query, hello_query, skill_query>(result);
+               log_query, kept_logs_query, node_query, hello_query,
+               skill_query>(result);
   try_messages<cell_description, cell_list, topic_list, task_accepted,
                task_plan, task_description, task_history, task_placement,
                request_traces, actor_inspection, task_terminated,
-               task_restarted, instance_description, log_excerpt,
+               task_restarted, instance_description, log_excerpt, kept_logs,
                node_description, node_hello, skill_list, event>(result);
   try_messages<session_request, session_reply, session_notice,
                node_registration, node_registered, node_departure,

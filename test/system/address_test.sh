@@ -67,7 +67,7 @@ row_of() {
 
 # process_of NAME STEP: what this node runs it in, which a new start replaces.
 process_of() {
-  cat "$scratch/$1/instances/$(row_of "$2" .spec.instance)/pid"
+  readlink "$scratch/$1/instances/$(row_of "$2" .spec.instance)/pid"
 }
 
 # come_in SECONDS READER: some pictures more get to this reader.

@@ -305,7 +305,7 @@ test_a_damaged_state_is_refused_and_put_aside_when_told_so() {
   old=$(get head /v1/node | jq -r .identity.uuid)
   echo_task gone | to head request > "$scratch/reply.json"
   instance=$(jq -r '.instances[0].instance' "$scratch/reply.json")
-  child=$(cut -d' ' -f3 "$scratch/head/instances/$instance/pid")
+  child=$(readlink "$scratch/head/instances/$instance/pid" | cut -d' ' -f3)
   stop_node head KILL
   : > "$scratch/head/state.db"
   timeout 20 "$ROSCELL" node --name head --data-dir "$scratch/head" --interface lo \

@@ -17,6 +17,19 @@ test_members_join_by_the_address_of_the_discovery_server() {
     "$(get arm /v1/node | jq -r '.state + " " + .cell')" "member line"
 }
 
+# docs/measurements.md says what each is for.
+test_an_idle_node_has_at_most_12_threads() {
+  local most=12 threads _
+  start_cell
+  # Those that the start needed end within a second or two.
+  for _ in {1..10}; do
+    threads=$(cat "/proc/${pid[head]}/task/"*/comm)
+    (($(wc -l <<< "$threads") > most)) || return 0
+    timeout 1 tail -f /dev/null
+  done
+  fail "too many threads: $(sort <<< "$threads" | uniq -c | tr '\n' ' ')"
+}
+
 test_a_task_runs_and_one_request_removes_it() {
   start_cell arm
   echo_task hello arm > "$scratch/task.json"
@@ -32,7 +45,7 @@ test_a_task_runs_and_one_request_removes_it() {
   echo "a line" >> "$scratch/data/hello.in"
   read -r -t "$deadline_s" line < "$scratch/seen" || fail "nothing was written"
   expect "what was written" "$line" "a line"
-  child=$(cut -d' ' -f3 "$scratch/arm/instances/$instance/pid")
+  child=$(readlink "$scratch/arm/instances/$instance/pid" | cut -d' ' -f3)
   echo '{"type":"task_termination","task":"hello"}' \
     | to head request > "$scratch/end.json" || fail "$(cat "$scratch/end.json")"
   expect "what was removed" "$(jq -r '.instances[0]' "$scratch/end.json")" \
@@ -127,14 +140,14 @@ test_an_instance_survives_a_killed_node_and_is_adopted() {
   start_cell arm
   echo_task steady arm | to head request > "$scratch/reply.json"
   instance=$(jq -r '.instances[0].instance' "$scratch/reply.json")
-  child=$(cut -d' ' -f3 "$scratch/arm/instances/$instance/pid")
+  child=$(readlink "$scratch/arm/instances/$instance/pid" | cut -d' ' -f3)
   stop_node arm KILL
   await head '.event == "node_lost"' > "$scratch/lost.json"
   [[ -d /proc/$child ]] || fail "the skill died with its node"
   start_node arm --interface lo --join "$server" --label place=arm
   await_joined head arm "$(jq .sequence "$scratch/lost.json")"
   expect "the process" \
-    "$(cut -d' ' -f3 "$scratch/arm/instances/$instance/pid")" "$child"
+    "$(readlink "$scratch/arm/instances/$instance/pid" | cut -d' ' -f3)" "$child"
   expect "the instance" "$(get arm /v1/instances/"$instance" \
     | jq -r '.instances[0].state')" running
   expect "the task" "$(get head /v1/tasks | jq -r '.tasks[0].state')" running
@@ -144,14 +157,14 @@ test_a_restarted_coordinator_keeps_its_tasks_and_restarts_no_instance() {
   start_cell arm
   echo_task lasting arm | to head request > "$scratch/reply.json"
   instance=$(jq -r '.instances[0].instance' "$scratch/reply.json")
-  child=$(cut -d' ' -f3 "$scratch/arm/instances/$instance/pid")
+  child=$(readlink "$scratch/arm/instances/$instance/pid" | cut -d' ' -f3)
   discovery_port=${server##*:}
   stop_node head KILL
   await arm '.event == "coordinator_lost"' > /dev/null
   start_node head --coordinator --cell line --interface lo --label place=head
   await_joined head arm
   expect "the process" \
-    "$(cut -d' ' -f3 "$scratch/arm/instances/$instance/pid")" "$child"
+    "$(readlink "$scratch/arm/instances/$instance/pid" | cut -d' ' -f3)" "$child"
   expect "the task" "$(get head /v1/tasks | jq -r '.tasks[0].task')" lasting
 }
 
@@ -159,7 +172,7 @@ test_a_task_terminated_while_its_node_is_away_ends_when_the_node_returns() {
   start_cell arm
   echo_task gone arm | to head request > "$scratch/reply.json"
   instance=$(jq -r '.instances[0].instance' "$scratch/reply.json")
-  child=$(cut -d' ' -f3 "$scratch/arm/instances/$instance/pid")
+  child=$(readlink "$scratch/arm/instances/$instance/pid" | cut -d' ' -f3)
   stop_node arm KILL
   await head '.event == "node_lost"' > "$scratch/lost.json"
   echo '{"type":"task_termination","task":"gone"}' | to head request \

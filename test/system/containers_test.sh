@@ -57,6 +57,35 @@ inspect() {
   engine inspect "$container" --format "$1"
 }
 
+# say_last_words: of the skill, to be found at the end of its log.
+say_last_words() {
+  mv "$skills/echo/bin/echo" "$skills/echo/bin/real"
+  cat > "$skills/echo/bin/echo" << 'SCRIPT'
+#!/bin/sh
+echo "last words"
+exec /opt/roscell/skill/bin/real
+SCRIPT
+  chmod +x "$skills/echo/bin/echo"
+}
+
+test_the_log_of_a_stopped_task_is_there() {
+  local text
+  use_engine
+  say_last_words
+  start_node head --coordinator --cell line --interface lo
+  run_task t
+  await head ".event == \"instance_changed\" and .data.state == \"running\"
+    and .subject == \"$instance\"" > /dev/null
+  terminate t
+  engine inspect "$container" > /dev/null 2>&1 && fail "the container is left"
+  to head logs --previous > "$scratch/list"
+  has_line "^$instance " "$scratch/list" || fail "$(cat "$scratch/list")"
+  text=$(to head logs t 2> "$scratch/note") || fail "$(cat "$scratch/note")"
+  has_line "^$instance on node head: stopped" "$scratch/note" \
+    || fail "$(cat "$scratch/note")"
+  expect "its log" "$text" "last words"
+}
+
 # space KIND: the container's namespace, as the kernel has it.
 space() {
   readlink "/proc/$(inspect '{{.State.Pid}}')/ns/$1"
@@ -146,14 +175,7 @@ test_a_container_that_ends_while_its_node_is_away_is_told() {
 
 test_a_killed_container_is_told_with_its_exit_code_and_last_lines() {
   use_engine
-  # A word of the skill's, to be found at the end of its log.
-  mv "$skills/echo/bin/echo" "$skills/echo/bin/real"
-  cat > "$skills/echo/bin/echo" << 'SCRIPT'
-#!/bin/sh
-echo "last words"
-exec /opt/roscell/skill/bin/real
-SCRIPT
-  chmod +x "$skills/echo/bin/echo"
+  say_last_words
   start_node head --coordinator --cell line --interface lo
   run_task doomed
   engine kill "$container" > /dev/null

@@ -34,7 +34,7 @@ run_movable() {
   container=$(get arm "/v1/instances/$instance" \
     | jq -r '.instances[0].container')
   if [[ $variant == process ]]; then
-    program=$(cut -d' ' -f3 "$scratch/arm/instances/$instance/pid")
+    program=$(readlink "$scratch/arm/instances/$instance/pid" | cut -d' ' -f3)
   else
     program=$(pgrep -P "$(engine inspect "$container" \
       --format '{{.State.Pid}}')")

@@ -635,7 +635,7 @@ test_doctor_tells_of_instances_that_have_failed_or_starve() {
   await head '.event == "instance_starved"' > /dev/null
   doctor --to "$scratch/head/node.sock" --only instances
   found instances warning "$instance is starved"
-  pkill -KILL -P "$(cut -d' ' -f1 "$scratch/head/instances/$instance/pid")"
+  pkill -KILL -P "$(readlink "$scratch/head/instances/$instance/pid" | cut -d' ' -f1)"
   await head ".event == \"instance_changed\" and .data.state == \"failed\"" \
     > /dev/null
   doctor --to "$scratch/head/node.sock" --only instances && fail "it is content"

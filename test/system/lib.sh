@@ -301,8 +301,9 @@ clean_up() {
     kill -KILL "$what" 2>/dev/null
   done < "$scratch/pids"
   for what in "$scratch"/*/instances/*/pid; do
-    [[ -f $what ]] || continue
-    shims+=("$(cut -d' ' -f1 "$what")")
+    # A link whose target says it; earlier versions have written a file.
+    [[ -L $what || -f $what ]] || continue
+    shims+=("$({ readlink "$what" || cat "$what"; } | cut -d' ' -f1)")
     kill -QUIT "${shims[-1]}" 2>/dev/null
   done
   # They write into their folders to their end.

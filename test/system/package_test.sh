@@ -115,7 +115,7 @@ start_task() {
 JSON
   node "" run /packages/hello.json > "$scratch/run.out" 2>&1 \
     || fail "refused: $(cat "$scratch/run.out")"
-  shim=$(cut -d ' ' -f 1 "$debian_root"/var/lib/roscell/instances/*/pid)
+  shim=$(readlink "$debian_root"/var/lib/roscell/instances/*/pid | cut -d' ' -f 1)
   echoes first
 }
 
@@ -135,7 +135,7 @@ test_a_packaged_node_is_installed_upgraded_removed_and_purged() {
   [[ $(service_of roscell) != "$before" ]] || fail "it was not started again"
   await_event "" instance_adopted
   expect "its process" \
-    "$(cut -d ' ' -f 1 "$debian_root"/var/lib/roscell/instances/*/pid)" "$shim"
+    "$(readlink "$debian_root"/var/lib/roscell/instances/*/pid | cut -d' ' -f 1)" "$shim"
   echoes second
   await_event head node_joined
   apt remove roscell

@@ -70,7 +70,7 @@ test_a_failed_step_is_healed_by_the_same_request() {
   to head run "$scratch/chain.yaml" > /dev/null || fail "run refused it"
   local old
   old=$(instance_of chain two)
-  pkill -KILL -P "$(cut -d' ' -f1 "$scratch/head/instances/$old/pid")"
+  pkill -KILL -P "$(readlink "$scratch/head/instances/$old/pid" | cut -d' ' -f1)"
   await head ".event == \"instance_changed\" and .subject == \"$old\"
               and .data.state == \"failed\"" > /dev/null
   to head run "$scratch/chain.yaml" > "$scratch/out" || fail "it was not healed"

@@ -48,6 +48,8 @@ TEST_CASE("every default of a node comes from one data directory", "[tools]") {
   CHECK(config.socket == config.data_dir / "node.sock");
   CHECK(config.skill_dirs.empty()); // The node adds its own.
   CHECK(config.log_bytes == 1024 * 1024);
+  CHECK(config.history_bytes == 64 * 1024 * 1024);
+  CHECK(config.history_age == std::chrono::hours{7 * 24});
   CHECK(config.http_port == 8420);
   CHECK(config.discovery_port == 11811);
 }
@@ -89,6 +91,25 @@ TEST_CASE("the bound of a log has bounds itself", "[tools]") {
     options.log_bytes = size;
     CHECK(refusal(options).find("--log-bytes") == 0);
   }
+}
+
+TEST_CASE("the bounds of the history have bounds themselves", "[tools]") {
+  for (const auto* size : {"1MiB", "2TiB", ""}) {
+    node_options options;
+    options.history_bytes = size;
+    CHECK(refusal(options).find("--history-bytes") == 0);
+  }
+  for (const auto* age : {"59m", "7", "-1d", "", "40000d"}) {
+    node_options options;
+    options.history_age = age;
+    CHECK(refusal(options).find("--history-age") == 0);
+  }
+  node_options options;
+  options.history_bytes = "2MiB";
+  options.history_age = "36h";
+  const auto config = to_config(options);
+  CHECK(config.history_bytes == 2 * 1024 * 1024);
+  CHECK(config.history_age == std::chrono::hours{36});
 }
 
 TEST_CASE("a coordinator joins nothing, and only it names a cell", "[tools]") {
@@ -194,6 +215,10 @@ TEST_CASE("the command line takes what the design names", "[tools]") {
                 "debug",
                 "--log-bytes",
                 "64KiB",
+                "--history-bytes",
+                "8MiB",
+                "--history-age",
+                "30d",
                 "--ready-fd",
                 "3"}));
   CHECK(parses({"node", "--join", "10.0.0.1:11811", "--interface", "lo"}));
@@ -243,6 +268,7 @@ TEST_CASE("the command line refuses what cannot be meant", "[tools]") {
   CHECK_FALSE(parses({"request", "a", "b"}));
   CHECK_FALSE(parses({"plan"}));
   CHECK_FALSE(parses({"logs"}));
+  CHECK(parses({"logs", "--previous"}));
   CHECK_FALSE(parses({"logs", "--tail", "0", "x"}));
   CHECK_FALSE(parses({"events", "--since", "-1"}));
   CHECK_FALSE(parses({"completion", "tcsh"}));

@@ -58,9 +58,9 @@ async function onOpen(again) {
 function onEvents(events) {
   if (events.length === 0)
     return;
-  store.addEvents(events);
-  // What is kept from before the page opened is in what is being read; what
-  // happens while it is read may not be, and is asked for after it.
+  store.addEvents(events.filter((x) => !x.passing));
+  // What was before the page opened is in what is being read; what happens
+  // meanwhile may not be, and is asked for after it.
   if (!caughtUp)
     return late.push(...events);
   events.forEach((x) => applyEvent(store, x, questions.ask));

@@ -79,6 +79,10 @@ struct cell_coordinator_state {
   stream_watch streams;
   task_desk desk;
   history_book history;
+  std::vector<store_record> facts; ///< Of that, not written yet.
+  /// When they are written; max(): there are none.
+  std::chrono::steady_clock::time_point facts_due =
+      std::chrono::steady_clock::time_point::max();
   loss_book losses;
   drain_book drains;
   rebalance_book rebalance;

@@ -19,7 +19,7 @@ void set_timer(coordinator_pointer self) {
                 st.places.next_deadline(), next_peer, next_proof(st),
                 next_change_retry(st.desk), st.desk.removals.next_due(),
                 st.losses.next_due(), st.drains.next_due(),
-                st.rebalance.next_due(), balance});
+                st.rebalance.next_due(), st.facts_due, balance});
   if (when != time_point::max())
     st.timer.set(self, when);
 }

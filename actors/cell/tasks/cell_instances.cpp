@@ -144,7 +144,15 @@ void tell_change(coordinator_pointer self, instance_row x,
     data["health_reason"] = x.health_reason;
   if (!x.waits.empty())
     data["waits"] = x.waits;
-  tell_of_task(self, "instance_changed", x.spec.task, x.spec.instance, data);
+  constexpr const char* what = "instance_changed";
+  const auto& task = x.spec.task;
+  // Of a new start its history has the end before, and that it runs.
+  if (x.restarts > 0 && x.state < instance_state::running)
+    self->state.context.tell(what, x.spec.instance, data);
+  else if (x.restarts > 0 && x.state <= instance_state::backing_off)
+    tell_of_repetition(self, what, task, x.spec.instance, data);
+  else
+    tell_of_task(self, what, task, x.spec.instance, data);
 }
 
 namespace {

@@ -183,11 +183,21 @@ std::optional<edge_error>
 sqlite_store::write(const std::vector<change>& changes) {
   if (changes.empty())
     return std::nullopt;
+  auto error = write_once(changes);
+  while (error && !had_room_ && make_room_ && make_room_())
+    error = write_once(changes);
+  return error;
+}
+
+std::optional<edge_error>
+sqlite_store::write_once(const std::vector<change>& changes) {
   auto error = run("BEGIN IMMEDIATE", {});
   for (auto i = changes.begin(); !error && i != changes.end(); ++i)
     error = apply(*i);
   if (!error)
     error = run("COMMIT", {});
+  // SQLite knows it until the next call.
+  had_room_ = !error || !lacks_room();
   // After some errors SQLite has rolled back by itself.
   if (error && sqlite3_get_autocommit(db_.get()) == 0)
     run("ROLLBACK", {});

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -38,6 +39,12 @@ public:
   /// All records of a table, by key.
   edge_result<std::vector<record>> load(const std::string& table);
 
+  /// Who gives way where there is no room to write; false: he has none left to
+  /// give. Called by whoever writes.
+  void set_room_maker(std::function<bool()> make_room) {
+    make_room_ = std::move(make_room);
+  }
+
   /// Writes all of `changes`, in their order, or none of them. Returns what
   /// went wrong.
   std::optional<edge_error> write(const std::vector<change>& changes);
@@ -68,6 +75,7 @@ private:
   std::optional<edge_error> run(const char* sql,
                                 const std::vector<std::string>& values,
                                 std::vector<record>* rows = nullptr);
+  std::optional<edge_error> write_once(const std::vector<change>& changes);
   std::optional<edge_error> apply(const change& x);
   bool lacks_room() const; ///< That was why the last step failed.
   edge_error explain() const;
@@ -75,7 +83,9 @@ private:
 
   std::filesystem::path file_;
   std::unique_ptr<sqlite3, closer> db_;
-  int step_errno_ = 0; ///< What the system said in the last step.
+  int step_errno_ = 0;   ///< What the system said in the last step.
+  bool had_room_ = true; ///< In the last attempt to write.
+  std::function<bool()> make_room_;
   /// The store moves, and others read this meanwhile.
   std::shared_ptr<std::atomic<uint64_t>> written_ =
       std::make_shared<std::atomic<uint64_t>>(0);

@@ -1,6 +1,5 @@
 #include "actors/edge/engine/engine_log.hpp"
 
-#include "actors/house/limits.hpp"
 #include "schemas/utf8.hpp"
 
 #include <algorithm>
@@ -13,7 +12,6 @@ namespace roscell {
 namespace {
 
 constexpr size_t header_bytes = 8;
-constexpr auto max_text_bytes = static_cast<size_t>(limits::log::part_bytes);
 
 /// Takes `digits` decimal digits from the front of `text`.
 bool take_number(std::string_view& text, size_t digits, int64_t& value) {
@@ -151,7 +149,7 @@ bool log_collector::take_frame(std::string_view frame) {
     return true;
   const auto line = frame.substr(space + 1);
   if (!range_.last_part && !text_.empty()
-      && text_.size() + line.size() > max_text_bytes)
+      && text_.size() + line.size() > range_.most_bytes)
     return false;
   if (range_.times)
     notes_.push_back(
@@ -159,8 +157,8 @@ bool log_collector::take_frame(std::string_view frame) {
   text_ += line;
   next_offset_ = std::max(next_offset_, offset + 1);
   // Half as much again is kept, so that not every line moves the others.
-  if (range_.last_part && text_.size() > 3 * max_text_bytes / 2)
-    forget_front(text_.size() - max_text_bytes);
+  if (range_.last_part && text_.size() > 3 * range_.most_bytes / 2)
+    forget_front(text_.size() - range_.most_bytes);
   return true;
 }
 
@@ -180,9 +178,9 @@ void log_collector::forget_front(size_t bytes) {
 log_part log_collector::part() const {
   log_part result;
   const auto cut =
-      text_.size() > max_text_bytes ? text_.size() - max_text_bytes : 0;
+      text_.size() > range_.most_bytes ? text_.size() - range_.most_bytes : 0;
   const auto from = range_.last_part ? cut : 0;
-  const auto bytes = std::string_view{text_}.substr(from, max_text_bytes);
+  const auto bytes = std::string_view{text_}.substr(from, range_.most_bytes);
   if (range_.times)
     result.times_unix_ms =
         line_times(bytes, static_cast<int64_t>(from), notes_);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "actors/edge/process/instance_log.hpp"
+#include "actors/house/limits.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -52,6 +53,7 @@ struct log_range {
   int64_t from = 0;       ///< Offset of the first line that is wanted.
   bool last_part = false; ///< If it is too long, the end of it is wanted.
   bool times = false;     ///< The times of the lines are wanted.
+  size_t most_bytes = limits::log::part_bytes; ///< In one part.
 };
 
 /// Collects one part of an engine's log, whose lines carry their times. An

@@ -235,6 +235,8 @@ void http_connection::dispatch() {
   request.body = std::move(message.body());
   request.accept = std::string{to_view(message[http::field::accept])};
   request.local = local_;
+  if (request.method == "POST")
+    request.from = peer_name(socket_);
   responder answer{make_sink(shared_, weak_from_this())};
   shared_->core->guarded(
       [&] { shared_->handler(std::move(request), std::move(answer)); });

@@ -41,6 +41,7 @@ struct http_request {
   std::string body;
   std::string accept; ///< What kinds of reply the client takes.
   bool local = false; ///< It came by the Unix socket.
+  std::string from;   ///< Who asks, for people: "root", "10.0.0.3:40112".
 };
 
 struct http_reply {

@@ -49,6 +49,19 @@ socket_address peer_of(stream_socket& socket) {
   return {text.data(), ntohs(peer.sin_port)};
 }
 
+/// Names of users are not looked up: that may go to a server and take long.
+std::string peer_name(stream_socket& socket) {
+  if (const auto address = peer_of(socket); address.port != 0)
+    return to_string(address);
+  ucred user{};
+  socklen_t size = sizeof user;
+  if (::getsockopt(socket.native_handle(), SOL_SOCKET, SO_PEERCRED, &user,
+                   &size)
+      != 0)
+    return "somebody who has gone";
+  return user.uid == 0 ? "root" : "user " + std::to_string(user.uid);
+}
+
 void send_at_once(stream_socket& socket) {
   set(socket, IPPROTO_TCP, TCP_NODELAY, 1);
 }

@@ -5,6 +5,7 @@
 #include <boost/asio/generic/stream_protocol.hpp>
 
 #include <chrono>
+#include <string>
 
 /// INTERNAL to this folder: one type for TCP and Unix sockets, so that the
 /// code for connections is compiled once.
@@ -21,6 +22,10 @@ void open_unix(stream_socket& socket);
 /// The other end of a connected socket; empty if it is gone already or is a
 /// Unix socket.
 socket_address peer_of(stream_socket& socket);
+
+/// Who is at the other end, for people to read: of a Unix socket the user, whom
+/// the kernel has told, else the address.
+std::string peer_name(stream_socket& socket);
 
 /// For a TCP socket: does not hold small writes back.
 void send_at_once(stream_socket& socket);

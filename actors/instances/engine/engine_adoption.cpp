@@ -12,6 +12,8 @@ using adoption_promise = caf::typed_response_promise<container_adopted>;
 
 void do_adopt(engine_runtime_pointer self, const adopt_container& wish,
               adoption_promise promise);
+void inspect(engine_runtime_pointer self, const adopt_container& wish,
+             adoption_promise promise);
 
 /// Its shim is asked first: an engine that ended with its host knows less.
 container_adopted ended_container(engine_runtime_pointer self,
@@ -30,6 +32,10 @@ void on_inspected(engine_runtime_pointer self, const adopt_container& wish,
   const auto found = object_of(x);
   const auto id = text_at(found, "Id");
   const auto state = object_at(found, "State");
+  // A node that was killed may know no more than the container of an earlier
+  // run; its successor has the instance's name.
+  if (!wish.container.empty() && !is_lost(x) && !is_running(found))
+    return inspect(self, {instance, {}}, promise);
   if (container != nullptr && is_running(found)) {
     if (auto error = open_words(self, instance, *container)) {
       promise.deliver(error);
@@ -61,6 +67,11 @@ void do_adopt(engine_runtime_pointer self, const adopt_container& wish,
     return;
   }
   self->state.containers[wish.instance].settling = true;
+  inspect(self, wish, promise);
+}
+
+void inspect(engine_runtime_pointer self, const adopt_container& wish,
+             adoption_promise promise) {
   ask_engine(
       self,
       to_container("GET", target_of(wish.container, wish.instance), "/json"),

@@ -160,6 +160,8 @@ caf::result<log_excerpt> read_log(engine_runtime_pointer self,
 }
 
 void on_log_read(engine_runtime_pointer self, const engine_log_read& part) {
+  if (take_end_of_log(self, part))
+    return;
   const auto i = self->state.followers.find(part.call);
   if (i == self->state.followers.end())
     return;

@@ -4,6 +4,8 @@
 
 #include <caf/result.hpp>
 
+#include <functional>
+
 /// INTERNAL to the engine runtime: its parts.
 namespace roscell {
 
@@ -39,6 +41,16 @@ void on_event_lines(engine_runtime_pointer self,
 caf::result<log_excerpt> read_log(engine_runtime_pointer self,
                                   const log_query& query);
 void on_log_read(engine_runtime_pointer self, const engine_log_read& part);
+
+// Logs of containers that go: engine_kept_logs.cpp.
+
+/// Puts the end of a container's log into the history, if it is wanted there
+/// and can be read, and then goes on.
+void keep_log(engine_runtime_pointer self, const remove_container& wish,
+              std::function<void()> then);
+
+/// False: it is no such log.
+bool take_end_of_log(engine_runtime_pointer self, const engine_log_read& end);
 
 /// Answers the followers whose time is over, and sets the alarm for the others.
 void release_followers(engine_runtime_pointer self);

@@ -33,6 +33,9 @@ struct engine_runtime_config {
   /// outside of the container that this node is in, and sees this folder.
   std::filesystem::path data_dir;
   std::shared_ptr<io_core> io;
+  /// The logs of containers that are removed go here; empty: they are not kept.
+  std::filesystem::path kept_logs;
+  node_history_actor history; ///< Told of each; may be invalid.
 };
 
 /// A container that runs, or may soon.
@@ -78,8 +81,16 @@ struct engine_log_follower {
   engine_stream stream;
 };
 
+/// The log of a container that goes, on its way into the history.
+struct engine_log_reading {
+  kept_log about;
+  std::function<void()> then; ///< Removes the container.
+  engine_stream stream;
+};
+
 /// Owns the containers of the node. It looks at files before it starts one, so
-/// it is spawned detached. Ends with its listener; the containers go on.
+/// it is spawned as one that blocks. Ends with its listener; the containers go
+/// on.
 struct engine_runtime_state {
   static constexpr const char* name = "engine-runtime";
 
@@ -104,6 +115,7 @@ struct engine_runtime_state {
   std::map<std::string, std::string> plans;             ///< Key to image name.
   std::map<std::string, image_work> works;              ///< By key.
   std::map<uint64_t, engine_log_follower> followers;    ///< By call.
+  std::map<uint64_t, engine_log_reading> readings;      ///< By call.
   std::vector<std::function<void()>> waiting_adoptions; ///< For a connection.
   bool has_shim = false; ///< The copy is that of this version.
   /// Instances whose containers must go, once the engine can be asked.

@@ -46,8 +46,8 @@ void do_stop(engine_runtime_pointer self, const stop_container& wish,
 
 using removal_promise = caf::typed_response_promise<container_removed>;
 
-void do_remove(engine_runtime_pointer self, const remove_container& wish,
-               removal_promise promise) {
+void drop_container(engine_runtime_pointer self, const remove_container& wish,
+                    removal_promise promise) {
   const auto target = target_of(wish.container, wish.instance);
   ask_engine(
       self,
@@ -69,6 +69,11 @@ void do_remove(engine_runtime_pointer self, const remove_container& wish,
           promise.deliver(engine_failure("the container cannot be removed", x));
         }
       });
+}
+
+void do_remove(engine_runtime_pointer self, const remove_container& wish,
+               removal_promise promise) {
+  keep_log(self, wish, [=] { drop_container(self, wish, promise); });
 }
 
 } // namespace

@@ -28,6 +28,8 @@ struct skill_instance_config {
   graph_watch_actor graph;   ///< Sees ROS 2 programs; may be invalid in tests.
   /// What this node says of the cell; it counts more than what the spec says.
   std::map<std::string, std::string> environment;
+  /// Whether `environment` is what it says now: until then nothing is started.
+  bool knows_place = true;
   /// This node may be lost by its cell: what may move to another one then ends
   /// here before.
   bool may_be_lost = false;
@@ -69,8 +71,16 @@ struct skill_instance_state {
   /// It has been given time for that since its last word.
   bool excused = false;
 
+  /// It is started as soon as it is known where its cell is.
+  bool awaits_place = false;
+
   /// It has ended, and only the end of its log is waited for.
   bool concluding = false;
+
+  /// Its record says that it runs, maybe in the container of an earlier run:
+  /// the runtime finds the present one.
+  bool noted_running = false;
+  alarm::time_point noted_at; ///< When that was written down.
 
   /// It has been ready since it was deployed, so it is started again when it
   /// ends, and a failure is no failure of its deployment.

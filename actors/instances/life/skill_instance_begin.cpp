@@ -89,6 +89,12 @@ std::optional<program_plan> program_of(skill_instance_pointer self,
 
 void build(skill_instance_pointer self) {
   auto& st = self->state;
+  // What a record says of the cell's server may be of an earlier day.
+  st.awaits_place = !st.config.knows_place;
+  if (st.awaits_place) {
+    st.row.waits = "waits to hear where its cell is";
+    return report(self);
+  }
   const auto* folder = folder_of(st);
   const auto* option =
       folder != nullptr ? find_deployment(*folder, st.row.spec) : nullptr;
@@ -116,6 +122,16 @@ void build(skill_instance_pointer self) {
             last_bytes(log_tail_of(error), limits::instance::log_tail_bytes);
         conclude(self, instance_state::failed, sentence(error));
       });
+}
+
+void on_place(skill_instance_pointer self, const use_environment& place) {
+  auto& st = self->state;
+  st.config.environment = place.environment;
+  st.config.knows_place = true;
+  if (!std::exchange(st.awaits_place, false))
+    return;
+  st.row.waits.clear();
+  build(self);
 }
 
 /// The intent is on disk before anything is started: a node that is restarted

@@ -11,6 +11,7 @@
 #include <functional>
 #include <optional>
 #include <random>
+#include <string_view>
 
 namespace roscell {
 
@@ -41,7 +42,7 @@ double jitter_of(const instance_row& row) {
 /// Nothing of a run that is over counts for the next one.
 void forget_run(skill_instance_state& st) {
   st.config.adopt = false;
-  st.concluding = st.ready = st.renewing = false;
+  st.concluding = st.ready = st.renewing = st.awaits_place = false;
   st.ready_since.reset();
   st.told_at.reset();
   st.endpoints.reset();
@@ -95,7 +96,15 @@ void back_to_cell(skill_instance_pointer self, const std::string& reason) {
            "waits for its node to be back in its cell");
 }
 
-/// The log is read, so its folder may go.
+/// What a log has of the last run: its shim says where one begins.
+std::string of_last_run(const std::string& log) {
+  constexpr std::string_view mark = "[shim: started again]\n";
+  const auto at = log.rfind(mark);
+  return at == std::string::npos || (at > 0 && log[at - 1] != '\n')
+             ? log
+             : log.substr(at + mark.size());
+}
+
 void go_on(skill_instance_pointer self, instance_state last,
            const std::string& reason, const std::string& log) {
   auto& st = self->state;
@@ -128,6 +137,16 @@ void go_on(skill_instance_pointer self, instance_state last,
                  : reason);
 }
 
+/// A node that is started again within so short a pause finds that the program
+/// has ended by itself, and how, in what its shim has written: a record of the
+/// pause would be one more thing written each time.
+bool goes_without_saying(const skill_instance_state& st,
+                         const std::optional<milliseconds>& pause) {
+  constexpr milliseconds short_pause{60'000};
+  return st.noted_running && st.row.state != instance_state::stopping && pause
+         && *pause < short_pause && st.row.interrupted_unix_ms == 0;
+}
+
 } // namespace
 
 void back_off(skill_instance_pointer self, const std::string& reason,
@@ -136,8 +155,10 @@ void back_off(skill_instance_pointer self, const std::string& reason,
   forget_run(st);
   st.row.next_start_unix_ms = pause ? unix_now_ms() + pause->count() : 0;
   st.row.waits = waits;
+  const bool noted = !goes_without_saying(st, pause);
   enter(self, instance_state::backing_off, reason);
-  note(self);
+  if (noted)
+    note(self);
   if (pause)
     limit(self, *pause);
 }
@@ -149,6 +170,7 @@ void conclude(skill_instance_pointer self, instance_state last,
   st.deadline.reset();
   st.patience.reset();
   st.concluding = true;
+  st.awaits_place = false;
   st.row.unsafe_since_unix_ms = st.row.unsafe_until_unix_ms = 0;
   st.row.waits.clear();
   const auto always = st.row.spec.life.restart.policy == restart_when::always;
@@ -161,9 +183,9 @@ void conclude(skill_instance_pointer self, instance_state last,
   query.instance = st.row.spec.instance;
   ask<log_excerpt>(
       self, st.config.runtime, limits::instance::disk, query,
-      [=](const log_excerpt& log) {
-        go_on(self, last, with_last_word(self->state.row, reason, log.text),
-              log.text);
+      [=](const log_excerpt& excerpt) {
+        const auto log = of_last_run(excerpt.text);
+        go_on(self, last, with_last_word(self->state.row, reason, log), log);
       },
       [=](const caf::error&) { go_on(self, last, reason, ""); });
 }
@@ -201,7 +223,7 @@ void start_again(skill_instance_pointer self) {
   enter(self, instance_state::pending, st.row.reason);
   ask<container_removed>(
       self, st.config.runtime, limits::instance::cleaning,
-      remove_container{st.row.spec.instance, {}},
+      remove_container{st.row.spec.instance, {}, true, {about_log_of(st.row)}},
       [=](const container_removed&) { build(self); },
       [=](const caf::error& error) {
         conclude(self, instance_state::failed,

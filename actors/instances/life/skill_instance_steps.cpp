@@ -81,6 +81,8 @@ void note(skill_instance_pointer self) {
   auto& st = self->state;
   const auto context = st.config.context;
   const auto instance = st.row.spec.instance;
+  st.noted_running = st.row.state == instance_state::running;
+  st.noted_at = self->clock().now();
   auto record = record_of(st);
   // The program is there already: it can be ended whether this is written or
   // not.
@@ -138,6 +140,18 @@ void expect_life(skill_instance_pointer self) {
     limit(self, limits::instance::watchdog);
 }
 
+namespace {
+
+/// What crashes several times in so short a time is written down once: its
+/// record says that it runs, and the others would tell of new starts only.
+bool was_just_noted(skill_instance_pointer self) {
+  constexpr std::chrono::seconds span{10};
+  const auto& st = self->state;
+  return st.noted_running && self->clock().now() - st.noted_at < span;
+}
+
+} // namespace
+
 void on_running(skill_instance_pointer self) {
   auto& st = self->state;
   st.has_run = true;
@@ -145,16 +159,19 @@ void on_running(skill_instance_pointer self) {
   enter(self, instance_state::running);
   if (!self->state.endpoints)
     limit(self, limits::instance::watchdog);
-  note(self);
+  if (!was_just_noted(self))
+    note(self);
 }
 
 void on_started(skill_instance_pointer self, const std::string& container) {
-  self->state.row.container = container;
-  if (self->state.ready)
+  auto& st = self->state;
+  st.row.container = container;
+  if (st.ready)
     return on_running(self);
   report(self);
   expect_ready(self);
-  note(self);
+  if (!st.noted_running)
+    note(self);
 }
 
 } // namespace roscell

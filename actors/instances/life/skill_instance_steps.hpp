@@ -180,6 +180,9 @@ void on_started(skill_instance_pointer self, const std::string& container);
 /// Builds and starts; the intent is on disk.
 void build(skill_instance_pointer self);
 
+/// Where its cell is now, as far as its programs are concerned.
+void on_place(skill_instance_pointer self, const use_environment& place);
+
 /// Records the intent, builds, starts.
 void begin_anew(skill_instance_pointer self);
 

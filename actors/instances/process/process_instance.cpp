@@ -1,11 +1,15 @@
 #include "actors/instances/process/process_instance.hpp"
 
+#include "actors/edge/history/kept_log_folder.hpp"
 #include "actors/edge/process/environment_file.hpp"
 #include "actors/edge/process/fence_file.hpp"
 #include "actors/edge/process/marked_processes.hpp"
 #include "actors/edge/process/notify_socket.hpp"
 #include "actors/edge/process/process_spawner.hpp"
 #include "actors/house/limits.hpp"
+#include "messages/inside/history.hpp"
+
+#include <caf/send.hpp>
 
 #include <sys/stat.h>
 #include <unistd.h>
@@ -17,6 +21,7 @@
 #include <fstream>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 namespace roscell {
 
@@ -38,14 +43,37 @@ edge_error no_folder(const fs::path& path, const std::string& why) {
                 "check that the data directory is writable and has room");
 }
 
-edge_result<unique_fd> fresh_folder(const fs::path& dir) {
+bool is_log_file(const fs::path& path) {
+  const auto name = path.filename().native();
+  return name.rfind("log.", 0) == 0 || name.rfind("times.", 0) == 0;
+}
+
+/// Removes what earlier runs have left, but for their log: the instance is the
+/// same, and its log goes on.
+void clear_folder(const fs::path& dir, std::error_code& error) {
+  if (!fs::is_directory(fs::symlink_status(dir, error))) {
+    error.clear();
+    fs::remove(dir, error);
+    return;
+  }
+  std::vector<fs::path> left;
+  for (fs::directory_iterator i{dir, error}, end; !error && i != end;
+       i.increment(error))
+    if (!is_log_file(i->path()))
+      left.push_back(i->path());
+  for (const auto& x : left)
+    if (!error)
+      fs::remove_all(x, error);
+}
+
+edge_result<unique_fd> ready_folder(const fs::path& dir) {
   std::error_code error;
   fs::create_directories(dir.parent_path(), error);
   if (!error)
-    fs::remove_all(dir, error);
+    clear_folder(dir, error);
   if (error)
     return no_folder(dir, error.message());
-  if (::mkdir(dir.c_str(), 0700) != 0)
+  if (::mkdir(dir.c_str(), 0700) != 0 && errno != EEXIST)
     return no_folder(dir, std::strerror(errno));
   auto socket = open_notify_socket(notify_path(dir));
   make_environment_file(environment_file_of(notify_path(dir)));
@@ -112,7 +140,7 @@ std::map<std::string, std::string> basic_environment() {
 edge_result<process_instance> launch(const process_runtime_config& config,
                                      const start_container& wish) {
   const auto dir = config.instances_dir / wish.instance;
-  auto socket = fresh_folder(dir);
+  auto socket = ready_folder(dir);
   if (auto* error = std::get_if<edge_error>(&socket))
     return *error;
   if (wish.fence_boot_ms != 0)
@@ -136,8 +164,11 @@ edge_result<process_instance> take_over(const process_runtime_config& config,
                                         const std::string& instance,
                                         const std::string& container) {
   const auto dir = config.instances_dir / instance;
-  const auto process =
-      container.empty() ? read_pid_record(dir) : process_of(container);
+  // A node that was killed may know no more than the program of an earlier run;
+  // the folder has the record of the last one that was started in it.
+  auto process = read_pid_record(dir);
+  if (!process)
+    process = process_of(container);
   process_instance result;
   if (!process)
     return result;
@@ -167,6 +198,15 @@ void conclude(const process_runtime_config& config, const std::string& instance,
   take_end(dir, x, shim_code != 0 ? shim_code : -1);
   x.pidfd = nullptr;
   x.notify_socket = nullptr;
+}
+
+void keep_log(const process_runtime_config& config, const kept_log& about) {
+  if (config.kept_logs.empty())
+    return;
+  kept_log_folder history{config.kept_logs};
+  if (history.keep(config.instances_dir / about.instance, about)
+      && config.history)
+    caf::anon_send(config.history, log_kept{});
 }
 
 edge_result<bool> clean_up(const process_runtime_config& config,

@@ -21,7 +21,10 @@ struct process_runtime_config {
   std::filesystem::path instances_dir; ///< One folder per instance goes here.
   std::filesystem::path shim;          ///< tools/instance_shim.
   uint64_t log_bytes = 1024 * 1024;    ///< Bound of one instance's log.
-  std::shared_ptr<io_core> io;         ///< Watches the programs.
+  /// Logs of instances that are gone go here; empty: they are not kept.
+  std::filesystem::path kept_logs;
+  node_history_actor history;  ///< Told of each; may be invalid.
+  std::shared_ptr<io_core> io; ///< Watches the programs.
   /// What every program sees besides what it is given.
   std::map<std::string, std::string> environment;
 };
@@ -43,14 +46,15 @@ struct process_instance {
   }
 };
 
-/// Starts the program in a fresh folder, behind its fence if it has one.
-/// Errors: engine_failed.
+/// Starts the program, behind its fence if it has one, in the instance's
+/// folder, of which only the log of its earlier runs is left. Errors:
+/// engine_failed.
 edge_result<process_instance> launch(const process_runtime_config& config,
                                      const start_container& wish);
 
-/// Finds what an earlier run of the node has started, by the container's id or,
-/// where that is not known, by the records in the instance's folder. Errors:
-/// engine_failed (it runs, but its NOTIFY_SOCKET cannot be made).
+/// Finds what an earlier run of the node has started last, by the records in
+/// the instance's folder or, where they are gone, by the container's id.
+/// Errors: engine_failed (it runs, but its NOTIFY_SOCKET cannot be made).
 edge_result<process_instance> take_over(const process_runtime_config& config,
                                         const std::string& instance,
                                         const std::string& container);
@@ -58,6 +62,9 @@ edge_result<process_instance> take_over(const process_runtime_config& config,
 /// Notes that the shim has ended: reaps it and reads how its command ended.
 void conclude(const process_runtime_config& config, const std::string& instance,
               process_instance& x);
+
+/// Puts the log of an instance that has ended into the history.
+void keep_log(const process_runtime_config& config, const kept_log& about);
 
 /// Removes the folder, the socket and the fence of an instance that has ended.
 /// Errors: engine_failed.

@@ -109,8 +109,6 @@ caf::result<container_adopted> adopt(process_runtime_pointer self,
   const auto found = known(self, wish.instance, wish.container);
   if (const auto* error = std::get_if<edge_error>(&found))
     return to_caf(*error);
-  if (is_outdated(*std::get<running_process*>(found), wish.container))
-    return container_adopted{false, wish.container, -1};
   const auto& x = std::get<running_process*>(found)->process;
   return container_adopted{x.runs(), x.container, x.exit_code, x.recorded,
                            x.terminated};
@@ -213,12 +211,22 @@ caf::result<container_stopped> stop(process_runtime_pointer self,
   return promise;
 }
 
-/// Nothing if all that was left is gone.
+/// Nothing if all that was left is gone. Where it is started again its folder
+/// stays, for its log.
 caf::error forget(process_runtime_pointer self, const std::string& instance) {
-  const auto done = clean_up(self->state.config, instance);
-  self->state.processes.erase(instance);
+  auto& st = self->state;
+  const auto& x = st.processes.at(instance);
+  if (x.goes_on) {
+    serve_followers(self, instance);
+    return {};
+  }
+  for (const auto& about : x.about)
+    if (about.instance == instance)
+      keep_log(st.config, about);
+  const auto done = clean_up(st.config, instance);
+  st.processes.erase(instance);
   serve_followers(self, instance);
-  self->state.logs.erase(instance);
+  st.logs.erase(instance);
   if (const auto* error = std::get_if<edge_error>(&done))
     return to_caf(*error);
   return {};
@@ -234,6 +242,8 @@ caf::result<container_removed> remove(process_runtime_pointer self,
   auto& x = *std::get<running_process*>(found);
   if (is_outdated(x, wish.container))
     return container_removed{};
+  x.goes_on = wish.restarts;
+  x.about = wish.about;
   if (!x.process.runs()) {
     if (auto error = forget(self, wish.instance))
       return error;

@@ -29,6 +29,8 @@ struct running_process {
   std::optional<alarm::time_point> next_stage;
   std::vector<caf::typed_response_promise<container_stopped>> stoppers;
   std::vector<caf::typed_response_promise<container_removed>> removers;
+  bool goes_on = false;        ///< Its log does: it is started again.
+  std::vector<kept_log> about; ///< What its log is kept with.
 };
 
 struct followed_log {
@@ -36,8 +38,8 @@ struct followed_log {
   std::vector<log_follower> followers;
 };
 
-/// Owns the shims of the process instances. It blocks on processes and the
-/// disk, so it is spawned detached. Ends with its listener.
+/// Owns the shims of the process instances. Spawned as one that
+/// blocks: it waits for processes and the disk. Ends with its listener.
 struct process_runtime_state {
   static constexpr const char* name = "process-runtime";
 

@@ -41,6 +41,8 @@ void add_primary_requests(request_registry& registry) {
   registry.add(list_local_skills);
   registry.add(
       forward_to<log_query, log_excerpt>(&services::supervisor, log_timeout));
+  registry.add(
+      forward_within<kept_logs_query, kept_logs>(soon, &services::supervisor));
   registry.add(forward_within<registration_query, registration_challenge>(
       soon, &services::membership));
   registry.add(forward_within<registration_switch, switch_accepted>(
@@ -64,6 +66,7 @@ void add_cell_queries(request_registry& registry) {
   registry.add(
       forward_within<transfer_query, transfer_description>(soon, whom));
   registry.add(forward_to<log_query, log_excerpt>(whom, log_timeout));
+  registry.add(forward_within<kept_logs_query, kept_logs>(soon, whom));
 }
 
 void add_cell_commands(request_registry& registry) {

@@ -213,6 +213,13 @@ member_actor::behavior_type member(self_pointer self, session_admitted accepted,
                        std::chrono::milliseconds{0}, limits::log::wait);
         return ask_node<log_excerpt>(self, x, wait + limits::log::session);
       },
+      [self](const kept_logs_query& x) {
+        return ask_node<kept_logs>(self, x, limits::history::member_list,
+                                   [self](kept_logs& reply) {
+                                     for (auto& log : reply.logs)
+                                       log.node = self->state.peer.name;
+                                   });
+      },
       [self](const frame_received& frame) { on_frame(self, frame); },
       [self](const beat_received& beat) { on_beat(self, beat); },
       [self](const session_closed& fact) {

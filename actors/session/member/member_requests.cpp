@@ -147,7 +147,8 @@ void on_place_request(self_pointer self, uint64_t id, const json& body) {
 /// here, so it goes no further.
 void on_forwarded(self_pointer self, uint64_t id, const json& body,
                   std::chrono::milliseconds limit) {
-  self->request(self->state.coordinator, limit, route_request{body.dump(), ""})
+  self->request(self->state.coordinator, limit,
+                route_request{body.dump(), "", "node " + self->state.peer.name})
       .then(
           [self, id](const request_routed& reply) {
             self->state.frames.answer(id, body_of(reply));

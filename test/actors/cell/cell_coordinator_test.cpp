@@ -573,4 +573,61 @@ TEST_CASE_METHOD(paper_cell, "A log comes from the node that has it",
   CHECK(error_of(request(query)) == "unreachable");
 }
 
+namespace {
+
+kept_log log_kept_by(const std::string& node, const std::string& instance,
+                     int64_t ended_unix_ms) {
+  kept_log result;
+  result.instance = instance;
+  result.node = node;
+  result.ended_unix_ms = ended_unix_ms;
+  return result;
+}
+
+} // namespace
+
+TEST_CASE_METHOD(paper_cell,
+                 "The log of an instance that is gone comes from the node that "
+                 "has kept the newest",
+                 "[cell_coordinator]") {
+  auto& arm = add("arm");
+  auto& belt = add("belt");
+  arm.logs_kept = {log_kept_by("arm", "t-s-1", 1000)};
+  belt.logs_kept = {log_kept_by("belt", "t-s-1", 2000),
+                    log_kept_by("belt", "t-s-2", 1500)};
+  json query{{"type", "log_query"}, {"instance", "t-s-1"}};
+  CHECK(request(query).at("text") == "kept by belt");
+  query["node"] = "arm";
+  CHECK(request(query).at("text") == "kept by arm");
+  query["node"] = "nobody";
+  CHECK(error_of(request(query)) == "unreachable");
+  query = {{"type", "log_query"}, {"instance", "t-s-3"}};
+  CHECK(error_of(request(query)) == "unknown_task");
+  // Of one that is there its own log is read, unless the earlier one is wanted.
+  request(echo_task("t", {echo_step("s0", 1, "arm")}));
+  const auto instance = arm.running.begin()->first;
+  belt.logs_kept = {log_kept_by("belt", instance, 3000)};
+  query["instance"] = instance;
+  CHECK(request(query).at("text") == "hello from arm");
+  query["previous"] = true;
+  CHECK(request(query).at("text") == "kept by belt");
+}
+
+TEST_CASE_METHOD(paper_cell,
+                 "Kept logs are told of by their ends, without the nodes that "
+                 "do not answer",
+                 "[cell_coordinator]") {
+  auto& arm = add("arm");
+  auto& belt = add("belt");
+  auto& lift = add("lift");
+  arm.logs_kept = {log_kept_by("arm", "t-s-1", 1000)};
+  belt.logs_kept = {log_kept_by("belt", "t-s-2", 2000)};
+  lift.mute = true;
+  const auto reply = request({{"type", "kept_logs_query"}});
+  REQUIRE(reply.at("logs").size() == 2);
+  CHECK(reply.at("logs")[0].at("instance") == "t-s-2");
+  CHECK(reply.at("logs")[1].at("instance") == "t-s-1");
+  CHECK(reply.at("silent") == json{"lift"});
+}
+
 } // namespace roscell::test

@@ -217,6 +217,12 @@ caf::behavior local_parts(caf::event_based_actor* self, fake_site* site,
                       "/instance");
         return log_excerpt{x.instance, "a line\n", 7, true};
       },
+      [=](const kept_logs_query& x) {
+        kept_log log;
+        log.instance = x.instance;
+        log.node = "name-of-before";
+        return kept_logs{{log}};
+      },
   };
 }
 

@@ -97,8 +97,19 @@ caf::behavior agent(caf::event_based_actor* self, fake_agent* x) {
         return caf::delegated<figures_report>{};
       },
       [=](const log_query& query) {
-        return log_excerpt{query.instance, "hello from " + x->identity.name, 5,
-                           false};
+        return log_excerpt{query.instance,
+                           (query.previous ? "kept by " : "hello from ")
+                               + x->identity.name,
+                           5, false};
+      },
+      [=](const kept_logs_query& query) -> caf::result<kept_logs> {
+        if (x->mute)
+          return fail(error_code::timeout, "it does not answer");
+        kept_logs result;
+        for (const auto& log : x->logs_kept)
+          if (query.instance.empty() || query.instance == log.instance)
+            result.logs.push_back(log);
+        return result;
       },
       [=](const registration_switch& order) {
         x->orders.push_back(order);

@@ -31,6 +31,7 @@ struct fake_agent {
   std::vector<installed_skill> skills; ///< `echo_skill()` unless changed.
   bool silent = false;                 ///< Answers nothing about resources.
   bool mute = false;                   ///< Answers nothing about figures.
+  std::vector<kept_log> logs_kept;
   bool slow_reports = false;  ///< Measures at once, answers when told to.
   bool slow_removals = false; ///< Removes when told to.
 

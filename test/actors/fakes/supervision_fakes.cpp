@@ -148,7 +148,8 @@ scripted_runtime(scripted_runtime_actor::pointer self,
       [=](const ask_for_safety& x) { script->asked_for_safety.push_back(x); },
       [=](const log_query& x) {
         script->queries.push_back(x);
-        return log_excerpt{x.instance, script->log, 0, true};
+        return either(script->log_error,
+                      log_excerpt{x.instance, script->log, 0, true});
       },
       [=](caf::tick_atom, uint64_t) {
         for (auto& x : std::exchange(script->unanswered, {}))
@@ -217,6 +218,7 @@ container_supervisor_actor fake_supervisor(caf::actor_system& system,
         [](const instance_removal&) { return instances_removed{}; },
         [](const instance_query&) { return instance_description{}; },
         [](const log_query&) { return log_excerpt{}; },
+        [](const kept_logs_query&) { return kept_logs{}; },
         [](const listen_to_instances&) {},
         [](const ends_acknowledged&) {},
         [](const use_environment&) {},

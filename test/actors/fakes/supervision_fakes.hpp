@@ -65,6 +65,7 @@ struct runtime_script {
   container_adopted adoption;
   int stop_code = 143;
   std::string log = "first line\nlast line\n";
+  caf::error log_error;
 
   std::vector<prepare_image> prepared;
   std::vector<start_container> started;

@@ -518,6 +518,92 @@ TEST_CASE("the log of an instance is the runtime's, of others there is none") {
   CHECK(refusal(unknown).code == error_code::unknown_task);
 }
 
+namespace {
+
+/// A history with one log of each instance that is asked for.
+struct history_bench : supervisor_bench {
+  history_bench() {
+    const auto history = system.spawn([this]() -> caf::behavior {
+      return {[this](const log_query& x) {
+                asked.push_back(x);
+                return log_excerpt{x.instance, "kept", 4, true};
+              },
+              [](const kept_logs_query& x) {
+                kept_log log;
+                log.instance = x.instance;
+                log.node = "name-of-before";
+                return kept_logs{{log}};
+              }};
+    });
+    config.history = caf::actor_cast<node_history_actor>(history);
+    start();
+  }
+
+  ~history_bench() {
+    kill(config.history);
+  }
+
+  std::string text_of(const log_query& query) {
+    const auto answer = ask<log_excerpt>(supervisor, query);
+    settle();
+    return reply(answer).text;
+  }
+
+  std::vector<log_query> asked;
+};
+
+} // namespace
+
+TEST_CASE("a kept log is read where there is no other, or it is asked for") {
+  history_bench b;
+  b.deploy("i");
+  log_query query;
+  query.instance = "i";
+  CHECK(b.text_of(query) == "first line\nlast line\n");
+  CHECK(b.asked.empty());
+  query.previous = true;
+  CHECK(b.text_of(query) == "kept");
+  query.previous = false;
+  // Its row may outlive its log.
+  b.runtime->log_error = fail(error_code::unknown_task, "there is none");
+  CHECK(b.text_of(query) == "kept");
+  query.instance = "gone";
+  CHECK(b.text_of(query) == "kept");
+  CHECK(b.asked.size() == 3);
+  query.instance = "i";
+  b.runtime->log_error = fail(error_code::conflict, "too many follow it");
+  const auto refused = b.ask<log_excerpt>(b.supervisor, query);
+  b.settle();
+  CHECK(refusal(refused).code == error_code::conflict);
+}
+
+TEST_CASE("kept logs are those of the node by its present name") {
+  history_bench b;
+  const auto answer = b.ask<kept_logs>(b.supervisor, kept_logs_query{"i", ""});
+  b.settle();
+  REQUIRE(reply(answer).logs.size() == 1);
+  CHECK(reply(answer).logs.front().node == "n");
+}
+
+TEST_CASE("the log of what is removed is kept with its end") {
+  supervisor_bench b;
+  b.start();
+  b.deploy("i");
+  b.say("i");
+  b.remove("t");
+  REQUIRE(b.runtime->removed.size() == 1);
+  REQUIRE(b.runtime->removed[0].about.size() == 1);
+  const auto& about = b.runtime->removed[0].about.front();
+  CHECK(about.instance == "i");
+  CHECK(about.task == "t");
+  CHECK(about.node == "n");
+  CHECK(about.state == instance_state::stopped);
+  CHECK(about.reason == "removed");
+  CHECK(about.exit_code == b.runtime->stop_code);
+  CHECK(about.started_unix_ms > 0);
+  CHECK(about.ended_unix_ms >= about.started_unix_ms);
+}
+
 TEST_CASE("queries choose by task and by instance") {
   supervisor_bench b;
   b.start();

@@ -68,6 +68,11 @@ struct agent_fixture {
         [](const log_query& x) {
           return log_excerpt{x.instance, "text", 4, true};
         },
+        [](const kept_logs_query& x) {
+          kept_log log;
+          log.instance = x.instance;
+          return kept_logs{{log}};
+        },
     };
   }
 
@@ -206,6 +211,9 @@ TEST_CASE_METHOD(agent_fixture,
   log_query query;
   query.instance = "t-1";
   CHECK(ask<log_excerpt>(query)->text == "text");
+  const auto kept = ask<kept_logs>(kept_logs_query{"t-1", ""});
+  REQUIRE(kept->logs.size() == 1);
+  CHECK(kept->logs.front().instance == "t-1");
 }
 
 namespace {

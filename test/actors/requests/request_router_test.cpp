@@ -177,6 +177,19 @@ TEST_CASE_METHOD(router_fixture,
   CHECK(traces[0].span_us >= 0);
 }
 
+TEST_CASE_METHOD(router_fixture, "A request that is over leaves nothing behind",
+                 "[router]") {
+  answer_at_once();
+  registry.add(refuse);
+  start();
+  ask(R"({"type":"cell_list_query"})");
+  CHECK(error_of(ask(R"({"type":"task_query"})")) == "unknown_task");
+  CHECK(time.scheduler.clock().schedule().empty());
+  const auto pipeline = worker.address();
+  worker = nullptr;
+  CHECK(caf::actor_cast<caf::actor_control_block*>(pipeline)->weak_refs == 1);
+}
+
 TEST_CASE_METHOD(router_fixture,
                  "A task for which there is no room has been decided about",
                  "[router]") {

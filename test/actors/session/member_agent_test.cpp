@@ -50,6 +50,13 @@ TEST_CASE_METHOD(cell_fixture, "a member is a node agent") {
     site.pass(1s);
     CHECK((*reply)->value().text == "a line\n");
   }
+  SECTION("for kept logs, which are those of the name it has now") {
+    auto reply = time.ask<kept_logs>(member(), kept_logs_query{"t-a-1", ""});
+    site.pass(1s);
+    REQUIRE((*reply)->value().logs.size() == 1);
+    CHECK((*reply)->value().logs[0].instance == "t-a-1");
+    CHECK((*reply)->value().logs[0].node == "arm-1");
+  }
   SECTION("for what only it can tell") {
     std::vector<std::string> asked;
     const auto router =

@@ -98,7 +98,7 @@ export class EventStream {
     }
   }
 
-  /** Numbers of events begin at 1 with every start of the node. */
+  /** A restarted node has told anew what counts. */
   async checkIdentity() {
     const node = await get('node');
     if (node.started_unix_ms !== this.started)

@@ -181,16 +181,33 @@ void node_client::follow(const std::string& path, const line_handler& on_line,
     throw refused(document_of(to_, reply));
 }
 
-std::vector<event> kept_events_of(const node_client& node, uint64_t since) {
+namespace {
+
+std::vector<event> events_at(const node_client& node, const std::string& path) {
   std::vector<event> result;
   event_stream events;
-  node.follow("/v1/events?follow=0&since=" + std::to_string(since),
-              [&](std::string_view line) {
-                if (auto complete = events.add_line(line))
-                  result.push_back(std::move(*complete));
-                return true;
-              });
+  node.follow(path, [&](std::string_view line) {
+    if (auto complete = events.add_line(line))
+      result.push_back(std::move(*complete));
+    return true;
+  });
   return result;
+}
+
+} // namespace
+
+std::vector<event> kept_events_of(const node_client& node, uint64_t since) {
+  return events_at(node, "/v1/events?follow=0&since=" + std::to_string(since));
+}
+
+// A node of an earlier version, which has nothing on its disk, gives what is in
+// its memory instead.
+std::vector<event> past_events_of(const node_client& node,
+                                  const past_events_query& query) {
+  return events_at(
+      node, "/v1/events?follow=0&past=1&since=" + std::to_string(query.since)
+                + "&since_unix_ms=" + std::to_string(query.since_unix_ms)
+                + "&newest=" + std::to_string(query.newest));
 }
 
 void follow_events(const node_client& node, uint64_t since,

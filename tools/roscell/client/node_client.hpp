@@ -92,8 +92,13 @@ private:
   http_client http_;
 };
 
-/// The events after number `since` that the node still has, the oldest first.
+/// The events after number `since` that the node has in memory, the oldest
+/// first.
 std::vector<event> kept_events_of(const node_client& node, uint64_t since = 0);
+
+/// A part of those that the node has on its disk; an empty one is the end.
+std::vector<event> past_events_of(const node_client& node,
+                                  const past_events_query& query);
 
 using event_handler = std::function<bool(const event& e)>;
 

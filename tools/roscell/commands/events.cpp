@@ -1,3 +1,6 @@
+#include "actors/edge/io/node_time.hpp"
+#include "actors/house/limits.hpp"
+#include "tools/roscell/client/event_start.hpp"
 #include "tools/roscell/client/event_words.hpp"
 #include "tools/roscell/client/node_client.hpp"
 #include "tools/roscell/commands.hpp"
@@ -8,76 +11,114 @@
 #include <CLI/CLI.hpp>
 
 #include <cstddef>
+#include <deque>
 #include <memory>
+#include <stdexcept>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace roscell::cli {
 
 namespace {
 
+int64_t wall_now_ms() {
+  return clock_ms(CLOCK_REALTIME);
+}
+
 struct events_options {
   connection_options connection;
   std::string output = "table";
-  uint64_t since = from_now_on;
-  uint64_t count = 0; ///< Of those that are kept, the last ones; 0: no bound.
+  std::string since;  ///< As people write it; empty: from now on.
+  uint64_t count = 0; ///< Of those that were, the last ones; 0: no bound.
   bool no_follow = false;
 
-  /// Whether something of what is kept is wanted.
-  bool wants_kept() const {
-    return no_follow || count != 0 || since != from_now_on;
+  /// Whether something of what was is wanted.
+  bool wants_past() const {
+    return no_follow || count != 0 || !since.empty();
   }
 
-  /// The number after which events are wanted.
-  uint64_t begin() const {
-    return wants_kept() && since == from_now_on ? 0 : since;
+  /// Without a bound all of a week would come.
+  uint64_t newest() const {
+    return count == 0 && since.empty() ? limits::event::kept : count;
   }
 };
 
 /// Prints events, below a heading if people read them.
 class event_printer {
 public:
-  event_printer(bool as_json, uint64_t begin)
-      : as_json_{as_json}, last_{begin} {}
+  explicit event_printer(bool as_json) : as_json_{as_json} {}
 
   void print_event(const event& e) {
+    // What repeats itself is counted for people.
+    if (e.passing && !as_json_)
+      return;
     if (!as_json_ && !std::exchange(begun_, true))
       print(event_heading(stdout_style().width) + "\n");
     print(as_json_
               ? compact(message_json(e))
               : shortened_line(event_line(e, stdout_style().width)) + "\n");
-    last_ = e.sequence;
-  }
-
-  /// Number of the last one; if there was none, where they were to begin.
-  uint64_t last() const {
-    return last_;
   }
 
 private:
   bool as_json_;
   bool begun_ = false;
-  uint64_t last_;
 };
 
-void print_kept(const events_options& options, const node_client& node,
-                event_printer& out) {
-  const auto kept = kept_events_of(node, options.begin());
-  const auto skipped = options.count == 0 || options.count >= kept.size()
-                           ? 0
-                           : kept.size() - options.count;
-  for (auto i = skipped; i < kept.size(); ++i)
-    out.print_event(kept[i]);
+/// Calls `take` with the events that were, on the disk and in memory. Returns
+/// the number of the last one, wanted or not.
+template <class F>
+uint64_t visit_past(const node_client& node, const event_start& from,
+                    uint64_t newest, F&& take) {
+  past_events_query query{from.number, from.unix_ms, newest};
+  const auto take_part = [&] {
+    const auto part = past_events_of(node, query);
+    for (const auto& e : part)
+      take(e);
+    if (!part.empty())
+      query = {part.back().sequence, 0, 0};
+    return !part.empty();
+  };
+  while (from.on_disk && take_part()) {
+  }
+  for (const auto& e : kept_events_of(node, query.since)) {
+    query.since = e.sequence;
+    if (e.time_unix_ms >= from.unix_ms)
+      take(e);
+  }
+  return query.since;
+}
+
+/// The same, printed.
+uint64_t print_past(const events_options& options, const node_client& node,
+                    event_printer& out) {
+  const auto from = options.since.empty()
+                        ? event_start{}
+                        : parse_event_start(options.since, wall_now_ms());
+  const auto most = options.newest();
+  std::deque<event> newest;
+  const auto last = visit_past(node, from, most, [&](const event& e) {
+    if (most == 0)
+      return out.print_event(e);
+    newest.push_back(e);
+    if (newest.size() > most)
+      newest.pop_front();
+  });
+  for (const auto& e : newest)
+    out.print_event(e);
+  return last;
 }
 
 int show_events(const events_options& options) {
   end_quietly_on_interrupt();
   const node_client node{options.connection};
-  event_printer out{options.output != "table", options.begin()};
-  if (options.wants_kept())
-    print_kept(options, node, out);
+  event_printer out{options.output != "table"};
+  auto last = from_now_on;
+  if (options.wants_past())
+    last = print_past(options, node, out);
   if (options.no_follow)
     return exit_done;
-  follow_events(node, out.last(), [&](const event& e) {
+  follow_events(node, last, [&](const event& e) {
     out.print_event(e);
     return true;
   });
@@ -90,24 +131,39 @@ void add_events_command(CLI::App& app, action& chosen) {
   auto options = std::make_shared<events_options>();
   auto* command = app.add_subcommand(
       "events", "Follow what happens on a node. Ctrl-C ends.");
-  command->footer("Examples:\n  roscell events\n"
-                  "  roscell events -n 20 --no-follow\n"
-                  "  roscell events -o json | jq .event");
+  command->footer(
+      "Numbers go on when the node is started again, and none is given twice; "
+      "after a loss of\npower some are left out. What repeats itself without "
+      "end, such as the restarts of a program\nthat crashes, is told at first "
+      "and then counted (\"more\").\n\n"
+      "Examples:\n  roscell events\n  roscell events -n 20 --no-follow\n"
+      "  roscell events --since 2h --no-follow\n"
+      "  roscell events --since '2026-11-25 18:00' --no-follow -o json");
   add_connection_options(*command, options->connection);
   command
-      ->add_option("--since", options->since,
-                   "Begin after the event of this number; 0: with the oldest "
-                   "that is kept. Without it only new ones are shown")
-      ->check(CLI::Range(uint64_t{0}, from_now_on))
-      ->option_text("NUMBER");
+      ->add_option(
+          "--since", options->since,
+          "Begin so long ago (2h, 7d), at a moment (08:00, "
+          "'2026-11-25 18:00'), after the event of a number (0: with the "
+          "oldest in memory), or at the start of all that is kept. "
+          "Without it only new ones are shown")
+      ->check([](const std::string& text) {
+        try {
+          parse_event_start(text, wall_now_ms());
+        } catch (const std::invalid_argument& e) {
+          return std::string{e.what()};
+        }
+        return std::string{};
+      })
+      ->option_text("WHEN");
   command
       ->add_option("-n,--count", options->count,
                    "Begin with the last COUNT that are kept, or as many as "
                    "there are")
-      ->check(CLI::Range(uint64_t{1}, from_now_on))
+      ->check(CLI::Range(uint64_t{1}, uint64_t{limits::history::newest}))
       ->option_text("COUNT");
   command->add_flag("--no-follow", options->no_follow,
-                    "Show what is kept, and end");
+                    "Show what was, without more the last 1000, and end");
   add_stream_output_option(*command, options->output);
   command->callback([&chosen, options] {
     chosen = [options] { return show_events(*options); };

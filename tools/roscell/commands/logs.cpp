@@ -1,12 +1,14 @@
-#include "actors/edge/http/http_target.hpp"
-#include "actors/requests/timed_log.hpp"
 #include "messages/instance.hpp"
+#include "messages/kept_log.hpp"
 #include "tools/roscell/client/find_instances.hpp"
+#include "tools/roscell/client/find_logs.hpp"
 #include "tools/roscell/client/node_client.hpp"
 #include "tools/roscell/commands.hpp"
+#include "tools/roscell/commands/log_printer.hpp"
+#include "tools/roscell/common_options.hpp"
 #include "tools/roscell/exit_code.hpp"
 #include "tools/roscell/view/format.hpp"
-#include "tools/roscell/view/log_lines.hpp"
+#include "tools/roscell/view/kept_logs_view.hpp"
 #include "tools/roscell/view/terminal.hpp"
 
 #include <CLI/CLI.hpp>
@@ -21,76 +23,12 @@ namespace roscell::cli {
 
 namespace {
 
-/// The coordinator asks a member, which answers at once.
-constexpr std::chrono::seconds excerpt_limit{30};
-
 struct logs_options {
   connection_options connection;
-  std::string subject; ///< An instance, the beginning of its id, or a task.
-  bool follow = false;
-  bool times = false;
-  uint64_t tail = 0; ///< 0: all that is kept.
-};
-
-log_excerpt ask_for_log(const node_client& node, const log_query& query) {
-  return node.ask(message_json(query), excerpt_limit).get<log_excerpt>();
-}
-
-/// Prints the log of one instance, each line behind the name of its step where
-/// there are several.
-class log_printer {
-public:
-  log_printer(const logs_options& options, const node_client& node,
-              std::string instance, const std::string& prefix)
-      : options_{options}, node_{node}, instance_{std::move(instance)},
-        lines_{prefix, stdout_is_terminal() ? log_reader::terminal
-                                            : log_reader::program} {}
-
-  void run() {
-    if (options_.tail == 0 && !options_.follow)
-      print_kept();
-    else
-      node_.follow(stream_path(), [this](std::string_view line) {
-        print(lines_.add(std::string{line} + "\n"));
-        return true;
-      });
-    print(lines_.finish());
-  }
-
-private:
-  /// Prints all that is kept now, part by part. What is logged meanwhile is
-  /// left out: a skill that logs faster than we print would keep us forever.
-  void print_kept() {
-    log_query last_line;
-    last_line.instance = instance_;
-    last_line.tail_lines = 1;
-    const auto end = ask_for_log(node_, last_line).next_offset;
-    timed_log timed;
-    log_query next;
-    next.instance = instance_;
-    next.times = options_.times;
-    for (int64_t offset = 0; offset < end;) {
-      next.offset = offset;
-      const auto part = ask_for_log(node_, next);
-      if (part.next_offset <= offset)
-        return;
-      print(lines_.add(timed.add(part)));
-      offset = part.next_offset;
-    }
-  }
-
-  std::string stream_path() const {
-    auto path = "/v1/instances/" + percent_encode(instance_) + "/logs";
-    path += options_.tail == 0 ? "?offset=0"
-                               : "?tail=" + std::to_string(options_.tail);
-    path += options_.times ? "&times=1" : "";
-    return options_.follow ? path + "&follow=1" : path;
-  }
-
-  const logs_options& options_;
-  const node_client& node_;
-  std::string instance_;
-  log_lines lines_;
+  std::string subject;   ///< An instance, the beginning of its id, or a task.
+  bool previous = false; ///< Of an earlier run.
+  log_wish wish;
+  std::string output = "table";
 };
 
 /// Follows several logs at once. Each line is printed whole, so those of
@@ -106,28 +44,99 @@ void follow_all(std::vector<log_printer>& printers) {
 }
 
 /// The step, padded so that the lines of all steps begin in one column.
-std::string prefix_of(const instance_row& row,
-                      const std::vector<instance_row>& all) {
+std::string prefix_of(const std::string& step,
+                      const std::vector<std::string>& all) {
   if (all.size() < 2)
     return {};
   size_t width = 0;
   for (const auto& x : all)
-    width = std::max(width, x.spec.step.size());
-  return printable(row.spec.step)
-         + std::string(width - row.spec.step.size(), ' ') + " | ";
+    width = std::max(width, x.size());
+  return printable(step) + std::string(width - step.size(), ' ') + " | ";
+}
+
+kept_logs ask_for_kept(const node_client& node) {
+  return node.ask(message_json(kept_logs_query{}), log_limit).get<kept_logs>();
+}
+
+int list_kept(const logs_options& options, const node_client& node) {
+  const auto logs = ask_for_kept(node);
+  const json document = message_json(logs);
+  print(options.output == "json" ? pretty(document)
+                                 : kept_logs_view(logs, view_style_now()));
+  return exit_done;
+}
+
+int print_found(const logs_options& options, const node_client& node,
+                const std::vector<kept_log>& found) {
+  std::vector<std::string> steps;
+  steps.reserve(found.size());
+  for (const auto& log : found)
+    steps.push_back(log.step);
+  for (const auto& log : found) {
+    print_note(kept_log_words(log, view_style_now().now_unix_ms));
+    log_query subject;
+    subject.instance = log.instance;
+    subject.node = log.node;
+    subject.previous = true;
+    log_printer{options.wish, node, subject, prefix_of(log.step, steps)}.run();
+  }
+  return exit_done;
+}
+
+int show_previous(const logs_options& options, const node_client& node) {
+  const auto kept = ask_for_kept(node);
+  const auto found = find_kept_logs(kept.logs, options.subject);
+  if (!found.empty())
+    return print_found(options, node, found);
+  throw command_error{exit_refused,
+                      "no log of an instance or a task '" + options.subject
+                          + "' that is gone is kept",
+                      kept.silent.empty()
+                          ? "`roscell logs --previous` lists what is kept"
+                          : "without those of " + joined(kept.silent, ", ")};
+}
+
+/// Those that are there, or none if what is meant is gone and its log is kept.
+std::vector<instance_row> find_present(const logs_options& options,
+                                       const node_client& node,
+                                       std::vector<kept_log>& gone) {
+  const auto known = node.get("/v1/instances").get<instance_description>();
+  try {
+    return find_instances(known.instances, options.subject);
+  } catch (const command_error& why) {
+    if (why.code != exit_refused)
+      throw;
+    gone = find_kept_logs(ask_for_kept(node).logs, options.subject);
+    if (gone.empty())
+      throw;
+    return {};
+  }
 }
 
 int show_logs(const logs_options& options) {
   end_quietly_on_interrupt();
   const node_client node{options.connection};
-  const auto known = node.get("/v1/instances").get<instance_description>();
-  const auto found = find_instances(known.instances, options.subject);
+  if (options.subject.empty() && options.previous)
+    return list_kept(options, node);
+  if (options.previous)
+    return show_previous(options, node);
+  std::vector<kept_log> gone;
+  const auto found = find_present(options, node, gone);
+  if (!gone.empty())
+    return print_found(options, node, gone);
+  std::vector<std::string> steps;
+  steps.reserve(found.size());
+  for (const auto& row : found)
+    steps.push_back(row.spec.step);
   std::vector<log_printer> printers;
   printers.reserve(found.size());
-  for (const auto& row : found)
-    printers.emplace_back(options, node, row.spec.instance,
-                          prefix_of(row, found));
-  if (options.follow)
+  for (const auto& row : found) {
+    log_query subject;
+    subject.instance = row.spec.instance;
+    printers.emplace_back(options.wish, node, subject,
+                          prefix_of(row.spec.step, steps));
+  }
+  if (options.wish.follow)
     follow_all(printers);
   else
     for (auto& printer : printers)
@@ -145,25 +154,31 @@ void add_logs_command(CLI::App& app, action& chosen) {
                   "begins so. Of a task each\nline stands behind the name of "
                   "its step. On a terminal it is without colours, and with ? "
                   "for what would steer that;\nfiles and pipes get it as it "
-                  "is.\n\n"
+                  "is. Of what has been stopped the log is kept for some days, "
+                  "and standard error\ntells how it ended.\n\n"
                   "Examples:\n  roscell logs fleet-poses-camera-1a2b3c4d\n"
-                  "  roscell logs -t -f --tail 20 fleet-poses");
+                  "  roscell logs -t -f --tail 20 fleet-poses\n"
+                  "  roscell logs --previous");
   add_connection_options(*command, options->connection);
-  command
-      ->add_option("INSTANCE", options->subject,
-                   "Id of the instance, or name of the task")
-      ->required();
-  command->add_flag("-f,--follow", options->follow,
+  command->add_option("INSTANCE", options->subject,
+                      "Id of the instance, or name of the task");
+  command->add_flag("-f,--follow", options->wish.follow,
                     "Go on until the instance ends. Ctrl-C ends");
-  command->add_flag("-t,--times", options->times,
+  command->add_flag("-p,--previous", options->previous,
+                    "The log that was kept of an earlier run, or of an "
+                    "instance that is gone; without INSTANCE\nlist these");
+  command->add_flag("-t,--times", options->wish.times,
                     "Put before each line when it was logged");
   command
-      ->add_option("--tail", options->tail,
+      ->add_option("--tail", options->wish.tail,
                    "Only the last LINES lines, at most 64 KiB of them; "
                    "without it all that is kept")
       ->check(CLI::Range(uint64_t{1}, uint64_t{100'000}))
       ->option_text("LINES");
+  add_output_option(*command, options->output);
   command->callback([&chosen, options] {
+    if (options->subject.empty() && !options->previous)
+      throw CLI::RequiredError{"INSTANCE"};
     chosen = [options] { return show_logs(*options); };
   });
 }

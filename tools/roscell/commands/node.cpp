@@ -154,6 +154,15 @@ void add_files(CLI::App& command, node_options& options) {
                   "Bound of the log that is kept of one instance")
       ->option_text("BYTES [1MiB]");
   command
+      .add_option("--history-bytes", options.history_bytes,
+                  "Bound of what is kept of the past: events, and logs of "
+                  "instances that are gone. The oldest goes first")
+      ->option_text("BYTES [64MiB]");
+  command
+      .add_option("--history-age", options.history_age,
+                  "The same in time: 12h, 30d")
+      ->option_text("TIME [7d]");
+  command
       .add_option(
           "--drain-timeout", options.drain_timeout,
           "When it is to stop, move its instances to other nodes first, "
@@ -171,6 +180,12 @@ void add_files(CLI::App& command, node_options& options) {
           "$NOTIFY_SOCKET of systemd is told as well")
       ->check(CLI::Range(0, 1 << 20))
       ->option_text("NUMBER");
+}
+
+/// The whole command line would stay in memory for as long as the node runs.
+void forget_commands(CLI::App& app) {
+  for (auto* x : app.get_subcommands({}))
+    app.remove_subcommand(x);
 }
 
 } // namespace
@@ -198,6 +213,7 @@ void add_node_command(CLI::App& app, action& chosen) {
     chosen = [command, options, file] {
       if (!file->empty())
         take_config(*command, *file);
+      forget_commands(*command->get_parent());
       return run_node(*options);
     };
   });

@@ -55,7 +55,8 @@ void look(drain_pointer self, const node_actor& node) {
 
 void begin(drain_pointer self, const running_node& node) {
   self->request(node.router, limits::request::member_request,
-                route_request{message_json(node_drain{node.name}).dump(), ""})
+                route_request{message_json(node_drain{node.name}).dump(), "",
+                              "the node itself"})
       .then(
           [self, actor = node.actor](const request_routed& reply) {
             if (!reply.refusal.empty())
@@ -92,7 +93,8 @@ void drain_first(caf::actor_system& system, const running_node& node,
 void undrain(caf::actor_system& system, const running_node& node) {
   caf::scoped_actor self{system};
   self->request(node.router, limits::local::answer,
-                route_request{message_json(node_undrain{node.name}).dump(), ""})
+                route_request{message_json(node_undrain{node.name}).dump(), "",
+                              "the node itself"})
       .receive([](const request_routed&) {}, [](const caf::error&) {});
 }
 

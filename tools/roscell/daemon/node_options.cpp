@@ -4,7 +4,9 @@
 #include "tools/roscell/client/target.hpp"
 #include "tools/roscell/exit_code.hpp"
 #include "tools/roscell/view/format.hpp"
+#include "tools/roscell/view/span.hpp"
 
+#include <chrono>
 #include <filesystem>
 #include <stdexcept>
 #include <system_error>
@@ -13,19 +15,31 @@ namespace roscell::cli {
 
 namespace {
 
-constexpr uint64_t smallest_log = 4 * 1024;
-constexpr uint64_t largest_log = 1024UL * 1024 * 1024;
-
-uint64_t log_bound(const std::string& text) {
+/// The bytes that an option says, within its bounds.
+uint64_t bytes_of(const std::string& option, const std::string& text,
+                  const std::string& least, const std::string& most) {
   uint64_t bytes = 0;
   try {
     bytes = parse_bytes(text);
   } catch (const std::invalid_argument& e) {
-    throw command_error{exit_usage, "--log-bytes: " + std::string{e.what()}};
+    throw command_error{exit_usage, option + ": " + e.what()};
   }
-  if (bytes < smallest_log || bytes > largest_log)
-    throw command_error{exit_usage, "--log-bytes: not between 4KiB and 1GiB"};
+  if (bytes < parse_bytes(least) || bytes > parse_bytes(most))
+    throw command_error{exit_usage,
+                        option + ": not between " + least + " and " + most};
   return bytes;
+}
+
+std::chrono::seconds history_age(const std::string& text) {
+  constexpr std::chrono::hours least{1};
+  try {
+    if (const auto result = parse_span(text); result >= least)
+      return result;
+  } catch (const std::invalid_argument& e) {
+    throw command_error{exit_usage, "--history-age: " + std::string{e.what()}};
+  }
+  throw command_error{exit_usage, "--history-age: less than an hour",
+                      "the bound in bytes is --history-bytes"};
 }
 
 void add_label(std::map<std::string, std::string>& labels,
@@ -115,7 +129,10 @@ node_config to_config(const node_options& options) {
   config.socket = std::filesystem::absolute(config.socket);
   for (const auto& label : options.labels)
     add_label(config.labels, label);
-  config.log_bytes = log_bound(options.log_bytes);
+  config.log_bytes = bytes_of("--log-bytes", options.log_bytes, "4KiB", "1GiB");
+  config.history_bytes =
+      bytes_of("--history-bytes", options.history_bytes, "2MiB", "1024GiB");
+  config.history_age = history_age(options.history_age);
   return config;
 }
 

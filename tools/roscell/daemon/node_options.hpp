@@ -17,6 +17,8 @@ struct node_options {
   node_config config;    ///< What needs no further thought.
   std::string interface; ///< Name or address; empty: to be asked.
   std::string log_bytes = "1MiB";
+  std::string history_bytes = "64MiB";
+  std::string history_age = "7d";
   std::vector<std::string> labels; ///< "key=value"
   std::vector<std::filesystem::path> skill_dirs;
   std::string drain_timeout = "0"; ///< A duration; 0: it is not drained.

@@ -12,6 +12,8 @@
 #include "tools/roscell/view/format.hpp"
 
 #include <caf/actor_system_config.hpp>
+#include <caf/scheduler/abstract_coordinator.hpp>
+#include <caf/send.hpp>
 
 #include <malloc.h>
 #include <spdlog/spdlog.h>
@@ -33,6 +35,13 @@ public:
     set("logger.verbosity", caf::atom("quiet"));
   }
 };
+
+/// No actor of a node prints: who throws ends with what it has thrown
+/// (`end_by_exception`). So nobody needs the thread that CAF has for printing.
+void end_printing(caf::actor_system& system) {
+  caf::anon_send_exit(system.scheduler().printer(),
+                      caf::exit_reason::user_shutdown);
+}
 
 /// What the failure of a start means to whoever called us.
 exit_code exit_code_of(error_code code) {
@@ -93,6 +102,7 @@ node_process::node_process(const node_options& options, node_config config,
 exit_code node_process::run() {
   node_system_config system_config;
   caf::actor_system system{system_config};
+  end_printing(system);
   std::string former;
   for (;;) {
     const auto at = await_address();

@@ -31,7 +31,7 @@ if [ -S "$ROSCELL_TO" ] && tasks=$(tasks_here 2> /dev/null); then
   done
 fi
 for record in "$data_dir"/instances/*/pid; do
-  [ -f "$record" ] || continue
-  read -r shim start_time rest < "$record" || true
-  end_shim "$shim" "$start_time"
+  # A link whose target says it; earlier versions have written a file.
+  words=$(readlink "$record" || cat "$record" 2> /dev/null) || continue
+  end_shim "$(echo "$words" | cut -d' ' -f1)" "$(echo "$words" | cut -d' ' -f2)"
 done

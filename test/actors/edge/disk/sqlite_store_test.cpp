@@ -223,10 +223,14 @@ TEST_CASE("a folder that is not there is told of") {
 
 namespace {
 
+bool mount_small_disk(const std::filesystem::path& folder) {
+  return ::mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) == 0
+         && ::mount("none", folder.c_str(), "tmpfs", 0, "size=256k") == 0;
+}
+
 /// Fills a file system of 256 KiB; returns what the store said.
 std::optional<edge_error> fill_disk(const std::filesystem::path& folder) {
-  if (::mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0
-      || ::mount("none", folder.c_str(), "tmpfs", 0, "size=256k") != 0)
+  if (!mount_small_disk(folder))
     return edge_error{error_code::internal, "skipped", {}};
   auto store = value_of(sqlite_store::open(folder / "state.db"));
   for (int i = 0; i < 1000; ++i)
@@ -253,4 +257,30 @@ TEST_CASE("a full disk is told of by name") {
     return;
   }
   CHECK(why->message.find("no room is left") != std::string::npos);
+}
+
+TEST_CASE("who gives way is asked for room until there is enough") {
+  own_folder folder;
+  std::optional<edge_error> why;
+  int asked = 0;
+  std::thread{[&] {
+    if (::unshare(CLONE_NEWNS) != 0 || !mount_small_disk(folder.path())) {
+      why = edge_error{error_code::internal, "skipped", {}};
+      return;
+    }
+    auto store = value_of(sqlite_store::open(folder.path() / "state.db"));
+    constexpr size_t piece = 32 * 1024;
+    for (const auto* name : {"0", "1", "2", "3", "4", "5", "6", "7", "8"})
+      std::ofstream{folder.path() / name} << std::string(piece, 'x');
+    store.set_room_maker([&] {
+      return std::filesystem::remove(folder.path() / std::to_string(asked++));
+    });
+    why = store.put("t", "k", std::string(2 * piece, 'v'));
+  }}.join();
+  if (why && why->message == "skipped") {
+    WARN("skipped: no right to make a mount namespace");
+    return;
+  }
+  CHECK_FALSE(why);
+  CHECK(asked > 0);
 }

@@ -1,3 +1,4 @@
+#include "actors/edge/history/kept_log_folder.hpp"
 #include "actors/edge/process/environment_file.hpp"
 #include "actors/house/limits.hpp"
 #include "test/actors/instances/engine/engine_bench.hpp"
@@ -251,6 +252,47 @@ TEST_CASE("stopping gives the grace to the engine and tells the exit code") {
   // Neither fails for a container that is gone.
   b.get<container_stopped>(stop_container{"i", {}, 0});
   b.get<container_removed>(remove_container{"i", {}});
+}
+
+TEST_CASE("the log of a container that goes is kept before") {
+  engine_bench b;
+  b.config.kept_logs = b.folder.path() / "history";
+  end_and_await(b.self, b.runtime);
+  b.begin_runtime();
+  const kept_log_folder kept{b.config.kept_logs};
+  kept_log about;
+  about.instance = "i";
+  about.ended_unix_ms = 1000;
+  b.script.on("DELETE /containers/c1", 204, "");
+  SECTION("with what it has said") {
+    b.script.on("GET /containers/c1/logs", 200, log_line("last"));
+    b.get<container_removed>(remove_container{"i", "c1", false, {about}});
+    REQUIRE(kept.newest_of("i"));
+    const auto part = kept.newest_of("i")->read_from(0, true);
+    CHECK(part.text == "last\n");
+    CHECK(part.ended);
+    REQUIRE(part.times_unix_ms.size() == 1);
+    CHECK(part.times_unix_ms[0] > 0);
+  }
+  SECTION("though it has said nothing") {
+    b.script.on("GET /containers/c1/logs", 200, "");
+    b.get<container_removed>(remove_container{"i", "c1", true, {about}});
+    CHECK(kept.list({}).logs.size() == 1);
+  }
+  SECTION("but it goes whether its log can be read or not") {
+    b.script.on("GET /containers/c1/logs", 500, "{}");
+    b.get<container_removed>(remove_container{"i", "c1", false, {about}});
+    CHECK(kept.list({}).logs.empty());
+  }
+  b.script.calls().await("DELETE /containers/c1?force=true&v=true");
+}
+
+TEST_CASE("a container is adopted though another one is on record") {
+  engine_bench b;
+  b.script.on("GET /containers/roscell-i/json", 200, running);
+  const auto adopted = b.get<container_adopted>(adopt_container{"i", "c0"});
+  CHECK(adopted.running);
+  CHECK(adopted.container == "c1");
 }
 
 TEST_CASE("a log is read, and followed until there is more") {

@@ -29,6 +29,12 @@ struct interrupted_bench : instance_bench {
     settle();
   }
 
+  void tell_of_place(const std::string& server) {
+    caf::anon_send(instance,
+                   use_environment{{{"ROS_DISCOVERY_SERVER", server}}});
+    settle();
+  }
+
   bool waits() const {
     const auto& row = told->last();
     return row.state == instance_state::backing_off && !row.waits.empty()
@@ -153,6 +159,59 @@ TEST_CASE("what was being started when its host went down waits as well") {
   CHECK(b.starts() == 0);
   b.tell_of_contact(true);
   CHECK(b.starts() == 1);
+}
+
+TEST_CASE("what was interrupted is started where its cell is now, and not "
+          "before that is known") {
+  interrupted_bench b;
+  b.config.knows_place = false;
+  b.config.row.spec.environment = {{"ROS_DISCOVERY_SERVER", "of yesterday"}};
+  SECTION("when its cell wants it") {
+    b.find_ended(-1, false, false);
+    b.tell_of_contact(true);
+  }
+  SECTION("when it starts alone") {
+    b.life().on_boot = boot_action::start;
+    b.find_ended(-1, false, false);
+    b.advance(1s);
+  }
+  CHECK(b.starts() == 0);
+  CHECK(b.told->last().waits == "waits to hear where its cell is");
+  b.tell_of_place("of today");
+  REQUIRE(b.starts() == 1);
+  CHECK(b.runtime->started[0].environment.at("ROS_DISCOVERY_SERVER")
+        == "of today");
+  CHECK(b.told->last().waits.empty());
+  b.tell_of_place("of today");
+  CHECK(b.starts() == 1);
+}
+
+TEST_CASE("what is ended while it waits to hear where its cell is stays so") {
+  interrupted_bench b;
+  b.config.knows_place = false;
+  b.find_ended(-1, false, false);
+  b.tell_of_contact(true);
+  caf::anon_send(b.instance, stop_instance{"removed", false});
+  b.settle();
+  CHECK(b.state() == instance_state::stopped);
+  b.tell_of_place("of today");
+  CHECK(b.starts() == 0);
+}
+
+TEST_CASE("what goes on and crashes later is started where its cell is then") {
+  interrupted_bench b;
+  b.config.started_in = b.config.boot;
+  b.config.knows_place = false;
+  b.config.row.spec.environment = {{"ROS_DISCOVERY_SERVER", "of yesterday"}};
+  b.adopt_as(instance_state::running, {true, "c1", -1, false, false});
+  CHECK(b.state() == instance_state::running);
+  b.tell_of_place("of today");
+  CHECK(b.starts() == 0);
+  b.exits(1);
+  b.advance(5s);
+  REQUIRE(b.starts() == 1);
+  CHECK(b.runtime->started[0].environment.at("ROS_DISCOVERY_SERVER")
+        == "of today");
 }
 
 TEST_CASE("a step that starts alone waits for nobody") {

@@ -39,7 +39,6 @@ TEST_CASE("what has run and fails is started again after a pause") {
   CHECK(b.state() == instance_state::backing_off);
   CHECK(b.reason() == "it ended with exit code 3");
   CHECK(b.told->last().next_start_unix_ms > 0);
-  CHECK(b.store->states("i").back() == "backing_off");
   b.advance(900ms);
   CHECK(b.runtime->started.size() == 1);
   b.advance(300ms);
@@ -53,6 +52,59 @@ TEST_CASE("what has run and fails is started again after a pause") {
   REQUIRE(b.told->last().ends.size() == 1);
   CHECK(b.told->last().ends[0].exit_code == 3);
   CHECK(b.told->last().ends[0].log == "first line\nlast line");
+}
+
+TEST_CASE("a new start after a short pause is written down once") {
+  restart_bench b;
+  b.policy().delay_s = 11;
+  b.start_ready();
+  const auto before = b.store->states("i").size();
+  REQUIRE(b.store->states("i").back() == "running");
+  b.pause_after_crash();
+  CHECK(b.store->states("i").size() == before);
+  b.ready();
+  CHECK(b.store->states("i").size() == before + 1);
+  CHECK(b.store->states("i").back() == "running");
+  CHECK(json::parse(b.store->records.back().value).at("restarts") == 1);
+}
+
+TEST_CASE("new starts one soon after the other are written down once") {
+  restart_bench b;
+  b.policy().max_delay_s = 1;
+  b.start_ready();
+  const auto before = b.store->states("i").size();
+  for (int i = 0; i < 20; ++i) {
+    b.pause_after_crash();
+    b.ready();
+  }
+  const auto written = b.store->states("i").size() - before;
+  CHECK(written >= 1);
+  CHECK(written <= 3);
+  CHECK(b.told->last().restarts == 20);
+}
+
+TEST_CASE("an end is told with the words of its own run") {
+  restart_bench b;
+  b.runtime->log = "of before\n[shim: started again]\nlast words\n";
+  b.start_ready();
+  b.exits(3);
+  REQUIRE(b.told->last().ends.size() == 1);
+  CHECK(b.told->last().ends[0].log == "last words");
+}
+
+TEST_CASE("a pause that a restarted node could not guess is written down") {
+  restart_bench b;
+  SECTION("it is long") {
+    b.policy().delay_s = 100;
+    b.start_ready();
+    b.exits(3);
+  }
+  SECTION("the node has ended the program itself") {
+    b.start_ready();
+    b.advance(limits::instance::watchdog + 1s);
+  }
+  REQUIRE(b.state() == instance_state::backing_off);
+  CHECK(b.store->states("i").back() == "backing_off");
 }
 
 TEST_CASE("what is ready and dies at once is not started ever faster") {

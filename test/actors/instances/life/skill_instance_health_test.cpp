@@ -12,7 +12,7 @@ namespace {
 struct measured_skill : instance_bench {
   measured_skill() {
     context.events = config.context.events =
-        roscell::spawn(system, context, event_log);
+        roscell::spawn(system, context, event_log, event_log_setup{});
     auto& spec = config.row.spec;
     spec.input = {{"ros2", "/image", "sensor_msgs/msg/Image", "camera", false}};
     spec.output = {{"ros2", "/poses", "tf2_msgs/msg/TFMessage", "", false}};

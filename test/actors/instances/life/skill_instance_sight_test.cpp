@@ -13,7 +13,7 @@ namespace {
 struct sighted_skill : instance_bench {
   sighted_skill() {
     context.events = config.context.events =
-        roscell::spawn(system, context, event_log);
+        roscell::spawn(system, context, event_log, event_log_setup{});
     graph->begin_service();
     config.graph = roscell::spawn(system, context, graph_watch, graph);
     auto& spec = config.row.spec;

@@ -11,8 +11,10 @@
 #include <chrono>
 #include <condition_variable>
 #include <deque>
+#include <filesystem>
 #include <fstream>
 #include <mutex>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -208,7 +210,9 @@ inline pid_t pid_of(const std::string& container) {
 /// The command's process, as the shim has recorded it.
 inline pid_t child_of(const process_bench& b,
                       const std::string& instance = "i") {
-  std::ifstream file{b.config.instances_dir / instance / "pid"};
+  std::istringstream file{
+      std::filesystem::read_symlink(b.config.instances_dir / instance / "pid")
+          .string()};
   pid_t shim = 0;
   unsigned long long start = 0;
   pid_t child = 0;

@@ -1,6 +1,7 @@
 #include "actors/instances/process/process_runtime.hpp"
 
 #include "actors/edge/disk/folder_hash.hpp"
+#include "actors/edge/history/kept_log_folder.hpp"
 #include "actors/edge/process/environment_file.hpp"
 #include "actors/edge/process/pidfd.hpp"
 #include "test/actors/instances/process/process_bench.hpp"
@@ -183,6 +184,32 @@ TEST_CASE("removing ends by force and leaves no file") {
   CHECK(to_failure(answer.error()).code == error_code::unknown_task);
 }
 
+TEST_CASE("a log that is kept goes to the history") {
+  process_bench b;
+  facts kept;
+  const auto history = b.system.spawn([&kept]() -> caf::behavior {
+    return {[&kept](const log_kept&) { kept.put("kept"); }};
+  });
+  b.config.kept_logs = b.folder.path() / "history";
+  b.config.history = caf::actor_cast<node_history_actor>(history);
+  b.restart();
+  b.start("echo one; exit 3");
+  b.told.await("exit 3");
+  kept_log about;
+  about.instance = "i";
+  about.ended_unix_ms = 1000;
+  b.get<container_removed>(remove_container{"i", {}, false, {about}});
+  CHECK(kept.take() == "kept");
+  CHECK(fs::is_empty(b.config.instances_dir));
+  const kept_log_folder folder{b.config.kept_logs};
+  REQUIRE(folder.newest_of("i"));
+  CHECK(folder.newest_of("i")->read_from(0).text == "one\n");
+  // What is not there any more is no reason to fail.
+  b.get<container_removed>(remove_container{"i", {}, false, {about}});
+  CHECK(folder.list({}).logs.size() == 1);
+  end_and_await(b.self, history);
+}
+
 TEST_CASE("an instance that runs is not started twice") {
   process_bench b;
   b.start(endless);
@@ -196,13 +223,25 @@ TEST_CASE("an instance that runs is not started twice") {
   CHECK_FALSE(b.ask<container_started>(wish));
 }
 
-TEST_CASE("an ended instance can be started again with a fresh log") {
+TEST_CASE("the log of an instance that is started again goes on") {
   process_bench b;
   b.start("echo one");
   b.told.await("exit 0");
+  b.get<container_removed>(remove_container{"i", {}, true});
   b.start("echo two");
   b.told.await("exit 0");
-  CHECK(b.log(0).text == "two\n");
+  CHECK(b.log(0).text == "one\n[shim: started again]\ntwo\n");
+}
+
+TEST_CASE("the last program of an instance is adopted, whatever is on record") {
+  process_bench b;
+  const auto before = b.start("echo one");
+  b.told.await("exit 0");
+  const auto present = b.start(endless);
+  b.restart();
+  const auto adopted = b.get<container_adopted>(adopt_container{"i", before});
+  CHECK(adopted.running);
+  CHECK(adopted.container == present);
 }
 
 TEST_CASE("a restarted runtime adopts what runs and sees its end") {

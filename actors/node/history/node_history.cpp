@@ -1,0 +1,59 @@
+#include "actors/node/history/node_history.hpp"
+
+#include "actors/house/edge_failure.hpp"
+#include "actors/house/told_times.hpp"
+#include "actors/node/history/kept_log_reading.hpp"
+
+#include <caf/result.hpp>
+
+#include <utility>
+#include <variant>
+
+namespace roscell {
+
+namespace {
+
+using node_history_self =
+    node_history_actor::stateful_pointer<node_history_state>;
+
+caf::result<events_written> write_batch(node_history_self self,
+                                        event_batch batch) {
+  auto& st = self->state;
+  const auto count = batch.events.size();
+  const auto shift = to_wall_clock();
+  for (auto& x : batch.events)
+    x.time_unix_ms = shift(x.time_unix_ms);
+  auto done = st.folder->write(batch);
+  if (auto* why = std::get_if<edge_error>(&done)) {
+    st.refused += count;
+    return to_caf(*why);
+  }
+  st.written += count;
+  return std::get<events_written>(done);
+}
+
+} // namespace
+
+node_history_actor::behavior_type
+node_history(node_history_self self, std::shared_ptr<history_folder> folder) {
+  self->state.folder = std::move(folder);
+  return {
+      [self](const state_query&) {
+        return state_of({{"events_written", self->state.written},
+                         {"events_refused", self->state.refused}});
+      },
+      [self](const event_batch& x) { return write_batch(self, x); },
+      [self](const past_events_query& x) {
+        return kept_events{self->state.folder->read(x)};
+      },
+      [self](const log_kept&) { self->state.folder->hold_bound(); },
+      [self](const log_query& x) {
+        return read_kept_log(*self->state.folder, x);
+      },
+      [self](const kept_logs_query& x) {
+        return list_kept_logs(*self->state.folder, x);
+      },
+  };
+}
+
+} // namespace roscell

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "actors/edge/history/history_folder.hpp"
+#include "actors/house/house.hpp"
+#include "messages/messages.hpp"
+
+#include <memory>
+
+namespace roscell {
+
+/// Owns what the node keeps of the past. It blocks on the disk.
+struct node_history_state {
+  static constexpr const char* name = "node-history";
+
+  std::shared_ptr<history_folder> folder;
+  uint64_t written = 0; ///< Events.
+  uint64_t refused = 0; ///< Those that could not be written.
+};
+
+/// The NODE HISTORY. Messages: messages/inside/history.hpp.
+node_history_actor::behavior_type
+node_history(node_history_actor::stateful_pointer<node_history_state> self,
+             std::shared_ptr<history_folder> folder);
+
+} // namespace roscell
