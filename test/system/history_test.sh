@@ -125,8 +125,8 @@ restarts() {
   get head /v1/instances | jq '.instances[0].restarts'
 }
 
-test_a_restart_writes_at_most_20_kb() {
-  local bytes count
+test_a_loop_of_restarts_is_counted_and_each_writes_at_most_20_kb() {
+  local bytes count kept
   make_crasher
   start_node head --coordinator --cell line --interface lo
   jq -n --arg dir "$scratch" '{type: "task_request", task: "t", pipeline: [
@@ -143,6 +143,12 @@ test_a_restart_writes_at_most_20_kb() {
   await_restarts $((count + 40))
   bytes=$(($(written) - bytes))
   count=$(($(restarts) - count))
+  # The same ten a minute are kept; of the others the last one is told.
+  kept=$(get head '/v1/events?since=0&follow=0' | sed -n 's/^data: //p' \
+    | jq -s 'map(select(.event == "instance_changed" and .passing != true)) | length')
+  ((kept >= 10 && kept <= 13)) || fail "$kept changes are kept"
+  has_line '"passing":true' \
+    <<< "$(get head '/v1/events?since=0&follow=0')" || fail "the present is not told"
   ((bytes > 0)) || skip "the file system of $scratch counts no writes"
   echo "$((bytes / count)) bytes a restart, in $count"
   ((bytes / count <= 20000)) \
