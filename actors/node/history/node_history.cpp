@@ -1,11 +1,13 @@
 #include "actors/node/history/node_history.hpp"
 
+#include "actors/house/delay.hpp"
 #include "actors/house/edge_failure.hpp"
 #include "actors/house/told_times.hpp"
 #include "actors/node/history/kept_log_reading.hpp"
 
 #include <caf/result.hpp>
 
+#include <chrono>
 #include <utility>
 #include <variant>
 
@@ -32,6 +34,23 @@ caf::result<events_written> write_batch(node_history_self self,
   return std::get<events_written>(done);
 }
 
+/// It looks at all that is kept, which tasks that come and go without end would
+/// have it do each time.
+void on_log_kept(node_history_self self) {
+  using namespace std::chrono;
+  constexpr seconds pause{1};
+  auto& st = self->state;
+  const auto now = self->clock().now();
+  if (now - st.held_at >= pause) {
+    st.holds_soon = false;
+    st.held_at = now;
+    return st.folder->hold_bound();
+  }
+  if (!std::exchange(st.holds_soon, true))
+    send_lasting_actor_later(node_history_actor{self},
+                             pause - (now - st.held_at), log_kept{});
+}
+
 } // namespace
 
 node_history_actor::behavior_type
@@ -46,7 +65,7 @@ node_history(node_history_self self, std::shared_ptr<history_folder> folder) {
       [self](const past_events_query& x) {
         return kept_events{self->state.folder->read(x)};
       },
-      [self](const log_kept&) { self->state.folder->hold_bound(); },
+      [self](const log_kept&) { on_log_kept(self); },
       [self](const log_query& x) {
         return read_kept_log(*self->state.folder, x);
       },

@@ -4,6 +4,7 @@
 #include "actors/house/house.hpp"
 #include "messages/messages.hpp"
 
+#include <chrono>
 #include <memory>
 
 namespace roscell {
@@ -15,6 +16,10 @@ struct node_history_state {
   std::shared_ptr<history_folder> folder;
   uint64_t written = 0; ///< Events.
   uint64_t refused = 0; ///< Those that could not be written.
+  /// When the bound was held for the sake of logs, and whether it will be
+  /// again.
+  std::chrono::steady_clock::time_point held_at{};
+  bool holds_soon = false;
 };
 
 /// The NODE HISTORY. Messages: messages/inside/history.hpp.

@@ -3,6 +3,7 @@
 #include "actors/edge/http/client/http_client.hpp"
 #include "messages/codec/json_codec.hpp"
 #include "messages/event.hpp"
+#include "messages/inside/history.hpp"
 #include "tools/roscell/client/target.hpp"
 #include "tools/roscell/exit_code.hpp"
 

@@ -10,6 +10,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <deque>
 #include <memory>
@@ -81,8 +82,12 @@ uint64_t visit_past(const node_client& node, const event_start& from,
   };
   while (from.on_disk && take_part()) {
   }
-  for (const auto& e : kept_events_of(node, query.since)) {
-    query.since = e.sequence;
+  // From the beginning: one that is only counted, and says what is true now,
+  // has the number of the one before it.
+  for (const auto& e : kept_events_of(node, from.number)) {
+    if (!e.passing && e.sequence <= query.since)
+      continue;
+    query.since = std::max(query.since, e.sequence);
     if (e.time_unix_ms >= from.unix_ms)
       take(e);
   }
