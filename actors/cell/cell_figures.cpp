@@ -1,5 +1,6 @@
 #include "actors/cell/cell_figures.hpp"
 
+#include "actors/cell/state/open_questions.hpp"
 #include "actors/cell/streams/cell_streams.hpp"
 #include "actors/cell/tasks/task_views.hpp"
 #include "actors/house/limits.hpp"
@@ -17,16 +18,8 @@ namespace roscell {
 
 namespace {
 
-/// A question to several nodes, until all have answered.
-struct figures_tally {
-  size_t open = 1;            ///< The asker itself, until it has asked all.
+struct figures_tally : open_questions {
   std::set<std::string> told; ///< The nodes that have answered.
-  std::function<void()> on_all;
-
-  void finish_one() {
-    if (--open == 0)
-      on_all();
-  }
 };
 
 void ask_node(coordinator_pointer self, const registry_entry& entry,
@@ -49,7 +42,6 @@ void ask_node(coordinator_pointer self, const registry_entry& entry,
 void ask_nodes(coordinator_pointer self, const std::set<std::string>& nodes,
                std::function<void()> on_all) {
   auto tally = std::make_shared<figures_tally>();
-  // It must not hold itself.
   tally->on_all = [self, known = tally.get(), on_all = std::move(on_all)] {
     judge_streams(self, known->told);
     on_all();

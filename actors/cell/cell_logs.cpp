@@ -1,5 +1,6 @@
 #include "actors/cell/cell_logs.hpp"
 
+#include "actors/cell/state/open_questions.hpp"
 #include "actors/cell/tasks/task_views.hpp"
 #include "actors/house/limits.hpp"
 #include "messages/failure.hpp"
@@ -20,25 +21,20 @@ namespace {
 
 using log_promise = caf::typed_response_promise<log_excerpt>;
 
-/// A question to all nodes, until the last has answered.
-struct log_tally {
-  size_t open = 1; ///< The asker itself, until it has asked all.
+struct log_tally : open_questions {
   kept_logs found;
-  std::function<void(kept_logs)> on_all;
-
-  void finish_one() {
-    if (--open > 0)
-      return;
-    auto& logs = found.logs;
-    std::stable_sort(logs.begin(), logs.end(),
-                     [](const kept_log& x, const kept_log& y) {
-                       return y.ended_unix_ms < x.ended_unix_ms;
-                     });
-    if (logs.size() > limits::history::told_logs)
-      logs.resize(limits::history::told_logs);
-    on_all(std::move(found));
-  }
 };
+
+/// The newest of all nodes.
+void put_in_order(kept_logs& found) {
+  auto& logs = found.logs;
+  std::stable_sort(logs.begin(), logs.end(),
+                   [](const kept_log& x, const kept_log& y) {
+                     return y.ended_unix_ms < x.ended_unix_ms;
+                   });
+  if (logs.size() > limits::history::told_logs)
+    logs.resize(limits::history::told_logs);
+}
 
 void ask_for_logs(coordinator_pointer self, const std::string& node,
                   const kept_logs_query& query,
@@ -66,7 +62,10 @@ void ask_for_logs(coordinator_pointer self, const std::string& node,
 void ask_all_for_logs(coordinator_pointer self, const kept_logs_query& query,
                       std::function<void(kept_logs)> on_all) {
   auto tally = std::make_shared<log_tally>();
-  tally->on_all = std::move(on_all);
+  tally->on_all = [known = tally.get(), on_all = std::move(on_all)] {
+    put_in_order(known->found);
+    on_all(std::move(known->found));
+  };
   for (const auto& row : self->state.registry.rows())
     ask_for_logs(self, row.identity.name, query, tally);
   tally->finish_one();
