@@ -3,6 +3,7 @@
 #include "actors/edge/io/unique_fd.hpp"
 
 #include <fcntl.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -48,6 +49,18 @@ std::optional<std::string> read_small_file(const std::filesystem::path& path,
     result.shrink_to_fit();
     return result;
   }
+}
+
+bool write_whole(int fd, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const auto n = ::write(fd, bytes.data(), bytes.size());
+    if (n < 0 && errno == EINTR)
+      continue;
+    if (n <= 0)
+      return false;
+    bytes.remove_prefix(static_cast<size_t>(n));
+  }
+  return true;
 }
 
 } // namespace roscell

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace roscell {
 
@@ -10,5 +11,9 @@ namespace roscell {
 /// Nothing if it cannot be read or is longer than `max_bytes`.
 std::optional<std::string> read_small_file(const std::filesystem::path& path,
                                            size_t max_bytes);
+
+/// Writes all of `bytes`, however often the kernel takes a part only. False
+/// with errno set: some of it may have been written.
+bool write_whole(int fd, std::string_view bytes);
 
 } // namespace roscell

@@ -1,5 +1,6 @@
 #include "actors/edge/history/event_files.hpp"
 
+#include "actors/edge/disk/small_file.hpp"
 #include "actors/edge/history/event_lines.hpp"
 #include "actors/edge/io/unique_fd.hpp"
 #include "actors/house/limits.hpp"
@@ -61,16 +62,11 @@ bool ends_whole(int fd, off_t size) {
   return size == 0 || (::pread(fd, &last, 1, size - 1) == 1 && last == '\n');
 }
 
-bool write_all(int fd, std::string_view text) {
-  while (!text.empty()) {
-    const auto n = ::write(fd, text.data(), text.size());
-    if (n < 0 && errno == EINTR)
-      continue;
-    if (n <= 0)
-      return false;
-    text.remove_prefix(static_cast<size_t>(n));
-  }
-  return true;
+/// A file that was just made is there after a loss of power only with its name.
+bool keep_name_in(const fs::path& folder) {
+  const unique_fd fd{
+      ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)};
+  return fd && ::fsync(fd.get()) == 0;
 }
 
 } // namespace
@@ -91,18 +87,18 @@ fs::path event_files::path_of(uint64_t first) const {
   return folder_ / (std::string{events_prefix} + std::to_string(first));
 }
 
-/// The last file while it is small and young, else a new one.
+/// The last file while it is small and young, else a new one. A clock that was
+/// set back does not make that one look older than what is in it.
 uint64_t event_files::file_for(uint64_t first, int64_t now_unix_ms) const {
   using std::chrono::milliseconds;
   if (files_.empty())
     return first;
   const auto& [begin, last] = *files_.rbegin();
   const auto since = begun_unix_ms_ > 0 ? begun_unix_ms_ : last.written_unix_ms;
-  return last.bytes < limits::history::file_bytes
-                 && milliseconds{now_unix_ms - since}
-                        < limits::history::file_age
-             ? begin
-             : first;
+  const bool is_young =
+      now_unix_ms >= last.written_unix_ms
+      && milliseconds{now_unix_ms - since} < limits::history::file_age;
+  return is_young && last.bytes < limits::history::file_bytes ? begin : first;
 }
 
 std::optional<edge_error> event_files::append(const std::vector<event>& events,
@@ -122,7 +118,8 @@ std::optional<edge_error> event_files::append(const std::vector<event>& events,
   std::string text{ends_whole(fd.get(), info.st_size) ? "" : "\n"};
   for (const auto& x : events)
     text += line_of(x);
-  if (!write_all(fd.get(), text) || ::fdatasync(fd.get()) != 0) {
+  if (!write_whole(fd.get(), text) || ::fdatasync(fd.get()) != 0
+      || (is_new && !keep_name_in(folder_))) {
     const int problem = errno;
     if (is_new)
       ::unlink(path.c_str());

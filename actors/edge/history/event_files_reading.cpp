@@ -1,54 +1,32 @@
 #include "actors/edge/history/event_files.hpp"
 
 #include "actors/edge/history/event_lines.hpp"
-#include "actors/edge/io/unique_fd.hpp"
 #include "actors/house/limits.hpp"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
+#include <fstream>
+#include <limits>
 #include <string>
 #include <utility>
 
 /// How events are read back.
 namespace roscell {
 
-namespace {
-
-/// The whole of a file, at most as much as one of ours holds.
-std::string content_of(const std::filesystem::path& path) {
-  constexpr size_t most =
-      limits::history::file_bytes + limits::history::batch * 4 * limits::kib;
-  const unique_fd fd{::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW)};
-  struct stat info {};
-  if (!fd || ::fstat(fd.get(), &info) != 0 || !S_ISREG(info.st_mode))
-    return {};
-  std::string result(std::min(static_cast<size_t>(info.st_size), most), '\0');
-  size_t size = 0;
-  while (size < result.size()) {
-    const auto n = ::read(fd.get(), &result[size], result.size() - size);
-    if (n < 0 && errno == EINTR)
-      continue;
-    if (n <= 0)
-      break;
-    size += static_cast<size_t>(n);
-  }
-  result.resize(size);
-  return result;
-}
-
-} // namespace
-
-/// Calls `on_line` with number and text of each line, until it says false.
+/// Calls `on_line` with number and text of each line, until it says false. What
+/// is longer than any of ours is passed over.
 void event_files::visit(uint64_t first, const visitor& on_line) const {
-  const auto text = content_of(path_of(first));
-  for (std::string_view rest{text}; !rest.empty();) {
-    const auto end = std::min(rest.find('\n'), rest.size());
-    const auto line = rest.substr(0, end);
-    rest.remove_prefix(std::min(end + 1, rest.size()));
+  std::ifstream in{path_of(first), std::ios::binary};
+  std::string buffer(limits::history::line_bytes + 1, '\0');
+  while (in.good()) {
+    in.getline(buffer.data(), static_cast<std::streamsize>(buffer.size()));
+    if (in.fail() && !in.eof() && !in.bad()) {
+      in.clear();
+      in.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
+      continue;
+    }
+    // The newline is counted, but is not there.
+    const auto size = static_cast<size_t>(in.gcount()) - (in.good() ? 1 : 0);
+    const std::string_view line{buffer.data(), size};
     if (const auto number = number_of(line); number && !on_line(*number, line))
       return;
   }
@@ -81,22 +59,25 @@ uint64_t event_files::begin_of_newest(uint64_t since, uint64_t count) const {
   return since;
 }
 
-/// The number after which those of `unix_ms` or later begin.
+/// The number after which those of `unix_ms` or later begin. What is in a file
+/// is not younger than the file, so that most need not be read.
 uint64_t event_files::begin_of_time(uint64_t since, int64_t unix_ms) const {
-  uint64_t result = since;
+  auto i = std::find_if(files_.begin(), files_.end(), [&](const auto& x) {
+    return x.second.written_unix_ms >= unix_ms;
+  });
+  if (i == files_.end())
+    return std::max(since, highest());
+  since = std::max(since, i->first - 1);
   bool found = false;
-  for (auto i = files_.begin(); i != files_.end() && !found; ++i) {
-    // What is in a file is not younger than the file.
-    const bool may_hold = i->second.written_unix_ms >= unix_ms;
+  for (; i != files_.end() && !found; ++i)
     visit(i->first, [&](uint64_t number, std::string_view line) {
-      const auto x = may_hold ? event_of(line) : std::nullopt;
+      const auto x = event_of(line);
       found = x && x->time_unix_ms >= unix_ms;
       if (!found)
-        result = std::max(result, number);
+        since = std::max(since, number);
       return !found;
     });
-  }
-  return result;
+  return since;
 }
 
 std::vector<event> event_files::read(const past_events_query& query) const {

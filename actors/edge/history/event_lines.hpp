@@ -11,7 +11,9 @@
 /// JSON, so that a reader that looks for a number need not read the rest.
 namespace roscell {
 
-/// With the newline. Bytes that are no UTF-8 are replaced.
+/// With the newline, and never longer than what is read back: particulars that
+/// are too long are left out, with their size, and a long subject is cut. Bytes
+/// that are no UTF-8 are replaced.
 std::string line_of(const event& x);
 
 /// The number that a line begins with; none: it is not such a line.

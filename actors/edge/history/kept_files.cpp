@@ -1,12 +1,11 @@
 #include "actors/edge/history/kept_files.hpp"
 
+#include "actors/edge/disk/small_file.hpp"
 #include "actors/edge/io/unique_fd.hpp"
 
 #include <fcntl.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 
 namespace roscell {
 
@@ -51,17 +50,7 @@ bool write_file(const fs::path& path, std::string_view bytes) {
   const unique_fd fd{
       ::open(path.c_str(),
              O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0600)};
-  if (!fd)
-    return false;
-  while (!bytes.empty()) {
-    const auto n = ::write(fd.get(), bytes.data(), bytes.size());
-    if (n < 0 && errno == EINTR)
-      continue;
-    if (n <= 0)
-      return false;
-    bytes.remove_prefix(static_cast<size_t>(n));
-  }
-  return true;
+  return fd && write_whole(fd.get(), bytes);
 }
 
 } // namespace roscell

@@ -4,6 +4,7 @@
 #include "actors/edge/history/kept_files.hpp"
 #include "actors/house/limits.hpp"
 #include "schemas/decode.hpp"
+#include "schemas/document.hpp"
 #include "schemas/message_catalogue.hpp"
 
 #include <sys/stat.h>
@@ -113,10 +114,11 @@ std::optional<kept_log> kept_log_folder::read(const entry& x) const {
   if (x.instance.empty() || !is_file(file))
     return std::nullopt;
   const auto text = read_small_file(file, limits::history::about_bytes);
-  const auto document = text ? json::parse(*text, nullptr, false) : json{};
-  if (!document.is_object() || validate_message(document))
+  const auto parsed = parse_document(text.value_or(std::string{}));
+  const auto* document = std::get_if<json>(&parsed);
+  if (document == nullptr || validate_message(*document))
     return std::nullopt;
-  auto about = decode<kept_logs>(document);
+  auto about = decode<kept_logs>(*document);
   auto* found = std::get_if<kept_logs>(&about);
   if (found == nullptr || found->logs.size() != 1
       || found->logs.front().instance != x.instance)

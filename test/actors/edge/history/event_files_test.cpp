@@ -102,6 +102,15 @@ TEST_CASE("a clock that is set back hides nothing that came later") {
   CHECK(all_of(files, {0, now_ms + 5, 0}) == std::vector<uint64_t>{2, 3, 4});
 }
 
+TEST_CASE("a host that begins in 1970 hides nothing of the days before") {
+  own_folder folder;
+  event_files files{folder.path()};
+  REQUIRE_FALSE(files.append(from_to(1, 3), now_ms + 3));
+  REQUIRE_FALSE(files.append({numbered(4, 1000)}, 1000));
+  REQUIRE_FALSE(files.append({numbered(5, now_ms + 50)}, now_ms + 50));
+  CHECK(all_of(files, {0, now_ms + 2, 0}) == std::vector<uint64_t>{2, 3, 4, 5});
+}
+
 TEST_CASE("a line that a loss of power has torn costs itself alone") {
   own_folder folder;
   {
@@ -172,4 +181,44 @@ TEST_CASE("what cannot be written whole is taken back") {
   CHECK(why->message.find("events.1") != std::string::npos);
   CHECK_FALSE(why->hint.empty());
   CHECK(files.bytes() == 0);
+}
+
+TEST_CASE("what is too long for a line is kept without its particulars") {
+  own_folder folder;
+  event_files files{folder.path()};
+  auto long_event = numbered(1);
+  long_event.data = R"({"x":")" + std::string(limits::mib, 'x') + R"("})";
+  auto long_subject = numbered(2);
+  long_subject.subject = std::string(255, 's') + "\xC3\xA4 and more";
+  REQUIRE_FALSE(files.append({long_event, long_subject, numbered(3)}, now_ms));
+  const auto found = files.read({});
+  REQUIRE(numbers_of(found) == std::vector<uint64_t>{1, 2, 3});
+  CHECK(found[0].data
+        == R"({"left_out_bytes":)" + std::to_string(long_event.data.size())
+               + "}");
+  CHECK(found[1].subject == std::string(255, 's'));
+  CHECK(found[1].data == long_subject.data);
+}
+
+TEST_CASE("a batch of long events is read back whole") {
+  own_folder folder;
+  event_files files{folder.path()};
+  std::vector<event> batch;
+  for (uint64_t i = 1; i <= limits::history::batch; ++i) {
+    batch.push_back(numbered(i));
+    batch.back().data = R"({"x":")" + std::string(60'000, 'x') + R"("})";
+  }
+  REQUIRE_FALSE(files.append(batch, now_ms));
+  CHECK(event_files{folder.path()}.highest() == limits::history::batch);
+  CHECK(all_of(files).size() == limits::history::batch);
+}
+
+TEST_CASE("the past begins at a time in whichever file that is") {
+  own_folder folder;
+  event_files files{folder.path()};
+  fill_files(files, 5);
+  const auto age = std::chrono::milliseconds{limits::history::file_age}.count();
+  CHECK(all_of(files, {0, now_ms + 3 * age, 0}) == std::vector<uint64_t>{4, 5});
+  CHECK(all_of(files, {4, now_ms + 3 * age, 0}) == std::vector<uint64_t>{5});
+  CHECK(all_of(files, {0, now_ms + 5 * age, 0}).empty());
 }
