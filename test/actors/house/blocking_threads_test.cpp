@@ -6,6 +6,7 @@
 #include <caf/scoped_actor.hpp>
 
 #include <condition_variable>
+#include <memory>
 #include <mutex>
 #include <set>
 #include <thread>
@@ -19,9 +20,10 @@ using namespace std::chrono_literals;
 using blocked_actor = caf::typed_actor<caf::replies_to<int>::with<int>>;
 
 /// Who works, and on which threads; they go on when they are let go.
-class gate {
+class gate : public std::enable_shared_from_this<gate> {
 public:
   void pass(bool blocks) {
+    tell_of_end();
     std::unique_lock lock{mutex_};
     threads_.insert(std::this_thread::get_id());
     ++within_;
@@ -33,6 +35,13 @@ public:
   bool await(size_t within) {
     std::unique_lock lock{mutex_};
     return changed_.wait_for(lock, 20s, [&] { return within_ >= within; });
+  }
+
+  /// Until `is_so`, which is looked at when a thread has ended.
+  template <class Predicate>
+  bool await_ends(Predicate&& is_so) {
+    std::unique_lock lock{mutex_};
+    return changed_.wait_for(lock, 20s, is_so);
   }
 
   void open() {
@@ -47,6 +56,19 @@ public:
   }
 
 private:
+  /// The present thread says when it ends, which may be after the test has.
+  void tell_of_end() {
+    struct last_word {
+      std::shared_ptr<gate> at;
+
+      ~last_word() {
+        const std::lock_guard lock{at->mutex_};
+        at->changed_.notify_all();
+      }
+    };
+    thread_local const last_word at_end{shared_from_this()};
+  }
+
   std::mutex mutex_;
   std::condition_variable changed_;
   bool open_ = false;
@@ -77,7 +99,7 @@ struct on_blocking_threads {
   }
 
   blocked_actor start() {
-    return spawn_blocking(*system, context, blocked, &at);
+    return spawn_blocking(*system, context, blocked, at.get());
   }
 
   /// What the actor answers; -1: nothing in time.
@@ -90,16 +112,12 @@ struct on_blocking_threads {
   }
 
   bool becomes(size_t threads) {
-    const auto end = std::chrono::steady_clock::now() + 20s;
-    while (context.blocking->size() != threads
-           && std::chrono::steady_clock::now() < end)
-      std::this_thread::sleep_for(10ms);
-    return context.blocking->size() == threads;
+    return at->await_ends([&] { return context.blocking->size() == threads; });
   }
 
   caf::actor_system_config config;
   house context;
-  gate at;
+  std::shared_ptr<gate> at = std::make_shared<gate>();
   std::unique_ptr<caf::actor_system> system; // Ends first.
 };
 
@@ -112,12 +130,12 @@ TEST_CASE("an actor that hangs on a disk holds up no other, and no worker",
   const auto second = x.start();
   caf::anon_send(first, 1);
   caf::anon_send(second, 1);
-  REQUIRE(x.at.await(2));
+  REQUIRE(x.at->await(2));
   // The one worker of the scheduler answers, and so does a third.
-  const auto scheduled = spawn(*x.system, x.context, blocked, &x.at);
+  const auto scheduled = spawn(*x.system, x.context, blocked, x.at.get());
   CHECK(x.ask(scheduled, 2) == 2);
   CHECK(x.ask(x.start(), 4) == 4);
-  x.at.open();
+  x.at->open();
   CHECK(x.ask(first, 2) == 2);
 }
 
@@ -129,15 +147,15 @@ TEST_CASE("actors that block now and then keep one thread among them",
     actors.push_back(x.start());
   for (const auto& actor : actors)
     caf::anon_send(actor, 1);
-  REQUIRE(x.at.await(actors.size()));
+  REQUIRE(x.at->await(actors.size()));
   CHECK(x.context.blocking->size() == actors.size());
-  x.at.open();
+  x.at->open();
   CHECK(x.becomes(1));
   // That one is not given up for new ones.
-  const auto before = x.at.threads();
+  const auto before = x.at->threads();
   for (const auto& actor : actors)
     CHECK(x.ask(actor, 2) == 2);
-  CHECK(x.at.threads() <= before + 1);
+  CHECK(x.at->threads() <= before + 1);
 }
 
 TEST_CASE("threads of actors that block end with the last of them",
