@@ -64,6 +64,19 @@ test_data_flow_after_all_hosts_were_off() {
   done < <(of_matrix $'head left right\nright left head' "$(orders_of_hosts)")
 }
 
+# What is started in the morning is to look for its cell where that is now.
+test_data_flow_after_a_night_that_moved_the_coordinator() {
+  local name
+  start_day
+  for name in right left head; do kill_host "$name"; done
+  readdress head 10.231.7.9
+  for name in left head right; do start_node_of "$name"; done
+  await_member left
+  await_member right
+  start_guest
+  day_ends 15
+}
+
 orders_of_hosts() {
   printf '%s\n' "head left right" "head right left" "left head right" \
     "right head left" "left right head" "right left head"
