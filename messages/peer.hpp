@@ -206,10 +206,12 @@ struct switch_accepted {
 /// Asks a node for what a proof must contain.
 struct registration_query {
   static constexpr const char* type = "registration_query";
-  std::string nonce; ///< Of who asks for a proof of the standing, if any.
+  std::string nonce; ///< Of who asks.
+  std::string proof; ///< That he has the site token, over the nonce.
 
   static constexpr auto fields() {
-    return field_list{optional("nonce", &registration_query::nonce)};
+    return field_list{optional("nonce", &registration_query::nonce),
+                      optional("proof", &registration_query::proof)};
   }
 };
 

@@ -76,6 +76,8 @@ trap 'exit 130' INT
 trap 'exit 143' TERM
 trap 'exit 129' HUP
 mkdir -p "$dir/out/pictures" "$kept"
+# By it these nodes know each other, and it goes with them.
+export ROSCELL_SITE_TOKEN=$dir/site.token
 
 # user_engine: the socket of a container engine that this user may ask.
 user_engine() {

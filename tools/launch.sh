@@ -172,6 +172,16 @@ if [[ -z $data_dir ]]; then
     || data_dir=${XDG_STATE_HOME:-$HOME/.local/state}/roscell
 fi
 mkdir -p -m 0700 "$data_dir"
+# What this user's nodes on this host share, wherever they run.
+token=${ROSCELL_SITE_TOKEN:-}
+if [[ -z $token ]]; then
+  token=/etc/roscell/site.token
+  [[ $(id -u) -eq 0 ]] \
+    || token=${XDG_CONFIG_HOME:-$HOME/.config}/roscell/site.token
+fi
+token_dir=$(dirname "$token")
+[[ -d $token_dir ]] || mkdir -p -m "$([[ $(id -u) -eq 0 ]] && echo 0755 || echo 0700)" "$token_dir"
+mounts+=("$token_dir")
 if [[ ${#shares[@]} -eq 0 ]]; then
   for folder in /home /media /mnt /srv /tmp; do
     [[ -d $folder ]] && shares+=("$folder")
@@ -209,7 +219,7 @@ run_options=(--name "$container" --network host --ipc host --pid host
   --ulimit "nofile=$(least "$(ulimit -Sn)" 65536)"
   --ulimit "nproc=$(least "$(ulimit -Su)" 4096)"
   --volume /dev:/dev --volume "$socket:$socket" "${volumes[@]}"
-  --env "ROSCELL_TO=$data_dir/node.sock")
+  --env "ROSCELL_TO=$data_dir/node.sock" --env "ROSCELL_SITE_TOKEN=$token")
 node_command=(node --data-dir "$data_dir" --runtime "$program:$socket"
   "${node_options[@]}")
 

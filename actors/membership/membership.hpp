@@ -1,6 +1,7 @@
 #pragma once
 
 #include "actors/edge/session/registration_proof.hpp"
+#include "actors/edge/site/site_secret.hpp"
 #include "actors/house/alarm.hpp"
 #include "actors/house/backoff.hpp"
 #include "actors/house/house.hpp"
@@ -40,7 +41,7 @@ struct membership_config {
   /// As an earlier run has stored it. One of a cell is taken up at once.
   std::optional<membership_record> restored;
   std::string configured;    ///< How the node is started now; see the record.
-  std::string site_token;    ///< Proves switches; empty: none is installed.
+  site_secret site;          ///< Proves switches.
   int64_t public_domain = 0; ///< In which the node sees others.
   /// Tells other hosts where this node's address is; empty: nothing tells.
   std::function<void()> claim_address{};
@@ -74,6 +75,8 @@ constexpr auto enum_words(membership_phase) {
 struct switch_attempt {
   registration_switch order;
   node_state standing = node_state::independent;
+  /// `resting` or `joined`; any other was an attempt, which is over.
+  membership_phase phase = membership_phase::resting;
   std::string wanted;
   join_origin origin = join_origin::given;
 };
@@ -105,8 +108,12 @@ struct membership_status : held_session {
 
   coordinators_seen coordinators;       ///< While the node announces itself.
   std::optional<node_presence> hurried; ///< For whom a pause was cut short.
-  std::string asked;                    ///< The one that is asked for a place.
-  std::optional<node_presence> shown;   ///< What the node announces.
+  /// Where the cell of an orphan is now, as somebody announces without proof:
+  /// tried in turn with where it was. Empty: nobody announces another place.
+  std::string announced_place;
+  bool owes_former = false; ///< The next attempt is where the cell was.
+  std::string asked;        ///< The one that is asked for a place.
+  std::optional<node_presence> shown; ///< What the node announces.
 
   registration_challenges challenges;
   std::optional<switch_attempt> switching;

@@ -66,6 +66,8 @@ void on_registered(self_pointer self, const node_registered& reply) {
   st.trouble.clear();
   st.report.clear();
   st.switching.reset();
+  st.announced_place.clear();
+  st.owes_former = false;
   withdraw_presence_now(self);
   store_membership(self);
   tell(self, "cell_joined",
@@ -79,20 +81,6 @@ void on_registered(self_pointer self, const node_registered& reply) {
   apply(self, reply.verdicts);
   for (const auto& [instance, fact] : std::exchange(st.unsent, {}))
     notify(self, fact);
-}
-
-/// Leaves what identifies an instance and how it is. The coordinator knows the
-/// rest; hundreds of whole rows would not fit into one frame.
-void shorten(instance_row& row) {
-  row.log_tail.clear();
-  if (row.ends.size() > limits::instance::registered_ends)
-    row.ends.resize(limits::instance::registered_ends);
-  for (auto& end : row.ends)
-    end.log.clear();
-  row.spec.input.clear();
-  row.spec.output.clear();
-  row.spec.parameters.clear();
-  row.spec.environment.clear();
 }
 
 node_registration registration_of(const membership_status& st) {
@@ -237,6 +225,18 @@ std::chrono::milliseconds pause_before_next(membership_status& st) {
 
 } // namespace
 
+void shorten(instance_row& row) {
+  row.log_tail.clear();
+  if (row.ends.size() > limits::instance::registered_ends)
+    row.ends.resize(limits::instance::registered_ends);
+  for (auto& end : row.ends)
+    end.log.clear();
+  row.spec.input.clear();
+  row.spec.output.clear();
+  row.spec.parameters.clear();
+  row.spec.environment.clear();
+}
+
 bool is_current(self_pointer self, uint64_t attempt, phase where) {
   return self->state.attempt == attempt && self->state.phase == where;
 }
@@ -340,6 +340,9 @@ void attempt_failed(self_pointer self, const std::string& reason,
   // Who has looked around knows better than who has waited in vain.
   if (!std::exchange(self->state.diagnosed, false))
     complain(self, reason, hint);
+  // A session that was lost is no attempt.
+  if (self->state.phase != phase::joined)
+    turn_elsewhere(self, false);
   forget_place(self);
   retreat(self, reason, pause_before_next(self->state));
 }
@@ -357,8 +360,17 @@ void attempt_refused(self_pointer self, const std::string& reason,
       data["hint"] = hint;
     tell(self, "join_refused", std::move(data));
   }
+  const bool elsewhere = turn_elsewhere(self, true);
+  const bool asked = st.phase == phase::asking;
   forget_place(self);
-  retreat(self, reason, limits::membership::refusal_pause);
+  // Who announces himself as a coordinator and refuses, because he is of
+  // another site, keeps nobody from asking the next one.
+  if (elsewhere)
+    retreat(self, reason, pause_before_next(st));
+  else if (asked && st.coordinators.place_giver() != nullptr)
+    retreat(self, reason, limits::membership::gathering);
+  else
+    retreat(self, reason, limits::membership::refusal_pause);
 }
 
 } // namespace roscell::membership_steps

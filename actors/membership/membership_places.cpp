@@ -78,19 +78,33 @@ bool is_own_cell(const membership_status& st, const node_presence& who) {
   return known ? who.cell_uuid == st.cell_uuid : who.cell == st.cell;
 }
 
+/// Where the node was in its cell, as a handshake has proven; empty: unknown.
+std::string former_place(const membership_status& st) {
+  return st.stored ? st.stored->discovery_server : std::string{};
+}
+
 /// The coordinator that an orphan waits for is back, maybe at a new address.
+/// Everybody may say so: what leads elsewhere waits while another such place is
+/// tried, and until the former one has been tried after it.
 void return_to(self_pointer self, const node_presence& who) {
   auto& st = self->state;
+  const auto former = former_place(st);
+  const bool leads_away = who.discovery_server != former && !former.empty();
+  if (leads_away)
+    st.announced_place = who.discovery_server;
   const bool elsewhere = st.wanted != who.discovery_server;
-  st.wanted = who.discovery_server;
+  const bool tries_announced =
+      st.phase == phase::searching && st.wanted != former;
   // Each announcement cuts short one pause, or one search where it is not any
   // more. Else a node that is thrown out again and again would come back as
   // often.
   const bool idle =
       st.phase == phase::waiting || (st.phase == phase::searching && elsewhere);
-  if (!idle || st.hurried == who)
+  if (!idle || st.hurried == who
+      || (leads_away && (st.owes_former || tries_announced)))
     return;
   st.hurried = who;
+  st.wanted = who.discovery_server;
   st.pause.reset();
   begin_attempt(self);
 }
@@ -163,8 +177,28 @@ void on_presence_seen(self_pointer self, const node_presence& who) {
 }
 
 void on_presence_gone(self_pointer self, const node_presence& who) {
-  if (who.role == "coordinator")
-    self->state.coordinators.vanish(who.uuid);
+  auto& st = self->state;
+  if (who.role != "coordinator")
+    return;
+  st.coordinators.vanish(who.uuid);
+  if (st.announced_place == who.discovery_server)
+    st.announced_place.clear();
+}
+
+bool turn_elsewhere(self_pointer self, bool refused) {
+  auto& st = self->state;
+  const auto former = former_place(st);
+  if (st.standing != node_state::orphaned || former.empty())
+    return false;
+  st.owes_former = st.wanted != former;
+  if (st.owes_former && refused && st.announced_place == st.wanted)
+    st.announced_place.clear();
+  const auto& next = st.owes_former || st.announced_place.empty()
+                         ? former
+                         : st.announced_place;
+  const bool changed = next != st.wanted;
+  st.wanted = std::string{next};
+  return changed;
 }
 
 void seek_place(self_pointer self) {

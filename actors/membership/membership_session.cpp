@@ -186,9 +186,18 @@ void on_session_lost(self_pointer self, const std::string& reason) {
 }
 
 void notify(self_pointer self, const instance_changed& fact) {
+  auto& frames = self->state.frames;
   auto x = fact;
   x.instance.node = self->state.config.identity.name;
-  self->state.frames.notify(message_json(x));
+  if (frames.notify(message_json(x)))
+    return;
+  // The coordinator must hear how it is; the rest it knows.
+  shorten(x.instance);
+  if (!frames.notify(message_json(x)))
+    tell(self, "fact_too_large",
+         {{"fact", "instance_changed"},
+          {"instance", x.instance.spec.instance},
+          {"state", to_word(x.instance.state)}});
 }
 
 } // namespace roscell::membership_steps

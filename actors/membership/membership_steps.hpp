@@ -41,6 +41,9 @@ void retreat(self_pointer self, const std::string& reason,
 /// What to do when a request of the present attempt has failed.
 void on_error(self_pointer self, const caf::error& why);
 bool is_current(self_pointer self, uint64_t attempt, membership_phase where);
+/// Leaves what identifies an instance and how it is. The coordinator knows the
+/// rest; hundreds of whole rows would not fit into one frame.
+void shorten(instance_row& row);
 
 // -- membership_scouting.cpp: why nobody answers ------------------------------
 
@@ -74,13 +77,18 @@ void on_presence_gone(self_pointer self, const node_presence& who);
 void seek_place(self_pointer self);
 /// The place that the node asked for came to nothing.
 void forget_place(self_pointer self);
+/// An attempt of an orphan came to nothing: where it is announced and where it
+/// was take turns, and who has refused it has no other. Whether the next one is
+/// elsewhere.
+bool turn_elsewhere(self_pointer self, bool refused);
 
 // -- membership_switch.cpp: from one registration to another ------------------
 
 using switch_reply = std::function<void(caf::expected<switch_accepted>)>;
 
-registration_challenge make_challenge(self_pointer self,
-                                      const registration_query& query);
+/// For whoever proves to be of the site.
+caf::result<registration_challenge>
+make_challenge(self_pointer self, const registration_query& query);
 /// By the REST API, where it has to be proven.
 void on_proven_switch(self_pointer self, const registration_switch& order,
                       switch_reply reply);
@@ -101,6 +109,7 @@ void drop_session(self_pointer self, const std::string& reason);
 void on_frame(self_pointer self, const frame_received& frame);
 void on_beat(self_pointer self, const beat_received& beat);
 void on_session_lost(self_pointer self, const std::string& reason);
+/// Tells the coordinator, less of it where the whole does not fit into a frame.
 void notify(self_pointer self, const instance_changed& fact);
 
 // -- membership_programs.cpp: the node's own discovery server -----------------

@@ -1,5 +1,3 @@
-#include "actors/edge/io/socket_address.hpp"
-#include "actors/edge/session/session_handshake.hpp"
 #include "actors/house/limits.hpp"
 #include "actors/membership/membership_steps.hpp"
 #include "actors/session/registration/registration_order.hpp"
@@ -13,13 +11,6 @@ namespace roscell::membership_steps {
 namespace {
 
 using phase = membership_phase;
-
-/// Whether a proof with this token says anything: without one, only programs
-/// of this host may be trusted, and only they reach a node on loopback.
-bool can_be_proven(const membership_status& st) {
-  const auto own = parse_socket_address(st.config.identity.address);
-  return !st.config.site_token.empty() || (own && is_loopback(own->address));
-}
 
 std::optional<caf::error> refusal(const membership_status& st,
                                   const registration_switch& order) {
@@ -96,14 +87,24 @@ void depart(self_pointer self) {
     go_to_target(self);
 }
 
-/// The switch could not be written down, so it does not happen.
+/// The switch could not be written down, so it does not happen. Who rested
+/// rests again; an attempt that was ended for it begins anew, at once.
 void stay(self_pointer self) {
   auto& st = self->state;
   const auto before = *std::exchange(st.switching, std::nullopt);
   st.standing = before.standing;
-  st.phase = st.session ? phase::joined : phase::waiting;
-  if (before.standing == node_state::member && !st.session) {
-    st.standing = node_state::orphaned;
+  if (before.phase == phase::joined && st.session) {
+    st.phase = phase::joined;
+  } else if (before.phase == phase::resting) {
+    st.phase = phase::resting;
+    // A coordinator may have appeared meanwhile.
+    if (st.seeking)
+      return seek_place(self);
+  } else {
+    // Its session was lost meanwhile.
+    if (before.standing == node_state::member)
+      st.standing = node_state::orphaned;
+    st.phase = phase::waiting;
     st.deadline = self->clock().now();
   }
   set_timer(self);
@@ -196,7 +197,7 @@ void accept(self_pointer self, const registration_switch& order,
   const auto before = st.standing == node_state::joining
                           ? node_state::independent
                           : st.standing;
-  st.switching = switch_attempt{order, before, st.wanted, st.origin};
+  st.switching = switch_attempt{order, before, st.phase, st.wanted, st.origin};
   st.last_switch = order.transfer;
   st.standing = node_state::switching;
   st.phase = phase::accepting;
@@ -212,9 +213,15 @@ bool is_repetition(const membership_status& st,
 
 } // namespace
 
-registration_challenge make_challenge(self_pointer self,
-                                      const registration_query& query) {
+caf::result<registration_challenge>
+make_challenge(self_pointer self, const registration_query& query) {
   auto& st = self->state;
+  const auto token = st.config.site.text();
+  if (!proves(standing_question{query.nonce}, token, query.proof))
+    return fail(error_code::unauthorized,
+                "who asks where this node stands proves that he has its site "
+                "token",
+                "/proof", "ask with a nonce and a proof over it");
   const auto& me = st.config.identity;
   registration_challenge result;
   result.node = me.name;
@@ -222,10 +229,9 @@ registration_challenge make_challenge(self_pointer self,
   result.epoch = me.epoch;
   result.state = to_word(st.standing);
   result.nonce = st.challenges.issue(self->clock().now());
-  if (!query.nonce.empty() && can_be_proven(st))
-    result.proof = prove(
-        standing_claim{query.nonce, me.name, me.uuid, me.epoch, result.state},
-        st.config.site_token);
+  result.proof = prove(
+      standing_claim{query.nonce, me.name, me.uuid, me.epoch, result.state},
+      token);
   return result;
 }
 
@@ -233,12 +239,8 @@ void on_proven_switch(self_pointer self, const registration_switch& order,
                       switch_reply reply) {
   auto& st = self->state;
   const auto now = self->clock().now();
-  if (!can_be_proven(st))
-    return reply(fail(error_code::unauthorized,
-                      "this node has no site token, so nobody can switch it",
-                      "", "install the site token"));
   if (!st.challenges.is_fresh(order.nonce, now)
-      || !proves(order_of(order), st.config.site_token, order.proof))
+      || !proves(order_of(order), st.config.site.text(), order.proof))
     return reply(fail(error_code::unauthorized,
                       "the switch is not proven with the site token and a "
                       "nonce of this node that is still good",

@@ -234,12 +234,10 @@ caf::error load_tokens(const node_config& config, node_data& data) {
   if (!token)
     return token.error();
   data.token = std::move(*token);
-  if (config.site_token_file.empty())
-    return caf::none;
-  auto site = load_site_token(config.site_token_file);
+  auto site = load_site_secret(config);
   if (!site)
     return site.error();
-  data.site_token = std::move(*site);
+  data.site = std::move(*site);
   return caf::none;
 }
 

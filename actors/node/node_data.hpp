@@ -7,6 +7,7 @@
 #include "actors/edge/disk/directory_lock.hpp"
 #include "actors/edge/disk/sqlite_store.hpp"
 #include "actors/edge/history/history_folder.hpp"
+#include "actors/edge/site/site_secret.hpp"
 #include "messages/inside/membership.hpp"
 #include "messages/node.hpp"
 #include "roscell/node_config.hpp"
@@ -53,8 +54,8 @@ struct node_data {
   std::vector<std::string> strays;   ///< Instances that no record knows.
   std::filesystem::path put_aside;   ///< The former database; empty: none was.
   std::string token_file;
-  std::string token;      ///< Bearer token for HTTP over TCP.
-  std::string site_token; ///< Empty: none is installed.
+  std::string token; ///< Bearer token for HTTP over TCP.
+  site_secret site;  ///< Proves the node to others of its site.
 };
 
 /// Opens the data directory, making it and what belongs into it at the first

@@ -1,21 +1,16 @@
 #include "actors/node/node_edges.hpp"
 
 #include "actors/edge/dds/announcement.hpp"
-#include "actors/edge/dds/site_survey.hpp"
 #include "actors/edge/http/http_paths.hpp"
-#include "actors/edge/io/name_lookup.hpp"
-#include "actors/edge/io/socket_address.hpp"
-#include "actors/edge/session/address_scout.hpp"
 #include "actors/house/edge_failure.hpp"
 #include "actors/house/limits.hpp"
+#include "actors/node/start/cell_claim.hpp"
 #include "actors/session/wire_session.hpp"
 #include "dds/server_ids.hpp"
 #include "messages/failure.hpp"
 
 #include <chrono>
-#include <future>
 #include <memory>
-#include <set>
 #include <utility>
 
 namespace roscell {
@@ -41,7 +36,7 @@ caf::error open_http(const node_config& config, const node_data& data,
     (*handler)(std::move(request), answer);
   };
   beat_socket_options beats;
-  beats.reach_key = reach_key(data.site_token);
+  beats.site = data.site;
   auto opened =
       open_node_sockets(*edges.io, std::move(options), std::move(beats));
   if (auto* why = std::get_if<edge_error>(&opened))
@@ -49,73 +44,6 @@ caf::error open_http(const node_config& config, const node_data& data,
   edges.sockets = std::get<node_sockets>(std::move(opened));
   edges.http_address =
       config.address + ":" + std::to_string(edges.sockets.http->port());
-  return caf::none;
-}
-
-caf::error name_in_use(const announcement& other) {
-  return fail(error_code::conflict,
-              "the cell name '" + other.cell + "' is in use: node '"
-                  + other.node + "' at " + other.session + " coordinates it",
-              "", "choose another --cell, or take it over with --force");
-}
-
-/// Whether what is announced with this node's own UUID is somebody who lives:
-/// it answers, as a coordinator of this cell. What it was itself, at an address
-/// that it has left, does not.
-bool lives_elsewhere(const announcement& other, const std::string& cell,
-                     node_edges& edges) {
-  const auto at = parse_socket_address(other.session);
-  if (!at || other.session == edges.http_address)
-    return false;
-  auto heard = std::make_shared<std::promise<scouted_port>>();
-  auto answer = heard->get_future();
-  ask_for_hello(edges.io->core(), *at,
-                [heard](scouted_port x) { heard->set_value(std::move(x)); });
-  const auto seen = answer.get();
-  return !seen.hello.empty() && seen.hello[0].role == node_role::coordinator
-         && seen.hello[0].cell == cell;
-}
-
-caf::error is_a_copy(const announcement& other) {
-  return fail(
-      error_code::conflict,
-      "this coordinator runs at " + other.session
-          + " already: the data directory is a copy",
-      "",
-      "stop that one to go on with its cell here, or start this one once "
-      "with --new-identity and another --cell: then it is another cell");
-}
-
-/// Looks at the coordinators that are there: cell names and server ids in use.
-caf::error survey(const node_config& config, const node_data& data,
-                  node_edges& edges) {
-  presence_options options;
-  options.address = config.address;
-  options.domain_id = config.public_domain_id;
-  // Names that do not resolve yet are looked up again when the node announces
-  // itself, which tells of them.
-  options.peers =
-      await_hosts(config.peers, limits::discovery::peer_names).addresses;
-  const auto claims_our_name = [&](const announcement& x) {
-    return x.role == "coordinator" && x.cell == config.cell
-           && x.uuid != data.identity.uuid;
-  };
-  auto seen = survey_site(options, limits::discovery::survey, claims_our_name);
-  if (auto* why = std::get_if<edge_error>(&seen))
-    return to_caf(*why);
-  std::set<int64_t> used;
-  for (const auto& x : std::get<std::vector<announcement>>(seen)) {
-    if (claims_our_name(x) && !config.force)
-      return name_in_use(x);
-    if (x.role == "coordinator" && x.uuid == data.identity.uuid
-        && lives_elsewhere(x, config.cell, edges))
-      return is_a_copy(x);
-    if (x.role == "coordinator" && x.uuid != data.identity.uuid)
-      used.insert(x.server);
-  }
-  while (edges.server_id < UINT8_MAX && used.count(edges.server_id) > 0)
-    ++edges.server_id;
-  edges.server_id = config.server_id.value_or(edges.server_id);
   return caf::none;
 }
 
@@ -187,8 +115,10 @@ caf::expected<std::shared_ptr<node_edges>> open_edges(const node_config& config,
     return why;
   if (!config.coordinator)
     return edges;
-  if (auto why = survey(config, data, *edges))
-    return why;
+  const auto id = claim_cell(config, data, *edges, context);
+  if (!id)
+    return id.error();
+  edges->server_id = *id;
   if (auto why = open_discovery(config, data, *edges))
     return why;
   return edges;
@@ -196,11 +126,11 @@ caf::expected<std::shared_ptr<node_edges>> open_edges(const node_config& config,
 
 void admit_sessions(caf::actor_system& system, const house& context,
                     node_edges& edges, const acceptor_identity& identity,
-                    const std::string& site_token,
+                    const site_secret& site,
                     const cell_coordinator_actor& coordinator) {
   session_acceptor acceptor;
   acceptor.identity = identity;
-  acceptor.token = site_token;
+  acceptor.site = site;
   acceptor.on_session = [&system, context, beats = edges.sockets.beat.get(),
                          coordinator](established_session session) {
     node_identity peer;

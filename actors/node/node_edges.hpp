@@ -66,7 +66,7 @@ caf::expected<std::shared_ptr<node_edges>> open_edges(const node_config& config,
 /// Takes sessions for a coordinator from now on.
 void admit_sessions(caf::actor_system& system, const house& context,
                     node_edges& edges, const acceptor_identity& identity,
-                    const std::string& site_token,
+                    const site_secret& site,
                     const cell_coordinator_actor& coordinator);
 
 /// Lets the beats of all sessions keep a CPU sample fresh: the node is awake

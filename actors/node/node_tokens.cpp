@@ -2,6 +2,8 @@
 
 #include "actors/edge/disk/small_file.hpp"
 #include "actors/edge/io/crypto.hpp"
+#include "actors/edge/site/site_token_file.hpp"
+#include "actors/house/edge_failure.hpp"
 #include "actors/house/limits.hpp"
 #include "messages/failure.hpp"
 
@@ -9,6 +11,7 @@
 #include <cctype>
 #include <cerrno>
 #include <cstring>
+#include <system_error>
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -25,13 +28,6 @@ std::string trim(const std::string& text) {
   const auto end =
       std::find_if_not(text.rbegin(), text.rend(), is_space).base();
   return begin < end ? std::string{begin, end} : std::string{};
-}
-
-std::string why_unreadable(const fs::path& file) {
-  return ::access(file.c_str(), R_OK) == 0
-             ? "it has more than " + std::to_string(limits::token::most_bytes)
-                   + " bytes"
-             : std::strerror(errno);
 }
 
 /// Writes a new file that only its owner can read.
@@ -68,24 +64,19 @@ caf::expected<std::string> load_bearer_token(const fs::path& file) {
   return token;
 }
 
-caf::expected<std::string> load_site_token(const fs::path& file) {
-  const auto text = read_small_file(file, limits::token::most_bytes);
-  if (!text)
-    return fail(error_code::schema_violation,
-                "cannot read the site token in '" + file.string()
-                    + "': " + why_unreadable(file),
-                "",
-                "give --site-token the file that all nodes of the site have a "
-                "copy of; the first one makes it: "
-                "head -c 32 /dev/urandom | xxd -p -c 64");
-  auto token = trim(*text);
-  if (token.size() < limits::token::least_site_bytes)
-    return fail(error_code::schema_violation,
-                "the site token in '" + file.string() + "' is shorter than "
-                    + std::to_string(limits::token::least_site_bytes)
-                    + " characters",
-                "", "make one: head -c 32 /dev/urandom | base64");
-  return token;
+caf::expected<site_secret> load_site_secret(const node_config& config) {
+  const bool given = !config.site_token_file.empty();
+  const auto file = given ? config.site_token_file : own_site_token();
+  if (config.coordinator && !given)
+    if (auto why = make_site_token(file))
+      return to_caf(*why);
+  std::error_code ignored;
+  if (!given && !fs::exists(file, ignored))
+    return site_secret::in_file(file);
+  const auto read = read_site_token(file);
+  if (const auto* why = std::get_if<edge_error>(&read))
+    return to_caf(*why);
+  return site_secret::in_file(file);
 }
 
 } // namespace roscell

@@ -1,5 +1,8 @@
 #pragma once
 
+#include "actors/edge/site/site_secret.hpp"
+#include "roscell/node_config.hpp"
+
 #include <caf/expected.hpp>
 
 #include <filesystem>
@@ -13,8 +16,10 @@ namespace roscell {
 /// made where there is none. Errors: internal (no permission, disk full).
 caf::expected<std::string> load_bearer_token(const std::filesystem::path& file);
 
-/// The token that proves nodes of one site to each other, which the operator
-/// has put there. Errors: unauthorized (not readable, too short, too long).
-caf::expected<std::string> load_site_token(const std::filesystem::path& file);
+/// What proves the node to others of its site: the file that the configuration
+/// names, or that of this user, which a coordinator makes where there is none.
+/// Another node may learn of it later. Errors: those of `read_site_token` and
+/// `make_site_token`.
+caf::expected<site_secret> load_site_secret(const node_config& config);
 
 } // namespace roscell

@@ -2,6 +2,7 @@
 
 #include "actors/edge/io/socket_address.hpp"
 #include "actors/edge/session/session_link.hpp"
+#include "actors/edge/site/site_token_file.hpp"
 #include "actors/session/wire_session.hpp"
 #include "messages/failure.hpp"
 
@@ -14,19 +15,27 @@ namespace {
 using session_connector_self =
     session_connector_actor::stateful_pointer<session_connector_state>;
 
+/// Why there is no session, with what this node's side can do about it.
+failure refusal_of(const edge_error& why, const site_secret& site,
+                   const std::string& address) {
+  const bool distrust = why.code == error_code::unauthorized;
+  return {why.code, why.message, "",
+          distrust ? site_token_hint(site.file(), address) : why.hint, ""};
+}
+
 /// On the io thread: turns the outcome of an attempt into a message.
 session_settled settle(caf::actor_system& system, const house& context,
-                       beat_socket& beats, uint64_t attempt, uint16_t beat_port,
-                       session_result result) {
+                       const connector_parts& parts, uint64_t attempt,
+                       const socket_address& to, session_result result) {
   if (auto* why = std::get_if<edge_error>(&result))
-    return {attempt, {}, {why->code, why->message, "", why->hint, ""}};
+    return {attempt, {}, refusal_of(*why, parts.site, to.address)};
   auto& session = std::get<established_session>(result);
   session_opened opened;
   opened.cell = session.peer.cell;
   opened.coordinator = session.peer.node;
   opened.incarnation = session.peer.number;
   opened.session =
-      spawn_session(system, context, beats, std::move(session), beat_port);
+      spawn_session(system, context, *parts.beats, std::move(session), to.port);
   return {attempt, std::move(opened), {}};
 }
 
@@ -45,12 +54,12 @@ caf::result<session_opened> open(session_connector_self self,
                    wish.role == node_role::coordinator
                        ? std::string{to_word(wish.role)}
                        : std::string{}},
-                  st.parts.site_token, {},
+                  st.parts.site, {},
                   [&system = self->system(), context = st.context,
-                   beats = st.parts.beats, attempt, port = place->port,
+                   parts = st.parts, attempt, to = *place,
                    me = session_connector_actor{self}](session_result result) {
-                    caf::anon_send(me, settle(system, context, *beats, attempt,
-                                              port, std::move(result)));
+                    caf::anon_send(me, settle(system, context, parts, attempt,
+                                              to, std::move(result)));
                   });
   return promise;
 }

@@ -2,6 +2,7 @@
 
 #include "actors/edge/io/io_thread.hpp"
 #include "actors/edge/session/beat_socket.hpp"
+#include "actors/edge/site/site_secret.hpp"
 #include "actors/house/house.hpp"
 #include "messages/messages.hpp"
 
@@ -18,7 +19,7 @@ namespace roscell {
 struct connector_parts {
   io_thread* io = nullptr;
   beat_socket* beats = nullptr;
-  std::string site_token; ///< Empty: loopback only.
+  site_secret site;
 };
 
 /// Opens sessions to coordinators.

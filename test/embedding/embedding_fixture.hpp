@@ -44,6 +44,8 @@ struct scratch_folder {
 
 /// A coordinator on this host alone, with ports of its own.
 inline node_setup setup_in(const std::filesystem::path& folder) {
+  // The file of the user who runs the tests is none of theirs.
+  ::setenv("ROSCELL_SITE_TOKEN", (folder / "site.token").c_str(), 1);
   node_setup result;
   result.node.name = "controller";
   result.node.coordinator = true;

@@ -135,6 +135,12 @@ void ask_node(site* place, site_party* me, site_party* node,
   lost();
 }
 
+/// From somebody of the site.
+registration_query question_with(char digit) {
+  const std::string nonce(64, digit);
+  return {nonce, prove(standing_question{nonce}, site_token)};
+}
+
 caf::result<switch_accepted> switch_over(caf::event_based_actor* self,
                                          site* place, site_party* me,
                                          const switch_node& wish) {
@@ -152,8 +158,8 @@ caf::result<switch_accepted> switch_over(caf::event_based_actor* self,
         place, me, node, order, promise,
         [=](const switch_accepted& x) { end_call(promise, x); });
   };
-  ask_node<registration_challenge>(place, me, node, registration_query{},
-                                   promise, on_challenge);
+  ask_node<registration_challenge>(place, me, node, question_with('d'), promise,
+                                   on_challenge);
   return reply;
 }
 
@@ -166,16 +172,17 @@ caf::result<standing_proved> ask_standing(caf::event_based_actor* self,
     return fail(error_code::unreachable, "no node is there");
   auto reply = self->make_response_promise<standing_proved>();
   auto promise = std::make_shared<decltype(reply)>(reply);
-  const std::string nonce(64, 'e');
+  const auto question = question_with('e');
   const auto on_challenge = [=](const registration_challenge& x) {
-    const standing_claim claim{nonce, x.node, x.uuid, x.epoch, x.state};
+    const standing_claim claim{question.nonce, x.node, x.uuid, x.epoch,
+                               x.state};
     if (x.uuid != wish.uuid || !proves(claim, site_token, x.proof))
       return end_call(promise, fail(error_code::unauthorized, "no proof"));
     end_call(promise, standing_proved{{x.node, x.uuid, x.epoch, wish.address},
                                       json(x.state).get<node_state>()});
   };
-  ask_node<registration_challenge>(place, me, node, registration_query{nonce},
-                                   promise, on_challenge);
+  ask_node<registration_challenge>(place, me, node, question, promise,
+                                   on_challenge);
   return reply;
 }
 

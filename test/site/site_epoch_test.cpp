@@ -76,8 +76,10 @@ TEST_CASE("an order for an earlier epoch of a node is refused", "[epoch]") {
   place.start(base);
   place.start(node);
   place.pass(1s);
-  auto challenge =
-      clock.ask<registration_challenge>(node.membership, registration_query{});
+  const std::string nonce(64, 'e');
+  auto challenge = clock.ask<registration_challenge>(
+      node.membership,
+      registration_query{nonce, prove(standing_question{nonce}, site_token)});
   clock.settle();
   registration_switch order;
   order.transfer = "t-1";
@@ -93,6 +95,28 @@ TEST_CASE("an order for an earlier epoch of a node is refused", "[epoch]") {
   REQUIRE_FALSE(**reply);
   CHECK(to_failure((*reply)->error()).code == error_code::conflict);
   CHECK(node.status().standing == node_state::independent);
+}
+
+TEST_CASE("a node tells nobody where it stands who does not prove the site's "
+          "token") {
+  virtual_time clock;
+  site place{clock, 1};
+  auto& node = place.add_node("wait");
+  place.start(node);
+  place.pass(1s);
+  const std::string nonce(64, 'e');
+  const auto proof = prove(standing_question{nonce}, site_token);
+  for (const auto& query :
+       {registration_query{}, registration_query{nonce, ""},
+        registration_query{"", proof},
+        registration_query{std::string(64, 'f'), proof},
+        registration_query{nonce, prove(standing_question{nonce}, "")}}) {
+    auto answer = clock.ask<registration_challenge>(node.membership, query);
+    clock.settle();
+    REQUIRE(answer->has_value());
+    REQUIRE_FALSE(**answer);
+    CHECK(to_failure((*answer)->error()).code == error_code::unauthorized);
+  }
 }
 
 } // namespace

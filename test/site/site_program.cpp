@@ -296,6 +296,7 @@ caf::message_handler program_edge(caf::event_based_actor* self, site* place,
         tell_listener(*me, {x.instance, false, false, false, "", true});
       },
       [=](const measure_host&) { return measure(*me); },
+      [](const measure_use&) { return use_measured{}; },
       [](const mark_sample&) {},
   };
 }

@@ -55,7 +55,7 @@ membership_config membership_setup(const site_party& x) {
   result.identity = identity_on_disk(x);
   result.skills = site_skills()->skills();
   result.configured = x.configured;
-  result.site_token = site_token;
+  result.site = site_token;
   if (const auto known = record(x, "identity", "membership"); !known.empty())
     result.restored = json::parse(known).get<membership_record>();
   return result;

@@ -256,27 +256,32 @@ post_switch() {
     "http://$(get "$1" /v1/node | jq -r .identity.address)/v1/registration"
 }
 
+# forged_order NAME: a switch of that node by somebody who knows all but the
+# site token.
+forged_order() {
+  get "$1" /v1/node | jq -c '.identity
+    | {type: "registration_switch", transfer: "x-1", node: .name, uuid, epoch,
+       origin: "chosen", nonce: ("0" * 64), proof: ("0" * 64)}'
+}
+
 test_only_who_proves_the_site_token_switches_a_node() {
   start_cells alpha beta
   make_site_token
   start_node one --interface lo --wait --site-token "$scratch/site.token"
   start_node two --interface lo --wait
   form alpha two > /dev/null
-  local address challenge order
+  local address order
   address=$(get one /v1/node | jq -r .identity.address)
-  challenge=$(curl -sS "http://$address/v1/registration")
-  order=$(jq -c '{type: "registration_switch", transfer: "x-1", node, uuid, epoch,
-    origin: "chosen", nonce, proof: ("0" * 64)}' <<< "$challenge")
+  expect "what a stranger learns" \
+    "$(curl -sS "http://$address/v1/registration" | code_of)" unauthorized
+  order=$(forged_order one)
   expect "a false proof" "$(post_switch one "$order" | code_of)" unauthorized
   expect "another message" \
     "$(post_switch one '{"type": "node_query"}' | code_of)" unauthorized
   expect "without the token" "$(form alpha one | jq -r '.outcomes[0].code')" \
     unauthorized
   # A member is its coordinator's, token or not.
-  address=$(get two /v1/node | jq -r .identity.address)
-  order=$(curl -sS "http://$address/v1/registration" \
-    | jq -c '{type: "registration_switch", transfer: "x-1", node, uuid, epoch,
-              origin: "chosen", nonce, proof: ("0" * 64)}')
+  order=$(forged_order two)
   expect "a member" "$(post_switch two "$order" | code_of)" unauthorized
   expect "state" "$(get one /v1/node | jq -r .state)" independent
   expect "the member" "$(get two /v1/node | jq -r .state)" member

@@ -73,7 +73,8 @@ test_a_node_without_the_site_token_says_so() {
   inside=(ip netns exec "${hosts[1]}")
   start_node arm --interface 10.231.7.2 --join 10.231.7.1
   inside=()
-  expect_said arm "this node has no site token" "--site-token"
+  expect_said arm "node 'arm' has no site token, and cell 'line' wants one" \
+    "copy the site token of the coordinator at 10.231.7.1 to '$ROSCELL_SITE_TOKEN'"
 }
 
 test_another_sites_token_accuses_neither_side_falsely() {

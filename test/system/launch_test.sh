@@ -37,6 +37,18 @@ start_cell() {
   runtime=process start_node head --coordinator --cell line --interface lo
 }
 
+test_a_container_of_the_hosts_network_comes_into_no_cell_without_its_token() {
+  start_cell
+  mkdir "$scratch/other"
+  [[ $variant != rootless ]] || chown "$rootless_user" "$scratch/other"
+  local -x ROSCELL_SITE_TOKEN=$scratch/other/site.token
+  launch --interface lo --detach || fail "$(cat "$scratch/launch.err")"
+  await arm '.event == "join_refused"' > "$scratch/refused.json"
+  jq -e '.data.reason | contains("has no site token")' "$scratch/refused.json" \
+    > /dev/null || fail "$(cat "$scratch/refused.json")"
+  expect "nodes" "$(get head /v1/cell | jq '.nodes | length')" 1
+}
+
 # The names of the containers that run.
 running() {
   engine ps --format '{{.Names}}' | sort | paste -sd ' '

@@ -4,6 +4,8 @@
 
 : "${ROSCELL_BUILD:?the build directory}"
 ROSCELL=$ROSCELL_BUILD/bin/roscell
+# What a user's nodes share on one host: here it is the test's own.
+export ROSCELL_SITE_TOKEN=$scratch/user/site.token
 deadline_s=${ROSCELL_DEADLINE_S:-60}
 
 fail() {
@@ -58,7 +60,8 @@ start_node() {
 
 # use_skills [NAME...]: the skills that nodes of a test have; echo if none is
 # named. They ask for no CPU, so that a test does not depend on what else this
-# machine is doing.
+# machine is doing, and for no memory, of which a sanitizer takes more than any
+# skill asks for.
 use_skills() {
   local name
   skills=$scratch/skills
@@ -71,7 +74,8 @@ use_skills() {
 
 ask_no_cpu() {
   local text
-  text=$(jq '.models[].deployments[].resources.cpu = 0' "$1/skill.json")
+  text=$(jq '.models[].deployments[].resources |= (.cpu = 0 | .memory_mib = 0)' \
+    "$1/skill.json")
   echo "$text" > "$1/skill.json"
 }
 

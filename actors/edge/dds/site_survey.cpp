@@ -37,10 +37,12 @@ public:
   }
 
 private:
-  /// A later word of one that has spoken replaces the former.
+  /// A later word of one that has spoken replaces the former. Where it is is a
+  /// part of who it is: another one may say the rest as well.
   void drop(const announcement& said) {
     auto same = [&](const announcement& x) {
-      return x.uuid == said.uuid && x.node == said.node && x.role == said.role;
+      return x.uuid == said.uuid && x.node == said.node && x.role == said.role
+             && x.session == said.session;
     };
     seen_.erase(std::remove_if(seen_.begin(), seen_.end(), same), seen_.end());
   }

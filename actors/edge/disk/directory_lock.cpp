@@ -1,6 +1,7 @@
 #include "actors/edge/disk/directory_lock.hpp"
 
 #include "actors/edge/disk/small_file.hpp"
+#include "actors/edge/disk/trusted_path.hpp"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -8,6 +9,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -34,6 +36,21 @@ edge_error held(const fs::path& folder) {
           "stop that node, or choose another --data-dir"};
 }
 
+/// Whoever may put files into it has a node do what he likes.
+std::optional<edge_error> refusal_of_folder(const fs::path& folder) {
+  auto fault = who_may_change(folder);
+  if (fault.empty())
+    fault = who_may_replace(folder);
+  if (fault.empty())
+    return std::nullopt;
+  return edge_error{error_code::unauthorized,
+                    "the data directory '" + folder.string()
+                        + "' is not taken: " + fault,
+                    "choose a --data-dir that is of " + user_words(::geteuid())
+                        + " alone; chmod go-w takes the right to write from "
+                          "others"};
+}
+
 } // namespace
 
 directory_lock::directory_lock(unique_fd fd) : fd_(std::move(fd)) {
@@ -48,6 +65,8 @@ edge_result<directory_lock> directory_lock::take(const fs::path& folder) {
     return no_access(folder.parent_path(), error.message());
   if (::mkdir(folder.c_str(), 0700) != 0 && errno != EEXIST)
     return no_access(folder, std::strerror(errno));
+  if (auto why = refusal_of_folder(folder))
+    return *why;
   const auto path = folder / "lock";
   unique_fd fd{::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600)};
   if (!fd)

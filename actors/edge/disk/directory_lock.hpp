@@ -12,8 +12,9 @@ namespace roscell {
 class directory_lock {
 public:
   /// Makes the folder (mode 0700) if it is not there, and takes `folder/lock`.
-  /// Errors: conflict (held by another node, named by its process id), internal
-  /// (no permission, no room, not a folder).
+  /// Errors: conflict (held by another node, named by its process id),
+  /// unauthorized (others than this user and root may put something into it),
+  /// internal (no permission, no room, not a folder).
   static edge_result<directory_lock> take(const std::filesystem::path& folder);
 
 private:

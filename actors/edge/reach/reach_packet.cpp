@@ -68,7 +68,10 @@ std::vector<std::uint8_t> reach_question(const reach_nonce& nonce,
 }
 
 std::optional<reach_bytes> reach_answer(std::string_view datagram,
-                                        const digest& key) {
+                                        std::string_view site_token) {
+  if (site_token.empty() || datagram.substr(0, magic.size()) != magic)
+    return std::nullopt;
+  const auto key = reach_key(site_token);
   const auto nonce = authentic_nonce(datagram, question_mark, key);
   if (nonce.empty())
     return std::nullopt;

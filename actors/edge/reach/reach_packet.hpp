@@ -30,9 +30,10 @@ reach_nonce make_reach_nonce();
 std::vector<std::uint8_t> reach_question(const reach_nonce& nonce,
                                          const digest& key, std::size_t size);
 
-/// The answer to a datagram that is a question under that key.
+/// The answer to a datagram that is a question of somebody who has that site
+/// token; under an empty one there is none.
 std::optional<reach_bytes> reach_answer(std::string_view datagram,
-                                        const digest& key);
+                                        std::string_view site_token);
 
 bool is_reach_answer(std::string_view datagram, const reach_nonce& nonce,
                      const digest& key);

@@ -47,7 +47,7 @@ public:
   reach_port_core(std::shared_ptr<io_core> core, int fd,
                   const reach_port_options& options)
       : core_(std::move(core)), socket_(core_->context(), fd),
-        key_(options.key), datagram_(longest_datagram) {
+        site_(options.site), datagram_(longest_datagram) {
     inet_pton(AF_INET, options.address.c_str(), &own_);
   }
 
@@ -92,8 +92,8 @@ private:
                  MSG_DONTWAIT, reinterpret_cast<sockaddr*>(&from), &from_size);
     if (size < 0)
       return errno != EAGAIN;
-    if (const auto answer =
-            reach_answer({datagram_.data(), static_cast<size_t>(size)}, key_))
+    if (const auto answer = reach_answer(
+            {datagram_.data(), static_cast<size_t>(size)}, site_.text()))
       send(*answer, from);
     return true;
   }
@@ -122,7 +122,7 @@ private:
 
   std::shared_ptr<io_core> core_;
   boost::asio::posix::stream_descriptor socket_;
-  digest key_;
+  site_secret site_;
   in_addr own_{};
   std::vector<char> datagram_;
 };

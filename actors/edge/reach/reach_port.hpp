@@ -3,6 +3,7 @@
 #include "actors/edge/io/edge_error.hpp"
 #include "actors/edge/io/io_thread.hpp"
 #include "actors/edge/reach/reach_packet.hpp"
+#include "actors/edge/site/site_secret.hpp"
 
 #include <cstdint>
 #include <memory>
@@ -13,7 +14,7 @@ namespace roscell {
 struct reach_port_options {
   std::string address;    ///< Of the interface by which multicast comes.
   unsigned domain_id = 0; ///< Whose ports they are of.
-  digest key{};
+  site_secret site;       ///< Of those who are answered.
 };
 
 /// The group by which DDS finds participants (RTPS 2.3, 9.6.1.4.1).

@@ -71,9 +71,9 @@ class beat_core : public io_component,
                   public std::enable_shared_from_this<beat_core> {
 public:
   beat_core(std::shared_ptr<io_core> core, int fd, beat_filter filter,
-            std::optional<digest> reach_key)
+            site_secret site)
       : core_(std::move(core)), socket_(core_->context(), fd),
-        filter_(std::move(filter)), reach_key_(reach_key) {
+        filter_(std::move(filter)), site_(std::move(site)) {
     // nop
   }
 
@@ -191,8 +191,9 @@ private:
   }
 
   void on_other_packet(std::string_view bytes, const sockaddr_in& from) {
-    const auto answer = reach_key_ ? reach_answer(bytes, *reach_key_)
-                                   : std::optional<reach_bytes>{};
+    const auto answer = bytes.size() == reach_packet_size
+                            ? reach_answer(bytes, site_.text())
+                            : std::nullopt;
     if (!answer) {
       ++malformed_;
       return;
@@ -250,7 +251,7 @@ private:
   std::shared_ptr<io_core> core_;
   boost::asio::posix::stream_descriptor socket_;
   beat_filter filter_;
-  std::optional<digest> reach_key_;
+  site_secret site_;
   std::function<void()> on_any_beat_;
   std::unordered_multimap<uint32_t, std::shared_ptr<beat_session>> sessions_;
   std::atomic<uint64_t> accepted_{0};
@@ -335,7 +336,7 @@ beat_socket::open(io_thread& io, beat_socket_options options) {
     return *why;
   const auto udp = std::get<bound_port>(bound);
   auto core = std::make_shared<beat_core>(
-      io.core(), udp.fd, std::move(options.filter), options.reach_key);
+      io.core(), udp.fd, std::move(options.filter), std::move(options.site));
   return std::make_unique<socket_handle>(std::move(core), udp.port);
 }
 

@@ -6,6 +6,7 @@
 #include "actors/edge/session/beat_packet.hpp"
 #include "actors/edge/session/fault_seam.hpp"
 #include "actors/edge/session/session_handshake.hpp"
+#include "actors/edge/site/site_secret.hpp"
 
 #include <cstdint>
 #include <functional>
@@ -23,8 +24,8 @@ struct beat_socket_options {
   std::string address = "127.0.0.1"; ///< IPv4 address of this host.
   uint16_t port = 8420;              ///< The same as of HTTP; 0: a free one.
   beat_filter filter;                ///< Faults for tests.
-  /// Under which it answers who wants to know whether he reaches it.
-  std::optional<digest> reach_key = std::nullopt;
+  /// Of those who are answered when they want to know whether they reach it.
+  site_secret site;
 };
 
 /// What became of the packets that came in.

@@ -27,6 +27,12 @@ digest sign(const registration_order& order, std::string_view site_token) {
       .sign(site_token);
 }
 
+constexpr std::string_view question_label = "roscell registration question v1";
+
+digest sign(const standing_question& question, std::string_view site_token) {
+  return transcript{question_label}.add(question.nonce).sign(site_token);
+}
+
 constexpr std::string_view standing_label = "roscell standing v1";
 
 digest sign(const standing_claim& claim, std::string_view site_token) {
@@ -37,6 +43,13 @@ digest sign(const standing_claim& claim, std::string_view site_token) {
       .add(claim.epoch)
       .add(claim.state)
       .sign(site_token);
+}
+
+/// Everybody can sign under an empty token.
+template <class Said>
+bool is_signed(const Said& said, std::string_view site_token,
+               std::string_view proof) {
+  return !site_token.empty() && is_proof(proof, sign(said, site_token));
 }
 
 constexpr size_t nonce_digits = 64;
@@ -67,7 +80,17 @@ std::string prove(const registration_order& order,
 
 bool proves(const registration_order& order, std::string_view site_token,
             std::string_view proof) {
-  return is_proof(proof, sign(order, site_token));
+  return is_signed(order, site_token, proof);
+}
+
+std::string prove(const standing_question& question,
+                  std::string_view site_token) {
+  return to_hex(sign(question, site_token));
+}
+
+bool proves(const standing_question& question, std::string_view site_token,
+            std::string_view proof) {
+  return is_signed(question, site_token, proof);
 }
 
 std::string prove(const standing_claim& claim, std::string_view site_token) {
@@ -76,7 +99,7 @@ std::string prove(const standing_claim& claim, std::string_view site_token) {
 
 bool proves(const standing_claim& claim, std::string_view site_token,
             std::string_view proof) {
-  return is_proof(proof, sign(claim, site_token));
+  return is_signed(claim, site_token, proof);
 }
 
 registration_challenges::registration_challenges() : key_(random_bytes(32)) {

@@ -27,12 +27,22 @@ struct registration_order {
 };
 
 /// HMAC-SHA256 under the site token over all of `order`: 64 hexadecimal digits.
-/// Under an empty token anybody can make it.
 std::string prove(const registration_order& order, std::string_view site_token);
 
-/// Whether `proof`, which may be any text, is that. The time taken tells
-/// nothing about the token.
+/// Whether `proof`, which may be any text, is that; under an empty token
+/// nothing is. The time taken tells nothing about the token.
 bool proves(const registration_order& order, std::string_view site_token,
+            std::string_view proof);
+
+/// What somebody says who asks a node where it stands.
+struct standing_question {
+  std::string nonce; ///< His own.
+};
+
+/// The same for a question.
+std::string prove(const standing_question& question,
+                  std::string_view site_token);
+bool proves(const standing_question& question, std::string_view site_token,
             std::string_view proof);
 
 /// What a node says when it is asked where it stands.

@@ -11,7 +11,7 @@ session_accept::session_accept(std::shared_ptr<io_core> core,
     : session_dialog(std::move(core), std::move(socket), acceptor->options),
       acceptor_(std::move(acceptor)), hooks_(std::move(told)),
       peer_(peer_of(stream().next_layer())),
-      handshake_(acceptor_->identity, acceptor_->token, peer_.address) {
+      handshake_(acceptor_->identity, acceptor_->site.text()) {
   tune_for_session(stream().next_layer(), options().user_timeout);
 }
 

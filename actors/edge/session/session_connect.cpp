@@ -22,14 +22,13 @@ std::string name_of(const session_target& target) {
 class session_connect : public session_dialog {
 public:
   session_connect(std::shared_ptr<io_core> core, session_target target,
-                  joiner_identity identity, std::string token,
+                  joiner_identity identity, const site_secret& site,
                   session_options options,
                   std::function<void(session_result)> callback)
       : session_dialog(core, stream_socket{core->context()},
                        std::move(options)),
-        target_(std::move(target)), token_(std::move(token)),
-        callback_(std::move(callback)),
-        handshake_(std::move(identity), token_, target_.expected_cell) {
+        target_(std::move(target)), callback_(std::move(callback)),
+        handshake_(std::move(identity), site.text(), target_.expected_cell) {
     handshake_.expect_uuid(target_.expected_uuid);
   }
 
@@ -40,8 +39,6 @@ public:
     if (ec)
       return fail({error_code::unreachable,
                    "'" + target_.address + "' is not an IPv4 address", ""});
-    if (const auto refusal = check_token_for(token_, target_.address))
-      return fail(*refusal);
     open_tcp(stream().next_layer());
     stream().next_layer().async_connect(
         ip::tcp::endpoint{address, target_.port},
@@ -114,23 +111,65 @@ private:
   }
 
   session_target target_;
-  std::string token_;
   std::function<void(session_result)> callback_;
   joiner_handshake handshake_;
   ws::response_type response_;
 };
 
+/// Who is asked for a proof only: it proves itself first, and is then told that
+/// there will be no session.
+class proof_question : public session_connect {
+public:
+  proof_question(std::shared_ptr<io_core> core, session_target target,
+                 joiner_identity identity, const site_secret& site,
+                 session_options options,
+                 std::function<void(std::optional<edge_error>)> callback)
+      : session_connect(std::move(core), std::move(target), std::move(identity),
+                        site, std::move(options), {}),
+        tell_(std::move(callback)) {}
+
+protected:
+  handshake_step receive(std::string_view frame) override {
+    auto step = session_connect::receive(frame);
+    if (step.failure)
+      return step;
+    proven_ = true;
+    edge_error thanks{error_code::conflict,
+                      "it asked for a proof of the site token only", ""};
+    return {encode(thanks), false, std::move(thanks)};
+  }
+
+  void on_refused(const edge_error& why) override {
+    tell_(proven_ ? std::nullopt : std::optional{why});
+  }
+
+private:
+  std::function<void(std::optional<edge_error>)> tell_;
+  bool proven_ = false;
+};
+
 } // namespace
 
 void connect_session(io_thread& io, session_target target,
-                     joiner_identity identity, std::string token,
+                     joiner_identity identity, const site_secret& site,
                      session_options options,
                      std::function<void(session_result)> callback) {
   const auto& core = io.core();
   auto joiner = std::make_shared<session_connect>(
-      core, std::move(target), std::move(identity), std::move(token),
-      std::move(options), std::move(callback));
+      core, std::move(target), std::move(identity), site, std::move(options),
+      std::move(callback));
   core->post([joiner] { joiner->run(); });
+}
+
+void ask_for_proof(io_thread& io, session_target target,
+                   joiner_identity identity, const site_secret& site,
+                   session_options options,
+                   std::function<void(std::optional<edge_error>)> callback) {
+  const auto& core = io.core();
+  auto question = std::make_shared<proof_question>(
+      core, std::move(target), std::move(identity), site, std::move(options),
+      std::move(callback));
+  core->post([question] { question->run(); });
 }
 
 } // namespace roscell

@@ -4,8 +4,6 @@
 
 #include <utility>
 
-#include <arpa/inet.h>
-
 namespace roscell {
 
 namespace {
@@ -65,8 +63,8 @@ edge_error wrong_token(const session_hello& hello,
   return {error_code::unauthorized,
           "the site token of node '" + hello.node + "' is not that of node '"
               + challenge.node + "' of cell '" + challenge.cell + "'",
-          "give both the same file by --site-token; a copy has the same "
-          "sha256sum"};
+          "copy the site token of one to the other, which reads it anew; a "
+          "copy has the same sha256sum"};
 }
 
 /// A proof that the joiner has made, or wanted, without a token.
@@ -75,21 +73,16 @@ edge_error no_token(const session_hello& hello,
   return {error_code::unauthorized,
           "node '" + hello.node + "' has no site token, and cell '"
               + challenge.cell + "' wants one",
-          "start node '" + hello.node
-              + "' with --site-token and the file that node '" + challenge.node
-              + "' has"};
+          "copy the site token of node '" + challenge.node
+              + "' to the host of node '" + hello.node + "'"};
 }
 
 /// The joiner reads this too, so it names the side that lacks the token.
-edge_error tokenless_acceptor(const session_challenge& self,
-                              const std::string& peer_address) {
+edge_error tokenless_acceptor(const session_challenge& self) {
   return {error_code::unauthorized,
           "node '" + self.node + "' of cell '" + self.cell
-              + "' has no site token, and without one it takes sessions of "
-                "its own host only, not from "
-              + peer_address,
-          "start node '" + self.node
-              + "' with --site-token and the file of the site"};
+              + "' has no site token, and without one it takes no sessions",
+          "give node '" + self.node + "' the file of the site"};
 }
 
 handshake_step fail(edge_error why, bool tell_peer) {
@@ -106,33 +99,13 @@ handshake_step fail_after_end() {
 
 } // namespace
 
-bool is_loopback(std::string_view address) {
-  in_addr parsed{};
-  if (inet_pton(AF_INET, std::string{address}.c_str(), &parsed) != 1)
-    return false;
-  return ntohl(parsed.s_addr) >> 24 == 127;
-}
-
-std::optional<edge_error> check_token_for(std::string_view token,
-                                          std::string_view peer_address) {
-  if (!token.empty() || is_loopback(peer_address))
-    return std::nullopt;
-  return edge_error{error_code::unauthorized,
-                    "this node has no site token, and without one it speaks "
-                    "with its own host only, not with "
-                        + std::string{peer_address},
-                    "start it with --site-token and the file of the site"};
-}
-
 std::string make_nonce() {
   return to_hex(random_bytes(session_frame_bounds::nonce / 2));
 }
 
 acceptor_handshake::acceptor_handshake(acceptor_identity self,
-                                       std::string token,
-                                       std::string peer_address,
-                                       std::string nonce)
-    : token_(std::move(token)), peer_address_(std::move(peer_address)) {
+                                       std::string token, std::string nonce)
+    : token_(std::move(token)) {
   challenge_.version = session_version;
   challenge_.node = std::move(self.node);
   challenge_.uuid = std::move(self.uuid);
@@ -153,8 +126,8 @@ handshake_step acceptor_handshake::receive(std::string_view frame) {
 }
 
 handshake_step acceptor_handshake::on_hello(std::string_view frame) {
-  if (check_token_for(token_, peer_address_))
-    return fail(tokenless_acceptor(challenge_, peer_address_), true);
+  if (token_.empty())
+    return fail(tokenless_acceptor(challenge_), true);
   auto decoded = decode_frame<session_hello>(frame);
   if (auto* error = std::get_if<edge_error>(&decoded))
     return fail(*error, true);
@@ -220,12 +193,12 @@ handshake_step joiner_handshake::on_challenge(std::string_view frame) {
   challenge_ = std::get<session_challenge>(std::move(decoded));
   if (auto refusal = check_version(challenge_.node, challenge_.version))
     return fail(*refusal, true);
+  if (token_.empty())
+    return fail(no_token(hello_, challenge_), true);
   const auto expected =
       keyed_digest(token_, acceptor_label, hello_, challenge_);
   if (!is_proof(challenge_.proof, expected))
-    return fail(token_.empty() ? no_token(hello_, challenge_)
-                               : wrong_token(hello_, challenge_),
-                true);
+    return fail(wrong_token(hello_, challenge_), true);
   if (!expected_cell_.empty() && challenge_.cell != expected_cell_)
     return fail({error_code::unknown_cell,
                  "node '" + challenge_.node + "' coordinates cell '"

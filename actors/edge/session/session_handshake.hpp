@@ -65,23 +65,14 @@ struct handshake_step {
   std::optional<edge_error> failure;
 };
 
-/// Whether a dotted IPv4 address is in 127.0.0.0/8.
-bool is_loopback(std::string_view address);
-
-/// The refusal for a peer off this host where no site token is installed;
-/// nothing where a session may be tried.
-std::optional<edge_error> check_token_for(std::string_view token,
-                                          std::string_view peer_address);
-
 /// A fresh nonce: 32 random bytes, hexadecimal.
 std::string make_nonce();
 
 /// The acceptor's side. Every frame that is not the expected one ends it.
 class acceptor_handshake {
 public:
-  /// `peer_address` is the joiner's IPv4 address.
+  /// Under an empty token nobody is let in.
   acceptor_handshake(acceptor_identity self, std::string token,
-                     std::string peer_address,
                      std::string nonce = make_nonce());
 
   handshake_step receive(std::string_view frame);
@@ -104,7 +95,6 @@ private:
 
   state state_ = state::wait_hello;
   std::string token_;
-  std::string peer_address_;
   session_hello hello_;
   session_challenge challenge_;
   session_agreement agreement_;
@@ -113,7 +103,8 @@ private:
 /// The joiner's side.
 class joiner_handshake {
 public:
-  /// `expected_cell` may be empty: then any cell will do.
+  /// `expected_cell` may be empty: then any cell will do. Under an empty token
+  /// nobody is trusted.
   joiner_handshake(joiner_identity self, std::string token,
                    std::string expected_cell = {},
                    std::string nonce = make_nonce());

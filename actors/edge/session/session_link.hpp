@@ -4,6 +4,7 @@
 #include "actors/edge/io/io_thread.hpp"
 #include "actors/edge/session/fault_seam.hpp"
 #include "actors/edge/session/session_handshake.hpp"
+#include "actors/edge/site/site_secret.hpp"
 #include "actors/house/limits.hpp"
 
 #include <chrono>
@@ -11,6 +12,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace roscell {
@@ -101,7 +103,7 @@ struct established_session {
 /// How a server answers those who want a session.
 struct session_acceptor {
   acceptor_identity identity;
-  std::string token; ///< The site token; empty: loopback only.
+  site_secret site;
   session_options options;
   /// Called on the io thread for each session that passed its handshake.
   std::function<void(established_session)> on_session;
@@ -125,8 +127,17 @@ using session_result = edge_result<established_session>;
 /// `unreachable`, `timeout`, `unauthorized`, `unknown_cell`, `conflict` for
 /// another version, or the code with which the acceptor refused.
 void connect_session(io_thread& io, session_target target,
-                     joiner_identity identity, std::string token,
+                     joiner_identity identity, const site_secret& site,
                      session_options options,
                      std::function<void(session_result)> callback);
+
+/// Whether whoever takes sessions at `target` proves to have the site token and
+/// to be whom the target expects. Calls `callback` on the io thread exactly
+/// once, within the handshake timeout, with why it does not; none: it does. It
+/// learns what a hello says of who asks, and gets no session.
+void ask_for_proof(io_thread& io, session_target target,
+                   joiner_identity identity, const site_secret& site,
+                   session_options options,
+                   std::function<void(std::optional<edge_error>)> callback);
 
 } // namespace roscell

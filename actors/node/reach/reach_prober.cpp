@@ -4,6 +4,7 @@
 #include "actors/house/edge_failure.hpp"
 #include "actors/house/limits.hpp"
 #include "actors/house/program_version.hpp"
+#include "messages/failure.hpp"
 
 #include <caf/send.hpp>
 
@@ -52,7 +53,7 @@ std::optional<edge_error> keep_open(reach_prober_self self, unsigned domain) {
   if (st.port && st.port_domain == domain)
     return std::nullopt;
   auto port = reach_port::open(*st.config.io,
-                               {st.config.address, domain, st.config.key});
+                               {st.config.address, domain, st.config.site});
   if (auto* why = std::get_if<edge_error>(&port))
     return std::move(*why);
   st.port = std::get<std::unique_ptr<reach_port>>(std::move(port));
@@ -95,11 +96,18 @@ caf::result<reach_opened> open(reach_prober_self self) {
 caf::result<reach_report> look(reach_prober_self self,
                                const reach_query& query) {
   auto& st = self->state;
+  const auto token = st.config.site.text();
+  if (token.empty()) {
+    const auto lack = st.config.site.what_lacks();
+    return fail(error_code::unauthorized,
+                "no node answers one that has no site token: " + lack.message,
+                "", lack.hint);
+  }
   const auto question = ++st.last_question;
   const auto promise = self->make_response_promise<reach_report>();
   st.questions.emplace(question, promise);
   try_to_reach(
-      {st.config.io->core(), st.config.address, st.config.key}, query.goals,
+      {st.config.io->core(), st.config.address, reach_key(token)}, query.goals,
       [me = reach_prober_actor{self}, question](std::vector<reach_row> rows) {
         caf::anon_send(me, reach_settled{question, std::move(rows)});
       });

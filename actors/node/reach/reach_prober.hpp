@@ -1,6 +1,7 @@
 #pragma once
 
 #include "actors/edge/reach/reach_port.hpp"
+#include "actors/edge/site/site_secret.hpp"
 #include "actors/house/alarm.hpp"
 #include "actors/house/house.hpp"
 #include "messages/messages.hpp"
@@ -23,7 +24,7 @@ struct reach_prober_config {
   std::string discovery_server; ///< "ip:port"; empty: ask the membership.
   membership_actor membership;  ///< Invalid on a coordination node.
   unsigned domain_id = 0;       ///< Of a node that is in no cell of others.
-  digest key{};
+  site_secret site;
 };
 
 /// How long the ports stay open after it was asked for.

@@ -73,6 +73,21 @@ void end_registration_call(registration_client_self self, uint64_t call,
     promise.deliver(std::get<switch_accepted>(outcome));
 }
 
+/// Whether the node that answers has the site token, too.
+bool is_proven(const registration_challenge& x, const std::string& nonce,
+               const std::string& site_token) {
+  return proves(standing_claim{nonce, x.node, x.uuid, x.epoch, x.state},
+                site_token, x.proof);
+}
+
+failure unproven(const std::string& address, const std::string& node,
+                 const std::string& uuid) {
+  return {error_code::unauthorized,
+          "what answers at " + address + " does not prove that it is node '"
+              + node + "' with UUID " + uuid,
+          "", "has it the site token of this node?", ""};
+}
+
 void on_challenge(registration_client_self self, uint64_t call,
                   const registration_challenge& challenge) {
   auto& st = self->state;
@@ -85,10 +100,13 @@ void on_challenge(registration_client_self self, uint64_t call,
                 "at " + x.wish.address + " there is node '" + challenge.node
                     + "' with UUID " + challenge.uuid + ", not '" + order.node
                     + "'"});
+  if (!is_proven(challenge, x.nonce, st.config.site.text()))
+    return end_registration_call(
+        self, call, unproven(x.wish.address, order.node, order.uuid));
   // What the node announces may be a little older than what it says now.
   order.epoch = challenge.epoch;
   order.nonce = challenge.nonce;
-  order.proof = prove(order_of(order), st.config.site_token);
+  order.proof = prove(order_of(order), st.config.site.text());
   x.proven = true;
   send_to_node(self, call, x.wish.address, "POST", registration_path,
                message_json(order).dump());
@@ -101,9 +119,18 @@ std::optional<caf::error> address_refusal(const registration_client_state& st,
   if (!to)
     return fail(error_code::unreachable,
                 "'" + address + "' is not an address like 10.0.0.1:8420");
-  if (auto why = check_token_for(st.config.site_token, to->address))
-    return to_caf(*why);
-  return std::nullopt;
+  if (!st.config.site.text().empty())
+    return std::nullopt;
+  const auto lack = st.config.site.what_lacks();
+  return fail(error_code::unauthorized,
+              "this node has no site token: " + lack.message, "", lack.hint);
+}
+
+/// Where a node tells its standing, to one that proves to be of its site.
+std::string question_target(const registration_client_state& st,
+                            const std::string& nonce) {
+  return std::string{registration_path} + "?nonce=" + nonce
+         + "&proof=" + prove(standing_question{nonce}, st.config.site.text());
 }
 
 caf::result<switch_accepted> call_node(registration_client_self self,
@@ -113,8 +140,9 @@ caf::result<switch_accepted> call_node(registration_client_self self,
     return *why;
   auto promise = self->make_response_promise<switch_accepted>();
   const auto call = ++st.last_call;
-  st.calls.emplace(call, registration_call{wish, false, promise});
-  send_to_node(self, call, wish.address, "GET", registration_path, "");
+  const auto nonce = make_nonce();
+  st.calls.emplace(call, registration_call{wish, nonce, false, promise});
+  send_to_node(self, call, wish.address, "GET", question_target(st, nonce), "");
   return promise;
 }
 
@@ -128,13 +156,9 @@ judge_standing(const node_answered& answer, const standing_call& call,
   if (const auto* why = std::get_if<failure>(&challenge))
     return *why;
   const auto& x = std::get<registration_challenge>(challenge);
-  const standing_claim claim{call.nonce, x.node, x.uuid, x.epoch, x.state};
   if (x.uuid != call.wish.uuid || x.node != call.wish.node
-      || !proves(claim, site_token, x.proof))
-    return failure{error_code::unauthorized,
-                   "what answers at " + call.wish.address
-                       + " does not prove that it is node '" + call.wish.node
-                       + "' with UUID " + call.wish.uuid};
+      || !is_proven(x, call.nonce, site_token))
+    return unproven(call.wish.address, call.wish.node, call.wish.uuid);
   standing_proved result;
   result.identity = {x.node, x.uuid, x.epoch, call.wish.address};
   // The schema knows the words.
@@ -148,7 +172,7 @@ void on_standing(registration_client_self self, const node_answered& answer) {
     return;
   auto& call = node.mapped();
   const auto verdict =
-      judge_standing(answer, call, self->state.config.site_token);
+      judge_standing(answer, call, self->state.config.site.text());
   if (const auto* why = std::get_if<failure>(&verdict))
     call.promise.deliver(to_error(*why));
   else
@@ -164,8 +188,7 @@ caf::result<standing_proved> ask_standing(registration_client_self self,
   const auto call = ++st.last_call;
   const auto nonce = make_nonce();
   st.questions.emplace(call, standing_call{wish, nonce, promise});
-  send_to_node(self, call, wish.address, "GET",
-               std::string{registration_path} + "?nonce=" + nonce, "");
+  send_to_node(self, call, wish.address, "GET", question_target(st, nonce), "");
   return promise;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "actors/edge/io/io_thread.hpp"
+#include "actors/edge/site/site_secret.hpp"
 #include "actors/house/house.hpp"
 #include "messages/messages.hpp"
 
@@ -14,12 +15,13 @@ namespace roscell {
 
 struct registration_client_config {
   io_thread* io = nullptr;
-  std::string site_token; ///< Empty: none is installed.
+  site_secret site;
 };
 
 /// A node that is being told to switch.
 struct registration_call {
   switch_node wish;
+  std::string nonce;   ///< Over which the node proves where it stands.
   bool proven = false; ///< The switch has been sent; else the nonce is awaited.
   caf::typed_response_promise<switch_accepted> promise;
 };

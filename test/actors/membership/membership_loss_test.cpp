@@ -1,6 +1,8 @@
 #include "actors/house/limits.hpp"
 #include "test/actors/fakes/cell_fakes.hpp"
 
+#include <algorithm>
+
 /// What a node does when it loses its coordinator.
 namespace {
 
@@ -120,6 +122,31 @@ TEST_CASE_METHOD(moved_test, "an earlier life of a silent coordinator is not "
   site.pass(21s);
   node.link->silent = true;
   CHECK(loss_by(seen_elsewhere(1)) == "silent for 8 s");
+}
+
+TEST_CASE_METHOD(orphan_test, "whoever announces an orphan's cell elsewhere "
+                              "does not keep it from coming back") {
+  form_cell();
+  site.pass(20s);
+  site.kill_coordinator();
+  site.pass(1s);
+  REQUIRE(state() == node_state::orphaned);
+  site.strangers_server = "10.0.0.7:11811";
+  // A new one each time, ten times a second.
+  int64_t said = 100;
+  const auto announce_for = [&](std::chrono::seconds span) {
+    const auto end = site.now() + span;
+    while (site.now() < end && state() != node_state::member) {
+      caf::anon_send(node.membership, presence_seen{seen_elsewhere(said++)});
+      site.pass(100ms);
+    }
+  };
+  announce_for(5s);
+  CHECK(std::count(node.sought.begin(), node.sought.end(), "10.0.0.7:11811")
+        > 0);
+  site.start_coordinator();
+  announce_for(20s);
+  CHECK(state() == node_state::member);
 }
 
 TEST_CASE_METHOD(orphan_test, "an orphan does not join another cell that "

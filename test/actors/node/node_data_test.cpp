@@ -1,5 +1,6 @@
 #include "actors/node/node_data.hpp"
 
+#include "actors/edge/site/site_token_file.hpp"
 #include "messages/failure.hpp"
 #include "test/actors/edge/process/supervision_fixture.hpp"
 
@@ -16,6 +17,12 @@ struct data_fixture {
 
   data_fixture() {
     config.data_dir = folder.path() / "data";
+    ::setenv(site_token_variable, site_token().c_str(), 1);
+  }
+
+  /// Of this user, as far as these nodes know.
+  fs::path site_token() const {
+    return folder.path() / "user" / "site.token";
   }
 
   node_data open() {
@@ -159,6 +166,40 @@ TEST_CASE_METHOD(
   // An earlier version has not written it down.
   CHECK(data.started_in
         == std::map<std::string, std::string>{{"t-a-1", "b-1"}});
+}
+
+TEST_CASE_METHOD(data_fixture,
+                 "The first coordinator of a user makes his site token, and "
+                 "all his nodes have it",
+                 "[node_data]") {
+  const auto member = open();
+  CHECK(member.site.text().empty());
+  CHECK_FALSE(fs::exists(site_token()));
+  config.data_dir = folder.path() / "head";
+  config.coordinator = true;
+  const auto head = open();
+  CHECK(head.site.text().size() == 64);
+  CHECK(member.site.text() == head.site.text());
+}
+
+TEST_CASE_METHOD(data_fixture,
+                 "A site token that is given is there, and nothing is made "
+                 "beside it",
+                 "[node_data]") {
+  config.coordinator = true;
+  config.site_token_file = folder.path() / "given";
+  CHECK(says(refusal(), "cannot read the site token"));
+  folder.write("given", std::string(32, 'x'));
+  CHECK(open().site.text() == std::string(32, 'x'));
+  CHECK_FALSE(fs::exists(site_token()));
+}
+
+TEST_CASE_METHOD(data_fixture,
+                 "A coordinator that cannot have a site token does not start",
+                 "[node_data]") {
+  config.coordinator = true;
+  folder.write("user", "a file where a folder should be");
+  CHECK(says(refusal(), "cannot make the site token"));
 }
 
 } // namespace roscell::test

@@ -1,7 +1,9 @@
 #include "tools/roscell/daemon/node_process.hpp"
 
+#include "actors/edge/site/site_token_file.hpp"
 #include "actors/house/house.hpp"
 #include "tools/roscell/client/open_secret.hpp"
+#include "tools/roscell/client/open_skills.hpp"
 #include "tools/roscell/daemon/address/address_tracker.hpp"
 #include "tools/roscell/daemon/address/interface_choice.hpp"
 #include "tools/roscell/daemon/journal.hpp"
@@ -9,6 +11,7 @@
 #include "tools/roscell/daemon/waiting_answers.hpp"
 #include "tools/roscell/dashboard/pages.hpp"
 #include "tools/roscell/doctor/checks.hpp"
+#include "tools/roscell/doctor/host/node_user.hpp"
 #include "tools/roscell/view/format.hpp"
 
 #include <caf/actor_system_config.hpp>
@@ -17,6 +20,7 @@
 
 #include <malloc.h>
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <utility>
@@ -50,6 +54,16 @@ exit_code exit_code_of(error_code code) {
                                               : exit_refused;
 }
 
+void introduce_site_token(const std::string& file) {
+  if (::access(file.c_str(), F_OK) == 0)
+    spdlog::info("site token {}", printable(file));
+  else
+    spdlog::info("no site token yet, so no cell takes this node: {}",
+                 printable(site_token_hint(file)));
+  if (const auto warning = open_secret_warning(file); !warning.empty())
+    spdlog::warn("{}", printable(warning));
+}
+
 void introduce(const running_node& node, const node_config& config) {
   spdlog::info("node '{}' listens on {} and {}", node.name, node.http_address,
                node.socket);
@@ -59,13 +73,15 @@ void introduce(const running_node& node, const node_config& config) {
                  node.discovery_server);
   spdlog::info("instances are run by '{}': {}", node.runtime,
                node.runtime_reason);
+  spdlog::info("limits of instances: {}", printable(node.limits));
   spdlog::info("data directory {}, bearer token {}", config.data_dir.string(),
                node.token_file);
-  if (config.site_token_file.empty())
-    spdlog::info("no site token: only nodes of this machine can be members");
-  else if (const auto warning = open_secret_warning(config.site_token_file);
-           !warning.empty())
-    spdlog::warn("{}", printable(warning));
+  introduce_site_token(node.site_token_file);
+  if (const auto warning = root_warning(::geteuid(), is_kept_root());
+      !warning.empty())
+    spdlog::warn("{}", warning);
+  for (const auto& x : find_open_skills(config))
+    spdlog::warn("{}; {}", printable(x.what), printable(x.remedy));
 }
 
 std::string text_of_change(const interface_address& at,

@@ -15,10 +15,11 @@ constexpr auto exit_codes_and_examples = R"(Exit codes:
   3  no node could be reached
 
 Environment:
-  ROSCELL_TO       node to talk to: unix:/path, /path, or host[:port]
-  ROSCELL_TOKEN    bearer token for TCP
-  ROSCELL_TIMEOUT  longest wait for an answer: 2 (seconds), 600ms
-  NO_COLOR         set to anything for output without colours
+  ROSCELL_TO          node to talk to: unix:/path, /path, or host[:port]
+  ROSCELL_TOKEN       bearer token for TCP
+  ROSCELL_TIMEOUT     longest wait for an answer: 2 (seconds), 600ms
+  ROSCELL_SITE_TOKEN  where this user's site token is, for nodes
+  NO_COLOR            set to anything for output without colours
 
 Examples:
   roscell node --coordinator --interface eth0

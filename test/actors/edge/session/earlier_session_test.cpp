@@ -23,10 +23,8 @@ Frame frame_of(const test::recorded_session& x, size_t i) {
 acceptor_handshake acceptor_in(const test::recorded_session& x,
                                const std::string& token) {
   const auto said = frame_of<session_challenge>(x, 1);
-  return acceptor_handshake{{said.node, said.uuid, said.cell, said.incarnation},
-                            token,
-                            x.joiner.substr(0, x.joiner.find(':')),
-                            said.nonce};
+  return acceptor_handshake{
+      {said.node, said.uuid, said.cell, said.incarnation}, token, said.nonce};
 }
 
 /// What both ends have agreed upon, as the acceptor has it.

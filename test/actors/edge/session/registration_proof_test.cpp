@@ -45,6 +45,25 @@ TEST_CASE("who knows the site token can give an order, nobody else") {
     CHECK_FALSE(proves(sample(), known_token, damaged));
 }
 
+TEST_CASE("under an empty token nothing is proven, whoever signs") {
+  const standing_claim claim{std::string(64, '0'), "robot-1", "0a1b", 7,
+                             "independent"};
+  const standing_question question{std::string(64, '0')};
+  CHECK_FALSE(proves(sample(), "", prove(sample(), "")));
+  CHECK_FALSE(proves(claim, "", prove(claim, "")));
+  CHECK_FALSE(proves(question, "", prove(question, "")));
+}
+
+TEST_CASE("a question is proven for its nonce only, and is no order") {
+  const standing_question question{std::string(64, '0')};
+  const auto proof = prove(question, known_token);
+  CHECK(proves(question, known_token, proof));
+  CHECK_FALSE(proves(question, "other", proof));
+  CHECK_FALSE(
+      proves(standing_question{std::string(64, '1')}, known_token, proof));
+  CHECK_FALSE(proves(sample(), known_token, proof));
+}
+
 TEST_CASE("the proof of an order is the one that is written down") {
   // HMAC-SHA256 by Python's hmac over label and fields, each after its length
   // in four bytes, the highest first.

@@ -29,7 +29,7 @@ acceptor_fixture::acceptor_fixture(session_options options, std::string token,
   server = expect(http_server::start(io, std::move(server_options)));
   session_acceptor acceptor;
   acceptor.identity = base_node;
-  acceptor.token = std::move(token);
+  acceptor.site = std::move(token);
   acceptor.options = std::move(options);
   acceptor.on_session = [this](established_session session) {
     sessions.put(std::move(session));

@@ -58,26 +58,6 @@ raw_client open_websocket(const acceptor_fixture& node) {
   return client;
 }
 
-/// An IPv4 address of this host that is no loopback; empty if there is none.
-std::string outside_address() {
-  ifaddrs* list = nullptr;
-  std::string result;
-  if (::getifaddrs(&list) != 0)
-    return result;
-  for (const auto* i = list; i != nullptr && result.empty(); i = i->ifa_next) {
-    if (i->ifa_addr == nullptr || i->ifa_addr->sa_family != AF_INET)
-      continue;
-    sockaddr_in address{};
-    std::memcpy(&address, i->ifa_addr, sizeof address);
-    std::array<char, INET_ADDRSTRLEN> text{};
-    ::inet_ntop(AF_INET, &address.sin_addr, text.data(), text.size());
-    if (!is_loopback(text.data()))
-      result = text.data();
-  }
-  ::freeifaddrs(list);
-  return result;
-}
-
 } // namespace
 
 TEST_CASE("members of a whole cell may shake hands at one moment") {
@@ -116,30 +96,35 @@ TEST_CASE("one side without a token and one with it do not match") {
   CHECK(expect_error(node.join({}, "")).code == error_code::unauthorized);
   acceptor_fixture bare{{}, ""};
   CHECK(expect_error(bare.join()).code == error_code::unauthorized);
-  expect(bare.join({}, ""));
 }
 
-TEST_CASE("without a token nothing leaves or enters the host") {
-  acceptor_fixture node{{}, ""};
-  auto target = node.target();
-  target.address = "192.0.2.1";
-  inbox<session_result> outcome;
-  connect_session(node.io, target, robot_node, "", {},
-                  [&](session_result result) { outcome.put(result); });
-  const auto why = expect_error(outcome.take());
+TEST_CASE("no token on either side is no reason to trust, on loopback too") {
+  acceptor_fixture bare{{}, ""};
+  const auto why = expect_error(bare.join({}, ""));
   CHECK(why.code == error_code::unauthorized);
-  CHECK(why.message.find("192.0.2.1") != std::string::npos);
+  CHECK(why.message.find("has no site token") != std::string::npos);
+  CHECK(bare.refusals.take().code == error_code::unauthorized);
+  CHECK(bare.sessions.size() == 0);
+}
 
-  const auto outside = outside_address();
-  if (outside.empty()) {
-    WARN("this host has no address but loopback");
-    return;
-  }
-  acceptor_fixture open{{}, "", {}, outside};
-  const auto refused = expect_error(open.join({}, "some-token"));
-  CHECK(refused.code == error_code::unauthorized);
-  CHECK(refused.message.find(outside) != std::string::npos);
-  CHECK(open.refusals.take().code == error_code::unauthorized);
+TEST_CASE(
+    "who is asked for a proof gives it first, and no session comes of it") {
+  acceptor_fixture node;
+  const auto ask = [&](const std::string& token, const std::string& uuid) {
+    inbox<std::optional<edge_error>> outcome;
+    auto target = node.target();
+    target.expected_uuid = uuid;
+    ask_for_proof(node.io, target, robot_node, token, {},
+                  [&](auto why) { outcome.put(std::move(why)); });
+    return outcome.take();
+  };
+  CHECK_FALSE(ask(site_token, base_node.uuid));
+  CHECK(node.refusals.take().message
+        == "it asked for a proof of the site token only");
+  CHECK(ask("another token", base_node.uuid)->code == error_code::unauthorized);
+  CHECK(ask("", base_node.uuid)->code == error_code::unauthorized);
+  CHECK(ask(site_token, "0000")->code == error_code::unknown_node);
+  CHECK(node.sessions.size() == 0);
 }
 
 TEST_CASE("nobody there is unreachable, a silent server is a timeout") {

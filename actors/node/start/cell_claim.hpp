@@ -1,0 +1,26 @@
+#pragma once
+
+#include "actors/house/house.hpp"
+#include "actors/node/node_data.hpp"
+#include "actors/node/node_edges.hpp"
+#include "roscell/node_config.hpp"
+
+#include <caf/expected.hpp>
+
+#include <cstdint>
+
+namespace roscell {
+
+/// Looks at the coordinators that are there, and gives the id of the discovery
+/// server of a new one. What is announced is a hint until it is proven: whoever
+/// claims the cell's name, or this node's UUID, is asked for a proof of the
+/// site token, all of them at once, and one that has none is told of as
+/// `claim_ignored`. Blocks for `limits::discovery::survey`, and for
+/// `limits::token::claim_proof` if there are any.
+///
+/// Errors: conflict (somebody who proves it coordinates that cell).
+caf::expected<uint8_t> claim_cell(const node_config& config,
+                                  const node_data& data, node_edges& edges,
+                                  const house& context);
+
+} // namespace roscell

@@ -1,0 +1,80 @@
+#include "tools/roscell/doctor/host/doors.hpp"
+
+#include "actors/edge/site/site_token_file.hpp"
+#include "tools/roscell/client/open_secret.hpp"
+#include "tools/roscell/client/open_skills.hpp"
+#include "tools/roscell/doctor/command_text.hpp"
+
+#include <cstdlib>
+#include <filesystem>
+#include <system_error>
+#include <variant>
+
+namespace roscell::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr auto why_token = "only nodes with the same site token come into one "
+                           "cell, on one host too";
+
+/// Where a node looks for its token, and why there.
+struct token_place {
+  fs::path file;
+  std::string origin;
+};
+
+token_place place_for(const node_config& config) {
+  if (!config.site_token_file.empty())
+    return {config.site_token_file, "given by --site-token"};
+  const auto own = own_site_token();
+  const auto* told = std::getenv(site_token_variable);
+  return {own, told != nullptr && own == fs::path{told}
+                   ? std::string{"named by $"} + site_token_variable
+                   : "the one of " + own_user() + " on this host"};
+}
+
+finding judge_missing(const token_place& place) {
+  return {judgement::warning,
+          "there is no site token in '" + place.file.string() + "', "
+              + place.origin,
+          std::string{why_token} + ": " + site_token_hint(place.file)};
+}
+
+} // namespace
+
+findings examine_site_token(const examined_host& host) {
+  const auto place = place_for(host.config);
+  std::error_code problem;
+  if (place.file.empty() || (!fs::exists(place.file, problem) && !problem))
+    return {judge_missing(place)};
+  const auto file = shell_word(place.file.string());
+  const auto read = read_site_token(place.file);
+  if (const auto* why = std::get_if<edge_error>(&read))
+    return {{judgement::broken, why->message,
+             std::string{why_token} + ": " + why->hint,
+             "ls -ld " + file + " && id"}};
+  if (!open_secret_warning(place.file).empty())
+    return {{judgement::warning,
+             "every user of this machine can read the site token in "
+                 + place.file.string(),
+             "whoever has it commands the nodes of the site",
+             "chmod 600 " + file}};
+  return {{judgement::ok, "the site token is in " + place.file.string() + ", "
+                              + place.origin + "; sha256sum " + file
+                              + " tells whether another host has the same"}};
+}
+
+findings examine_skill_owners(const examined_host& host) {
+  findings result;
+  for (const auto& x : find_open_skills(host.config))
+    result.push_back({judgement::warning, x.what,
+                      "a node of root runs what they put there", x.remedy});
+  if (result.empty())
+    result.push_back(
+        {judgement::ok, "no other user decides what a node runs as root"});
+  return result;
+}
+
+} // namespace roscell::cli
