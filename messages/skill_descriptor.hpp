@@ -20,6 +20,19 @@ struct port_description {
   }
 };
 
+/// How the kernel is to treat a program among others.
+struct scheduling_wish {
+  std::string policy; ///< "other", "batch", "idle", "fifo", "rr"; empty: other.
+  int64_t priority = 0; ///< 1 to 99 of the last two, else 0.
+  int64_t nice = 0;     ///< -20 to 19 of the others.
+
+  static constexpr auto fields() {
+    return field_list{optional("policy", &scheduling_wish::policy),
+                      optional("priority", &scheduling_wish::priority),
+                      optional("nice", &scheduling_wish::nice)};
+  }
+};
+
 /// One way to run a model.
 struct deployment_option {
   std::string name;
@@ -30,6 +43,11 @@ struct deployment_option {
   std::map<std::string, std::string> labels; ///< Labels the node must have.
   std::map<std::string, std::string> environment;
   std::vector<std::string> volumes; ///< "/host/path:/container/path[:ro]".
+  /// What of root's power it needs, "NET_RAW"; given where the node's
+  /// configuration grants it to the skill, else the node is no place for it.
+  std::vector<std::string> capabilities;
+  bool read_only = false;     ///< It writes nothing of its container but /tmp.
+  scheduling_wish scheduling; ///< Granted as `capabilities` are.
   /// JSON objects: what a step of it does unless the request says otherwise.
   std::string restart;
   std::string on_node_loss;
@@ -47,6 +65,9 @@ struct deployment_option {
         optional("labels", &deployment_option::labels),
         optional("environment", &deployment_option::environment),
         optional("volumes", &deployment_option::volumes),
+        optional("capabilities", &deployment_option::capabilities),
+        optional("read_only", &deployment_option::read_only),
+        optional("scheduling", &deployment_option::scheduling),
         raw_json("restart", &deployment_option::restart),
         raw_json("on_node_loss", &deployment_option::on_node_loss),
         raw_json("health", &deployment_option::health),

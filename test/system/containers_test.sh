@@ -3,6 +3,7 @@
 
 variants=(docker podman rootless)
 . test/system/scenes/engine.sh
+. test/system/scenes/limited.sh
 
 before_all() {
   start_engine
@@ -118,6 +119,62 @@ test_a_skill_runs_in_a_container_and_its_termination_removes_it() {
   expect "tasks" "$(get head /v1/tasks | jq '.tasks | length')" 0
 }
 
+# show_powers: the skill says what it may, and whether it may write.
+show_powers() {
+  mv "$skills/echo/bin/echo" "$skills/echo/bin/real"
+  cat > "$skills/echo/bin/echo" << 'SCRIPT'
+#!/bin/sh
+grep -E '^(Uid|Cap(Eff|Prm|Bnd|Amb)|NoNewPrivs):' /proc/self/status | tr '\t' ' '
+for folder in /tmp /opt; do
+  echo x > "$folder/of-a-skill" && echo "writes $folder"
+done 2> /dev/null
+exec /opt/roscell/skill/bin/real
+SCRIPT
+  chmod +x "$skills/echo/bin/echo"
+  jq "$1" "$skills/echo/skill.json" > "$scratch/skill.json"
+  cp "$scratch/skill.json" "$skills/echo/skill.json"
+}
+
+powers_of() {
+  to head logs "$instance" > "$scratch/log.txt" || fail "no log"
+  grep -E "^($1):" "$scratch/log.txt" | tr '\n' ';'
+}
+
+test_a_container_has_nothing_of_roots_power_and_gains_none() {
+  local none=0000000000000000
+  use_engine
+  show_powers .
+  start_node head --coordinator --cell line --interface lo
+  run_task t
+  expect "its powers" "$(powers_of 'CapEff|CapPrm|CapBnd|CapAmb|NoNewPrivs')" \
+    "CapPrm: $none;CapEff: $none;CapBnd: $none;CapAmb: $none;NoNewPrivs: 1;"
+  echoes t "a line"
+  grep -qx "writes /tmp" "$scratch/log.txt" || fail "no /tmp"
+  terminate t
+}
+
+test_a_container_has_what_its_node_grants_to_the_skill() {
+  local some=0000000000002000
+  use_engine
+  show_powers '.models[].deployments[] += {capabilities: ["NET_RAW"], read_only: true}'
+  start_node head --coordinator --cell line --interface lo
+  echo_task t > "$scratch/t.json"
+  to head request "$scratch/t.json" > "$scratch/reply.json"
+  expect "code" "$(jq -r .error.code "$scratch/reply.json")" no_feasible_allocation
+  grep -qF "skill 'echo' wants capability NET_RAW, which node 'head' does not grant \
+it: grant = echo=capability:NET_RAW" "$scratch/reply.json" || fail "$(cat "$scratch/reply.json")"
+  stop_node head
+  start_node head --coordinator --cell line --interface lo \
+    --grant echo=capability:NET_RAW
+  run_task t
+  expect "its powers" "$(powers_of 'CapEff|CapPrm|CapBnd|NoNewPrivs')" \
+    "CapPrm: $some;CapEff: $some;CapBnd: $some;NoNewPrivs: 1;"
+  grep -qx "writes /tmp" "$scratch/log.txt" || fail "no /tmp"
+  ! grep -qx "writes /opt" "$scratch/log.txt" || fail "its root file system can be written"
+  echoes t "a line"
+  terminate t
+}
+
 test_an_image_is_built_once_and_then_reused() {
   start_alone
   run_task first
@@ -188,6 +245,23 @@ test_a_killed_container_is_told_with_its_exit_code_and_last_lines() {
     || fail "$(cat "$scratch/row.json")"
   to head logs "$instance" | has_line "last words" || fail "not in its log"
   terminate doomed
+}
+
+test_a_container_that_is_out_of_memory_is_told_as_such() {
+  [[ $variant != rootless || -e /sys/fs/cgroup/cgroup.controllers ]] \
+    || skip "without root nothing is bounded by cgroups of version 1"
+  use_engine
+  make_later_hungry
+  start_node head --coordinator --cell line --interface lo
+  limited_task t later | to head request > "$scratch/reply.json" \
+    || fail "$(cat "$scratch/reply.json")"
+  instance=$(jq -r '.instances[0].instance' "$scratch/reply.json")
+  await_failed
+  to head instances > "$scratch/said"
+  has_line "out of memory: it may use 64 MiB" "$scratch/said" \
+    || fail "$(cat "$scratch/said")"
+  expect "the row" "$(get head "/v1/instances/$instance" \
+    | jq '.instances[0].out_of_memory')" true
 }
 
 # use_base NAME: the skill's base image.

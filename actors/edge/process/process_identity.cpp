@@ -152,6 +152,10 @@ std::optional<recorded_end> read_exit_record(const fs::path& dir) {
   const auto terminated = record.find("terminated");
   recorded_end result;
   result.terminated = terminated != record.end() && *terminated == true;
+  constexpr double mib = 1024.0 * 1024.0;
+  result.memory_kills = std::max<int64_t>(0, field("memory_kills"));
+  if (const auto most = field("most_memory_bytes"); most >= 0)
+    result.most_memory_mib = static_cast<double>(most) / mib;
   const auto code = field("code");
   const auto signal = field("signal");
   if (code >= 0 && code <= 255)

@@ -54,8 +54,10 @@ constexpr const char* exit_record_name = "exit";
 
 /// How the command of a shim has ended.
 struct recorded_end {
-  int exit_code = -1;      ///< 128 + n after signal n.
-  bool terminated = false; ///< The shim had been told to end it.
+  int exit_code = -1;          ///< 128 + n after signal n.
+  bool terminated = false;     ///< The shim had been told to end it.
+  int64_t memory_kills = 0;    ///< Processes of it that were ended for memory.
+  double most_memory_mib = -1; ///< That it ever had; negative: not known.
 };
 
 /// What that file says, in its folder. Nothing as long as it has not

@@ -1,6 +1,10 @@
 #include "actors/placement/questions/search_problem.hpp"
 
+#include "actors/edge/process/skill_grants.hpp"
+
 #include <algorithm>
+#include <utility>
+#include <variant>
 
 namespace roscell {
 
@@ -24,6 +28,34 @@ allocation::node convert(const node_resources& x) {
   for (const auto& gpu : x.gpus)
     result.gpus.push_back({gpu.index, convert(gpu.memory_mib)});
   return result;
+}
+
+/// What another version of this program grants may not be understood here.
+skill_grants grants_of(const node_resources& node) {
+  auto read = skill_grants::parse(node.grants);
+  auto* known = std::get_if<skill_grants>(&read);
+  return known != nullptr ? std::move(*known) : skill_grants{};
+}
+
+/// Keeps a way to run a step from a node, on whichever of its GPUs, however the
+/// CPU is read.
+void exclude_way(allocation::problem& from, size_t step, size_t way,
+                 size_t node, const std::string& reason) {
+  from.excluded.push_back({step, node, way, -1, reason, true});
+  for (const auto& gpu : from.nodes[node].gpus)
+    from.excluded.push_back({step, node, way, gpu.index, reason, true});
+}
+
+void exclude_ungranted(allocation::problem& from, size_t node,
+                       const node_resources& host,
+                       const std::vector<step_ways>& ways) {
+  const auto granted = grants_of(host);
+  for (size_t step = 0; step < ways.size(); ++step)
+    for (size_t way = 0; way < ways[step].count(); ++way)
+      for (const auto& what :
+           granted.missing(ways[step].skill(), ways[step].option(way)))
+        exclude_way(from, step, way, node,
+                    refusal_words(ways[step].skill(), host.name, what));
 }
 
 /// Position of what a name is of; the size of the list if of none.
@@ -58,6 +90,8 @@ allocation::problem make_problem(const std::vector<node_resources>& nodes,
     result.nodes.push_back(convert(node));
   for (const auto& x : ways)
     result.steps.push_back(x.to_search());
+  for (size_t i = 0; i < nodes.size(); ++i)
+    exclude_ungranted(result, i, nodes[i], ways);
   return result;
 }
 

@@ -20,7 +20,7 @@ size_t node_position(const std::vector<node_resources>& nodes,
 
 std::vector<step_ways> ways_of(const std::vector<resolved_step>& steps);
 
-/// Nothing is excluded from it.
+/// Excluded from it is only what nodes do not grant.
 allocation::problem make_problem(const std::vector<node_resources>& nodes,
                                  const std::vector<step_ways>& ways);
 

@@ -13,7 +13,8 @@ namespace {
 bool asks_for_the_same(const deployment_option& x, const deployment_option& y) {
   return x.name == y.name && x.architectures == y.architectures
          && x.resources == y.resources && x.devices == y.devices
-         && x.labels == y.labels;
+         && x.labels == y.labels && x.capabilities == y.capabilities
+         && x.scheduling == y.scheduling;
 }
 
 allocation::deployment convert(const deployment_option& x) {

@@ -23,6 +23,14 @@ public:
     return ways_[way].option.name;
   }
 
+  const deployment_option& option(size_t way) const {
+    return ways_[way].option;
+  }
+
+  const std::string& skill() const {
+    return step_.step.operation;
+  }
+
   /// Hash of the build that a node runs in this way; empty if it has none.
   std::string build(size_t way, const std::string& node) const;
 

@@ -106,6 +106,32 @@ TEST_CASE("A plan on paper has the numbers of the paper's equations",
   CHECK(rejected[1].at("node") == "a");
 }
 
+TEST_CASE("A node is no place for what it does not grant to the skill",
+          "[task_allocation][grants]") {
+  auto document = two_nodes();
+  auto& see = document["skills"][1]["models"][0]["deployments"][0];
+  see["capabilities"] = {"NET_RAW"};
+  see["scheduling"] = {{"policy", "fifo"}, {"priority", 10}};
+  const auto told = refusal(document);
+  const auto rejected = json::parse(told.details).at("rejected");
+  std::vector<std::string> reasons;
+  for (const auto& x : rejected)
+    if (x.at("node") == "g" && x.at("step") == "s1")
+      reasons = x.at("reasons").get<std::vector<std::string>>();
+  CHECK(reasons
+        == std::vector<std::string>{
+            "skill 'see' wants capability NET_RAW, which node 'g' does not "
+            "grant it: grant = see=capability:NET_RAW",
+            "skill 'see' wants scheduling fifo 10, which node 'g' does not "
+            "grant it: grant = see=scheduling:fifo:10"});
+  document["nodes"][1]["grants"] = {
+      "see=capability:NET_RAW,scheduling:fifo:20"};
+  CHECK(std::holds_alternative<task_plan>(plan(document)));
+  // What this version does not understand grants nothing.
+  document["nodes"][1]["grants"] = {"see=everything"};
+  CHECK(refusal(document).code == error_code::no_feasible_allocation);
+}
+
 TEST_CASE("What does not fit is refused with every candidate explained",
           "[task_allocation]") {
   auto document = two_nodes();

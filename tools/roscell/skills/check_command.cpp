@@ -1,4 +1,7 @@
+#include "actors/edge/process/skill_grants.hpp"
 #include "actors/instances/skill_catalogue.hpp"
+#include "messages/node.hpp"
+#include "tools/roscell/client/node_client.hpp"
 #include "tools/roscell/client/read_file.hpp"
 #include "tools/roscell/commands.hpp"
 #include "tools/roscell/exit_code.hpp"
@@ -8,10 +11,12 @@
 
 #include <CLI/CLI.hpp>
 
+#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <system_error>
+#include <variant>
 
 namespace roscell::cli {
 
@@ -19,6 +24,7 @@ namespace {
 
 struct check_options {
   std::string folder;
+  connection_options connection;
   std::string architecture = own_architecture();
   bool for_containers = false;
 };
@@ -30,6 +36,44 @@ std::string problem_view(const skill_problem& problem) {
   if (!problem.where.empty())
     text += marked_place(problem.path, read_file(problem.path), problem.where);
   return text;
+}
+
+bool names_a_node(const check_options& options) {
+  return !options.connection.to.empty() || std::getenv("ROSCELL_TO") != nullptr;
+}
+
+/// Says what of a skill's wishes the node does not grant. Returns whether it
+/// can run any deployment all the same.
+bool check_grants(const check_options& options, const skill_descriptor& skill) {
+  const auto node =
+      node_client{options.connection}.get("/v1/node").get<node_description>();
+  const auto read = skill_grants::parse(node.resources.grants);
+  const auto* known = std::get_if<skill_grants>(&read);
+  const auto granted = known != nullptr ? *known : skill_grants{};
+  bool can_run = false;
+  for (const auto& model : skill.models)
+    for (const auto& option : model.deployments) {
+      const auto missing = granted.missing(skill.operation, option);
+      can_run = can_run || missing.empty();
+      for (const auto& what : missing)
+        print_text("model '" + printable(model.name) + "', deployment '"
+                   + printable(option.name) + "': "
+                   + printable(
+                       refusal_words(skill.operation, node.identity.name, what))
+                   + "\n");
+    }
+  return can_run;
+}
+
+/// What a node has to be told before it runs the skill.
+void tell_wishes(const skill_descriptor& skill) {
+  for (const auto& model : skill.models)
+    for (const auto& option : model.deployments)
+      for (const auto& what : skill_grants{}.missing(skill.operation, option))
+        print_note("deployment '" + printable(option.name) + "' of model '"
+                   + printable(model.name)
+                   + "' runs where node.conf has: grant = "
+                   + printable(skill.operation) + "=" + printable(what));
 }
 
 int check_skill(const check_options& options) {
@@ -46,6 +90,10 @@ int check_skill(const check_options& options) {
     return exit_refused;
   constexpr size_t short_hash = 12;
   const auto skill = found.skills().front();
+  if (!names_a_node(options))
+    tell_wishes(skill.descriptor);
+  else if (!check_grants(options, skill.descriptor))
+    return exit_refused;
   print("nothing is wrong with skill '" + printable(skill.descriptor.operation)
         + "', build " + skill.hash.substr(0, short_hash) + ", for "
         + options.architecture + "\n");
@@ -62,7 +110,8 @@ void add_skill_check_command(CLI::App& skills, action& chosen) {
       "Looks at the descriptor, and whether its program is there, can be run, "
       "is for the machine,\nand finds its shared libraries. Nothing is "
       "started. A node refuses such a skill when it\nstarts, and `roscell "
-      "skills` shows why.\n\n"
+      "skills` shows why. With --to or $ROSCELL_TO that node is asked what it "
+      "grants.\n\n"
       "Examples:\n  roscell skill check build/skills/shout\n"
       "  roscell skill check --architecture arm64 build-arm64/skills/shout");
   command
@@ -77,6 +126,7 @@ void add_skill_check_command(CLI::App& skills, action& chosen) {
       ->option_text("ARCH [" + options->architecture + "]");
   command->add_flag("--for-containers", options->for_containers,
                     "The C library and interpreters are the image's");
+  add_connection_options(*command, options->connection);
   command->callback([&chosen, options] {
     chosen = [options] { return check_skill(*options); };
   });

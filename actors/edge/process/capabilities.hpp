@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// Linux capabilities: the parts that root's power is made of.
+namespace roscell {
+
+/// As bits of one number, by the kernel's numbers.
+using capability_set = uint64_t;
+
+/// By a name like "NET_RAW"; none for one that is unknown.
+std::optional<int> capability_number(std::string_view name);
+
+/// Unknown names count for nothing.
+capability_set to_capabilities(const std::vector<std::string>& names);
+
+bool has_capability(capability_set all, std::string_view name);
+
+/// What this process may use.
+capability_set own_capabilities();
+
+/// What a program of root's keeps without being granted anything: its way
+/// around permissions of files, without which it could do less than anybody.
+capability_set file_capabilities();
+
+} // namespace roscell
