@@ -171,6 +171,7 @@ using node_agent_actor = introspected_actor::extend<
 /// The RESOURCE PROBE: answers when asked, at once; it never polls.
 using resource_probe_actor = introspected_actor::extend<
     caf::replies_to<measure_host>::with<host_measured>,
+    caf::replies_to<measure_use>::with<use_measured>,
     caf::reacts_to<mark_sample>>;
 
 /// Who hears of one session. `frame_received` is sent as a request: the next

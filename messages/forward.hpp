@@ -129,6 +129,8 @@ struct store_records;
 struct record_stored;
 struct measure_host;
 struct host_measured;
+struct measure_use;
+struct use_measured;
 struct mark_sample;
 struct send_frame;
 struct frame_received;

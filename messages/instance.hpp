@@ -128,6 +128,26 @@ struct stream_count {
   }
 };
 
+/// What an instance takes of its host, as its node has read it when it was
+/// asked. Negative: not known.
+struct instance_use {
+  double memory_mib = -1; ///< Without what the kernel can take back.
+  double memory_limit_mib =
+      -1;                   ///< That the kernel holds it to; none: no bound.
+  double cpu = -1;          ///< Cores, since it was asked before.
+  double cpu_s = -1;        ///< Time of a core since its program started.
+  int64_t memory_kills = 0; ///< Processes of it that were ended for memory.
+
+  static constexpr auto fields() {
+    return field_list{
+        optional("memory_mib", &instance_use::memory_mib),
+        optional("memory_limit_mib", &instance_use::memory_limit_mib),
+        optional("cpu", &instance_use::cpu),
+        optional("cpu_s", &instance_use::cpu_s),
+        optional("memory_kills", &instance_use::memory_kills)};
+  }
+};
+
 /// What an instance has done, as its skill tells in its status. Negative: not
 /// known. Where a skill has several inputs, frames and their times are those of
 /// the input that it works on.
@@ -145,6 +165,7 @@ struct instance_figures {
   double age_ms = -1;
   std::vector<stream_count> streams; ///< Inputs before outputs.
   std::string remark; ///< Why nothing comes of its frames; empty: it does.
+  instance_use use;   ///< What its node has read, not its skill.
 
   static constexpr auto fields() {
     return field_list{
@@ -156,7 +177,8 @@ struct instance_figures {
         optional("latency_sum_ms", &instance_figures::latency_sum_ms),
         optional("age_ms", &instance_figures::age_ms),
         optional("streams", &instance_figures::streams),
-        optional("remark", &instance_figures::remark)};
+        optional("remark", &instance_figures::remark),
+        optional("use", &instance_figures::use)};
   }
 };
 
@@ -196,6 +218,7 @@ struct instance_row {
   /// When it was found that its host had interrupted it; 0: it runs again, or
   /// never was.
   int64_t interrupted_unix_ms = 0;
+  bool out_of_memory = false; ///< That is why its last run has ended.
 
   static constexpr auto fields() {
     return field_list{
@@ -222,7 +245,8 @@ struct instance_row {
         optional("unsafe_since_unix_ms", &instance_row::unsafe_since_unix_ms),
         optional("unsafe_until_unix_ms", &instance_row::unsafe_until_unix_ms),
         optional("waits", &instance_row::waits),
-        optional("interrupted_unix_ms", &instance_row::interrupted_unix_ms)};
+        optional("interrupted_unix_ms", &instance_row::interrupted_unix_ms),
+        optional("out_of_memory", &instance_row::out_of_memory)};
   }
 };
 

@@ -127,6 +127,8 @@ struct node_description {
   /// What a ROS 2 program on this node needs to be in its cell; empty: it is in
   /// none.
   std::map<std::string, std::string> environment;
+  std::string
+      limits; ///< What holds its instances to their limits, or why none.
 
   static constexpr auto fields() {
     return field_list{
@@ -145,7 +147,8 @@ struct node_description {
         optional("stored_bytes", &node_description::stored_bytes),
         optional("refused_skills", &node_description::refused_skills),
         optional("joining", &node_description::joining),
-        optional("environment", &node_description::environment)};
+        optional("environment", &node_description::environment),
+        optional("limits", &node_description::limits)};
   }
 };
 

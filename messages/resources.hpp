@@ -47,6 +47,8 @@ struct node_resources {
   /// Cores of `cpu.used` that programs outside our instances would share with
   /// a new process. 0 where nothing may be counted on.
   double cpu_compressible = 0;
+  /// What its configuration grants to skills, "SKILL=WHAT" each.
+  std::vector<std::string> grants;
 
   static constexpr auto fields() {
     return field_list{
@@ -59,7 +61,8 @@ struct node_resources {
         required("gpus", &node_resources::gpus),
         required("labels", &node_resources::labels),
         required("devices", &node_resources::devices),
-        optional("cpu_compressible", &node_resources::cpu_compressible)};
+        optional("cpu_compressible", &node_resources::cpu_compressible),
+        optional("grants", &node_resources::grants)};
   }
 };
 

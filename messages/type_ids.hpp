@@ -132,6 +132,8 @@
   X(record_stored)                                                             \
   X(measure_host)                                                              \
   X(host_measured)                                                             \
+  X(measure_use)                                                               \
+  X(use_measured)                                                              \
   X(mark_sample)                                                               \
   X(send_frame)                                                                \
   X(frame_received)                                                            \

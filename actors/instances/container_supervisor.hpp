@@ -1,6 +1,7 @@
 #pragma once
 
 #include "actors/edge/process/environment_file.hpp"
+#include "actors/edge/process/skill_grants.hpp"
 #include "actors/house/house.hpp"
 #include "actors/instances/life/quiet_notice.hpp"
 #include "actors/instances/skill_catalogue.hpp"
@@ -46,6 +47,7 @@ struct container_supervisor_config {
   std::map<std::string, std::string> environment;
   bool learns_place = false;           ///< It is such a member.
   environment_teller tell_environment; ///< Empty: no instance can be told.
+  shared_skill_grants grants; ///< Null: nothing is granted to any skill.
 };
 
 /// An instance as the supervisor sees it.

@@ -79,7 +79,9 @@ void spawn_actor(container_supervisor_pointer self, supervised_instance& x,
       st.config.boot,
       adopt ? x.started_in : "",
       renewal,
-      st.config.tell_environment};
+      st.config.tell_environment,
+      st.config.grants,
+      st.config.node};
   if (!renewal.empty())
     st.config.started_at[id] = st.config.address;
   x.actor = spawn(self->system(), st.config.context, skill_instance, config);

@@ -3,6 +3,8 @@
 #include "messages/codec/json_codec.hpp"
 #include "schemas/utf8.hpp"
 
+#include <cmath>
+
 namespace roscell {
 
 std::string exit_words(int code) {
@@ -11,6 +13,45 @@ std::string exit_words(int code) {
   if (code > 128)
     return "by signal " + std::to_string(code - 128);
   return "with exit code " + std::to_string(code);
+}
+
+namespace {
+
+std::string mib_words(double mib) {
+  return std::to_string(std::llround(std::ceil(mib))) + " MiB";
+}
+
+/// What it may have and what it took. The kernel counts in portions: one at its
+/// bound can be short of it by some.
+std::string memory_words(double may_have, double took) {
+  constexpr double nearly = 0.95;
+  const auto has = "it may use " + mib_words(may_have);
+  const auto had = "took " + mib_words(took);
+  const std::string beginning = "out of memory: ";
+  if (may_have > 0 && took < 0)
+    return beginning + has;
+  if (may_have > 0 && took >= nearly * may_have)
+    return beginning + has + ", and " + had;
+  return beginning + "its host had no more" + (took < 0 ? "" : "; it " + had)
+         + (may_have > 0 ? ", and may use " + mib_words(may_have) : "");
+}
+
+} // namespace
+
+std::string end_words(const instance_row& row, end_cause cause,
+                      double most_memory_mib) {
+  if (cause == end_cause::memory)
+    return memory_words(row.spec.resources.memory_mib, most_memory_mib);
+  if (cause == end_cause::supervision)
+    return "its supervision was ended from outside, and its program with it";
+  return "it ended " + exit_words(row.exit_code);
+}
+
+std::string scheduling_word(const scheduling_wish& wish) {
+  if (wish == scheduling_wish{})
+    return {};
+  return (wish.policy.empty() ? "other" : wish.policy) + ':'
+         + std::to_string(wish.priority) + ':' + std::to_string(wish.nice);
 }
 
 std::string last_bytes(const std::string& text, size_t max_bytes) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "messages/failure.hpp"
+#include "messages/inside/runtime.hpp"
 #include "messages/instance.hpp"
 #include "messages/kept_log.hpp"
 
@@ -12,6 +13,14 @@ namespace roscell {
 /// "with exit code 3", "by signal 9", or "in an unknown way" for a negative
 /// one.
 std::string exit_words(int code);
+
+/// Why a program of that row has ended: "out of memory: it may use 64 MiB"
+/// where that is known, else how, "it ended by signal 9".
+std::string end_words(const instance_row& row, end_cause cause,
+                      double most_memory_mib);
+
+/// What a shim is told of it: "fifo:20:0"; empty: as any program.
+std::string scheduling_word(const scheduling_wish& wish);
 
 /// The last bytes of a text, beginning with a whole line where there is one.
 std::string last_bytes(const std::string& text, size_t max_bytes);

@@ -38,6 +38,7 @@ node_description first_draft(node_pointer self, const node_query& query) {
   result.started_unix_ms = self->state.started_unix_ms;
   result.skills = parts.skills;
   result.refused_skills = parts.refused_skills;
+  result.limits = parts.limits;
   result.stored_bytes = static_cast<int64_t>(parts.database->bytes_written());
   if (query.actors)
     result.actors = parts.context.directory->rows();

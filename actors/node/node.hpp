@@ -25,6 +25,7 @@ struct node_parts {
   std::vector<installed_skill> skills;
   request_router_actor router;
   std::vector<skill_problem> refused_skills;
+  std::string limits; ///< What holds instances to their limits, or why none.
   std::vector<caf::actor> children; ///< In the order of their start.
 };
 

@@ -1,6 +1,7 @@
 #include "actors/node/node_agent.hpp"
 
 #include "actors/house/limits.hpp"
+#include "actors/node/node_figures.hpp"
 #include "actors/placement/reservation.hpp"
 #include "actors/placement/search/report/text.hpp"
 
@@ -65,6 +66,7 @@ resource_report complete(node_agent_self self, node_resources resources,
   const auto& config = self->state.config;
   resources.name = config.node;
   resources.labels = config.labels;
+  resources.grants = config.grants;
   for (const auto& device : config.devices)
     if (std::find(resources.devices.begin(), resources.devices.end(), device)
         == resources.devices.end())
@@ -149,29 +151,6 @@ caf::result<instances_reserved> keep(node_agent_self self,
         reply.refused.push_back({spec.instance, *why});
     promise.deliver(std::move(reply));
   });
-  return promise;
-}
-
-/// What the skills of live instances have last said.
-figures_report words_of(const instance_description& known) {
-  figures_report result;
-  for (const auto& x : known.instances)
-    if (is_live(x.state))
-      result.instances.push_back({x.spec.instance, x.status, x.figures});
-  return result;
-}
-
-caf::result<figures_report> report_figures(node_agent_self self) {
-  auto promise = self->make_response_promise<figures_report>();
-  self->request(self->state.config.supervisor, limits::local::part,
-                instance_query{})
-      .then(
-          [promise](const instance_description& known) mutable {
-            promise.deliver(words_of(known));
-          },
-          [promise](caf::error& why) mutable {
-            promise.deliver(std::move(why));
-          });
   return promise;
 }
 

@@ -18,6 +18,7 @@ struct node_agent_config {
   resource_probe_actor probe;
   /// Part of the cores that a new process gets beside busy programs.
   double cpu_floor = 0;
+  std::vector<std::string> grants; ///< What it grants to skills.
 };
 
 /// Answers for the local node what a coordinator asks of it.

@@ -18,6 +18,7 @@
 #include "actors/node/reach/reach_prober.hpp"
 #include "actors/node/resource_probe.hpp"
 #include "actors/node/start/config_checks.hpp"
+#include "actors/node/start/granted.hpp"
 #include "actors/node/start/offered_skills.hpp"
 #include "actors/node/state_store.hpp"
 #include "actors/placement/scheduler.hpp"
@@ -63,6 +64,7 @@ public:
     parts_.services->graph = parts_.edges->graph;
     parts_.services->examine_host = one_at_a_time(additions_.examine_host);
     parts_.identity = data_.identity;
+    parts_.limits = runtime_.limits;
     parts_.identity.name = parts_.config.name;
     parts_.identity.address = parts_.edges->http_address;
   }
@@ -143,6 +145,7 @@ private:
     supervision.may_be_lost = !config.coordinator;
     supervision.learns_place = !config.coordinator;
     supervision.environment = parts_.edges->environment;
+    supervision.grants = grants_in(config);
     parts_.services->supervisor = start(container_supervisor, supervision);
     resource_probe_config probing;
     probing.host.data_dir = config.data_dir.string();
@@ -153,7 +156,7 @@ private:
         start(node_agent,
               node_agent_config{config.name, config.labels, config.devices,
                                 parts_.services->supervisor, probe,
-                                config.cpu_floor});
+                                config.cpu_floor, config.grants});
   }
 
   void start_coordination() {
@@ -183,9 +186,9 @@ private:
     setup.scheduler = start_scheduler(setup.searches);
     setup.discovery = start_discovery();
     setup.connector = start_connector();
-    setup.registration = start(
-        registration_client,
-        registration_client_config{parts_.edges->io.get(), data_.site_token});
+    setup.registration =
+        start(registration_client,
+              registration_client_config{parts_.edges->io.get(), data_.site});
     parts_.services->scheduler = setup.scheduler;
     auto coordinator = start(cell_coordinator, parts_.context, setup);
     parts_.services->coordinator = coordinator;
@@ -194,7 +197,7 @@ private:
     admit_sessions(
         system_, parts_.context, *parts_.edges,
         {config.name, parts_.identity.uuid, config.cell, data_.incarnation},
-        data_.site_token, coordinator);
+        data_.site, coordinator);
   }
 
   scheduler_actor start_scheduler(std::shared_ptr<search_guard> guard) {
@@ -219,8 +222,7 @@ private:
   session_connector_actor start_connector() {
     return start(session_connector, parts_.context,
                  connector_parts{parts_.edges->io.get(),
-                                 parts_.edges->sockets.beat.get(),
-                                 data_.site_token});
+                                 parts_.edges->sockets.beat.get(), data_.site});
   }
 
   membership_config membership_setup() const {
@@ -231,7 +233,7 @@ private:
     result.refused_skills = parts_.refused_skills;
     result.restored = data_.membership;
     result.configured = config.wait ? "wait" : config.join;
-    result.site_token = data_.site_token;
+    result.site = data_.site;
     result.public_domain = config.public_domain_id;
     result.claim_address = [at = config.address] { claim_address(at); };
     return result;
@@ -276,7 +278,7 @@ private:
     with.discovery_server = parts_.edges->discovery_server;
     with.membership = parts_.services->membership;
     with.domain_id = config.ros_domain_id;
-    with.key = reach_key(data_.site_token);
+    with.site = data_.site;
     parts_.services->prober = start(reach_prober, with);
   }
 
@@ -347,6 +349,8 @@ caf::expected<running_node> spawn_node(caf::actor_system& system,
   auto runtime = choose_runtime(config);
   if (!runtime)
     return runtime.error();
+  if (auto why = check_grants(config, *runtime))
+    return why;
   config.runtime = runtime->name;
   auto skills = offered_skills(config, *runtime, additions.actor_skills);
   if (!skills)
@@ -374,8 +378,11 @@ caf::expected<running_node> spawn_node(caf::actor_system& system,
   result.socket = (*edges)->socket_path;
   result.discovery_server = (*edges)->discovery_server;
   result.token_file = data->token_file;
+  result.site_token_file = data->site.file().string();
   result.runtime = runtime->name;
   result.runtime_reason = runtime->reason;
+  find_limits(config, data->identity.uuid, *runtime);
+  result.limits = runtime->limits;
   node_builder builder{system,
                        std::move(config),
                        std::move(*data),

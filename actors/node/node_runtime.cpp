@@ -65,6 +65,7 @@ process_factory(caf::actor_system& system, const house& context,
   setup.history = history;
   setup.io = io.core();
   setup.environment = basic_environment();
+  setup.cgroups = chosen.cgroups;
   return [&system, context, setup](const container_listener_actor& listener) {
     return runtime_actor{
         spawn_blocking(system, context, process_runtime, setup, listener)};
@@ -92,6 +93,17 @@ caf::expected<chosen_runtime> choose_runtime(const node_config& config) {
   if (name == "auto" && colon == std::string::npos)
     return choose_processes(config, why.message + " (" + why.hint + ")");
   return to_caf(why);
+}
+
+void find_limits(const node_config& config, const std::string& node_uuid,
+                 chosen_runtime& chosen) {
+  if (!chosen.socket.empty()) {
+    chosen.limits = "those of " + chosen.name;
+    return;
+  }
+  chosen.cgroups = find_cgroup_place(
+      {config.cgroup, node_uuid, ::geteuid() == 0}, see_cgroups());
+  chosen.limits = chosen.cgroups.words;
 }
 
 std::function<runtime_actor(container_listener_actor)>

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "actors/edge/cgroup/cgroup_place.hpp"
 #include "actors/edge/io/io_thread.hpp"
 #include "actors/edge/process/environment_file.hpp"
 #include "actors/house/house.hpp"
@@ -21,6 +22,8 @@ struct chosen_runtime {
   bool rootless = false;      ///< The engine runs without root.
   std::filesystem::path shim; ///< For processes, and for fences.
   std::string reason;         ///< Why this one, a sentence for the operator.
+  cgroup_place cgroups;       ///< For processes.
+  std::string limits; ///< What holds instances to their limits, or why none.
 };
 
 /// Finds what the configuration asks for; `auto` takes an engine if one answers
@@ -30,6 +33,10 @@ struct chosen_runtime {
 /// timeout or engine_failed (the engine that was asked for), engine_failed
 /// (the shim is missing).
 caf::expected<chosen_runtime> choose_runtime(const node_config& config);
+
+/// Finds where instances are held to their limits, and makes the node's place.
+void find_limits(const node_config& config, const std::string& node_uuid,
+                 chosen_runtime& chosen);
 
 /// Spawns the runtime that was chosen.
 std::function<runtime_actor(container_listener_actor)>

@@ -1,5 +1,6 @@
 #include "actors/node/resource_probe.hpp"
 
+#include "actors/edge/host/instance_use.hpp"
 #include "actors/house/limits.hpp"
 
 #include <algorithm>
@@ -77,6 +78,38 @@ host_measured answer(resource_probe_self self, const measure_host& wish) {
   return result;
 }
 
+/// Cores that it has used since it was asked about before. Two questions that
+/// follow each other closely get one answer.
+double cores_of(resource_probe_state& st, const std::string& instance,
+                clock::time_point now, double cpu_s) {
+  constexpr std::chrono::milliseconds least_span{500};
+  auto& last = st.uses[instance];
+  const auto is_first = last.at == clock::time_point{};
+  const std::chrono::duration<double> span = now - last.at;
+  if (!is_first && span < least_span)
+    return last.cpu;
+  // Less than before is what another run of it has used.
+  const auto cpu =
+      is_first || cpu_s < last.cpu_s ? -1 : (cpu_s - last.cpu_s) / span.count();
+  last = {now, cpu_s, cpu};
+  return cpu;
+}
+
+use_measured answer_use(resource_probe_self self, const measure_use& wish) {
+  auto& st = self->state;
+  const auto now = self->clock().now();
+  use_measured result;
+  result.instances = uses_of(wish.instances, st.config.host.root);
+  std::map<std::string, use_sample> known;
+  for (auto& x : result.instances) {
+    if (x.use.cpu_s >= 0)
+      x.use.cpu = cores_of(st, x.instance, now, x.use.cpu_s);
+    known[x.instance] = st.uses[x.instance];
+  }
+  st.uses = std::move(known);
+  return result;
+}
+
 } // namespace
 
 resource_probe_actor::behavior_type
@@ -90,6 +123,7 @@ resource_probe(resource_probe_self self, const resource_probe_config& config) {
                          {"estimates", self->state.estimates}});
       },
       [self](const measure_host& wish) { return answer(self, wish); },
+      [self](const measure_use& wish) { return answer_use(self, wish); },
       [self](const mark_sample&) { mark(self, self->clock().now()); },
   };
 }

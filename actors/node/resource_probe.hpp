@@ -8,7 +8,9 @@
 
 #include <chrono>
 #include <deque>
+#include <map>
 #include <memory>
+#include <string>
 
 namespace roscell {
 
@@ -23,6 +25,13 @@ struct instance_sample {
   double cpu_seconds = 0;
 };
 
+/// CPU seconds that one instance had used at some time, and how fast then.
+struct use_sample {
+  host_probe::clock::time_point at;
+  double cpu_s = 0;
+  double cpu = -1;
+};
+
 /// Reads the host when asked. A read of /proc and the first one of NVML can
 /// take long, so this actor is spawned as one that blocks.
 struct resource_probe_state {
@@ -32,6 +41,7 @@ struct resource_probe_state {
   std::unique_ptr<host_probe> probe;
   own_processes own; ///< Of our instances, as last heard.
   std::deque<instance_sample> samples;
+  std::map<std::string, use_sample> uses; ///< By instance, as last asked.
   uint64_t measurements = 0;
   uint64_t estimates = 0; ///< Of these, without a CPU sample in time.
 };

@@ -37,14 +37,23 @@ struct node_config {
   bool new_identity = false;
   std::filesystem::path socket; ///< Unix socket; empty: data_dir/node.sock.
   std::vector<std::filesystem::path> skill_dirs; ///< Besides the usual ones.
-  std::filesystem::path site_token_file; ///< Empty: loopback sessions only.
+  /// Proves the nodes of a site to each other. Empty: the one of this user on
+  /// this host, which his first coordinator makes.
+  std::filesystem::path site_token_file;
   std::filesystem::path shim; ///< roscell-instance-shim; empty: as installed.
-  std::string capacity;       ///< "cpu=2,memory_mib=2048"; empty: all.
+  /// Where process instances get cgroups: a folder of the cgroup file system,
+  /// "auto" or "none".
+  std::string cgroup = "auto";
+  std::string capacity; ///< "cpu=2,memory_mib=2048"; empty: all.
   /// Part of its cores on which the node counts however busy other programs
   /// keep them; 0: none.
   double cpu_floor = 0.25;
   std::map<std::string, std::string> labels;
   std::vector<std::string> devices; ///< Offered besides those found.
+  /// "SKILL=WHAT[,WHAT...]": what a skill may have beyond an ordinary program's
+  /// due. SKILL is a name or "*"; WHAT is capability:NAME, user:NAME or
+  /// scheduling:POLICY:BOUND.
+  std::vector<std::string> grants;
   uint64_t log_bytes = 1024 * 1024; ///< Bound of one instance's log.
   /// Bounds of what is kept of the past: events, and logs of instances that are
   /// gone. The oldest goes first.

@@ -11,8 +11,10 @@ struct node_facts {
   std::string socket;           ///< Path of the Unix socket.
   std::string discovery_server; ///< "ip:port"; coordinators only.
   std::string token_file;       ///< Bearer token for HTTP over TCP.
+  std::string site_token_file;  ///< Where its site token is, or will be.
   std::string runtime;          ///< "process", "docker" or "podman".
   std::string runtime_reason;   ///< Why this one, one sentence.
+  std::string limits; ///< What holds instances to their limits, or why none.
 };
 
 } // namespace roscell

@@ -16,6 +16,10 @@ namespace roscell {
 
 ROSCELL_DESCRIBED(measure_host)
 ROSCELL_DESCRIBED(host_measured)
+ROSCELL_DESCRIBED(measured_instance)
+ROSCELL_DESCRIBED(measure_use)
+ROSCELL_DESCRIBED(measured_use)
+ROSCELL_DESCRIBED(use_measured)
 ROSCELL_DESCRIBED(mark_sample)
 ROSCELL_DESCRIBED(register_node)
 ROSCELL_DESCRIBED(depart_node)

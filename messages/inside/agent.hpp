@@ -1,8 +1,12 @@
 #pragma once
 
 #include "messages/inside/introspection.hpp"
+#include "messages/instance.hpp"
 #include "messages/reservation.hpp"
 #include "messages/session.hpp"
+
+#include <string>
+#include <vector>
 
 namespace roscell {
 
@@ -23,6 +27,44 @@ struct host_measured {
 
   static constexpr auto fields() {
     return field_list{required("resources", &host_measured::resources)};
+  }
+};
+
+/// What belongs to one instance on its host.
+struct measured_instance {
+  std::string instance;
+  std::string container; ///< The runtime's id of it.
+
+  static constexpr auto fields() {
+    return field_list{required("instance", &measured_instance::instance),
+                      required("container", &measured_instance::container)};
+  }
+};
+
+/// Asks the probe what instances take of the host.
+struct measure_use {
+  std::vector<measured_instance> instances;
+
+  static constexpr auto fields() {
+    return field_list{required("instances", &measure_use::instances)};
+  }
+};
+
+struct measured_use {
+  std::string instance;
+  instance_use use;
+
+  static constexpr auto fields() {
+    return field_list{required("instance", &measured_use::instance),
+                      required("use", &measured_use::use)};
+  }
+};
+
+struct use_measured {
+  std::vector<measured_use> instances; ///< As far as anything is known.
+
+  static constexpr auto fields() {
+    return field_list{required("instances", &use_measured::instances)};
   }
 };
 

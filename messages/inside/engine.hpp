@@ -4,6 +4,7 @@
 #include "messages/inside/runtime.hpp"
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -58,10 +59,13 @@ struct engine_log_read {
 struct image_planned {
   std::string image; ///< "roscell/<operation>:<hash>"
   std::string dockerfile;
+  /// Files of this host whose change makes another image, and how they were.
+  std::map<std::string, std::string> made_of;
 
   static constexpr auto fields() {
     return field_list{required("image", &image_planned::image),
-                      required("dockerfile", &image_planned::dockerfile)};
+                      required("dockerfile", &image_planned::dockerfile),
+                      required("made_of", &image_planned::made_of)};
   }
 };
 

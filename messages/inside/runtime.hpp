@@ -5,9 +5,12 @@
 #include "messages/instance.hpp"
 #include "messages/kept_log.hpp"
 #include "messages/session.hpp"
+#include "messages/skill_descriptor.hpp"
 
+#include <array>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 /// What a container runtime is asked and what it tells. The `process` runtime
@@ -59,6 +62,10 @@ struct start_container {
   /// When it is ended unless that is moved on before, by the clock of the boot
   /// (CLOCK_BOOTTIME); 0: never.
   int64_t fence_boot_ms = 0;
+  scheduling_wish scheduling; ///< That the node's configuration grants.
+  std::vector<std::string> capabilities; ///< The same, "NET_RAW".
+  std::string user;       ///< The same; empty: the node's. Processes only.
+  bool read_only = false; ///< Its root file system may be.
 
   static constexpr auto fields() {
     return field_list{
@@ -74,7 +81,11 @@ struct start_container {
         required("devices", &start_container::devices),
         required("volumes", &start_container::volumes),
         optional("stop_signal", &start_container::stop_signal),
-        optional("fence_boot_ms", &start_container::fence_boot_ms)};
+        optional("fence_boot_ms", &start_container::fence_boot_ms),
+        optional("scheduling", &start_container::scheduling),
+        optional("capabilities", &start_container::capabilities),
+        optional("user", &start_container::user),
+        optional("read_only", &start_container::read_only)};
   }
 };
 
@@ -143,19 +154,35 @@ struct adopt_container {
   }
 };
 
+/// What has ended a program.
+enum class end_cause {
+  usual,       ///< Itself, or whoever has sent it a signal.
+  memory,      ///< The kernel: it used more than it may, or there was no more.
+  supervision, ///< The end of its shim, which somebody has killed.
+};
+
+constexpr auto enum_words(end_cause) {
+  return std::array<std::string_view, 3>{"usual", "memory", "supervision"};
+}
+
 struct container_adopted {
   bool running = false;
   std::string container; ///< The runtime's id of it; empty: there is none.
   int exit_code = -1;    ///< Of one that ended meanwhile; negative: not known.
   bool recorded = false; ///< Its shim has written down how it ended,
   bool terminated = false; ///< and that it had been told to from outside.
+  end_cause cause = end_cause::usual;
+  double most_memory_mib = -1; ///< That it ever had; negative: not known.
 
   static constexpr auto fields() {
-    return field_list{required("running", &container_adopted::running),
-                      required("container", &container_adopted::container),
-                      required("exit_code", &container_adopted::exit_code),
-                      optional("recorded", &container_adopted::recorded),
-                      optional("terminated", &container_adopted::terminated)};
+    return field_list{
+        required("running", &container_adopted::running),
+        required("container", &container_adopted::container),
+        required("exit_code", &container_adopted::exit_code),
+        optional("recorded", &container_adopted::recorded),
+        optional("terminated", &container_adopted::terminated),
+        optional("cause", &container_adopted::cause),
+        optional("most_memory_mib", &container_adopted::most_memory_mib)};
   }
 };
 
@@ -202,12 +229,17 @@ struct container_exited {
   std::string container;
   int exit_code = -1;
   bool terminated = false; ///< Its shim was told to end it, by whomever.
+  end_cause cause = end_cause::usual;
+  double most_memory_mib = -1; ///< As in `container_adopted`.
 
   static constexpr auto fields() {
-    return field_list{required("instance", &container_exited::instance),
-                      required("container", &container_exited::container),
-                      required("exit_code", &container_exited::exit_code),
-                      optional("terminated", &container_exited::terminated)};
+    return field_list{
+        required("instance", &container_exited::instance),
+        required("container", &container_exited::container),
+        required("exit_code", &container_exited::exit_code),
+        optional("terminated", &container_exited::terminated),
+        optional("cause", &container_exited::cause),
+        optional("most_memory_mib", &container_exited::most_memory_mib)};
   }
 };
 

@@ -21,7 +21,7 @@ struct takes_values<T, std::index_sequence<Is...>,
     : std::true_type {};
 
 /// How many members an aggregate really has, whatever its `fields()` say.
-template <class T, size_t N = 24>
+template <class T, size_t N = 32>
 constexpr size_t member_count() {
   if constexpr (N == 0)
     return 0;

@@ -74,7 +74,9 @@ private:
   template <class T>
   std::enable_if_t<std::is_integral_v<T>> fill(T& x) {
     ++number_;
-    x = static_cast<T>(context_.second == "priority" ? 7 : number_);
+    const bool small =
+        context_.second == "priority" || context_.second == "nice";
+    x = static_cast<T>(small ? 7 : number_);
   }
 
   template <class T>

@@ -1,6 +1,9 @@
 #include "tools/instance_shim/child.hpp"
 
-#include <dirent.h>
+#include "tools/instance_shim/descendants.hpp"
+#include "tools/instance_shim/identity.hpp"
+#include "tools/instance_shim/standing.hpp"
+
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/prctl.h>
@@ -10,7 +13,6 @@
 
 #include <cerrno>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <initializer_list>
 
@@ -38,12 +40,17 @@ void reset_signals() {
   ::sigprocmask(SIG_SETMASK, &none, nullptr);
 }
 
-[[noreturn]] void become(const options& o, pid_t shim, int output) {
-  ::setpgid(0, 0);
+void die_with(pid_t shim) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   // The shim may have died before the line above took effect.
   if (::getppid() != shim)
     ::_exit(127);
+}
+
+[[noreturn]] void become(const options& o, pid_t shim, int output,
+                         bool inside) {
+  ::setpgid(0, 0);
+  die_with(shim);
   reset_signals();
   auto null = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
   ::dup2(null, STDIN_FILENO);
@@ -52,67 +59,39 @@ void reset_signals() {
     ::dup2(output, STDOUT_FILENO);
     ::dup2(output, STDERR_FILENO);
   }
+  // An ordinary one first: a cgroup may refuse what is scheduled in real time.
+  become_ordinary();
+  if (!inside)
+    enter(o.cgroups);
+  if (!take_scheduling(o.wish))
+    fail("schedule as it was granted", o.command[0]);
+  // Last, for the above may need powers that are given up here.
+  if (!take_identity(o.who))
+    fail("take on the identity of", o.command[0]);
+  // A change of the user has cleared it.
+  die_with(shim);
   if (o.working_dir != nullptr && ::chdir(o.working_dir) != 0)
     fail("change to folder", o.working_dir);
   ::execvp(o.command[0], o.command);
   fail("run", o.command[0]);
 }
 
-/// Deeper ones come up when those above them have ended.
-constexpr int most_levels = 64;
-
-/// The children that one thread has started, as text: "PID PID ".
-bool read_children(pid_t process, const char* thread, char* text, size_t room) {
-  char path[64];
-  std::snprintf(path, sizeof(path), "/proc/%d/task/%.16s/children", process,
-                thread);
-  auto fd = ::open(path, O_RDONLY | O_CLOEXEC);
-  if (fd < 0)
-    return false;
-  auto size = ::read(fd, text, room - 1);
-  ::close(fd);
-  if (size <= 0)
-    return false;
-  text[size] = '\0';
-  // A list that was cut may end with a part of a number.
-  if (text[size - 1] != ' ')
-    *(std::strrchr(text, ' ') + 1) = '\0';
-  return true;
+void kill_one(pid_t process, void*) {
+  ::kill(process, SIGKILL);
 }
 
-/// Kills the descendants of a process, the deepest first: the children of one
-/// that has ended have another parent. Returns whether there were any.
-bool kill_descendants(pid_t process, int level = 0) {
-  char path[64];
-  char text[4096];
-  auto any = false;
-  std::snprintf(path, sizeof(path), "/proc/%d/task", process);
-  auto* threads = level < most_levels ? ::opendir(path) : nullptr;
-  if (threads == nullptr)
-    return false;
-  while (const auto* entry = ::readdir(threads)) {
-    if (entry->d_name[0] == '.'
-        || !read_children(process, entry->d_name, text, sizeof(text)))
-      continue;
-    any = true;
-    char* rest = nullptr;
-    for (const char* at = text; *at >= '0' && *at <= '9'; at = rest + 1) {
-      auto child = static_cast<pid_t>(std::strtol(at, &rest, 10));
-      kill_descendants(child, level + 1);
-      ::kill(child, SIGKILL);
-    }
-  }
-  ::closedir(threads);
-  return any;
+bool kill_descendants() {
+  return visit_descendants(::getpid(), kill_one, nullptr);
 }
 
 } // namespace
 
 pid_t start_child(const options& o, int output) {
   auto shim = ::getpid();
-  auto child = ::fork();
+  auto inside = false;
+  auto child = fork_into(o.cgroups, inside);
   if (child == 0)
-    become(o, shim, output);
+    become(o, shim, output, inside);
   // The group must exist before the first signal is passed on, whoever of the
   // two runs first.
   if (child > 0)
@@ -120,7 +99,7 @@ pid_t start_child(const options& o, int output) {
   return child;
 }
 
-bool reap(pid_t child, int& wait_status) {
+bool reap(pid_t child, int& wait_status, bool spares_group) {
   auto ended = false;
   siginfo_t info{};
   while (::waitid(P_ALL, 0, &info, WEXITED | WNOHANG | WNOWAIT) == 0
@@ -128,7 +107,7 @@ bool reap(pid_t child, int& wait_status) {
     auto status = 0;
     // As long as the child is not reaped, its number cannot have become that
     // of a stranger's process group.
-    if (info.si_pid == child)
+    if (info.si_pid == child && !spares_group)
       ::kill(-child, SIGKILL);
     ::waitpid(info.si_pid, &status, 0);
     if (info.si_pid == child) {
@@ -140,20 +119,28 @@ bool reap(pid_t child, int& wait_status) {
   return ended;
 }
 
-void kill_all(pid_t child) {
-  ::kill(-child, SIGKILL);
-  kill_descendants(::getpid());
+bool has_children() {
+  siginfo_t info{};
+  return ::waitid(P_ALL, 0, &info, WEXITED | WNOHANG | WNOWAIT) == 0;
 }
 
-void kill_leftovers(pid_t child, int signals) {
+void kill_all(const cgroup_list& cgroups) {
+  kill_members(cgroups);
+  kill_descendants();
+}
+
+void kill_leftovers(const cgroup_list& cgroups, int signals) {
   auto status = 0;
-  for (auto round = 0; round < kill_rounds && kill_descendants(::getpid());
-       ++round) {
+  for (auto round = 0; round < kill_rounds; ++round) {
+    // What has left the cgroup is a descendant still.
+    const auto members = kill_members(cgroups);
+    if (!kill_descendants() && !members)
+      return;
     pollfd waited{signals, POLLIN, 0};
     ::poll(&waited, 1, kill_round_ms);
     signalfd_siginfo taken{};
     [[maybe_unused]] auto n = ::read(signals, &taken, sizeof(taken));
-    reap(child, status);
+    reap(-1, status, true);
   }
 }
 

@@ -11,14 +11,18 @@
 ///   *.tmp         not yet complete; to be ignored
 ///
 /// SIGTERM to the shim is passed on to the command's process group, as the
-/// signal that the shim was told, SIGQUIT kills that group, and SIGUSR1 is
-/// passed on to the command alone. The shim closes the stdout and stderr it was
-/// given when `pid` is written; what comes out of them before is the reason for
-/// a failure. Exit code: 0 when `exit` is written, 1 for a failure, 2 for wrong
-/// usage.
+/// signal that the shim was told; what outlives the command then is waited for.
+/// SIGQUIT kills all of it. SIGUSR1 is passed on to the command, or to those of
+/// its descendants that take it, and to nobody whom it would end. The shim
+/// closes the stdout and stderr it was given when `pid` is written; what comes
+/// out of them before is the reason for a failure. Exit code: 0 when `exit` is
+/// written, 1 for a failure, 2 for wrong usage.
 ///
 /// With a fence (fence.hpp) the command and all that it has started is killed
 /// when the fence has passed. Nothing is started without it then.
+///
+/// With cgroups the command is put into them, and ends with all who are there.
+/// The shim stays outside: it is neither bounded nor ended along with them.
 ///
 /// Without a folder it is the first process of a container, whose engine keeps
 /// the log: the output is left alone, and the exit code is that of the command,
@@ -28,6 +32,7 @@
 #include "tools/instance_shim/log_files.hpp"
 #include "tools/instance_shim/options.hpp"
 #include "tools/instance_shim/records.hpp"
+#include "tools/instance_shim/standing.hpp"
 #include "tools/instance_shim/supervision.hpp"
 
 #include <fcntl.h>
@@ -87,7 +92,7 @@ int start_failed(const options& o) {
 }
 
 child_end end_of(const supervision& x) {
-  return {x.wait_status, x.fenced, x.terminated};
+  return {x.wait_status, x.fenced, x.terminated, read_memory(x.cgroups)};
 }
 
 /// The first process of a container.
@@ -100,7 +105,10 @@ int run_plain(const options& o, supervision& x) {
     return start_failed(o);
   supervise(x);
   // The engine tells the exit code all the same.
-  record.write(end_of(x), nullptr);
+  auto end = end_of(x);
+  // Not each engine tells it: Podman 4.3 does not with cgroups of version 1.
+  end.memory = read_own_memory();
+  record.write(end, nullptr);
   return WIFSIGNALED(x.wait_status) ? 128 + WTERMSIG(x.wait_status)
                                     : WEXITSTATUS(x.wait_status);
 }
@@ -121,7 +129,7 @@ int run_recorded(const options& o, supervision& x) {
   ::close(pipe[1]);
   if (!write_pid(directory, x.child)) {
     auto result = complain("write pid in", o.directory);
-    kill_leftovers(x.child, x.signals);
+    kill_leftovers(x.cgroups, x.signals);
     return result;
   }
   release_standard_streams();
@@ -133,6 +141,7 @@ int run_recorded(const options& o, supervision& x) {
 
 int run(const options& o) {
   detach();
+  be_the_last_to_go();
   supervision x;
   x.signals = open_signals();
   if (x.signals < 0)
@@ -142,6 +151,7 @@ int run(const options& o) {
     return complain("keep the fence", o.fence);
   x.limit = &limit;
   x.stop_signal = o.stop_signal;
+  x.cgroups = o.cgroups;
   return o.directory != nullptr ? run_recorded(o, x) : run_plain(o, x);
 }
 

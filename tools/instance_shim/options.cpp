@@ -1,5 +1,7 @@
 #include "tools/instance_shim/options.hpp"
 
+#include <sched.h>
+
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -28,12 +30,97 @@ bool read_signal(const char* text, int& result) {
   return end != text && *end == '\0' && value >= 1 && value <= last_signal;
 }
 
+bool add_cgroup(const char* folder, cgroup_list& result) {
+  if (folder[0] != '/' || result.count == cgroup_list::most)
+    return false;
+  result.at[result.count++] = folder;
+  return true;
+}
+
+struct policy_word {
+  const char* word;
+  int policy;
+};
+
+constexpr policy_word policies[] = {{"other", SCHED_OTHER},
+                                    {"batch", SCHED_BATCH},
+                                    {"idle", SCHED_IDLE},
+                                    {"fifo", SCHED_FIFO},
+                                    {"rr", SCHED_RR}};
+
+/// The number up to `end`, which is passed over.
+bool read_number(const char*& text, char end, long least, long most,
+                 int& result) {
+  char* rest = nullptr;
+  const auto value = std::strtol(text, &rest, 10);
+  const auto good =
+      rest != text && *rest == end && value >= least && value <= most;
+  result = static_cast<int>(value);
+  text = rest + 1;
+  return good;
+}
+
+/// "POLICY:PRIORITY:NICE"; the kernel judges the numbers.
+bool read_scheduling(const char* text, scheduling& result) {
+  constexpr long most_priority = 99;
+  const auto* colon = std::strchr(text, ':');
+  for (const auto& x : policies) {
+    const auto length = std::strlen(x.word);
+    if (colon == nullptr || static_cast<std::size_t>(colon - text) != length
+        || std::strncmp(text, x.word, length) != 0)
+      continue;
+    const auto* rest = colon + 1;
+    result.policy = x.policy;
+    return read_number(rest, ':', 0, most_priority, result.priority)
+           && read_number(rest, '\0', -20, 19, result.nice);
+  }
+  return false;
+}
+
 bool usage() {
   ::dprintf(
       2, "usage: roscell-instance-shim {--dir DIR --log-bytes N | --exit FILE} "
-         "[--fence FILE] [--cwd DIR] [--stop-signal S] -- COMMAND "
-         "[ARGS...]\n"
-         "N is a whole number of at least 1024, S one from 1 to 31.\n");
+         "[--fence FILE] [--cwd DIR] [--stop-signal S] [--cgroup FOLDER]... "
+         "[--scheduling POLICY:PRIORITY:NICE] [--user UID:GID[,GROUP...]] "
+         "[--capabilities HEX] -- COMMAND [ARGS...]\n"
+         "N is a whole number of at least 1024, S one from 1 to 31, POLICY is "
+         "other, batch, idle, fifo or rr.\n");
+  return false;
+}
+
+using taker = bool (*)(const char* value, options& result);
+
+struct option {
+  const char* name;
+  taker take; ///< False: the value makes no sense.
+};
+
+constexpr option all_options[] = {
+    {"--dir",
+     [](const char* x, options& to) { return (to.directory = x) != nullptr; }},
+    {"--cwd", [](const char* x,
+                 options& to) { return (to.working_dir = x) != nullptr; }},
+    {"--fence",
+     [](const char* x, options& to) { return (to.fence = x) != nullptr; }},
+    {"--exit",
+     [](const char* x, options& to) { return (to.exit_file = x) != nullptr; }},
+    {"--log-bytes",
+     [](const char* x, options& to) { return read_bytes(x, to.log_bytes); }},
+    {"--stop-signal",
+     [](const char* x, options& to) { return read_signal(x, to.stop_signal); }},
+    {"--cgroup",
+     [](const char* x, options& to) { return add_cgroup(x, to.cgroups); }},
+    {"--scheduling",
+     [](const char* x, options& to) { return read_scheduling(x, to.wish); }},
+    {"--user", [](const char* x, options& to) { return read_user(x, to.who); }},
+    {"--capabilities",
+     [](const char* x, options& to) { return read_capabilities(x, to.who); }},
+};
+
+bool take(const char* name, const char* value, options& result) {
+  for (const auto& x : all_options)
+    if (std::strcmp(name, x.name) == 0)
+      return x.take(value, result);
   return false;
 }
 
@@ -41,22 +128,9 @@ bool usage() {
 
 bool read_options(int argc, char** argv, options& result) {
   auto i = 1;
-  for (; i + 1 < argc && std::strcmp(argv[i], "--") != 0; i += 2) {
-    const auto* value = argv[i + 1];
-    if (std::strcmp(argv[i], "--dir") == 0)
-      result.directory = value;
-    else if (std::strcmp(argv[i], "--cwd") == 0)
-      result.working_dir = value;
-    else if (std::strcmp(argv[i], "--fence") == 0)
-      result.fence = value;
-    else if (std::strcmp(argv[i], "--exit") == 0)
-      result.exit_file = value;
-    else if (std::strcmp(argv[i], "--log-bytes") == 0
-                 ? !read_bytes(value, result.log_bytes)
-                 : std::strcmp(argv[i], "--stop-signal") != 0
-                       || !read_signal(value, result.stop_signal))
+  for (; i + 1 < argc && std::strcmp(argv[i], "--") != 0; i += 2)
+    if (!take(argv[i], argv[i + 1], result))
       return usage();
-  }
   result.command = argv + i + 1;
   const auto logs = result.directory != nullptr && result.log_bytes > 0
                     && result.exit_file == nullptr;

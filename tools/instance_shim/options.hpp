@@ -1,8 +1,25 @@
 #pragma once
 
+#include "tools/instance_shim/identity.hpp"
+
 #include <cstdint>
 
 namespace roscell::shim {
+
+/// How the command is scheduled; without a wish as any program.
+struct scheduling {
+  int policy = 0; ///< As of sched(7): SCHED_OTHER.
+  int priority = 0;
+  int nice = 0;
+};
+
+/// The folders of one cgroup: one in each hierarchy.
+struct cgroup_list {
+  static constexpr int most = 8;
+
+  const char* at[most] = {};
+  int count = 0;
+};
 
 /// The command line of the shim.
 struct options {
@@ -14,6 +31,9 @@ struct options {
   const char* exit_file = nullptr; ///< takes the record where nothing else goes
   const char* working_dir = nullptr; ///< of the command; null: the shim's own
   int stop_signal = 15;              ///< what asks the command to end
+  cgroup_list cgroups;               ///< That the command is put into.
+  scheduling wish;                   ///< Of the command.
+  identity who;                      ///< that the command is to be
   char** command = nullptr;          ///< the command and its arguments
 };
 

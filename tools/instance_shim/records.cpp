@@ -49,11 +49,19 @@ int format_exit(const child_end& end, char* text) {
     std::snprintf(signal, sizeof(signal), "%d", WTERMSIG(end.wait_status));
   else
     std::snprintf(code, sizeof(code), "%d", WEXITSTATUS(end.wait_status));
-  return std::snprintf(text, record_bytes,
-                       "{\"code\":%s,\"signal\":%s,\"at_unix_ms\":%lld%s%s}\n",
-                       code, signal, unix_ms(),
-                       end.fenced ? ",\"fenced\":true" : "",
-                       end.terminated ? ",\"terminated\":true" : "");
+  char memory[96] = "";
+  if (end.memory.most >= 0)
+    std::snprintf(memory, sizeof(memory),
+                  ",\"memory_kills\":%lld,\"most_memory_bytes\":%lld",
+                  end.memory.kills, end.memory.most);
+  else if (end.memory.kills > 0)
+    std::snprintf(memory, sizeof(memory), ",\"memory_kills\":%lld",
+                  end.memory.kills);
+  return std::snprintf(
+      text, record_bytes,
+      "{\"code\":%s,\"signal\":%s,\"at_unix_ms\":%lld%s%s%s}\n", code, signal,
+      unix_ms(), end.fenced ? ",\"fenced\":true" : "",
+      end.terminated ? ",\"terminated\":true" : "", memory);
 }
 
 } // namespace

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "tools/instance_shim/cgroups.hpp"
+
 #include <sys/types.h>
 
 namespace roscell::shim {
@@ -17,6 +19,7 @@ struct child_end {
   int wait_status = 0;     ///< As of waitpid(2).
   bool fenced = false;     ///< By its fence.
   bool terminated = false; ///< After the shim was asked to end it.
+  memory_story memory;     ///< Of its cgroup, if it had one.
 };
 
 /// The record of how the child ended. Its room on the disk is taken when it is
@@ -42,8 +45,9 @@ public:
 
   /// Writes JSON, {"code", "signal", "at_unix_ms"}, of which one of the first
   /// two is null, "fenced": true where its fence has ended it, and
-  /// "terminated": true where the shim was asked to. A null log is nobody's.
-  /// Returns true when the record would survive a loss of power.
+  /// "terminated": true where the shim was asked to, and of its cgroup
+  /// "memory_kills" and "most_memory_bytes" where they are known. A null log is
+  /// nobody's. Returns true when the record would survive a loss of power.
   bool write(const child_end& end, log_files* log);
 
 private:

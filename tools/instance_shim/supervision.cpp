@@ -1,6 +1,7 @@
 #include "tools/instance_shim/supervision.hpp"
 
 #include "tools/instance_shim/child.hpp"
+#include "tools/instance_shim/descendants.hpp"
 #include "tools/instance_shim/log_files.hpp"
 
 #include <poll.h>
@@ -8,6 +9,8 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdio>
+#include <cstring>
 #include <initializer_list>
 
 namespace roscell::shim {
@@ -28,42 +31,97 @@ bool drain(int output, log_files& log) {
   return n > 0 || (n < 0 && errno == EINTR);
 }
 
-/// Returns whether the child has ended.
-bool on_signal(supervision& x) {
+void say(supervision& x, const char* words) {
+  if (x.log != nullptr)
+    x.log->write(words, std::strlen(words));
+  else
+    ::dprintf(STDERR_FILENO, "%s", words);
+}
+
+/// Whoever has a process group of its own has not heard the child's, and what a
+/// shell has started in the background is deaf to SIGINT and SIGQUIT.
+void pass_to_who_has_not_heard(pid_t process, void* context) {
+  const auto& x = *static_cast<const supervision*>(context);
+  if (ignores_signal(process, x.stop_signal))
+    ::kill(process, SIGTERM);
+  else if (::getpgid(process) != x.child)
+    ::kill(process, x.stop_signal);
+}
+
+void pass_to_all(pid_t process, void* context) {
+  ::kill(process, static_cast<const supervision*>(context)->stop_signal);
+}
+
+void ask_to_end(supervision& x) {
+  x.terminated = true;
+  // The numbers of a child that has ended may be a stranger's by now.
+  if (x.ended)
+    visit_descendants(::getpid(), pass_to_all, &x);
+  else
+    ::kill(-x.child, x.stop_signal);
+}
+
+void ask_if_it_listens(pid_t process, void* context) {
+  if (takes_signal(process, SIGUSR1) && ::kill(process, SIGUSR1) == 0)
+    *static_cast<bool*>(context) = true;
+}
+
+/// A shell in front of the program would die of it.
+void ask_to_be_safe(supervision& x) {
+  auto heard = false;
+  if (!x.ended)
+    ask_if_it_listens(x.child, &heard);
+  if (!heard)
+    visit_descendants(::getpid(), ask_if_it_listens, &heard);
+  if (!heard)
+    say(x, "[shim: nobody here takes SIGUSR1, by which it is asked to be safe: "
+           "it was not sent]\n");
+}
+
+void on_child_ended(supervision& x) {
+  x.ended = true;
+  if (x.terminated)
+    visit_descendants(::getpid(), pass_to_who_has_not_heard, &x);
+}
+
+/// Whether those that are left have time to end.
+bool is_patient(const supervision& x) {
+  return x.terminated && !x.forced && !x.fenced;
+}
+
+void on_signal(supervision& x) {
   signalfd_siginfo info{};
-  auto ended = false;
   while (::read(x.signals, &info, sizeof(info)) == sizeof(info)) {
-    x.terminated = x.terminated || info.ssi_signo == SIGTERM;
-    // The numbers of a child that has ended may be a stranger's by now.
-    if (info.ssi_signo == SIGCHLD)
-      ended = reap(x.child, x.wait_status) || ended;
-    else if (ended)
-      continue;
-    else if (info.ssi_signo == SIGTERM)
-      ::kill(-x.child, x.stop_signal);
+    if (info.ssi_signo == SIGTERM)
+      ask_to_end(x);
+    else if (info.ssi_signo == SIGUSR1)
+      ask_to_be_safe(x);
     else if (info.ssi_signo == SIGQUIT)
-      ::kill(-x.child, SIGKILL);
-    else
-      ::kill(x.child, SIGUSR1);
+      x.forced = true;
+    else if (reap(x.child, x.wait_status, is_patient(x)))
+      on_child_ended(x);
   }
   // What a killed process has left behind is now a child of the shim.
-  if (x.fenced && !ended)
-    kill_all(x.child);
-  return ended;
+  if ((x.fenced || x.forced) && !x.ended)
+    kill_all(x.cgroups);
 }
 
 void on_timer(supervision& x) {
   if (!x.limit->has_passed())
     return;
   x.fenced = true;
-  kill_all(x.child);
+  kill_all(x.cgroups);
+}
+
+bool is_over(const supervision& x) {
+  return x.ended && !(is_patient(x) && has_children());
 }
 
 void await_end(supervision& x) {
   pollfd waited[] = {{x.signals, POLLIN, 0},
                      {x.output, POLLIN, 0},
                      {x.limit->timer(), POLLIN, 0}};
-  for (;;) {
+  while (!is_over(x)) {
     if (::poll(waited, 3, -1) < 1)
       continue; // Interrupted.
     if (waited[2].revents != 0) {
@@ -71,14 +129,14 @@ void await_end(supervision& x) {
       // The kernel kills all of a container when its first process ends, even
       // what that may not kill or what does not obey.
       if (x.fenced && x.log == nullptr) {
-        x.wait_status = SIGKILL;
+        x.wait_status = x.ended ? x.wait_status : SIGKILL;
         return;
       }
       // A moment that has passed stays so.
       waited[2].fd = x.fenced ? -1 : waited[2].fd;
     }
-    if (waited[0].revents != 0 && on_signal(x))
-      return;
+    if (waited[0].revents != 0)
+      on_signal(x);
     // The child may close its output long before it ends.
     if (waited[1].revents != 0 && !drain(x.output, *x.log))
       waited[1].fd = -1;
@@ -98,7 +156,7 @@ int open_signals() {
 
 void supervise(supervision& x) {
   await_end(x);
-  kill_leftovers(x.child, x.signals);
+  kill_leftovers(x.cgroups, x.signals);
   // A process that could not be killed may still hold the other end.
   for (auto i = 0;
        x.log != nullptr && i < max_last_portions && drain(x.output, *x.log);

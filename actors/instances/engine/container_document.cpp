@@ -1,9 +1,10 @@
 #include "actors/instances/engine/container_document.hpp"
 
+#include "actors/instances/engine/container_powers.hpp"
 #include "actors/instances/engine/dockerfile.hpp"
+#include "actors/instances/instance_words.hpp"
 
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -108,6 +109,7 @@ json host_json(const start_container& wish, const container_files& files,
                           {{"max-size", std::to_string(setting.log_bytes / 2)},
                            {"max-file", "2"}}}};
   limit_resources(result, wish.limits);
+  bound_powers(result, wish, setting.rootless);
   if (wish.gpu >= 0)
     result["DeviceRequests"].push_back(
         {{"Driver", "nvidia"},
@@ -126,25 +128,23 @@ bool is_of_base(const start_container& wish) {
 }
 
 /// The shim runs what the image would have run.
-std::vector<std::string> shim_command(const start_container& wish) {
+std::vector<std::string> shim_command(const start_container& wish,
+                                      bool rootless) {
   std::vector<std::string> result{shim_inside, "--exit", exit_file_inside,
                                   "--stop-signal",
                                   std::to_string(wish.stop_signal)};
   if (is_fenced(wish))
     result.insert(result.end(), {"--fence", fence_inside});
+  if (const auto word = scheduling_word(wish.scheduling); !word.empty())
+    result.insert(result.end(), {"--scheduling", word});
+  const auto who = identity_words(wish, rootless);
+  result.insert(result.end(), who.begin(), who.end());
   result.push_back("--");
   auto program = wish.command;
   if (!is_of_base(wish))
     program.at(0) = std::string{image_skill_dir} + '/' + program.at(0);
   result.insert(result.end(), program.begin(), program.end());
   return result;
-}
-
-/// Files and shared memory belong to the node's user, inside and outside.
-std::string user_of(const container_setting& setting) {
-  return setting.rootless
-             ? "0:0"
-             : std::to_string(::geteuid()) + ':' + std::to_string(::getegid());
 }
 
 } // namespace
@@ -164,7 +164,7 @@ json container_document(const start_container& wish,
   if (is_fenced(wish))
     seen.mounts.push_back({shim.fence, fence_inside, true});
   return json{{"Image", wish.image},
-              {"User", user_of(setting)},
+              {"User", container_user(wish, setting.rootless)},
               {"Env", environment_json(wish)},
               {"Labels", labels_json(wish, setting)},
               // Signs of life come by the NOTIFY_SOCKET; the base image's own
@@ -174,7 +174,7 @@ json container_document(const start_container& wish,
               // The shim is asked to end in one way, and passes it on in the
               // skill's.
               {"StopSignal", std::to_string(SIGTERM)},
-              {"Entrypoint", shim_command(wish)}};
+              {"Entrypoint", shim_command(wish, setting.rootless)}};
 }
 
 } // namespace roscell

@@ -20,9 +20,13 @@ container_adopted ended_container(engine_runtime_pointer self,
                                   const std::string& instance,
                                   const json& found) {
   const auto end = read_exit_record(notify_dir(self, instance));
-  return {false, text_at(found, "Id"),
-          end ? end->exit_code : exit_code_of(found), end.has_value(),
-          end && end->terminated};
+  container_adopted result{false, text_at(found, "Id"),
+                           end ? end->exit_code : exit_code_of(found),
+                           end.has_value(), end && end->terminated};
+  result.cause = cause_of(found, end, result.exit_code);
+  if (end)
+    result.most_memory_mib = end->most_memory_mib;
+  return result;
 }
 
 void on_inspected(engine_runtime_pointer self, const adopt_container& wish,

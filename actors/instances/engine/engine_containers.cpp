@@ -5,7 +5,6 @@
 #include "actors/edge/process/child_watch.hpp"
 #include "actors/edge/process/fence_file.hpp"
 #include "actors/edge/process/notify_socket.hpp"
-#include "actors/edge/process/process_identity.hpp"
 #include "actors/house/edge_failure.hpp"
 #include "actors/instances/life/told_words.hpp"
 #include "messages/failure.hpp"
@@ -143,10 +142,38 @@ void clean_up(engine_runtime_pointer self, const std::string& instance) {
   fs::remove_all(notify_dir(self, instance), ignored);
 }
 
+end_cause cause_of(const json& container,
+                   const std::optional<recorded_end>& end, int exit_code) {
+  const bool ran_out = flag_at(object_at(container, "State"), "OOMKilled")
+                       || (end && end->memory_kills > 0);
+  return exit_code != 0 && ran_out ? end_cause::memory : end_cause::usual;
+}
+
+namespace {
+
+void tell_end(engine_runtime_pointer self, const std::string& instance,
+              const std::string& id, int exit_code, const json& inspected) {
+  auto& st = self->state;
+  auto* x = find_container(self, instance);
+  if (x == nullptr || (!x->id.empty() && x->id != id))
+    return;
+  // What the program said last must not come after its end.
+  const auto words = receive_notifications(x->notify_socket->get());
+  if (words.ready || words.stopping || !words.status.empty())
+    self->send(st.listener, told_words(instance, words, false));
+  const auto end = read_exit_record(notify_dir(self, instance));
+  self->send(st.listener,
+             container_exited{instance, id, exit_code, end && end->terminated,
+                              cause_of(inspected, end, exit_code),
+                              end ? end->most_memory_mib : -1});
+  forget(self, instance);
+}
+
+} // namespace
+
 void on_container_ended(engine_runtime_pointer self,
                         const std::string& instance, const std::string& id,
                         int exit_code) {
-  auto& st = self->state;
   auto* x = find_container(self, instance);
   if (x == nullptr || (!x->id.empty() && x->id != id))
     return;
@@ -154,14 +181,13 @@ void on_container_ended(engine_runtime_pointer self,
     x->early_exit = exit_code;
     return;
   }
-  // What the program said last must not come after its end.
-  const auto words = receive_notifications(x->notify_socket->get());
-  if (words.ready || words.stopping || !words.status.empty())
-    self->send(st.listener, told_words(instance, words, false));
-  const auto end = read_exit_record(notify_dir(self, instance));
-  self->send(st.listener,
-             container_exited{instance, id, exit_code, end && end->terminated});
-  forget(self, instance);
+  if (exit_code == 0)
+    return tell_end(self, instance, id, exit_code, {});
+  // Why it was killed stands nowhere but there.
+  ask_engine(self, to_container("GET", id, "/json"),
+             [=](const engine_answered& answer) {
+               tell_end(self, instance, id, exit_code, object_of(answer));
+             });
 }
 
 } // namespace roscell

@@ -1,10 +1,12 @@
 #pragma once
 
+#include "actors/edge/process/process_identity.hpp"
 #include "actors/house/limits.hpp"
 #include "actors/instances/engine/engine_calls.hpp"
 
 #include <chrono>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 /// INTERNAL to the engine runtime: what it knows of its containers.
@@ -66,5 +68,10 @@ std::string target_of(const std::string& container,
 /// Of an inspected container. The exit code is negative if it is not known.
 int exit_code_of(const json& container);
 bool is_running(const json& container);
+
+/// What has ended a container besides its exit code: what its engine says, and
+/// what its shim has written down.
+end_cause cause_of(const json& container,
+                   const std::optional<recorded_end>& end, int exit_code);
 
 } // namespace roscell

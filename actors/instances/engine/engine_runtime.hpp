@@ -1,6 +1,7 @@
 #pragma once
 
 #include "actors/edge/engine/engine_client.hpp"
+#include "actors/edge/engine/file_marks.hpp"
 #include "actors/edge/io/fd_watch.hpp"
 #include "actors/house/alarm.hpp"
 #include "actors/house/backoff.hpp"
@@ -81,6 +82,12 @@ struct engine_log_follower {
   engine_stream stream;
 };
 
+/// How an image is called that has been planned.
+struct image_plan {
+  std::string image;
+  file_marks made_of; ///< As of then.
+};
+
 /// The log of a container that goes, on its way into the history.
 struct engine_log_reading {
   kept_log about;
@@ -112,7 +119,7 @@ struct engine_runtime_state {
   std::optional<alarm::time_point> next_attempt;
 
   std::map<std::string, engine_container> containers;   ///< By instance.
-  std::map<std::string, std::string> plans;             ///< Key to image name.
+  std::map<std::string, image_plan> plans;              ///< By key.
   std::map<std::string, image_work> works;              ///< By key.
   std::map<uint64_t, engine_log_follower> followers;    ///< By call.
   std::map<uint64_t, engine_log_reading> readings;      ///< By call.

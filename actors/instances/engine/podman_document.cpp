@@ -18,6 +18,16 @@ json environment_of(const json& docker) {
   return result;
 }
 
+json words_of(const std::string& list) {
+  json result = json::array();
+  for (size_t at = 0; at < list.size();) {
+    const auto comma = std::min(list.find(',', at), list.size());
+    result.push_back(list.substr(at, comma - at));
+    at = comma + 1;
+  }
+  return result;
+}
+
 json mounts_of(const json& host) {
   json result = json::array();
   for (const auto& x : host.at("Mounts"))
@@ -27,6 +37,12 @@ json mounts_of(const json& host) {
          {"destination", x.at("Target")},
          {"options",
           json::array({"rbind", x.at("ReadOnly") == true ? "ro" : "rw"})}});
+  const auto memory = host.value("Tmpfs", json::object());
+  for (const auto& [folder, options] : memory.items())
+    result.push_back({{"type", "tmpfs"},
+                      {"source", "tmpfs"},
+                      {"destination", folder},
+                      {"options", words_of(options.get<std::string>())}});
   return result;
 }
 
@@ -81,6 +97,11 @@ json podman_document(const std::string& name, const json& docker) {
       {"env", environment_of(docker)},
       {"labels", docker.at("Labels")},
       {"healthconfig", docker.at("Healthcheck")},
+      {"groups", host.at("GroupAdd")},
+      {"cap_add", host.at("CapAdd")},
+      {"cap_drop", host.at("CapDrop")},
+      {"no_new_privileges", true},
+      {"read_only_filesystem", host.at("ReadonlyRootfs")},
       {"netns", {{"nsmode", host.at("NetworkMode")}}},
       {"ipcns", {{"nsmode", host.at("IpcMode")}}},
       {"mounts", mounts_of(host)},

@@ -24,16 +24,16 @@ void on_exited(skill_instance_pointer self, const container_exited& x) {
   if (st.concluding || x.container != st.row.container)
     return;
   st.row.exit_code = x.exit_code;
+  st.row.out_of_memory = x.cause == end_cause::memory;
+  const auto why = end_words(st.row, x.cause, x.most_memory_mib);
   if (x.terminated && st.row.state != instance_state::stopping)
     interrupt(self, told_to_end);
   else if (st.row.state == instance_state::running && x.exit_code == 0)
     conclude(self, instance_state::stopped, "finished");
   else if (st.row.state == instance_state::running)
-    conclude(self, instance_state::failed,
-             "it ended " + exit_words(x.exit_code));
+    conclude(self, instance_state::failed, why);
   else if (st.row.state == instance_state::starting)
-    conclude(self, instance_state::failed,
-             "it ended " + exit_words(x.exit_code) + " before it was ready");
+    conclude(self, instance_state::failed, why + " before it was ready");
 }
 
 std::string list_of(const std::vector<std::string>& words) {

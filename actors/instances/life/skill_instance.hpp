@@ -1,6 +1,7 @@
 #pragma once
 
 #include "actors/edge/process/environment_file.hpp"
+#include "actors/edge/process/skill_grants.hpp"
 #include "actors/house/alarm.hpp"
 #include "actors/house/house.hpp"
 #include "actors/instances/life/health_book.hpp"
@@ -45,6 +46,8 @@ struct skill_instance_config {
   /// when it is told; empty: it goes on.
   std::string renewal;
   environment_teller tell_environment; ///< Empty: it cannot be told.
+  shared_skill_grants grants; ///< Null: nothing is granted to any skill.
+  std::string node;           ///< Its name, for what it says.
 };
 
 /// Owns one instance from intent to end. The diagram is in docs/protocols.md.

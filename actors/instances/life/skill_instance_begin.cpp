@@ -33,6 +33,28 @@ struct program_plan {
   int stop_signal = SIGTERM;
 };
 
+/// Why the deployment cannot be run as it asks to be; empty: it can. What is
+/// granted may have changed since it was placed here.
+std::string not_granted(const skill_instance_state& st,
+                        const deployment_option& option) {
+  const auto granted = st.config.grants ? *st.config.grants : skill_grants{};
+  const auto& skill = st.row.spec.operation;
+  const auto missing = granted.missing(skill, option);
+  return missing.empty()
+             ? std::string{}
+             : refusal_words(skill, st.config.node, missing.front());
+}
+
+/// Passes on what the deployment asks for, of which all is granted.
+void grant(const skill_instance_state& st, const deployment_option& option,
+           start_container& wish) {
+  wish.capabilities = option.capabilities;
+  wish.scheduling = option.scheduling;
+  wish.read_only = option.read_only;
+  if (st.config.grants)
+    wish.user = st.config.grants->user_of(st.row.spec.operation);
+}
+
 void on_built(skill_instance_pointer self, const std::string& image,
               const program_plan& program, const deployment_option& option) {
   auto& st = self->state;
@@ -59,6 +81,7 @@ void on_built(skill_instance_pointer self, const std::string& image,
   wish.output = spec.output;
   wish.devices = option.devices;
   wish.volumes = option.volumes;
+  grant(st, option, wish);
   wish.fence_boot_ms = st.fence_boot_ms = fence_of(st);
   ask<container_started>(
       self, st.config.runtime, limits::instance::start, wish,
@@ -101,6 +124,8 @@ void build(skill_instance_pointer self) {
   if (option == nullptr)
     return conclude(self, instance_state::failed,
                     "this node does not have its skill any more");
+  if (const auto why = not_granted(st, *option); !why.empty())
+    return conclude(self, instance_state::failed, why);
   const auto& descriptor = folder->skill.descriptor;
   if (folder->in_process)
     return on_built(self, actor_image(descriptor.operation), {}, *option);
@@ -192,6 +217,7 @@ void resume(skill_instance_pointer self, const std::string& container) {
 void on_found_ended(skill_instance_pointer self, const container_adopted& x) {
   auto& st = self->state;
   st.row.exit_code = x.exit_code;
+  st.row.out_of_memory = x.cause == end_cause::memory;
   if (st.row.state == instance_state::backing_off)
     return resume_pause(self);
   if (st.row.state == instance_state::stopping
@@ -205,7 +231,7 @@ void on_found_ended(skill_instance_pointer self, const container_adopted& x) {
     conclude(self, instance_state::stopped, "finished");
   else
     conclude(self, instance_state::failed,
-             "it ended " + exit_words(x.exit_code)
+             end_words(st.row, x.cause, x.most_memory_mib)
                  + " while the node was away");
 }
 

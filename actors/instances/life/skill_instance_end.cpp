@@ -219,6 +219,7 @@ void start_again(skill_instance_pointer self) {
   st.row.next_start_unix_ms = 0;
   st.row.waits.clear();
   st.row.exit_code = -1;
+  st.row.out_of_memory = false;
   st.row.log_tail.clear();
   enter(self, instance_state::pending, st.row.reason);
   ask<container_removed>(

@@ -3,6 +3,8 @@
 #include "actors/instances/life/restart_delay.hpp"
 #include "actors/instances/life/skill_instance_steps.hpp"
 
+#include <caf/send.hpp>
+
 #include <algorithm>
 #include <utility>
 
@@ -61,6 +63,14 @@ void stop_waiting(skill_instance_pointer self) {
   take_down(self, instance_state::stopped, *st.farewell);
 }
 
+/// It is ending politely, and somebody does not want to wait any longer. Who
+/// has asked politely hears how it ends.
+void hasten(skill_instance_pointer self) {
+  const auto& row = self->state.row;
+  caf::anon_send(self->state.config.runtime,
+                 stop_container{row.spec.instance, row.container, 0});
+}
+
 int64_t boot_now(skill_instance_pointer self) {
   return self->state.config.context.boot_now_ms(self->system());
 }
@@ -80,6 +90,9 @@ void on_stop(skill_instance_pointer self, const stop_instance& wish) {
                                     || state == instance_state::backing_off);
   if (!st.farewell)
     st.farewell = wish.reason;
+  if (!st.concluding && st.begun && state == instance_state::stopping
+      && wish.force)
+    return hasten(self);
   if (st.concluding || (st.begun && state == instance_state::stopping))
     return;
   st.begun = true;

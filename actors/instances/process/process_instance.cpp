@@ -7,6 +7,9 @@
 #include "actors/edge/process/notify_socket.hpp"
 #include "actors/edge/process/process_spawner.hpp"
 #include "actors/house/limits.hpp"
+#include "actors/instances/process/instance_user.hpp"
+#include "actors/instances/process/process_limits.hpp"
+#include "actors/instances/process/shim_program.hpp"
 #include "messages/inside/history.hpp"
 
 #include <caf/send.hpp>
@@ -29,8 +32,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Says whose a program is, for the whole host and all nodes on it.
-constexpr const char* folder_variable = "ROSCELL_INSTANCE_DIR";
+/// What an exit code has above the number of the signal.
+constexpr int signal_base = 128;
 
 edge_error failed(const std::string& what, const fs::path& path,
                   const std::string& why, std::string hint = {}) {
@@ -80,36 +83,16 @@ edge_result<unique_fd> ready_folder(const fs::path& dir) {
   return socket;
 }
 
-program shim_for(const process_runtime_config& config, const fs::path& dir,
-                 const start_container& wish) {
-  program result;
-  result.path = config.shim;
-  result.arguments = {
-      "--dir", dir.string(), "--log-bytes",   std::to_string(config.log_bytes),
-      "--cwd", wish.image,   "--stop-signal", std::to_string(wish.stop_signal)};
-  auto& words = result.arguments;
-  if (wish.fence_boot_ms != 0)
-    words.insert(words.end(), {"--fence", fence_path(dir).string()});
-  words.insert(words.end(),
-               {"--", (fs::path{wish.image} / wish.command.at(0)).string()});
-  words.insert(words.end(), wish.command.begin() + 1, wish.command.end());
-  result.environment = wish.environment;
-  result.environment["NOTIFY_SOCKET"] = notify_path(dir).string();
-  result.environment[folder_variable] = dir.string();
-  // Does not replace what was given.
-  result.environment.insert(config.environment.begin(),
-                            config.environment.end());
-  return result;
-}
-
 /// A shim that was killed has left no record, and maybe programs: its command
 /// dies with it, but not what the command has started in sessions of their own.
 /// Without a record, readers of the log would wait for more.
-void clear_up_after_killed_shim(const fs::path& dir) {
+void clear_up_after_killed_shim(const fs::path& dir,
+                                const instance_cgroup& cgroup) {
   std::error_code error;
   if (!fs::is_directory(dir, error)
       || fs::exists(dir / exit_record_name, error))
     return;
+  cgroup.kill();
   kill_marked_processes(folder_variable, dir.string());
   std::ofstream{dir / exit_record_name} << R"({"code":null,"signal":null})"
                                         << '\n';
@@ -122,6 +105,11 @@ void take_end(const fs::path& dir, process_instance& x, int otherwise) {
   x.recorded = end.has_value();
   x.exit_code = end ? end->exit_code : otherwise;
   x.terminated = end && end->terminated;
+  // A program that has ended well has not missed what was ended.
+  if (end && end->memory_kills > 0 && end->exit_code != 0)
+    x.cause = end_cause::memory;
+  if (end)
+    x.most_memory_mib = end->most_memory_mib;
 }
 
 std::string variable(const char* name, const char* otherwise) {
@@ -146,10 +134,18 @@ edge_result<process_instance> launch(const process_runtime_config& config,
   if (wish.fence_boot_ms != 0)
     if (auto error = make_fence(fence_path(dir), wish.fence_boot_ms))
       return *error;
-  auto started =
-      spawn_program(shim_for(config, dir, wish), limits::instance::shim);
+  const auto cgroup =
+      instance_cgroup::make(config.cgroups, wish.instance, bounds_of(wish));
+  cgroup.record(dir);
+  auto shim = shim_for(config, dir, wish, cgroup);
+  if (auto error = add_identity(wish, shim))
+    return *error;
+  if (auto error = let_in(wish, dir))
+    return *error;
+  auto started = spawn_program(shim, limits::instance::shim);
   if (auto* error = std::get_if<edge_error>(&started)) {
-    clear_up_after_killed_shim(dir);
+    clear_up_after_killed_shim(dir, cgroup);
+    drop_cgroup(config, wish.instance, cgroup);
     return *error;
   }
   auto& child = std::get<spawned_program>(started);
@@ -157,6 +153,7 @@ edge_result<process_instance> launch(const process_runtime_config& config,
   result.container = to_container(child.identity);
   result.pidfd = share(std::move(child.pidfd));
   result.notify_socket = share(std::move(std::get<unique_fd>(socket)));
+  result.cgroup = cgroup;
   return result;
 }
 
@@ -173,14 +170,19 @@ edge_result<process_instance> take_over(const process_runtime_config& config,
   if (!process)
     return result;
   result.container = to_container(*process);
+  const auto cgroup = cgroup_of(config, instance);
   auto pidfd = open_process(*process, '/' + instance);
   if (!pidfd || has_ended(pidfd.get())) {
     if (pidfd)
       reap(pidfd.get());
-    clear_up_after_killed_shim(dir);
+    clear_up_after_killed_shim(dir, cgroup);
     take_end(dir, result, -1);
+    if (!result.recorded)
+      result.cause = end_cause::supervision;
+    drop_cgroup(config, instance, cgroup);
     return result;
   }
+  result.cgroup = cgroup;
   auto socket = open_notify_socket(notify_path(dir));
   if (auto* error = std::get_if<edge_error>(&socket))
     return *error;
@@ -193,9 +195,15 @@ void conclude(const process_runtime_config& config, const std::string& instance,
               process_instance& x) {
   const auto dir = config.instances_dir / instance;
   const auto shim_code = reap(x.pidfd->get()).value_or(0);
-  clear_up_after_killed_shim(dir);
+  clear_up_after_killed_shim(dir, x.cgroup);
   // A shim that did its work ends with 0, whatever became of its command.
   take_end(dir, x, shim_code != 0 ? shim_code : -1);
+  // Of one that an earlier run of the node has started there is no code.
+  if (!x.recorded && (shim_code == 0 || shim_code > signal_base)) {
+    x.cause = end_cause::supervision;
+    x.exit_code = -1;
+  }
+  drop_cgroup(config, instance, std::exchange(x.cgroup, {}));
   x.pidfd = nullptr;
   x.notify_socket = nullptr;
 }
@@ -213,6 +221,7 @@ edge_result<bool> clean_up(const process_runtime_config& config,
                            const std::string& instance) {
   const auto dir = config.instances_dir / instance;
   std::error_code error;
+  drop_cgroup(config, instance, cgroup_of(config, instance));
   // The folder goes last: it is by this that the rest is found.
   fs::remove(notify_path(dir), error);
   fs::remove(environment_file_of(notify_path(dir)), error);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "actors/edge/cgroup/instance_cgroup.hpp"
 #include "actors/edge/io/edge_error.hpp"
 #include "actors/edge/process/child_watch.hpp"
 #include "actors/edge/process/process_identity.hpp"
@@ -27,6 +28,7 @@ struct process_runtime_config {
   std::shared_ptr<io_core> io; ///< Watches the programs.
   /// What every program sees besides what it is given.
   std::map<std::string, std::string> environment;
+  cgroup_place cgroups; ///< Holds them to their limits; may be nowhere.
 };
 
 /// PATH, HOME and LANG of this process, with defaults for what it has not.
@@ -40,6 +42,9 @@ struct process_instance {
   int exit_code = -1;      ///< 128 + n after signal n; negative: not known.
   bool recorded = false;   ///< Its shim has written down how it ended,
   bool terminated = false; ///< and that it had been told to.
+  end_cause cause = end_cause::usual;
+  double most_memory_mib = -1; ///< That it ever had; negative: not known.
+  instance_cgroup cgroup;      ///< None once it has ended.
 
   bool runs() const {
     return pidfd != nullptr;
@@ -66,9 +71,13 @@ void conclude(const process_runtime_config& config, const std::string& instance,
 /// Puts the log of an instance that has ended into the history.
 void keep_log(const process_runtime_config& config, const kept_log& about);
 
-/// Removes the folder, the socket and the fence of an instance that has ended.
-/// Errors: engine_failed.
+/// Removes the folder, the socket, the fence and the cgroup of an instance that
+/// has ended. Errors: engine_failed.
 edge_result<bool> clean_up(const process_runtime_config& config,
                            const std::string& instance);
+
+/// Ends and removes what is left of cgroups of instances that have no folder
+/// any more.
+void clear_cgroups(const process_runtime_config& config);
 
 } // namespace roscell

@@ -110,8 +110,9 @@ caf::result<container_adopted> adopt(process_runtime_pointer self,
   if (const auto* error = std::get_if<edge_error>(&found))
     return to_caf(*error);
   const auto& x = std::get<running_process*>(found)->process;
-  return container_adopted{x.runs(), x.container, x.exit_code, x.recorded,
-                           x.terminated};
+  return container_adopted{x.runs(),         x.container,  x.exit_code,
+                           x.recorded,       x.terminated, x.cause,
+                           x.most_memory_mib};
 }
 
 /// By the io thread, like all words of the instance, so that none overtakes
@@ -163,6 +164,16 @@ void end(process_runtime_pointer self, running_process& x, ending stage,
   self->state.timer.set(self, *x.next_stage);
 }
 
+/// Whoever has asked politely may lose his patience: the shortest grace counts.
+void hasten(process_runtime_pointer self, running_process& x,
+            alarm::time_point::duration grace) {
+  const auto due = self->clock().now() + grace;
+  if (x.next_stage && due >= *x.next_stage)
+    return;
+  x.next_stage = due;
+  self->state.timer.set(self, due);
+}
+
 void give_up(const std::string& instance, running_process& x) {
   const auto why = fail(error_code::engine_failed,
                         "the instance '" + instance + "' cannot be killed", {},
@@ -206,6 +217,8 @@ caf::result<container_stopped> stop(process_runtime_pointer self,
       wish.grace_ms, 0, limits::instance::most_stop_grace.count());
   if (x.stage == ending::none)
     end(self, x, ending::asked, std::chrono::milliseconds{grace});
+  else if (x.stage == ending::asked)
+    hasten(self, x, std::chrono::milliseconds{grace});
   auto promise = self->make_response_promise<container_stopped>();
   x.stoppers.push_back(promise);
   return promise;
@@ -268,8 +281,10 @@ void on_end(process_runtime_pointer self, const program_ended& fact) {
   x.stage = ending::none;
   x.next_stage.reset();
   const auto code = x.process.exit_code;
-  self->send(st.listener, container_exited{fact.instance, fact.container, code,
-                                           x.process.terminated});
+  self->send(st.listener,
+             container_exited{fact.instance, fact.container, code,
+                              x.process.terminated, x.process.cause,
+                              x.process.most_memory_mib});
   for (auto& promise : std::exchange(x.stoppers, {}))
     promise.deliver(container_stopped{code});
   serve_followers(self, fact.instance);
@@ -313,6 +328,8 @@ process_runtime(process_runtime_pointer self,
                 container_listener_actor listener) {
   self->state.config = config;
   self->state.listener = std::move(listener);
+  clear_cgroups(config);
+  self->attach_functor([place = config.cgroups] { remove_place(place); });
   watch_until_own_end(self, self->state.listener);
   self->set_down_handler(
       [self](const caf::down_msg& down) { self->quit(down.reason); });

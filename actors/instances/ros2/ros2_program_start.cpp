@@ -2,7 +2,9 @@
 
 #include "actors/instances/ros2/ros_name.hpp"
 #include "messages/codec/json_codec.hpp"
+#include "messages/step_end.hpp"
 
+#include <optional>
 #include <utility>
 
 namespace roscell {
@@ -52,14 +54,13 @@ exec "$path" "$@"
 
 using word_list = std::vector<std::string>;
 
-/// "input:1" is the second input, "input" the first.
+/// Null: the step has not so many, or this is no end at all.
 const io_endpoint* find_end(const instance_spec& spec,
-                            const std::string& place) {
-  const auto& ends = place.rfind("input", 0) == 0 ? spec.input : spec.output;
-  const auto colon = place.find(':');
-  const size_t number =
-      colon == std::string::npos ? 0 : std::stoul(place.substr(colon + 1));
-  return number < ends.size() ? &ends[number] : nullptr;
+                            const std::optional<step_end>& place) {
+  if (!place)
+    return nullptr;
+  const auto& ends = place->is_input ? spec.input : spec.output;
+  return place->number < ends.size() ? &ends[place->number] : nullptr;
 }
 
 /// The descriptor's, replaced by what model and step say.
@@ -83,9 +84,14 @@ std::string argument_text(const json& value) {
   return value.is_string() ? value.get<std::string>() : value_text(value);
 }
 
-void add_endpoint(watch_endpoints& to, const std::string& place,
-                  const std::string& topic) {
-  (place.rfind("input", 0) == 0 ? to.read : to.written).push_back(topic);
+failure no_such_end(const instance_spec& spec, const std::string& topic,
+                    const std::string& place) {
+  return {error_code::engine_failed,
+          "the topic '" + topic + "' of its program stands for '" + place
+              + "', which step '" + spec.step + "' has not",
+          "",
+          "give the step that end, or correct \"topics\" in its skill.json: "
+          "input, output, or with its place, input:1"};
 }
 
 word_list ros_arguments(const ros2_program& program, const instance_spec& spec,
@@ -123,16 +129,14 @@ std::variant<ros2_start, failure> ros2_start_of(const ros2_program& program,
   result.endpoints.instance = spec.instance;
   std::map<std::string, std::string> topics;
   for (const auto& [own, place] : program.topics) {
-    const auto* end = find_end(spec, place);
+    const auto which = parse_step_end(place);
+    const auto* end = find_end(spec, which);
     if (end == nullptr)
-      return failure{error_code::engine_failed,
-                     "the topic '" + own + "' of its program stands for "
-                         + place + ", which step '" + spec.step + "' has not",
-                     "",
-                     "give the step that " + place.substr(0, place.find(':'))
-                         + ", or correct \"topics\" in its skill.json"};
+      return no_such_end(spec, own, place);
     topics[own] = end->endpoint;
-    add_endpoint(result.endpoints, place, end->endpoint);
+    auto& seen =
+        which->is_input ? result.endpoints.read : result.endpoints.written;
+    seen.push_back(end->endpoint);
   }
   // What every node of ROS 2 writes.
   if (topics.empty())

@@ -124,6 +124,27 @@ void write_latencies(const std::vector<labelled_instance>& rows,
   }
 }
 
+void write_use(const std::vector<labelled_instance>& rows, exposition& to) {
+  to.gauge("roscell_instance_memory_bytes",
+           "Memory that it takes, without what the kernel can drop.");
+  write_each(rows, to,
+             [](const auto& x) { return x.figures.use.memory_mib * mib; });
+  to.gauge("roscell_instance_memory_limit_bytes",
+           "More memory the kernel does not give it.");
+  write_each(rows, to, [](const auto& x) {
+    return x.figures.use.memory_limit_mib * mib;
+  });
+  to.counter("roscell_instance_cpu_seconds",
+             "CPU time since its program was started.");
+  write_each(rows, to, [](const auto& x) { return x.figures.use.cpu_s; });
+  to.counter("roscell_instance_memory_kills",
+             "Processes of it that the kernel has ended for memory.");
+  write_each(rows, to, [](const auto& x) {
+    const auto& use = x.figures.use;
+    return use.memory_mib < 0 ? -1.0 : static_cast<double>(use.memory_kills);
+  });
+}
+
 } // namespace
 
 void write_cost(const own_cost& cost, double booted_unix_s, exposition& to) {
@@ -198,6 +219,7 @@ void write_instances(const std::vector<instance_measures>& instances,
       "Median time from a frame's stamp to the output of what came of it.");
   write_each(rows, to,
              [](const auto& x) { return x.figures.age_ms / ms_in_s; });
+  write_use(rows, to);
 }
 
 } // namespace roscell

@@ -152,12 +152,13 @@ caf::behavior local_parts(caf::event_based_actor* self, fake_site* site,
         node->sought.push_back(x.address);
         node->searching = true;
         ++node->searches;
-        if (site->base.actor)
+        if (site->base.actor && x.address != site->strangers_server)
           self->delayed_send(self, 100ms, caf::tick_atom_v);
         return caf::ok_atom_v;
       },
       [=](caf::tick_atom) {
-        if (node->searching && site->base.actor)
+        if (node->searching && site->base.actor
+            && node->sought.back() != site->strangers_server)
           self->send(node->membership, announcement(site->base));
       },
       [=](const forget_coordinator&) { node->searching = false; },
@@ -174,9 +175,8 @@ caf::behavior local_parts(caf::event_based_actor* self, fake_site* site,
         node->environment = x.environment;
         ++node->environments;
       },
-      [](const announce_presence&) {
-        // Nobody else is on this site.
-      },
+      // Nobody else is on this site.
+      [=](const announce_presence&) { ++node->announcements; },
       [](const withdraw_presence&) {
         // The same.
       },
@@ -298,6 +298,7 @@ void fake_site::start(fake_node& x) {
   parts.store = caf::actor_cast<state_store_actor>(x.local);
   parts.scout = caf::actor_cast<join_scout_actor>(x.local);
   membership_config config{x.identity, {}};
+  config.site = site_token;
   config.claim_address = [&x] { ++x.claims; };
   x.membership = roscell::spawn(time.system, context, membership, context,
                                 parts, std::move(config));

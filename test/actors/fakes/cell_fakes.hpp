@@ -20,6 +20,9 @@ namespace roscell::test {
 
 using namespace std::chrono_literals;
 
+/// That all of them have.
+constexpr auto site_token = "a token of the site";
+
 /// One row of the fake coordinator's registry.
 struct fake_row {
   node_identity identity;
@@ -67,6 +70,7 @@ struct fake_node {
   size_t claims = 0;              ///< Of its address.
   std::map<std::string, std::string> names; ///< Of hosts, to addresses.
   std::vector<std::string> sought;          ///< Discovery servers.
+  size_t announcements = 0;                 ///< Of itself.
   std::optional<failure> deployment_refusal;
   bool disk_full = false;
   std::vector<instance_row> instances;
@@ -95,6 +99,7 @@ struct fake_site {
   std::vector<told_fact> facts;
   caf::actor fact_keeper;
   size_t timers_fired = 0;
+  std::string strangers_server; ///< Where no coordinator answers.
   house context;
 
   fake_site(virtual_time& clock, uint32_t seed);

@@ -71,6 +71,11 @@ struct instance_bench : virtual_time {
     settle();
   }
 
+  void stop_by_force() {
+    caf::anon_send(instance, stop_instance{"asked to", true});
+    settle();
+  }
+
   void answer_start() {
     runtime->answer();
     settle();

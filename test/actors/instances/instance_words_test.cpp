@@ -16,6 +16,28 @@ TEST_CASE("an exit code is told as people know it") {
   CHECK(exit_words(-1) == "in an unknown way");
 }
 
+TEST_CASE("out of memory is told with what it may have and what it took") {
+  instance_row row;
+  row.exit_code = 137;
+  row.spec.resources.memory_mib = 64;
+  CHECK(end_words(row, end_cause::usual, 64) == "it ended by signal 9");
+  CHECK(end_words(row, end_cause::memory, 63.9)
+        == "out of memory: it may use 64 MiB, and took 64 MiB");
+  CHECK(end_words(row, end_cause::memory, -1)
+        == "out of memory: it may use 64 MiB");
+  CHECK(end_words(row, end_cause::memory, 20)
+        == "out of memory: its host had no more; it took 20 MiB, and may use "
+           "64 MiB");
+  row.spec.resources.memory_mib = 0;
+  CHECK(end_words(row, end_cause::memory, 20)
+        == "out of memory: its host had no more; it took 20 MiB");
+  CHECK(end_words(row, end_cause::memory, -1)
+        == "out of memory: its host had no more");
+  row.exit_code = -1;
+  CHECK(end_words(row, end_cause::supervision, -1)
+        == "its supervision was ended from outside, and its program with it");
+}
+
 TEST_CASE("the last bytes of a text begin with a whole line") {
   CHECK(last_bytes("short", 10) == "short");
   CHECK(last_bytes("first\nsecond\nthird\n", 10) == "third\n");

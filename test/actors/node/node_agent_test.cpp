@@ -1,4 +1,6 @@
 #include "actors/node/node_agent.hpp"
+
+#include "actors/house/limits.hpp"
 #include "test/fixture.hpp"
 
 #include <algorithm>
@@ -17,6 +19,8 @@ struct agent_fixture {
   std::vector<std::string> containers;
   node_resources host;
   bool probe_is_mute = false;
+  use_measured use;
+  std::vector<measured_instance> measured;
   std::vector<caf::response_promise> unanswered;
   caf::actor supervisor;
   caf::actor probe;
@@ -86,6 +90,13 @@ struct agent_fixture {
           unanswered.push_back(self->make_response_promise());
           return caf::delegated<host_measured>{};
         },
+        [this, self](const measure_use& x) -> caf::result<use_measured> {
+          measured = x.instances;
+          if (!probe_is_mute)
+            return use;
+          unanswered.push_back(self->make_response_promise());
+          return caf::delegated<use_measured>{};
+        },
     };
   }
 
@@ -140,6 +151,40 @@ TEST_CASE_METHOD(agent_fixture, "What live instances say is told when asked",
   CHECK(told->instances[0].instance == "t-a-1");
   CHECK(told->instances[0].status == "frames=7");
   CHECK(told->instances[0].figures.frames == 7);
+}
+
+TEST_CASE_METHOD(agent_fixture,
+                 "What live instances take of the host is read when asked",
+                 "[node_agent]") {
+  add_instance("10:5", instance_state::running);
+  instances.back().spec.instance = "t-a-1";
+  add_instance("", instance_state::pending);
+  add_instance("11:5", instance_state::failed);
+  use.instances = {{"t-a-1", {61.5, 64, 0.5, 12, 0}}, {"unknown", {}}};
+  CHECK(measured.empty());
+  const auto told = ask<figures_report>(figures_query{});
+  REQUIRE(told);
+  REQUIRE(measured.size() == 1);
+  CHECK(measured[0].instance == "t-a-1");
+  CHECK(measured[0].container == "10:5");
+  REQUIRE(told->instances.size() == 2);
+  CHECK(told->instances[0].figures.use.memory_mib == 61.5);
+  CHECK(told->instances[0].figures.use.memory_limit_mib == 64);
+}
+
+TEST_CASE_METHOD(agent_fixture,
+                 "What skills say is told, whether the host can be read or not",
+                 "[node_agent]") {
+  add_instance("10:5", instance_state::running);
+  instances.back().spec.instance = "t-a-1";
+  instances.back().figures.frames = 7;
+  probe_is_mute = true;
+  const auto reply = time.ask<figures_report>(agent, figures_query{});
+  time.advance(limits::local::part);
+  time.settle();
+  REQUIRE(*reply);
+  REQUIRE(**reply);
+  CHECK((**reply)->instances.at(0).figures.frames == 7);
 }
 
 TEST_CASE_METHOD(agent_fixture, "What live instances have reserved is in use",

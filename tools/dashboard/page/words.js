@@ -43,6 +43,8 @@ export function number(value, digits = 3) {
 }
 
 export function mebibytes(value) {
+  if (value === undefined)
+    return '';
   return value >= 10240 ? `${number(value / 1024)} GiB` : `${number(value)} MiB`;
 }
 

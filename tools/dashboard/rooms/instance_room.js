@@ -2,7 +2,7 @@
 import { el, keyed, remade, setText } from '../page/dom.js';
 import { stateMark, updateState } from '../page/marks.js';
 import { address, way } from '../page/router.js';
-import { ago, asList, clock, dateAndTime, hertz, instanceState, milliseconds, number } from '../page/words.js';
+import { ago, asList, clock, dateAndTime, hertz, instanceState, mebibytes, milliseconds, number } from '../page/words.js';
 import { LogView } from './log_view.js';
 import { facts } from './node_table.js';
 
@@ -94,13 +94,18 @@ export class InstanceRoom {
   }
 
   showFigures(row) {
-    const figures = this.app.store.figures.get(this.name) ?? row.figures ?? {};
+    const x = this.app.store.figures.get(this.name) ?? row.figures ?? {};
+    const { use = {} } = x;
+    const asked = row.spec.resources;
+    const told = (value, words, of) => value !== undefined && `${words(value, 9)} ${of}`;
     setText(this.figures, [
-      figures.rate_hz !== undefined && `${hertz(figures.rate_hz)}`,
-      figures.latency_ms !== undefined && `${milliseconds(figures.latency_ms)} to process`,
-      figures.age_ms !== undefined && `${milliseconds(figures.age_ms)} old at the output`,
-      figures.frames !== undefined && `${number(figures.frames, 9)} frames`,
-      figures.dropped !== undefined && `${number(figures.dropped, 9)} dropped`,
+      hertz(x.rate_hz),
+      told(x.latency_ms, milliseconds, 'to process'),
+      told(x.age_ms, milliseconds, 'old at the output'),
+      told(x.frames, number, 'frames'),
+      told(x.dropped, number, 'dropped'),
+      told(use.memory_mib, mebibytes, `of ${mebibytes(use.memory_limit_mib ?? asked.memory_mib)}`),
+      told(use.cpu?.toFixed(2), String, `of ${number(asked.cpu)} cores`),
       row.restarts && `started again ${row.restarts} times`,
     ].filter(Boolean).join('   ·   '));
   }

@@ -3,7 +3,7 @@ import { stateMark, updateState } from '../page/marks.js';
 import { setAttribute, setText } from '../page/dom.js';
 import { address } from '../page/router.js';
 import { Table } from '../page/table.js';
-import { ago, hertz, instanceState, milliseconds, number } from '../page/words.js';
+import { ago, hertz, instanceState, mebibytes, milliseconds, number } from '../page/words.js';
 
 export class InstanceTable {
   constructor(app, { without = '' } = {}) {
@@ -22,6 +22,10 @@ export class InstanceTable {
 
   columns() {
     const figures = (x) => this.app.store.figures.get(x.spec.instance) ?? x.figures ?? {};
+    const count = (x) => number(x, 9);
+    const figure = (title, of, words, rank = '') => ({
+      title, class: `number${rank}`, order: (x) => of(figures(x)) ?? -1, text: (x) => words(of(figures(x))),
+    });
     return [
       { title: 'Step', order: (x) => `${x.spec.task} ${x.spec.step}`,
         update: (cell, x) => setText(cell, x.spec.step) },
@@ -33,10 +37,12 @@ export class InstanceTable {
         } },
       { title: 'Node', key: 'node', order: (x) => x.node, text: (x) => x.node },
       { title: 'Skill', class: 'minor', order: (x) => x.spec.operation, text: (x) => `${x.spec.operation} / ${x.spec.model}` },
-      { title: 'Rate', class: 'number', order: (x) => figures(x).rate_hz ?? -1, text: (x) => hertz(figures(x).rate_hz) },
-      { title: 'Latency', class: 'number', order: (x) => figures(x).latency_ms ?? -1, text: (x) => milliseconds(figures(x).latency_ms) },
-      { title: 'Frames', class: 'number minor', order: (x) => figures(x).frames ?? -1, text: (x) => number(figures(x).frames, 9) },
-      { title: 'Dropped', class: 'number minor', order: (x) => figures(x).dropped ?? -1, text: (x) => number(figures(x).dropped, 9) },
+      figure('Rate', (x) => x.rate_hz, hertz),
+      figure('Latency', (x) => x.latency_ms, milliseconds),
+      figure('Memory', (x) => x.use?.memory_mib, mebibytes),
+      figure('Cores', (x) => x.use?.cpu, number, ' minor'),
+      figure('Frames', (x) => x.frames, count, ' minor'),
+      figure('Dropped', (x) => x.dropped, count, ' minor'),
       { title: 'Restarts', class: 'number minor', order: (x) => x.restarts ?? 0, text: (x) => x.restarts || '' },
       { title: 'Since', class: 'number', order: (x) => -x.since_unix_ms, text: (x) => ago(x.since_unix_ms) },
     ];

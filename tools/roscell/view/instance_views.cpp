@@ -37,6 +37,8 @@ std::string instances_view(const instance_description& instances,
            {"DROPPED", align::right, 3},
            {"LATENCY", align::right, 2},
            {"DATA AGE", align::right, 2},
+           {"MEMORY", align::right, 3},
+           {"CPU", align::right, 4},
            {"DEPLOYMENT", align::left, 7},
            {"EXIT", align::right, 3},
            {"REMARK", align::left, 4},
@@ -44,13 +46,14 @@ std::string instances_view(const instance_description& instances,
           {}};
   for (const auto& row : instances.instances) {
     const auto& x = row.figures;
-    t.rows.push_back(
-        {row.spec.instance, row.spec.task, row.spec.step, row.node,
-         state_text(row), since_text(row, style), count_text(x.frames),
-         figure(x.rate_hz, 1, " Hz"), count_text(x.dropped),
-         figure(x.latency_ms, 2, " ms"), figure(x.age_ms, 1, " ms"),
-         row.spec.model + "/" + row.spec.deployment, exit_text(row.exit_code),
-         remark(row, style.now_unix_ms), streams_text(row)});
+    t.rows.push_back({row.spec.instance, row.spec.task, row.spec.step, row.node,
+                      state_text(row), since_text(row, style),
+                      count_text(x.frames), figure(x.rate_hz, 1, " Hz"),
+                      count_text(x.dropped), figure(x.latency_ms, 2, " ms"),
+                      figure(x.age_ms, 1, " ms"), memory_text(row),
+                      cpu_text(row), row.spec.model + "/" + row.spec.deployment,
+                      exit_text(row.exit_code), remark(row, style.now_unix_ms),
+                      streams_text(row)});
   }
   return or_nothing(t, "instances", style);
 }

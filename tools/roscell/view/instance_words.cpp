@@ -90,7 +90,9 @@ std::string remark(const instance_row& row, int64_t now_unix_ms) {
   if (!row.trouble.empty())
     return row.trouble;
   // The columns say it better.
-  return row.figures == instance_figures{} ? row.status : "";
+  auto told = row.figures;
+  told.use = {};
+  return told == instance_figures{} ? row.status : "";
 }
 
 std::string stream_text(const stream_count* count) {
@@ -121,6 +123,34 @@ std::string streams_text(const instance_row& row) {
   for (size_t i = 0; i < row.spec.output.size(); ++i)
     add("out ", row.spec.output[i], output_count(row, i));
   return joined(words, "; ");
+}
+
+std::string memory_text(const instance_row& row) {
+  const auto& use = row.figures.use;
+  if (use.memory_mib < 0)
+    return {};
+  const auto bound = use.memory_limit_mib >= 0 ? use.memory_limit_mib
+                                               : row.spec.resources.memory_mib;
+  return format_memory(use.memory_mib)
+         + (bound > 0 ? " of " + format_memory(bound) : "");
+}
+
+std::string cpu_text(const instance_row& row) {
+  const auto& use = row.figures.use;
+  const auto asked = row.spec.resources.cpu;
+  if (use.cpu < 0)
+    return {};
+  return format_number(use.cpu, 2)
+         + (asked > 0 ? " of " + format_number(asked) : "");
+}
+
+bool takes_too_much(const instance_row& row) {
+  constexpr double nearly = 0.95;
+  const auto& use = row.figures.use;
+  const auto asked = row.spec.resources.memory_mib;
+  return (asked > 0 && use.memory_mib > asked)
+         || (use.memory_limit_mib > 0
+             && use.memory_mib > nearly * use.memory_limit_mib);
 }
 
 std::string figure(double value, int decimals, const char* unit) {

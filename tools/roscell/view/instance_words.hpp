@@ -44,6 +44,14 @@ std::string stream_text(const stream_count* count);
 /// What each stream does: "in /image 10 Hz, 118 frames; out /tf 10 Hz, ...".
 std::string streams_text(const instance_row& row);
 
+/// What it takes of its host, and what it may or has asked for: "61 MiB of 64
+/// MiB", "0.35 of 0.5"; empty: not known.
+std::string memory_text(const instance_row& row);
+std::string cpu_text(const instance_row& row);
+
+/// It takes more memory than it has asked for, or nearly all that it may.
+bool takes_too_much(const instance_row& row);
+
 /// Nothing for a negative value, which is not known.
 std::string figure(double value, int decimals, const char* unit);
 std::string count_text(int64_t count);

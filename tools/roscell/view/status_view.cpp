@@ -103,6 +103,7 @@ std::string node_view(const node_description& node, const view_style& style) {
   facts.add("address", node.identity.address);
   facts.add("architecture", node.resources.architecture);
   facts.add("runtime", node.runtime);
+  facts.add("limits", node.limits);
   facts.add("version", node.version);
   facts.add("up for", format_since(node.started_unix_ms, style.now_unix_ms));
   facts.add("disk written", disk_writes(node, style.now_unix_ms));

@@ -378,6 +378,46 @@ TEST_CASE("a client of the Unix socket over all limits is told so") {
   CHECK(reply.find("too many clients") != std::string::npos);
 }
 
+TEST_CASE("a client of the Unix socket over all limits reads why, whenever it "
+          "has written its request") {
+  http_limits limits;
+  limits.local = 1;
+  limits.waiting = 0;
+  http_fixture node{limits};
+  raw_client first{node.socket_path()};
+  first.send("GET /echo HTTP/1.1\r\n\r\n");
+  first.read_until("local ");
+  raw_client late{node.socket_path()};
+  // It has been answered before it says what it wants.
+  CHECK(starts_with(late.read_until("too many clients"), "HTTP/1.1 503 "));
+  CHECK(late.send("GET /echo HTTP/1.1\r\n\r\n"));
+}
+
+TEST_CASE("clients that are refused and stay are no more than their bound") {
+  http_limits limits;
+  limits.local = 1;
+  limits.waiting = 0;
+  limits.refused = 2;
+  limits.grace = patience;
+  http_fixture node{limits};
+  raw_client first{node.socket_path()};
+  first.send("GET /echo HTTP/1.1\r\n\r\n");
+  first.read_until("local ");
+  std::vector<raw_client> refused;
+  for (int i = 0; i < 2; ++i) {
+    refused.emplace_back(node.socket_path());
+    CHECK(starts_with(refused.back().read_to_end(), "HTTP/1.1 503 "));
+  }
+  raw_client more{node.socket_path()};
+  CHECK(more.read_to_end().empty());
+  // Those who go make room for the next one.
+  refused.clear();
+  std::string reply;
+  for (int i = 0; i < 100 && reply.empty(); ++i)
+    reply = raw_client{node.socket_path()}.read_to_end();
+  CHECK(starts_with(reply, "HTTP/1.1 503 "));
+}
+
 TEST_CASE("a shortage of descriptors is waited out") {
   http_fixture node;
   raw_client silent{node.server->port()};

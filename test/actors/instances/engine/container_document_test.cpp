@@ -105,6 +105,46 @@ TEST_CASE("a container gets no more than it asked for") {
   }
 }
 
+TEST_CASE("a container has nothing of root's power and gains none",
+          "[powers]") {
+  const auto x = document(echo_wish());
+  const auto& host = x["HostConfig"];
+  CHECK(host["CapDrop"] == json::array({"ALL"}));
+  CHECK(host["CapAdd"] == json::array());
+  CHECK(host["SecurityOpt"] == json::array({"no-new-privileges"}));
+  CHECK(host["ReadonlyRootfs"] == false);
+  CHECK(host.count("Tmpfs") == 0);
+}
+
+TEST_CASE("a container has what is granted to its skill, by its shim",
+          "[powers]") {
+  auto wish = echo_wish();
+  wish.capabilities = {"NET_RAW", "KILL"};
+  const auto x = document(wish);
+  CHECK(x["User"] == "0:0");
+  CHECK(x["HostConfig"]["CapAdd"]
+        == json::array({"DAC_OVERRIDE", "KILL", "NET_RAW", "SETGID", "SETPCAP",
+                        "SETUID"}));
+  const auto words = x["Entrypoint"].get<std::vector<std::string>>();
+  const auto mask = std::find(words.begin(), words.end(), "--capabilities");
+  REQUIRE(mask != words.end());
+  // Numbers 5 and 13: the shim keeps the others to itself.
+  CHECK(*std::next(mask) == "2020");
+  wish = echo_wish();
+  wish.scheduling = {"fifo", 10, 0};
+  const auto added = document(wish)["HostConfig"]["CapAdd"];
+  CHECK(std::count(added.begin(), added.end(), "SYS_NICE") == 1);
+}
+
+TEST_CASE("a container whose skill allows it writes nothing but /tmp",
+          "[powers]") {
+  auto wish = echo_wish();
+  wish.read_only = true;
+  const auto host = document(wish)["HostConfig"];
+  CHECK(host["ReadonlyRootfs"] == true);
+  CHECK(host["Tmpfs"].count("/tmp") == 1);
+}
+
 TEST_CASE("a container's limits never exceed those of its node") {
   const auto host = document(echo_wish())["HostConfig"];
   REQUIRE(host["Ulimits"].size() == 2);
@@ -166,7 +206,7 @@ TEST_CASE("a container runs its program under the shim") {
     CHECK(mounts[3]["Target"] == "/opt/roscell/fence");
     CHECK(mounts[3]["ReadOnly"] == true);
   }
-  expected.insert(expected.end(), {"--", program, "a"});
+  expected.insert(expected.end(), {"--capabilities", "0", "--", program, "a"});
   const auto x = document(wish);
   CHECK(x["Entrypoint"] == expected);
   // The shim asks the program in the program's way.

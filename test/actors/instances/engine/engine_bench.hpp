@@ -113,7 +113,10 @@ struct engine_bench {
     listener = system.spawn([this](handle::pointer) -> handle::behavior_type {
       return {
           [this](const container_exited& x) {
-            told.put("exit " + x.container + " " + std::to_string(x.exit_code));
+            told.put("exit " + x.container + " " + std::to_string(x.exit_code)
+                     + (x.cause == end_cause::usual
+                            ? ""
+                            : ", " + std::string{to_string(x.cause)}));
           },
           [this](const instance_notified& x) { told.put("says " + x.status); },
           [this](const runtime_troubled& x) {

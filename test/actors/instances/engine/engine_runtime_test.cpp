@@ -1,9 +1,12 @@
+#include "actors/edge/engine/program_libraries.hpp"
 #include "actors/edge/history/kept_log_folder.hpp"
 #include "actors/edge/process/environment_file.hpp"
 #include "actors/house/limits.hpp"
 #include "test/actors/instances/engine/engine_bench.hpp"
 
 #include <atomic>
+#include <cstdlib>
+#include <fstream>
 
 using namespace roscell;
 using namespace roscell::test;
@@ -32,6 +35,32 @@ TEST_CASE("a started container's exit is told once, with its code") {
   b.script.tell_end("i", "other", 1);
   b.script.tell_end("i", "c1", 3);
   CHECK(b.told.take() == "exit c1 3");
+}
+
+TEST_CASE("a container that its engine has ended for memory is told as such") {
+  constexpr const char* out_of_memory =
+      R"({"Id":"c1","State":{"Running":false,"ExitCode":137,"OOMKilled":true}})";
+  engine_bench b;
+  SECTION("while the node is there") {
+    b.will_start();
+    b.get<container_started>(b.container());
+    b.script.on("GET /containers/c1/json", 200, out_of_memory);
+    b.script.tell_end("i", "c1", 137);
+    CHECK(b.told.take() == "exit c1 137, memory");
+  }
+  SECTION("while it was away") {
+    b.script.on("GET /containers/roscell-i/json", 200, out_of_memory);
+    const auto x = b.get<container_adopted>(adopt_container{"i", {}});
+    CHECK_FALSE(x.running);
+    CHECK(x.cause == end_cause::memory);
+  }
+  SECTION("which it has survived") {
+    b.will_start();
+    b.get<container_started>(b.container());
+    b.script.on("GET /containers/c1/json", 200, out_of_memory);
+    b.script.tell_end("i", "c1", 0);
+    CHECK(b.told.take() == "exit c1 0");
+  }
 }
 
 TEST_CASE("an end before the engine's answer is told after it") {
@@ -252,6 +281,66 @@ TEST_CASE("stopping gives the grace to the engine and tells the exit code") {
   // Neither fails for a container that is gone.
   b.get<container_stopped>(stop_container{"i", {}, 0});
   b.get<container_removed>(remove_container{"i", {}});
+}
+
+TEST_CASE("a container that is being ended politely can be ended by force") {
+  engine_bench b;
+  b.will_start();
+  b.get<container_started>(b.container());
+  b.script.on("POST /containers/c1/stop?t=5",
+              [](engine_caller&, const engine_call_seen&) {
+                // It waits for its end, as long as it takes.
+              });
+  b.script.on("POST /containers/c1/kill?signal=KILL", 204, "");
+  b.script.on("POST /containers/c1/stop?t=0", 304, "");
+  b.script.on("GET /containers/c1/json", 200, ended);
+  caf::anon_send(b.runtime, stop_container{"i", "c1", 5000});
+  b.script.calls().await("POST /containers/c1/stop?t=5");
+  CHECK(b.get<container_stopped>(stop_container{"i", "c1", 0}).exit_code == 6);
+  b.script.calls().await("POST /containers/c1/kill?signal=KILL");
+}
+
+namespace {
+
+/// A skill whose program needs a library that is found in a folder of the test.
+struct linked_skill {
+  linked_skill() {
+    const std::filesystem::path program{"/bin/ls"};
+    const auto needed = find_libraries("/nowhere", program);
+    for (const auto& x : std::get<std::vector<shared_library>>(needed))
+      std::filesystem::copy_file(x.file, library = libraries.path() / x.name);
+    REQUIRE_FALSE(library.empty());
+    const auto run = b.folder.path() / "skill/bin/run";
+    std::filesystem::remove(run);
+    std::filesystem::copy_file(program, run);
+    ::setenv("LD_LIBRARY_PATH", libraries.path().c_str(), 1);
+    // Every image is there.
+    b.script.on("GET /images/", 200);
+  }
+
+  ~linked_skill() {
+    ::unsetenv("LD_LIBRARY_PATH");
+  }
+
+  std::string image() {
+    return b.get<image_prepared>(b.image()).image;
+  }
+
+  scratch_folder libraries;
+  std::filesystem::path library;
+  engine_bench b;
+};
+
+} // namespace
+
+TEST_CASE("a library of the host that is upgraded makes another image") {
+  linked_skill skill;
+  const auto before = skill.image();
+  CHECK(skill.image() == before);
+  std::ofstream{skill.library, std::ios::app} << "newer";
+  const auto after = skill.image();
+  CHECK(after != before);
+  CHECK(skill.image() == after);
 }
 
 TEST_CASE("the log of a container that goes is kept before") {

@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <csignal>
 
 #include <unistd.h>
@@ -77,7 +78,8 @@ TEST_CASE("Podman is told of a program of the base image and how it ends") {
   const auto x = podman_form(wish);
   CHECK(x["entrypoint"]
         == json{"/opt/roscell/instance-shim", "--exit", "/opt/roscell/exit",
-                "--stop-signal", "2", "--", "/bin/bash", "-c", "true"});
+                "--stop-signal", "2", "--capabilities", "0", "--", "/bin/bash",
+                "-c", "true"});
   CHECK(x["stop_signal"] == SIGTERM);
 }
 
@@ -100,4 +102,24 @@ TEST_CASE("Podman is asked for a GPU by its CDI name") {
   const auto x = podman_form(wish);
   CHECK(x["devices"] == json::array({{{"path", "nvidia.com/gpu=3"}}}));
   CHECK(x["env"]["CUDA_VISIBLE_DEVICES"] == "0");
+}
+
+TEST_CASE("Podman is told what a container may not, in its own words",
+          "[powers]") {
+  auto wish = podman_wish();
+  CHECK(podman_form(wish)["cap_drop"] == json::array({"ALL"}));
+  CHECK(podman_form(wish)["cap_add"] == json::array());
+  CHECK(podman_form(wish)["no_new_privileges"] == true);
+  CHECK(podman_form(wish)["read_only_filesystem"] == false);
+  wish.capabilities = {"NET_RAW"};
+  wish.read_only = true;
+  const auto x = podman_form(wish);
+  const auto added = x["cap_add"].get<std::vector<std::string>>();
+  CHECK(std::count(added.begin(), added.end(), "NET_RAW") == 1);
+  CHECK(x["read_only_filesystem"] == true);
+  CHECK(x["mounts"].back()
+        == json{{"type", "tmpfs"},
+                {"source", "tmpfs"},
+                {"destination", "/tmp"},
+                {"options", {"rw", "nosuid", "nodev", "mode=1777"}}});
 }

@@ -250,6 +250,19 @@ TEST_CASE("a stop is polite, and repeated ones are the same stop") {
   CHECK(b.reason() == "task ended");
 }
 
+TEST_CASE("a stop that is repeated by force has no more grace") {
+  instance_bench b;
+  b.start_ready();
+  b.runtime->stops_never = true;
+  b.stop();
+  b.stop_by_force();
+  REQUIRE(b.runtime->stopped.size() == 2);
+  CHECK(b.runtime->stopped[0].grace_ms == 5000);
+  CHECK(b.runtime->stopped[1].grace_ms == 0);
+  CHECK(b.runtime->stopped[1].container == b.runtime->stopped[0].container);
+  CHECK(b.state() == instance_state::stopping);
+}
+
 TEST_CASE("a program that cannot be ended is told as failed") {
   instance_bench b;
   b.start_ready();

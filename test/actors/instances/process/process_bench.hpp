@@ -107,7 +107,10 @@ struct process_bench {
     listener = system.spawn([this](handle::pointer) -> handle::behavior_type {
       return {
           [this](const container_exited& x) {
-            told.put("exit " + std::to_string(x.exit_code));
+            told.put("exit " + std::to_string(x.exit_code)
+                     + (x.cause == end_cause::usual
+                            ? ""
+                            : ", " + std::string{to_string(x.cause)}));
           },
           [this](const instance_notified& x) {
             if (x.ready)

@@ -96,7 +96,8 @@ TEST_CASE("a killed shim takes its program along and is told of") {
   const auto container = b.start(endless);
   const auto child = child_of(b);
   ::kill(pid_of(container), SIGKILL);
-  CHECK(b.told.take() == "exit 137");
+  // The signal was not the program's.
+  CHECK(b.told.take() == "exit -1, supervision");
   CHECK(b.log(0).ended);
   // The program dies by the kernel's hand, a moment later at most.
   const unique_fd pidfd{::pidfd_open(child, 0)};
@@ -116,7 +117,7 @@ TEST_CASE("what a killed shim's program has started elsewhere ends, too") {
   REQUIRE(pidfd);
   SECTION("while the node is there") {
     ::kill(pid_of(container), SIGKILL);
-    CHECK(b.told.take() == "exit 137");
+    CHECK(b.told.take() == "exit -1, supervision");
   }
   SECTION("while it is away") {
     b.leave();
@@ -158,6 +159,15 @@ TEST_CASE("stopping asks first, and force follows after the grace") {
   }
   // It may be asked again, and has ended once.
   b.get<container_stopped>(stop_container{"i", {}, 50});
+}
+
+TEST_CASE("whoever has asked politely may go over to force") {
+  process_bench b;
+  b.start("trap '' TERM; echo deaf; " + endless);
+  CHECK(b.log(0, 20'000).text == "deaf\n");
+  // Longer than a test has patience.
+  caf::anon_send(b.runtime, stop_container{"i", {}, 60'000});
+  CHECK(b.get<container_stopped>(stop_container{"i", {}, 0}).exit_code == 137);
 }
 
 TEST_CASE("a program has a file by which it can be told of another address") {

@@ -106,6 +106,17 @@ TEST_CASE("a topic that stands for an end that the step has not is refused") {
   const auto start = ros2_start_of(program, detector());
   REQUIRE(std::holds_alternative<failure>(start));
   CHECK(std::get<failure>(start).message
-        == "the topic 'depth' of its program stands for input:2, which step "
+        == "the topic 'depth' of its program stands for 'input:2', which step "
            "'tags-1' has not");
+}
+
+TEST_CASE("a topic that stands for no end at all is refused, not guessed") {
+  for (const auto* place :
+       {"input:x", "input:1x", "input:", "input:-1", "input: 1", "input:01",
+        "input:99999999999999999999", "inputs", "output:+0", "stdin", ""}) {
+    auto program = apriltag();
+    program.topics["depth"] = place;
+    INFO(place);
+    CHECK(std::holds_alternative<failure>(ros2_start_of(program, detector())));
+  }
 }

@@ -150,5 +150,5 @@ TEST_CASE_METHOD(stock_bench, "a step without what the program's topics stand "
   start();
   CHECK(state() == instance_state::failed);
   CHECK(runtime->started.empty());
-  CHECK(told->last().reason.find("stands for output") != std::string::npos);
+  CHECK(told->last().reason.find("stands for 'output") != std::string::npos);
 }

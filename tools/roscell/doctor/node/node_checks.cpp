@@ -5,6 +5,7 @@
 #include "tools/roscell/doctor/host/programs.hpp"
 #include "tools/roscell/doctor/node/answer_trouble.hpp"
 #include "tools/roscell/doctor/node/camera_checks.hpp"
+#include "tools/roscell/doctor/node/use_findings.hpp"
 #include "tools/roscell/view/format.hpp"
 
 #include <set>
@@ -38,6 +39,8 @@ findings judge_described(const instance_description& answer) {
 const told_check told_checks[] = {
     {"node-version", "the node is of this program's version", "/v1/node",
      judge_answer_of<node_description, judge_this_version>},
+    {"limits", "instances are held to what they ask for", "/v1/node",
+     judge_answer_of<node_description, judge_limits>},
     {"joining", "the node is in its cell", "/v1/node",
      judge_answer_of<node_description, judge_joining>},
     {"refused-skills", "skills that the node leaves out", "/v1/node",
@@ -100,6 +103,8 @@ findings judge_instance(const instance_row& row) {
   if (row.state == instance_state::running && !row.figures.remark.empty())
     return {{judgement::warning, name + " gives nothing: " + row.figures.remark,
              "what reads its outputs gets nothing", logs}};
+  if (auto found = judge_use(row); !found.empty())
+    return found;
   if (drops_many(row.figures))
     return {{judgement::warning,
              name + " has dropped " + std::to_string(row.figures.dropped)

@@ -29,8 +29,9 @@ findings found_by_node(const asked_look& look, const std::string& name) {
 } // namespace
 
 bool is_own_check(const std::string& name) {
-  constexpr const char* names[] = {"disk",   "fsync", "descriptors",
-                                   "engine", "gpu",   "skills"};
+  constexpr const char* names[] = {"disk",    "fsync",      "descriptors",
+                                   "inotify", "engine",     "gpu",
+                                   "skills",  "site-token", "skill-owners"};
   return std::find(std::begin(names), std::end(names), name) != std::end(names);
 }
 

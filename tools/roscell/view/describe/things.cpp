@@ -55,6 +55,7 @@ void describe_member(page& out, const known_cell& known,
   out.fact("Architecture", row.resources.architecture);
   out.fact("Labels", listed(row.resources.labels));
   out.fact("Devices", joined(row.resources.devices, ", "));
+  out.fact("Grants", joined(row.resources.grants, ", "));
   out.fact("Skills", skills_on(known, name));
   out.section("Resources", resources_table(row.resources));
   out.section("Instances", instances_table(on_node(known, name), style));
@@ -135,6 +136,8 @@ void describe_instance(page& out, const known_cell& known,
   out.fact("Frames",
            row.figures.frames < 0 ? "" : std::to_string(row.figures.frames));
   out.fact("Figures", figures_text(row.figures));
+  out.fact("Memory", memory_text(row));
+  out.fact("CPU", cpu_text(row));
   out.fact("Says", row.status);
   out.fact("Operation", spec.operation);
   out.fact("Model", spec.model + "/" + spec.deployment);

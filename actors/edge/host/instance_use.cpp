@@ -1,0 +1,121 @@
+#include "actors/edge/host/instance_use.hpp"
+
+#include "actors/edge/cgroup/cgroup_use.hpp"
+#include "actors/edge/host/host_probe_files.hpp"
+#include "actors/edge/host/host_probe_processes.hpp"
+#include "actors/edge/process/process_identity.hpp"
+
+#include <filesystem>
+#include <map>
+#include <optional>
+
+namespace roscell {
+
+namespace {
+
+constexpr std::size_t most_mount_bytes = 4 * 1024 * 1024;
+constexpr std::size_t most_children_bytes = 256 * 1024;
+
+/// What one look at the host needs for all instances.
+struct sight {
+  std::filesystem::path proc;
+  std::string root;
+  std::vector<cgroup_mount> mounts;
+};
+
+using folders = std::vector<std::filesystem::path>;
+
+/// Below the shim, which is outside of it, any child may have left its cgroup;
+/// the first that has not counts.
+folders folders_of_process(const measured_instance& x, pid_t shim,
+                           const sight& host) {
+  const auto number = std::to_string(shim);
+  const auto text =
+      read_file((host.proc / number / "task" / number / "children").native(),
+                most_children_bytes)
+          .value_or("");
+  std::string_view rest{text};
+  for (auto word = take_word(rest); !word.empty(); word = take_word(rest))
+    if (const auto pid = to_number(word)) {
+      auto found =
+          named_cgroup_in(cgroups_of(static_cast<pid_t>(*pid), host.proc),
+                          x.instance, host.mounts);
+      if (!found.empty())
+        return found;
+    }
+  return {};
+}
+
+/// A process of each container that is looked for: an engine names the cgroup
+/// after it.
+std::map<std::string, folders>
+folders_of_containers(const std::vector<measured_instance>& instances,
+                      const sight& host) {
+  std::map<std::string, folders> result;
+  std::vector<std::string> open;
+  for (const auto& x : instances)
+    if (!process_of(x.container) && !x.container.empty())
+      open.push_back(x.container);
+  std::error_code error;
+  for (std::filesystem::directory_iterator i{host.proc, error}, end;
+       !error && i != end && result.size() < open.size(); i.increment(error)) {
+    const auto pid = to_number(i->path().filename().native());
+    if (!pid)
+      continue;
+    const auto all = cgroups_of(static_cast<pid_t>(*pid), host.proc);
+    for (const auto& id : open)
+      if (auto found = named_cgroup_in(all, id, host.mounts); !found.empty())
+        result.emplace(id, std::move(found));
+  }
+  return result;
+}
+
+std::optional<instance_use> use_in(const folders& where) {
+  const auto read = where.empty() ? std::nullopt : read_use(where);
+  if (!read)
+    return std::nullopt;
+  instance_use result;
+  result.memory_mib = read->memory_mib;
+  result.memory_limit_mib = read->memory_limit_mib;
+  result.cpu_s = read->cpu_s;
+  result.memory_kills = read->memory_kills;
+  return result;
+}
+
+/// Without a cgroup: of all processes of its session, those that are shared
+/// counted more than once.
+instance_use use_of_session(pid_t shim, const sight& host) {
+  const auto read = usage_of({{shim}, {}}, host.root);
+  instance_use result;
+  if (read.processes == 0)
+    return result;
+  result.memory_mib = read.rss_mib;
+  result.cpu_s = read.cpu_seconds;
+  return result;
+}
+
+} // namespace
+
+std::vector<measured_use>
+uses_of(const std::vector<measured_instance>& instances,
+        const std::string& root) {
+  sight host{root + "/proc", root, {}};
+  host.mounts = cgroup_mounts_in(
+      read_file(root + "/proc/self/mountinfo", most_mount_bytes).value_or(""));
+  const auto containers = folders_of_containers(instances, host);
+  std::vector<measured_use> result;
+  for (const auto& x : instances) {
+    const auto process = process_of(x.container);
+    const auto known = containers.find(x.container);
+    auto use = use_in(process ? folders_of_process(x, process->pid, host)
+                      : known != containers.end() ? known->second
+                                                  : folders{});
+    if (!use && process)
+      use = use_of_session(process->pid, host);
+    if (use && *use != instance_use{})
+      result.push_back({x.instance, *use});
+  }
+  return result;
+}
+
+} // namespace roscell
