@@ -1,5 +1,6 @@
 #include "schemas/semantic_checks.hpp"
 
+#include "messages/step_end.hpp"
 #include "schemas/parameters/declared_parameter.hpp"
 #include "schemas/text_excerpt.hpp"
 
@@ -147,21 +148,11 @@ void check_entry_point(error_list& errors, const place& words) {
            "the program to be a path below the skill's folder, without '..'");
 }
 
-/// "input", "output", or with a place among them, "input:1".
-bool is_end_of_step(std::string text) {
-  if (const auto colon = text.find(':'); colon != std::string::npos) {
-    if (colon + 1 == text.size() || text.find(':', colon + 1) < text.size())
-      return false;
-    text.erase(colon);
-  }
-  return text == "input" || text == "output";
-}
-
 void check_topics(error_list& errors, const place& topics) {
   if (!topics.value.is_object())
     return;
   for (const auto& [name, end] : topics.value.items())
-    if (end.is_string() && !is_end_of_step(end.get<std::string>()))
+    if (end.is_string() && !parse_step_end(end.get<std::string>()))
       refuse(errors, {end, topics.at / name},
              "an end of the step: input, output, or with its place, input:1");
 }
@@ -222,6 +213,20 @@ void check_program(error_list& errors, const place& skill) {
            "the package of " + said.text() + ", or an absolute path there");
 }
 
+/// Only what is real time has priorities.
+void check_scheduling(error_list& errors, const place& wish) {
+  if (!wish.value.is_object())
+    return;
+  const auto policy = (wish / "policy").text();
+  const auto real_time = policy == "fifo" || policy == "rr";
+  const auto priority = wish / "priority";
+  if (real_time && priority.value.is_null())
+    refuse(errors, priority,
+           "a priority from 1 to 99, which " + policy + " needs");
+  if (!real_time && !priority.value.is_null())
+    refuse(errors, priority, "no priority without the policy fifo or rr");
+}
+
 void append(error_list& errors, const error_list& others) {
   errors.insert(errors.end(), others.begin(), others.end());
 }
@@ -239,6 +244,7 @@ void check_descriptor(error_list& errors, const place& skill) {
                  "a name that no other deployment of the model has");
     for (const auto& deployment : deployments.items()) {
       check_devices(errors, deployment / "devices");
+      check_scheduling(errors, deployment / "scheduling");
       for (const auto& volume : (deployment / "volumes").items())
         check_volume(errors, volume);
     }

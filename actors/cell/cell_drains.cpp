@@ -5,8 +5,13 @@
 #include "actors/cell/state/coordinator_timer.hpp"
 #include "actors/cell/tasks/task_endings.hpp"
 #include "actors/cell/tasks/task_removals.hpp"
+#include "actors/house/limits.hpp"
 #include "actors/house/wall_clock.hpp"
 #include "messages/failure.hpp"
+
+#include <algorithm>
+#include <set>
+#include <utility>
 
 namespace roscell {
 
@@ -15,6 +20,62 @@ namespace {
 caf::error unknown_node(const std::string& node) {
   return fail(error_code::unknown_node, "this cell has no node '" + node + "'",
               "/node", "`roscell nodes` lists them");
+}
+
+/// A drain outlives the node's row, as it does a restart of the node: it may
+/// have been made empty in order to be away for a while.
+bool is_gone(const cell_coordinator_state& st, const drain_record& drain) {
+  return st.registry.find_uuid(drain.uuid) == nullptr;
+}
+
+/// A node may have been renamed since.
+std::string name_of(const cell_coordinator_state& st,
+                    const drain_record& drain) {
+  const auto* entry = st.registry.find_uuid(drain.uuid);
+  return entry ? entry->row.identity.name : drain.node;
+}
+
+/// Of the node of that name, and of those that had it and are gone.
+std::vector<drain_record> drains_of(const cell_coordinator_state& st,
+                                    const std::string& node) {
+  auto result = st.drains.all();
+  result.erase(
+      std::remove_if(result.begin(), result.end(),
+                     [&](const auto& x) { return name_of(st, x) != node; }),
+      result.end());
+  return result;
+}
+
+caf::error nothing_to_undrain(const cell_coordinator_state& st,
+                              const std::string& node) {
+  constexpr size_t most_names = 5;
+  std::set<std::string> gone;
+  for (const auto& x : st.drains.all())
+    if (is_gone(st, x) && gone.size() < most_names)
+      gone.insert(x.node);
+  std::string hint = "`roscell nodes` lists them";
+  for (const auto& x : gone)
+    hint += (x == *gone.begin() ? "; gone and drained still: " : ", ") + x;
+  return fail(error_code::unknown_node,
+              "this cell has no node '" + node
+                  + "', and none of that name was drained and is gone",
+              "/node", hint);
+}
+
+/// Makes room for one more: of those that are gone the one that was drained
+/// first is forgotten.
+void forget_oldest(cell_coordinator_state& st,
+                   std::vector<store_record>& records) {
+  if (st.drains.size() < limits::cell::drains)
+    return;
+  for (const auto& x : st.drains.all())
+    if (is_gone(st, x)) {
+      records.push_back({"drains", x.uuid, ""});
+      st.context.tell("node_undrained", x.node,
+                      {{"reason", "it has been gone for long, and others are "
+                                  "drained now"}});
+      return st.drains.forget(x.uuid);
+    }
 }
 
 std::vector<std::string> left_on(const cell_coordinator_state& st,
@@ -27,7 +88,8 @@ std::vector<std::string> left_on(const cell_coordinator_state& st,
 
 node_drained progress_of(const cell_coordinator_state& st,
                          const drained_node& x) {
-  return {x.record.node, left_on(st, x.record.node), x.trouble};
+  const auto node = name_of(st, x.record);
+  return {node, left_on(st, node), x.trouble};
 }
 
 void on_moved(coordinator_pointer self, const drain_record& drain,
@@ -36,12 +98,13 @@ void on_moved(coordinator_pointer self, const drain_record& drain,
   const auto* known = st.drains.find(drain.uuid);
   if (!known)
     return;
-  const auto left = left_on(st, drain.node);
+  const auto node = name_of(st, drain);
+  const auto left = left_on(st, node);
   if (why && known->trouble != why->message)
-    st.context.tell("node_drain_stuck", drain.node,
+    st.context.tell("node_drain_stuck", node,
                     {{"reason", why->message}, {"left", left}});
   if (left.empty())
-    st.context.tell("node_drained", drain.node);
+    st.context.tell("node_drained", node);
   st.drains.end(drain.uuid, why ? why->message : "", left.empty(),
                 self->clock().now());
   set_timer(self);
@@ -61,9 +124,10 @@ void move_away(coordinator_pointer self, const drain_record& drain) {
     const failure away{error_code::conflict, "the node is away"};
     return on_moved(self, drain, &away);
   }
-  after_deployments_on(self, drain.node, [self, drain] {
-    const auto tasks = self->state.deployments.tasks_bound_to(drain.node);
-    move_tasks(self, drain.node, tasks, [self, drain](const failure* why) {
+  const auto node = name_of(self->state, drain);
+  after_deployments_on(self, node, [self, drain, node] {
+    const auto tasks = self->state.deployments.tasks_bound_to(node);
+    move_tasks(self, node, tasks, [self, drain](const failure* why) {
       on_moved(self, drain, why);
     });
   });
@@ -89,8 +153,10 @@ caf::result<node_drained> drain_node(coordinator_pointer self,
     return progress_of(st, *known);
   const drain_record record{request.node, uuid, unix_now_ms()};
   auto promise = self->make_response_promise<node_drained>();
+  std::vector<store_record> records{{"drains", uuid, json(record).dump()}};
+  forget_oldest(st, records);
   keep_records(
-      self, {{"drains", uuid, json(record).dump()}},
+      self, records,
       [self, record, promise]() mutable {
         auto& state = self->state;
         if (state.drains.add(record, self->clock().now()))
@@ -107,18 +173,21 @@ caf::result<node_drained> drain_node(coordinator_pointer self,
 
 caf::result<node_undrained> undrain_node(coordinator_pointer self,
                                          const node_undrain& request) {
-  auto& st = self->state;
-  const auto* entry = st.registry.find_name(request.node);
-  if (!entry)
-    return unknown_node(request.node);
-  const auto uuid = entry->row.identity.uuid;
-  if (!st.drains.find(uuid))
+  const auto& st = self->state;
+  const auto drains = drains_of(st, request.node);
+  if (drains.empty() && !st.registry.find_name(request.node))
+    return nothing_to_undrain(st, request.node);
+  if (drains.empty())
     return node_undrained{request.node};
+  std::vector<store_record> records;
+  for (const auto& x : drains)
+    records.push_back({"drains", x.uuid, ""});
   auto promise = self->make_response_promise<node_undrained>();
   keep_records(
-      self, {{"drains", uuid, ""}},
-      [self, uuid, node = request.node, promise]() mutable {
-        self->state.drains.forget(uuid);
+      self, records,
+      [self, drains, node = request.node, promise]() mutable {
+        for (const auto& x : drains)
+          self->state.drains.forget(x.uuid);
         self->state.context.tell("node_undrained", node);
         promise.deliver(node_undrained{node});
       },

@@ -40,10 +40,9 @@ registry_entry entry_of(const cell_coordinator_state& st,
   registry_entry result;
   const bool is_ours =
       !node.server_cell.empty() && node.server_cell == st.setup.cell_uuid;
-  auto taken = st.peers.server_ids();
-  taken.insert(st.setup.server_id);
-  result.server_id = st.registry.choose_server_id(
-      node.identity.uuid, node.server_id, is_ours, std::move(taken));
+  result.server_id =
+      st.registry.choose_server_id(node.identity.uuid, node.server_id, is_ours,
+                                   st.setup.server_id, st.peers.server_ids());
   result.row.identity = node.identity;
   result.row.resources = node.resources;
   result.row.resources.name = node.identity.name;

@@ -5,6 +5,7 @@
 #include "actors/house/limits.hpp"
 #include "messages/failure.hpp"
 
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -14,14 +15,20 @@ namespace {
 
 using promise_type = caf::typed_response_promise<place_granted>;
 
-/// The UUID of the cell with the fewest nodes that is not `full`; empty if none
-/// is left.
+/// The cells that do not take a node, and why the last one does not.
+struct refused_cells {
+  std::set<std::string> uuids;
+  std::optional<failure> why;
+};
+
+/// The UUID of the cell with the fewest nodes that is not `refused`; empty if
+/// none is left.
 std::string smallest(const cell_coordinator_state& st,
-                     const std::set<std::string>& full) {
+                     const std::set<std::string>& refused) {
   std::string result;
   int64_t least = 0;
   auto consider = [&](const std::string& uuid, int64_t size) {
-    if (full.count(uuid) == 0 && (result.empty() || size < least)) {
+    if (refused.count(uuid) == 0 && (result.empty() || size < least)) {
       result = uuid;
       least = size;
     }
@@ -35,21 +42,30 @@ std::string smallest(const cell_coordinator_state& st,
   return result;
 }
 
+caf::error no_cell_takes(const place_request& request,
+                         const refused_cells& refused) {
+  return fail(error_code::conflict,
+              "no cell takes node '" + request.name + "': "
+                  + (refused.why ? refused.why->message : "there is none"),
+              "/name", refused.why ? refused.why->hint : "");
+}
+
 place_reservation reservation_for(const place_request& request) {
   const std::chrono::milliseconds span{limits::cell::place};
   return {request.name, request.uuid, request.epoch, span.count()};
 }
 
 void find_place(coordinator_pointer self, const place_request& request,
-                std::set<std::string> full, promise_type promise);
+                refused_cells refused, promise_type promise);
 
 void place_here(coordinator_pointer self, const place_request& request,
-                std::set<std::string> full, promise_type promise) {
+                refused_cells refused, promise_type promise) {
   auto& st = self->state;
   auto kept = reserve_here(self, reservation_for(request));
   if (!kept) {
-    full.insert(st.setup.self.uuid);
-    return find_place(self, request, std::move(full), std::move(promise));
+    refused.uuids.insert(st.setup.self.uuid);
+    refused.why = to_failure(kept.error());
+    return find_place(self, request, std::move(refused), std::move(promise));
   }
   st.places.promise(request.uuid, st.setup.self.uuid, self->clock().now());
   promise.deliver(place_granted{own_address(st.setup)});
@@ -68,7 +84,7 @@ void on_place_kept(coordinator_pointer self, const std::string& uuid,
 }
 
 void place_at(coordinator_pointer self, const std::string& uuid,
-              const place_request& request, std::set<std::string> full,
+              const place_request& request, refused_cells refused,
               promise_type promise) {
   auto& st = self->state;
   const auto* peer = st.peers.find(uuid);
@@ -79,26 +95,24 @@ void place_at(coordinator_pointer self, const std::string& uuid,
           [=](const place_reserved&) {
             on_place_kept(self, uuid, request, promise);
           },
-          [=](const caf::error&) {
+          [=](const caf::error& why) {
             self->state.places.forget(request.uuid, uuid);
-            auto others = full;
-            others.insert(uuid);
+            auto others = refused;
+            others.uuids.insert(uuid);
+            others.why = to_failure(why);
             find_place(self, request, std::move(others), promise);
           });
 }
 
 void find_place(coordinator_pointer self, const place_request& request,
-                std::set<std::string> full, promise_type promise) {
-  const auto uuid = smallest(self->state, full);
+                refused_cells refused, promise_type promise) {
+  const auto uuid = smallest(self->state, refused.uuids);
   if (uuid.empty())
-    promise.deliver(fail(error_code::conflict,
-                         "no cell takes node '" + request.name
-                             + "': its name belongs to another node",
-                         "/name", "give the node another --name"));
+    promise.deliver(no_cell_takes(request, refused));
   else if (uuid == self->state.setup.self.uuid)
-    place_here(self, request, std::move(full), std::move(promise));
+    place_here(self, request, std::move(refused), std::move(promise));
   else
-    place_at(self, uuid, request, std::move(full), std::move(promise));
+    place_at(self, uuid, request, std::move(refused), std::move(promise));
 }
 
 /// The place that the node has been given already, if its cell is still there.

@@ -387,8 +387,14 @@ static_assert(peer_calls + proof_calls <= 8);
 /// How cells form and are evened out.
 namespace cell {
 
-/// Rows of one cell, whatever their state.
-constexpr size_t rows = 10'000;
+/// Rows of one cell, whatever their state. Each member has a discovery server
+/// whose id is one byte, and the coordinator has one too; ids of coordinators
+/// of other cells that it sees are avoided while there are others.
+constexpr size_t rows = 250;
+/// Nodes that are drained, those that are no rows any more with them.
+constexpr size_t drains = 2 * rows;
+
+static_assert(rows + 1 <= UINT8_MAX + 1, "each row has a server's id");
 
 /// Time for a place's node to come: it has to find the server and open a
 /// session.
@@ -620,6 +626,9 @@ constexpr size_t trusted = 192;
 constexpr size_t local = 64;
 constexpr size_t waiting = 448;
 constexpr seconds turn{60};
+/// Clients that are being told that there is no room: each reads its 503 within
+/// `grace`. One more is closed without a word.
+constexpr size_t refused = 128;
 /// Sessions; a request for one more is answered with 503.
 constexpr size_t sessions = 1024;
 /// Bytes that wait for one slow reader of a stream; beyond it, it is cut.
@@ -651,6 +660,10 @@ constexpr seconds nonce_lifetime{10};
 /// Nonces that have proven a switch and are not too old yet. More switches in
 /// that time are refused.
 constexpr size_t spent_nonces = 64;
+/// At its start a coordinator asks those that claim to be what it is for a
+/// proof: so many at once, for so long at most. Who is silent has none.
+constexpr size_t claims = 64;
+constexpr milliseconds claim_proof{1500};
 
 static_assert(cell::registration_call < nonce_lifetime);
 

@@ -1,13 +1,30 @@
 #include "actors/requests/handler_pipeline.hpp"
+
+#include "actors/house/limits.hpp"
 #include "actors/house/watching.hpp"
 
 #include <caf/typed_response_promise.hpp>
 
+#include <functional>
 #include <utility>
 
 namespace roscell {
 
 namespace {
+
+/// Who hears that his task was refused finds none of that name: the coordinator
+/// has forgotten it before.
+void give_turn_back(pipeline_pointer self, const node_services& services,
+                    const failure& why,
+                    std::function<void(const failure&)> done) {
+  const auto task = std::exchange(self->state.claimed, {});
+  if (task.empty())
+    return done(why);
+  self->request(services.coordinator, limits::task::rollback,
+                record_failure{task, why.message})
+      .then([done, why](const task_rolled_back&) { done(why); },
+            [done, why](const caf::error&) { done(why); });
+}
 
 caf::result<request_processed>
 process(pipeline_pointer self, const request_runner& run,
@@ -19,16 +36,20 @@ process(pipeline_pointer self, const request_runner& run,
   auto promise = self->make_response_promise<request_processed>();
   auto finish = [self, services,
                  promise](std::variant<json, failure> result) mutable {
-    if (auto* why = std::get_if<failure>(&result)) {
-      services->context.tell("request_refused", self->state.request,
-                             {{"handler", self->state.handler},
-                              {"code", why->code},
-                              {"message", why->message}});
-      promise.deliver(to_error(*why));
-    } else {
+    auto* why = std::get_if<failure>(&result);
+    if (why == nullptr) {
       promise.deliver(request_processed{std::get<json>(result).dump()});
+      return self->quit();
     }
-    self->quit();
+    services->context.tell("request_refused", self->state.request,
+                           {{"handler", self->state.handler},
+                            {"code", why->code},
+                            {"message", why->message}});
+    give_turn_back(self, *services, *why,
+                   [self, promise](const failure& x) mutable {
+                     promise.deliver(to_error(x));
+                     self->quit();
+                   });
   };
   run({self, services}, document, std::move(finish));
   return promise;

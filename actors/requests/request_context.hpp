@@ -48,6 +48,8 @@ struct handler_pipeline_state {
   std::string request;                ///< Message type that it works on.
   std::string handler;                ///< The handler that is at work.
   request_history::ticket ticket = 0; ///< 0: its way is not kept.
+  /// The task whose turn it has, until that is given back; empty: none.
+  std::string claimed;
 };
 
 using pipeline_pointer =

@@ -108,8 +108,9 @@ rest_route log_route(const http_request& request, const std::string& id) {
 
 rest_route registration_route(const http_request& request) {
   json query{{"type", "registration_query"}};
-  if (const auto i = request.query.find("nonce"); i != request.query.end())
-    query["nonce"] = i->second;
+  for (const auto* name : {"nonce", "proof"})
+    if (const auto i = request.query.find(name); i != request.query.end())
+      query[name] = i->second;
   return ask(std::move(query));
 }
 

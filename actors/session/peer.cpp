@@ -133,10 +133,18 @@ caf::result<Reply> ask(peer_self self, const Request& what,
   return reply;
 }
 
+/// A node's name, its UUID and the words around them.
+constexpr size_t most_claim_bytes = 512;
+
+static_assert(2 * limits::cell::rows * most_claim_bytes
+                  < limits::session::frame_bytes,
+              "a whole cell can be told of, and be gone, in one frame");
+
+/// Who is not told something has a wrong picture of this cell for good.
 template <class Fact>
 void tell(peer_self self, const Fact& fact) {
-  if (!self->state.ended)
-    self->state.frames.notify(message_json(fact));
+  if (!self->state.ended && !self->state.frames.notify(message_json(fact)))
+    end_peer(self, "what it is to be told does not fit into a frame");
 }
 
 actor_state describe(peer_self self) {

@@ -27,10 +27,12 @@ void session_exchange::call(const json& body, time_point deadline,
     send_(std::move(*text));
 }
 
-void session_exchange::notify(const json& body) {
+bool session_exchange::notify(const json& body) {
   auto text = write_envelope(envelope_kind::notice, 0, body);
-  if (text.size() <= limits::session::frame_bytes)
-    send_(std::move(text));
+  if (text.size() > limits::session::frame_bytes)
+    return false;
+  send_(std::move(text));
+  return true;
 }
 
 std::optional<session_inquiry>

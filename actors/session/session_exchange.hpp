@@ -37,7 +37,8 @@ public:
   void call(const json& body, time_point deadline,
             session_calls::on_result done);
 
-  void notify(const json& body);
+  /// False where it is larger than a frame: then nothing has been sent.
+  [[nodiscard]] bool notify(const json& body);
 
   /// Takes one frame. Gives what is left to be done by the owner, and which
   /// `answer` is due for if it has an id.

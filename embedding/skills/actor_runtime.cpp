@@ -125,14 +125,14 @@ kept_skill* find(actor_runtime_pointer self, const std::string& instance,
              : &i->second;
 }
 
-/// Ends it; what does not react in time is given up, for nobody can end a
-/// thread of this program.
+/// Ends it, by force after the shortest grace that it has been given; what does
+/// not react in time is given up, for nobody can end a thread of this program.
 void end(actor_runtime_pointer self, kept_skill& x,
          std::chrono::milliseconds grace) {
   caf::anon_send(x.keeper, end_skill{grace.count()});
-  if (x.patience)
-    return;
-  x.patience = self->clock().now() + grace + limits::instance::force_interval;
+  const auto until =
+      self->clock().now() + grace + limits::instance::force_interval;
+  x.patience = x.patience ? std::min(*x.patience, until) : until;
   self->state.timer.set(self, *x.patience);
 }
 

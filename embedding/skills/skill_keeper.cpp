@@ -64,7 +64,7 @@ void begin(self_pointer self) {
 
 void set_timer(self_pointer self) {
   auto& st = self->state;
-  const auto next = std::min(st.life_due, st.safety_due);
+  const auto next = std::min({st.life_due, st.safety_due, st.force_due});
   if (next != alarm::time_point::max())
     st.timer.set(self, next);
 }
@@ -125,6 +125,11 @@ void pass_on(self_pointer self) {
           });
 }
 
+void use_force(self_pointer self) {
+  if (self->state.skill)
+    self->send_exit(self->state.skill, caf::exit_reason::kill);
+}
+
 void on_ready(self_pointer self) {
   auto& st = self->state;
   if (!st.skill || st.ending)
@@ -135,7 +140,12 @@ void on_ready(self_pointer self) {
   // Who hears that it runs knows whether it may be ended.
   fact.safe = st.config.side->take_safety();
   st.config.reports.notified(fact);
-  st.config.side->start_inputs();
+  try {
+    st.config.side->start_inputs();
+  } catch (...) {
+    st.config.side->log("cannot read its inputs: " + engine::current_error());
+    return use_force(self);
+  }
   expect_life(self);
   pass_on(self);
 }
@@ -173,26 +183,29 @@ void on_tick(self_pointer self, uint64_t number) {
     ask_life(self);
   if (take_due(st.safety_due, now))
     on_safety_told(self);
+  if (take_due(st.force_due, now))
+    use_force(self);
   set_timer(self);
 }
 
+/// Whoever has asked politely may lose his patience: the shortest grace counts.
 void end(self_pointer self, std::chrono::milliseconds grace) {
   auto& st = self->state;
   if (!st.skill)
     return end_keeper(self, 0);
-  if (std::exchange(st.ending, true))
-    return;
-  const auto force = [self](const caf::error&) {
-    self->send_exit(self->state.skill, caf::exit_reason::kill);
-  };
+  const bool is_asked = std::exchange(st.ending, true);
   if (grace.count() == 0)
-    return force({});
-  self->request(st.skill, grace, stop_skill{})
+    return use_force(self);
+  st.force_due = std::min(st.force_due, self->clock().now() + grace);
+  set_timer(self);
+  if (is_asked)
+    return;
+  self->request(st.skill, limits::instance::most_stop_grace, stop_skill{})
       .then(
           [self] {
             self->send_exit(self->state.skill, caf::exit_reason::user_shutdown);
           },
-          force);
+          [self](const caf::error&) { use_force(self); });
 }
 
 void on_down(self_pointer self, const caf::down_msg& down) {

@@ -45,6 +45,8 @@ struct skill_keeper_state {
   alarm::time_point safety_due = alarm::time_point::max();
   /// When the instance is asked whether it lives; max(): it is being asked.
   alarm::time_point life_due = alarm::time_point::max();
+  /// When one that is asked to end is ended.
+  alarm::time_point force_due = alarm::time_point::max();
   alarm timer;
 };
 

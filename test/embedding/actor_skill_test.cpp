@@ -115,6 +115,35 @@ TEST_CASE("an operation that is registered is placed, run and ended like any "
   CHECK(site.row_of("work") == nullptr);
 }
 
+TEST_CASE("an instance that is being ended politely can be ended by force") {
+  std::promise<void> asked;
+  skill_site site{[&](pointer, const context_type& context) -> behavior {
+    context.ready();
+    return {
+        [](const skill_frame&) {},
+        [](check_life) {},
+        [&](stop_skill) -> caf::result<void> {
+          asked.set_value();
+          // It parks for longer than it is given.
+          return caf::delegated<void>{};
+        },
+    };
+  }};
+  REQUIRE(site.deploy().at("type") == "task_accepted");
+  auto polite = std::async(std::launch::async, [&] {
+    return asker{*site.node}.ask({{"type", "task_termination"}, {"task", "t"}});
+  });
+  REQUIRE(asked.get_future().wait_for(std::chrono::seconds{30})
+          == std::future_status::ready);
+  const auto since = std::chrono::steady_clock::now();
+  const auto reply = site.program->ask(
+      {{"type", "task_termination"}, {"task", "t"}, {"force", true}});
+  CHECK(reply.at("type") == "task_terminated");
+  // Politely it has five seconds.
+  CHECK(std::chrono::steady_clock::now() - since < std::chrono::seconds{4});
+  CHECK(polite.get() == reply);
+}
+
 TEST_CASE("an instance says whether it may be ended") {
   skill_site site{[](pointer, const context_type& context) -> behavior {
     context.set_safe(true);

@@ -257,7 +257,7 @@ test_a_coordinator_that_deploys_ends_within_5_s_of_sigterm() {
 test_a_member_with_a_full_disk_comes_back_and_does_what_it_is_told() {
   [[ $(id -u) -eq 0 ]] || skip "a file system of its own needs root"
   mkdir "$scratch/arm"
-  mount -t tmpfs -o size=16m none "$scratch/arm" 2> /dev/null \
+  mount -t tmpfs -o size=16m,mode=0700 none "$scratch/arm" 2> /dev/null \
     || skip "a file system cannot be mounted here"
   trap 'clean_up; umount -l "$scratch/arm"' EXIT
   start_cell arm

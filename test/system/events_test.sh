@@ -75,7 +75,7 @@ fill_disk() {
 test_a_disk_that_is_full_takes_the_history_first() {
   [[ $(id -u) -eq 0 ]] || skip "a disk of its own needs root"
   mkdir -p "$scratch/head"
-  mount -t tmpfs -o size=12m none "$scratch/head" || skip "it may not mount"
+  mount -t tmpfs -o size=12m,mode=0700 none "$scratch/head" || skip "it may not mount"
   start_alone
   stop_node head
   # As much as a week has.

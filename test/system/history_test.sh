@@ -107,7 +107,7 @@ PROGRAM
     output: {data_types: ["text/plain"], protocols: ["file"]},
     models: [{name: "plain", deployments: [{name: "any",
       base_image: "debian:bookworm-slim", architectures: ["amd64", "arm64"],
-      resources: {cpu: 0, memory_mib: 1, disk_mib: 1}}]}]}' \
+      resources: {cpu: 0, memory_mib: 0, disk_mib: 1}}]}]}' \
     > "$skills/crash/skill.json"
 }
 

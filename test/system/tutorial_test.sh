@@ -1,5 +1,8 @@
 # What the pages tell their readers to type, typed.
 
+# Skills of these pages ask for what a program takes that no sanitizer looks after.
+export ROSCELL_CGROUP=none
+
 # own_network: this test's own loopback, because pages name well-known ports.
 own_network() {
   need_namespaces
@@ -28,7 +31,8 @@ play() {
     unshare --fork --pid --mount-proc --kill-child \
     bash -c '"$@"; exit $?' reaper \
     "$root/test/system/scenes/play_document.py" "$page" \
-    --replace "/tmp/=$scratch/" --replace "/home/you/roscell=${tree:-}" "$@") 2> "$scratch/played" &
+    --replace "/tmp/=$scratch/" --replace "/home/you/.config/roscell=$scratch/user" \
+    --replace "/home/you/roscell=${tree:-}" "$@") 2> "$scratch/played" &
   played=$!
   echo "$played" >> "$scratch/pids"
   wait "$played" || fail "$(cat "$scratch/played" "$scratch/busy" 2> /dev/null)"

@@ -174,6 +174,15 @@ TEST_CASE("a device is one that this machine has", "[tools]") {
   CHECK(refusal(options) == "--device: '/etc/hosts' is no device");
 }
 
+TEST_CASE("a grant names what there is", "[tools][grants]") {
+  CHECK(parses({"node", "--grant", "ping=capability:NET_RAW,capability:KILL",
+                "--grant", "*=scheduling:fifo:20"}));
+  CHECK(parses({"node", "--grant", "ping=user:root"}));
+  CHECK_FALSE(parses({"node", "--grant", "ping=user:nobody-of-that-name"}));
+  CHECK_FALSE(parses({"node", "--grant", "ping=capability:CAP_NET_RAW"}));
+  CHECK_FALSE(parses({"node", "--grant", "ping"}));
+}
+
 TEST_CASE("the command line takes what the design names", "[tools]") {
   CHECK(parses({"node",
                 "--name",

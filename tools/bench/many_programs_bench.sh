@@ -39,7 +39,7 @@ take_skills() {
   for name in image_source pose_estimation; do
     cp -r "$ROSCELL_BUILD/skills/$name" "$skills"
     text=$(jq '.models[].deployments[].resources
-      = {cpu: 0, memory_mib: 1, disk_mib: 0}' "$skills/$name/skill.json")
+      = {cpu: 0, memory_mib: 0, disk_mib: 0}' "$skills/$name/skill.json")
     echo "$text" > "$skills/$name/skill.json"
   done
 }

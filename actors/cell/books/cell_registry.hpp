@@ -66,13 +66,18 @@ public:
   /// there meanwhile. Invalid: there is none.
   member_actor rival_of(const node_identity& who) const;
 
-  /// An id for the node's own discovery server that no other row has, nor any
-  /// of `coordinators`, the lowest. `last` is the one that it had: kept if this
-  /// cell gave it, avoided if another did, whose programs may still look for
-  /// it. Negative: none is left.
+  /// Whether there is a row for no further node.
+  bool is_full() const;
+
+  /// An id for the node's own discovery server that no other row has, nor the
+  /// coordinator's, which is `own`, the lowest; one that is used `elsewhere`,
+  /// by other coordinators in sight, only where there is no other. `last` is
+  /// the one that it had: kept if this cell gave it, avoided if another did,
+  /// whose programs may still look for it. Negative: none is left, as if there
+  /// were more rows than `refusal` lets in.
   int64_t choose_server_id(const std::string& uuid, int64_t last,
-                           bool last_is_ours,
-                           std::set<int64_t> coordinators) const;
+                           bool last_is_ours, int64_t own,
+                           const std::set<int64_t>& elsewhere) const;
 
   // -- a registration ---------------------------------------------------------
 

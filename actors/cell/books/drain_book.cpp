@@ -40,6 +40,17 @@ void drain_book::end(const std::string& uuid, const std::string& trouble,
   x.due = is_empty ? time_point::max() : now + x.pause.next();
 }
 
+std::vector<drain_record> drain_book::all() const {
+  std::vector<drain_record> result;
+  for (const auto& [uuid, x] : nodes_)
+    result.push_back(x.record);
+  std::stable_sort(result.begin(), result.end(),
+                   [](const auto& x, const auto& y) {
+                     return x.since_unix_ms < y.since_unix_ms;
+                   });
+  return result;
+}
+
 std::vector<drain_record> drain_book::due(time_point now) const {
   std::vector<drain_record> result;
   for (const auto& [uuid, x] : nodes_)

@@ -4,6 +4,7 @@
 #include "messages/codec/described.hpp"
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -52,6 +53,13 @@ public:
   /// meanwhile, there is another one after a pause.
   void end(const std::string& uuid, const std::string& trouble, bool is_empty,
            time_point now);
+
+  size_t size() const {
+    return nodes_.size();
+  }
+
+  /// All of them, the longest drained first.
+  std::vector<drain_record> all() const;
 
   /// Those whose instances are to be moved now.
   std::vector<drain_record> due(time_point now) const;

@@ -2,6 +2,7 @@
 
 #include "actors/house/limits.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <utility>
 
@@ -92,10 +93,13 @@ std::optional<failure> cell_registry::refusal(const node_identity& who,
   if (auto why = copy_refusal(who, gone))
     return why;
   const auto* known = find_uuid(who.uuid);
-  if (!known && by_uuid_.size() >= limits::cell::rows)
-    return conflict("the cell has " + std::to_string(limits::cell::rows)
-                        + " rows, which is its limit",
-                    "", "release nodes that are gone, or form another cell");
+  if (!expects(who.uuid) && is_full())
+    return conflict(
+        "the cell has " + std::to_string(limits::cell::rows)
+            + " nodes, those that are away with them, and takes no more",
+        "",
+        "let the node join another cell of the site, or release one that will "
+        "not come back: `roscell nodes` lists them, `roscell release NODE`");
   if (known && who.epoch < known->row.identity.epoch)
     return conflict("the registration of epoch " + std::to_string(who.epoch)
                         + " is older than epoch "
@@ -129,10 +133,19 @@ registry_entry* cell_registry::find_name(const std::string& name) {
 
 // -- discovery servers --------------------------------------------------------
 
-int64_t cell_registry::choose_server_id(const std::string& uuid, int64_t last,
-                                        bool last_is_ours,
-                                        std::set<int64_t> coordinators) const {
-  auto used = std::move(coordinators);
+bool cell_registry::is_full() const {
+  const auto coming =
+      std::count_if(proposed_.begin(), proposed_.end(), [this](const auto& x) {
+        return by_uuid_.count(x.first) == 0;
+      });
+  return by_uuid_.size() + static_cast<size_t>(coming) >= limits::cell::rows;
+}
+
+int64_t
+cell_registry::choose_server_id(const std::string& uuid, int64_t last,
+                                bool last_is_ours, int64_t own,
+                                const std::set<int64_t>& elsewhere) const {
+  std::set<int64_t> used{own};
   for (const auto* rows : {&by_uuid_, &proposed_})
     for (const auto& [other, x] : *rows)
       if (other != uuid)
@@ -140,13 +153,21 @@ int64_t cell_registry::choose_server_id(const std::string& uuid, int64_t last,
   const auto is_free = [&](int64_t id) {
     return id >= 0 && used.count(id) == 0 && (last_is_ours || id != last);
   };
-  if (last_is_ours && is_free(last))
+  const auto is_good = [&](int64_t id) {
+    return is_free(id) && elsewhere.count(id) == 0;
+  };
+  if (last_is_ours && is_good(last))
     return last;
-  if (const auto* known = find_uuid(uuid); known && is_free(known->server_id))
+  if (const auto* known = find_uuid(uuid); known && is_good(known->server_id))
     return known->server_id;
-  for (int64_t id = 0; id <= UINT8_MAX; ++id)
-    if (is_free(id))
-      return id;
+  // Each has as many ids as there are rows and one more; those that other
+  // coordinators use come last, for nobody of theirs meets a server of ours.
+  static_assert(limits::cell::rows + 2 <= UINT8_MAX + 1,
+                "a row, the coordinator, and the id that is avoided");
+  for (const bool needs_good : {true, false})
+    for (int64_t id = 0; id <= UINT8_MAX; ++id)
+      if (needs_good ? is_good(id) : is_free(id))
+        return id;
   return -1;
 }
 

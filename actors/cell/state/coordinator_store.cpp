@@ -1,11 +1,30 @@
 #include "actors/cell/state/coordinator_store.hpp"
 
+#include "actors/cell/state/coordinator_timer.hpp"
 #include "actors/house/limits.hpp"
 #include "messages/failure.hpp"
 
+#include <chrono>
 #include <utility>
 
 namespace roscell {
+
+namespace {
+
+/// There is room, also for what has found none before.
+void hurry_waiting_changes(coordinator_pointer self) {
+  constexpr auto none = std::chrono::steady_clock::time_point::max();
+  bool is_one_waiting = false;
+  for (auto& [task, line] : self->state.desk.lines)
+    if (line.retry != none) {
+      line.retry = self->clock().now();
+      is_one_waiting = true;
+    }
+  if (is_one_waiting)
+    set_timer(self);
+}
+
+} // namespace
 
 void keep_records(coordinator_pointer self, std::vector<store_record> records,
                   std::function<void()> kept,
@@ -16,14 +35,18 @@ void keep_records(coordinator_pointer self, std::vector<store_record> records,
   const auto subject = records.front().key;
   self->request(st.setup.store, limits::store::write,
                 store_records{std::move(records)})
-      .then([kept = std::move(kept)](const record_stored&) { kept(); },
-            [self, subject,
-             not_kept = std::move(not_kept)](const caf::error& err) {
-              const auto why = to_failure(err);
-              self->state.context.tell("store_failed", subject,
-                                       {{"reason", why.message}});
-              not_kept(why);
-            });
+      .then(
+          [self, kept = std::move(kept)](const record_stored&) {
+            kept();
+            hurry_waiting_changes(self);
+          },
+          [self, subject,
+           not_kept = std::move(not_kept)](const caf::error& err) {
+            const auto why = to_failure(err);
+            self->state.context.tell("store_failed", subject,
+                                     {{"reason", why.message}});
+            not_kept(why);
+          });
 }
 
 void forget_refused(coordinator_pointer self, std::string table,

@@ -218,6 +218,19 @@ std::vector<instance_verdict> take_up_instances(coordinator_pointer self,
   return verdicts;
 }
 
+namespace {
+
+/// Where a whole row does not fit into a frame its node says less of the
+/// instance than the task knows.
+instance_row with_own_spec(const cell_coordinator_state& st, instance_row row,
+                           const std::string& node) {
+  if (const auto* placed = st.deployments.find(row.spec.instance, node))
+    row.spec = placed->spec;
+  return row;
+}
+
+} // namespace
+
 void on_instance_changed(coordinator_pointer self,
                          const instance_changed& fact) {
   auto& st = self->state;
@@ -228,7 +241,7 @@ void on_instance_changed(coordinator_pointer self,
     return;
   const bool news = !differs_in_words_only(st.deployments.told(*node, id), x);
   if (is_wanted(st, id, *node) || is_live(x.state))
-    st.deployments.tell(*node, x);
+    st.deployments.tell(*node, with_own_spec(st, x, *node));
   else
     st.deployments.forget_told(*node, id);
   if (x.state != instance_state::running)

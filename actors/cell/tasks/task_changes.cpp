@@ -3,6 +3,8 @@
 #include "actors/cell/state/coordinator_store.hpp"
 #include "actors/cell/state/coordinator_timer.hpp"
 
+#include <algorithm>
+#include <chrono>
 #include <optional>
 #include <string>
 #include <utility>
@@ -13,6 +15,10 @@ namespace roscell {
 namespace {
 
 using time_point = std::chrono::steady_clock::time_point;
+
+/// What has happened is to be on disk soon after there is room: a coordinator
+/// that ends before knows nothing of it. A write that fails costs little.
+constexpr backoff::duration longest_wait_for_room{2000};
 
 void write_next_change(coordinator_pointer self, const std::string& task);
 
@@ -49,7 +55,8 @@ void on_change_not_kept(coordinator_pointer self, const std::string& task,
   if (!change.insistent)
     return end_change(self, task, &why);
   line.writing = false;
-  line.retry = self->clock().now() + line.pause.next();
+  line.retry =
+      self->clock().now() + std::min(line.pause.next(), longest_wait_for_room);
   set_timer(self);
   if (change.on_trouble)
     change.on_trouble(why);

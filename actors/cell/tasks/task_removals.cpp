@@ -166,8 +166,18 @@ bool is_surely_gone(const cell_coordinator_state& st, const std::string& node,
 }
 
 void force_removals(coordinator_pointer self, const std::string& task) {
-  for (const auto& x : safety_waits_of(self->state, task))
+  const auto& st = self->state;
+  std::set<std::string> waiting;
+  for (const auto& x : safety_waits_of(st, task)) {
+    waiting.insert(x.instance);
     force_removal(self, x);
+  }
+  // What has been asked politely to end has no more time for it.
+  for (const auto& x : st.deployments.of_task(task))
+    if (waiting.count(x.spec.instance) == 0
+        && !is_surely_gone(st, x.node, x.spec.instance))
+      remove_instance(
+          self, {x.node, task, x.spec.instance}, [] {}, true);
 }
 
 void force_removals_on(coordinator_pointer self, const std::string& node) {

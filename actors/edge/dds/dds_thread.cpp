@@ -4,6 +4,7 @@
 #include <array>
 #include <cerrno>
 #include <ctime>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -67,10 +68,15 @@ dds_thread::dds_thread()
       buffer_(new std::uint8_t[largest_datagram]) {
   if (!works() || !watch(epoll_.get(), timer_.get(), timer_key))
     return;
-  thread_ = std::thread{[this] {
-    pthread_setname_np(pthread_self(), "roscell-dds");
-    run();
-  }};
+  try {
+    thread_ = std::thread{[this] {
+      pthread_setname_np(pthread_self(), "roscell-dds");
+      run();
+    }};
+  } catch (const std::system_error&) {
+    // Who listens is told; the next one who asks for it gets another.
+    timer_.reset();
+  }
 }
 
 dds_thread::~dds_thread() {
@@ -89,6 +95,8 @@ bool dds_thread::works() const {
 
 std::unique_ptr<dds_thread::entry>
 dds_thread::listen(udp_socket socket, std::size_t max_bytes, on_datagram hear) {
+  if (!works())
+    return nullptr;
   auto x = std::make_shared<item>();
   const int fd = socket.fd();
   x->socket = std::move(socket);

@@ -103,7 +103,7 @@ private:
   void end(std::shared_ptr<item> x);
 
   const unique_fd epoll_;
-  const unique_fd timer_;
+  unique_fd timer_;
   const std::unique_ptr<std::uint8_t[]> buffer_; // The thread's own.
   std::mutex mutex_;                             // Guards what follows.
   std::condition_variable ended_; // A call, for those who wait for that.

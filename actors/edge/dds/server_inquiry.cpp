@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <optional>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -91,8 +92,16 @@ server_inquiry::open(const server_inquiry_options& options,
     return *error;
   auto resolved = options;
   resolved.address = std::get<std::string>(address);
-  return std::unique_ptr<server_inquiry>{new server_inquiry(
-      std::make_unique<impl>(resolved, std::move(callback)))};
+  try {
+    return std::unique_ptr<server_inquiry>{new server_inquiry(
+        std::make_unique<impl>(resolved, std::move(callback)))};
+  } catch (const std::system_error& why) {
+    return edge_error{error_code::conflict,
+                      "the discovery server is not looked for: no thread can "
+                      "be had: "
+                          + why.code().message(),
+                      "raise the limit of processes: ulimit -u"};
+  }
 }
 
 server_inquiry::~server_inquiry() = default;

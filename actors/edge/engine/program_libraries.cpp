@@ -70,6 +70,15 @@ bool lies_in(const fs::path& path, const fs::path& folder) {
   return !inside.empty() && *inside.begin() != "..";
 }
 
+bool read_facts(shared_library& library) {
+  struct stat info {};
+  if (::stat(library.file.c_str(), &info) != 0)
+    return false;
+  library.bytes = static_cast<uint64_t>(info.st_size);
+  library.modified_unix_s = info.st_mtim.tv_sec;
+  return true;
+}
+
 edge_error missing(const fs::path& program, const std::string& library) {
   return {error_code::engine_failed,
           "'" + program.string() + "' needs the library " + library
@@ -82,16 +91,19 @@ edge_result<shared_library> look_at(const needed_library& needed) {
   shared_library result;
   result.name = needed.name;
   result.file = fs::canonical(needed.path, error);
-  struct stat info {};
-  if (error || ::stat(result.file.c_str(), &info) != 0)
+  if (error || !read_facts(result))
     return edge_error{error_code::internal,
                       "cannot read the library '" + needed.path + "'", ""};
-  result.bytes = static_cast<uint64_t>(info.st_size);
-  result.modified_unix_s = info.st_mtim.tv_sec;
   return result;
 }
 
 } // namespace
+
+bool is_still(const shared_library& library) {
+  auto now = library;
+  return read_facts(now) && now.bytes == library.bytes
+         && now.modified_unix_s == library.modified_unix_s;
+}
 
 namespace {
 

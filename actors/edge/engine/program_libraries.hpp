@@ -18,6 +18,9 @@ struct shared_library {
   int64_t modified_unix_s = 0;
 };
 
+/// Whether the file has the size and the time that were found.
+bool is_still(const shared_library& library);
+
 /// One line of what the dynamic linker says that it would load.
 struct needed_library {
   std::string name; ///< With the version, if that is all that is not found.

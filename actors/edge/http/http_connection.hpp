@@ -32,6 +32,9 @@ public:
   /// Is served later, by `run`.
   void wait_for_turn();
 
+  /// Answers 503, whatever it wants, and closes.
+  void refuse_crowd();
+
   /// Closes at once.
   void abort();
 
@@ -78,7 +81,6 @@ private:
   void start_session(const std::shared_ptr<const session_acceptor>& acceptor);
   void on_written(error ec);
   void linger();
-  void refuse_crowd();
   void refuse_request(int status, error_code code, std::string_view message,
                       std::string_view hint = {});
 

@@ -1,6 +1,5 @@
 #include "actors/edge/http/http_listener.hpp"
 
-#include "actors/edge/http/error_body.hpp"
 #include "actors/edge/http/http_connection.hpp"
 #include "actors/house/limits.hpp"
 
@@ -18,17 +17,6 @@ namespace {
 
 /// Connections taken in a row before other handlers get their turn.
 constexpr int burst = 16;
-
-/// Tells a client that there is no room, as far as that works at once.
-void turn_away(int fd) {
-  const auto why = crowd_words();
-  const auto body = error_body(why.code, why.message, why.hint);
-  const auto text = "HTTP/1.1 503 Service Unavailable\r\nContent-Type: "
-                    "application/json\r\nConnection: close\r\nContent-Length: "
-                    + std::to_string(body.size()) + "\r\n\r\n" + body;
-  ::send(fd, text.data(), text.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
-  ::close(fd);
-}
 
 boost::asio::generic::stream_protocol protocol(bool local) {
   return local ? boost::asio::generic::stream_protocol{AF_UNIX, 0}
@@ -104,8 +92,7 @@ void http_listener::rest() {
 
 void http_listener::admit(int fd) {
   const auto group = local_ ? http_group::local : http_group::strangers;
-  if (!shared_->table.make_room(group))
-    return turn_away(fd);
+  const bool has_room = shared_->table.make_room(group);
   error ec;
   stream_socket socket{shared_->core->context()};
   socket.assign(protocol(local_), fd, ec);
@@ -117,7 +104,11 @@ void http_listener::admit(int fd) {
     send_at_once(socket);
   auto connection =
       std::make_shared<http_connection>(shared_, std::move(socket), local_);
-  shared_->table.add(connection, group);
+  if (has_room)
+    return shared_->table.add(connection, group);
+  // It reads the answer although it has not written its request yet.
+  if (!shared_->table.refuse(connection))
+    connection->abort();
 }
 
 } // namespace roscell

@@ -14,7 +14,8 @@ edge_error crowd_words() {
 }
 
 connection_table::connection_table(const http_limits& limits)
-    : limits_{limits.strangers, limits.joining, limits.trusted, limits.local},
+    : limits_{limits.strangers, limits.joining, limits.trusted, limits.local,
+              limits.refused},
       waiting_limit_(limits.waiting) {
   // nop
 }
@@ -42,6 +43,17 @@ void connection_table::add(const std::shared_ptr<http_connection>& connection,
   }
   ++count(group);
   connection->run();
+}
+
+bool connection_table::refuse(
+    const std::shared_ptr<http_connection>& connection) {
+  if (full(http_group::refused))
+    return false;
+  entries_.emplace(connection.get(),
+                   entry{connection, http_group::refused, false});
+  ++count(http_group::refused);
+  connection->refuse_crowd();
+  return true;
 }
 
 void connection_table::serve_next() {

@@ -26,6 +26,7 @@ enum class http_group {
   joining,   ///< TCP, asks for a session, and has proved nothing yet.
   trusted,   ///< TCP, showed it.
   local,     ///< The Unix socket.
+  refused,   ///< There is no room: is being told so.
 };
 
 /// INTERNAL to this folder: the connections of one server. Io thread only.
@@ -36,6 +37,10 @@ public:
   /// Whether one more can be added. Makes room among those who have proved
   /// nothing by closing one.
   bool make_room(http_group group);
+
+  /// Tells the connection that there is no room, unless even those who are told
+  /// so are too many: then it is false.
+  bool refuse(const std::shared_ptr<http_connection>& connection);
 
   /// Serves the connection, or a local one when it is its turn.
   void add(const std::shared_ptr<http_connection>& connection,
@@ -69,9 +74,9 @@ private:
   bool full(http_group group);
   void serve_next();
 
-  std::array<size_t, 4> limits_;
+  std::array<size_t, 5> limits_;
   size_t waiting_limit_;
-  std::array<size_t, 4> counts_{};
+  std::array<size_t, 5> counts_{};
   /// Local clients that wait for their turn.
   std::deque<const http_connection*> queue_;
   std::unordered_map<const http_connection*, entry> entries_;

@@ -29,6 +29,7 @@ struct http_limits {
   size_t trusted = limits::http::trusted;
   size_t local = limits::http::local;
   size_t waiting = limits::http::waiting;
+  size_t refused = limits::http::refused;
   std::chrono::milliseconds turn = limits::http::turn;
   size_t sessions = limits::http::sessions;
   size_t stream_bytes = limits::http::stream_bytes;

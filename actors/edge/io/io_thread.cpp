@@ -70,18 +70,34 @@ void io_core::close_components() {
 
 namespace {
 
+/// This thread takes no signals meanwhile, nor what it starts, ever.
+class blocked_signals {
+public:
+  blocked_signals() {
+    sigset_t all;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before_);
+  }
+
+  ~blocked_signals() {
+    pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+  }
+
+  blocked_signals(const blocked_signals&) = delete;
+  blocked_signals& operator=(const blocked_signals&) = delete;
+
+private:
+  sigset_t before_{};
+};
+
 /// Starts a thread that takes no signals: they belong to the owner's threads.
+/// Throws where no thread can be had.
 std::thread start_without_signals(std::shared_ptr<io_core> core) {
-  sigset_t all;
-  sigset_t before;
-  sigfillset(&all);
-  pthread_sigmask(SIG_SETMASK, &all, &before);
-  std::thread result{[core = std::move(core)] {
+  const blocked_signals meanwhile;
+  return std::thread{[core = std::move(core)] {
     pthread_setname_np(pthread_self(), "roscell-io");
     core->run();
   }};
-  pthread_sigmask(SIG_SETMASK, &before, nullptr);
-  return result;
 }
 
 } // namespace

@@ -11,6 +11,7 @@
 #include <atomic>
 #include <future>
 #include <optional>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -55,20 +56,25 @@ answer resolve(const std::string& host) {
       inet_ntop(AF_INET, &first.sin_addr, text.data(), text.size())};
 }
 
-/// Has a thread of its own resolve the name: nothing else can take a call back
-/// that waits for a dead name server. The thread owns all that it uses, so that
-/// nobody has to wait for it. False if there are too many already.
-bool resolve_apart(const std::string& host, std::function<void(answer)> done) {
-  if (lookups.fetch_add(1) >= limits::membership::lookups) {
+/// One of the lookups that there may be at a time, until it is let go.
+class lookup_turn {
+public:
+  lookup_turn() : is_had_(lookups.fetch_add(1) < limits::membership::lookups) {}
+
+  ~lookup_turn() {
     lookups.fetch_sub(1);
-    return false;
   }
-  std::thread{[host, done = std::move(done)] {
-    done(resolve(host));
-    lookups.fetch_sub(1);
-  }}.detach();
-  return true;
-}
+
+  lookup_turn(const lookup_turn&) = delete;
+  lookup_turn& operator=(const lookup_turn&) = delete;
+
+  bool is_had() const {
+    return is_had_;
+  }
+
+private:
+  const bool is_had_;
+};
 
 edge_error too_many(const std::string& host) {
   return {error_code::conflict,
@@ -76,6 +82,31 @@ edge_error too_many(const std::string& host) {
               + std::to_string(limits::membership::lookups)
               + " others have no answer yet",
           "look after the name server, or give the IPv4 address"};
+}
+
+edge_error no_thread(const std::string& host, const std::string& why) {
+  return {error_code::conflict,
+          "the name '" + host
+              + "' is not looked up: no thread can be had: " + why,
+          "give the IPv4 address, or raise the limit of processes: ulimit -u"};
+}
+
+/// Has a thread of its own resolve the name: nothing else can take a call back
+/// that waits for a dead name server. The thread owns all that it uses, so that
+/// nobody has to wait for it. Tells why it does not.
+std::optional<edge_error> resolve_apart(const std::string& host,
+                                        std::function<void(answer)> done) {
+  auto turn = std::make_shared<lookup_turn>();
+  if (!turn->is_had())
+    return too_many(host);
+  try {
+    std::thread{[host, done = std::move(done), turn = std::move(turn)] {
+      done(resolve(host));
+    }}.detach();
+  } catch (const std::system_error& why) {
+    return no_thread(host, why.code().message());
+  }
+  return std::nullopt;
 }
 
 /// One question that the io thread waits for. Io thread only.
@@ -105,8 +136,8 @@ public:
             question->finish(x);
         });
     };
-    if (!resolve_apart(host, std::move(tell)))
-      finish(too_many(host));
+    if (auto why = resolve_apart(host, std::move(tell)))
+      finish(*std::move(why));
   }
 
   void on_io_stop() override {
@@ -147,9 +178,9 @@ edge_result<std::string> await_host(const std::string& host,
     return host;
   const auto result = std::make_shared<std::promise<answer>>();
   auto future = result->get_future();
-  if (!resolve_apart(host,
-                     [result](answer x) { result->set_value(std::move(x)); }))
-    return too_many(host);
+  if (auto why = resolve_apart(
+          host, [result](answer x) { result->set_value(std::move(x)); }))
+    return *std::move(why);
   if (future.wait_for(limit) != std::future_status::ready)
     return no_answer(host);
   return future.get();

@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <utility>
 
+#include <fcntl.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -46,7 +47,7 @@ int open_socket(const std::string& local_address) {
   const auto own = socket->local();
   setsockopt(socket->fd(), IPPROTO_IP, IP_MULTICAST_IF, &own.sin_addr,
              sizeof(own.sin_addr));
-  return dup(socket->fd());
+  return fcntl(socket->fd(), F_DUPFD_CLOEXEC, 0);
 }
 
 /// One question, repeated until it is answered. Io thread only.

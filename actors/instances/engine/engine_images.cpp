@@ -1,4 +1,5 @@
 #include "actors/edge/engine/engine_words.hpp"
+#include "actors/edge/engine/file_marks.hpp"
 #include "actors/edge/http/http_target.hpp"
 #include "actors/house/limits.hpp"
 #include "actors/instances/engine/engine_parts.hpp"
@@ -43,6 +44,13 @@ void conclude(engine_runtime_pointer self, const std::string& key,
     caf::anon_send_exit(work.packer, caf::exit_reason::user_shutdown);
   for (auto& x : work.waiters)
     x.promise.deliver(result);
+}
+
+/// A plan holds as long as the libraries of this host that go into the image
+/// are what they were: an upgrade makes another image.
+bool has_plan(const engine_runtime_state& st, const std::string& key) {
+  const auto i = st.plans.find(key);
+  return i != st.plans.end() && are_unchanged(i->second.made_of);
 }
 
 std::string joined(const std::deque<std::string>& lines) {
@@ -140,13 +148,12 @@ void pack(engine_runtime_pointer self, const std::string& key) {
 void plan(engine_runtime_pointer self, const std::string& key) {
   auto& st = self->state;
   auto& work = *find_work(self, key);
-  work.packer =
-      spawn<caf::detached>(self->system(), st.config.context, image_packer,
-                           st.config.data_dir / "build",
-                           caf::actor_cast<engine_runtime_actor>(self));
+  work.packer = spawn_blocking(self->system(), st.config.context, image_packer,
+                               st.config.data_dir / "build",
+                               caf::actor_cast<engine_runtime_actor>(self));
   ask_packer<image_planned>(self, key, limits::engine::plan, work.wish,
                             [=](image_work&, const image_planned& x) {
-                              self->state.plans[key] = x.image;
+                              self->state.plans[key] = {x.image, x.made_of};
                               look_for_image(self, key);
                             });
 }
@@ -154,7 +161,7 @@ void plan(engine_runtime_pointer self, const std::string& key) {
 /// Takes the image if it is there, and makes it if it is not.
 void look_for_image(engine_runtime_pointer self, const std::string& key) {
   auto& work = *find_work(self, key);
-  work.image = self->state.plans.at(key);
+  work.image = self->state.plans.at(key).image;
   engine_request request;
   request.target = "/images/" + work.image + "/json";
   ask_engine(self, std::move(request), [=](const engine_answered& x) {
@@ -209,7 +216,7 @@ caf::result<image_prepared> prepare(engine_runtime_pointer self,
     work->wish = wish;
   }
   work->waiters.push_back({wish.instance, promise});
-  if (is_first && self->state.plans.count(key) > 0)
+  if (is_first && has_plan(self->state, key))
     look_for_image(self, key);
   else if (is_first)
     plan(self, key);

@@ -21,11 +21,9 @@ void answer_stopped(engine_runtime_pointer self, const std::string& target,
              });
 }
 
-void do_stop(engine_runtime_pointer self, const stop_container& wish,
-             stop_promise promise) {
+void ask_to_stop(engine_runtime_pointer self, const stop_container& wish,
+                 int64_t grace_ms, stop_promise promise) {
   const auto target = target_of(wish.container, wish.instance);
-  const auto grace_ms = std::clamp<int64_t>(
-      wish.grace_ms, 0, limits::instance::most_stop_grace.count());
   const auto seconds = std::to_string((grace_ms + 999) / 1000);
   ask_engine(self,
              to_container("POST", target, "/stop?t=" + seconds,
@@ -41,6 +39,23 @@ void do_stop(engine_runtime_pointer self, const stop_container& wish,
                else
                  promise.deliver(
                      engine_failure("the container cannot be ended", x));
+             });
+}
+
+/// Without any grace it is killed first: an engine that waits for a polite end
+/// may keep a second wish of that kind waiting.
+void do_stop(engine_runtime_pointer self, const stop_container& wish,
+             stop_promise promise) {
+  const auto grace_ms = std::clamp<int64_t>(
+      wish.grace_ms, 0, limits::instance::most_stop_grace.count());
+  if (grace_ms > 0)
+    return ask_to_stop(self, wish, grace_ms, promise);
+  ask_engine(self,
+             to_container("POST", target_of(wish.container, wish.instance),
+                          "/kill?signal=KILL", limits::engine::probe),
+             [=](const engine_answered&) {
+               // Whatever came of it: the next answer tells how it is.
+               ask_to_stop(self, wish, grace_ms, promise);
              });
 }
 

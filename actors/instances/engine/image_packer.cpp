@@ -1,5 +1,6 @@
 #include "actors/instances/engine/image_packer.hpp"
 
+#include "actors/edge/engine/file_marks.hpp"
 #include "actors/house/edge_failure.hpp"
 #include "actors/house/watching.hpp"
 #include "actors/instances/engine/dockerfile.hpp"
@@ -31,8 +32,28 @@ libraries_for(const prepare_image& wish) {
                         std::get<std::filesystem::path>(program));
 }
 
+/// What says which library of that name is loaded.
+constexpr const char* linker_cache = "/etc/ld.so.cache";
+
+/// Looked at before the libraries are: what changes while they are found is
+/// taken for changed afterwards.
+file_marks marks_before_search() {
+  file_marks result;
+  if (const auto mark = mark_of(linker_cache); !mark.empty())
+    result[linker_cache] = mark;
+  return result;
+}
+
+/// One that is not any more what was found makes the next plan a new one.
+void add_marks(file_marks& marks,
+               const std::vector<shared_library>& libraries) {
+  for (const auto& x : libraries)
+    marks[x.file.string()] = is_still(x) ? mark_of(x.file) : std::string{};
+}
+
 caf::result<image_planned> plan(image_packer_self self,
                                 const prepare_image& wish) {
+  auto marks = marks_before_search();
   auto libraries = libraries_for(wish);
   if (const auto* error = std::get_if<edge_error>(&libraries))
     return to_caf(*error);
@@ -44,8 +65,10 @@ caf::result<image_planned> plan(image_packer_self self,
   content.skill_dir = wish.skill_dir;
   content.libraries = std::move(recipe.libraries);
   self->state.wish = wish;
+  add_marks(marks, content.libraries);
+  self->state.made_of = marks;
   return image_planned{image_name(wish.operation, content.dockerfile),
-                       content.dockerfile};
+                       content.dockerfile, std::move(marks)};
 }
 
 caf::result<image_packed> pack(image_packer_self self) {
@@ -58,12 +81,16 @@ caf::result<image_packed> pack(image_packer_self self) {
   const auto& packed = std::get<std::filesystem::path>(file);
   // Afterwards: an edit in the middle of it is seen, too.
   const auto same = check_build(st.wish);
-  if (const auto* error = std::get_if<edge_error>(&same)) {
-    std::error_code ignored;
-    std::filesystem::remove(packed, ignored);
+  const auto* error = std::get_if<edge_error>(&same);
+  if (error == nullptr && are_unchanged(st.made_of))
+    return image_packed{packed.string()};
+  std::error_code ignored;
+  std::filesystem::remove(packed, ignored);
+  if (error != nullptr)
     return to_caf(*error);
-  }
-  return image_packed{packed.string()};
+  return fail(error_code::conflict,
+              "libraries of this host have changed while the image was packed",
+              {}, "start it again once they have been installed");
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "actors/edge/engine/build_context.hpp"
+#include "actors/edge/engine/file_marks.hpp"
 #include "actors/house/house.hpp"
 #include "messages/messages.hpp"
 
@@ -9,14 +10,15 @@
 
 namespace roscell {
 
-/// Prepares one image on the disk. It blocks, so it is spawned detached, and
-/// only for as long as one image is being made.
+/// Prepares one image on the disk. It is spawned as one that blocks, and only
+/// for as long as one image is being made.
 struct image_packer_state {
   static constexpr const char* name = "image-packer";
 
   std::filesystem::path work_dir;
   image_content content; ///< Of the image that was planned last.
   prepare_image wish;    ///< For which it was planned.
+  file_marks made_of;    ///< The same.
 };
 
 /// The IMAGE PACKER. Messages: messages/inside/engine.hpp. Ends with its owner.

@@ -15,7 +15,7 @@ struct examiner_state {
 
 using examiner_self = examiner_actor::stateful_pointer<examiner_state>;
 
-/// Ends with its answer: a thread is too dear to be kept for this.
+/// Ends with its answer.
 examiner_actor::behavior_type
 examiner(examiner_self self, const std::shared_ptr<const node_services>& home) {
   return {
@@ -44,8 +44,8 @@ void examine_host(const request_context& context, examination_query query,
                              "the program of node '" + home->name
                                  + "' cannot look at its host",
                              "", "run `roscell doctor` there"});
-  const auto looks = spawn<caf::detached>(context.self->system(),
-                                          context.home(), examiner, home);
+  const auto looks =
+      spawn_blocking(context.self->system(), context.home(), examiner, home);
   ask<examination>(context, looks, *relayed_limit(examination_query::type),
                    std::move(query), done,
                    [done](examination x) { done.deliver(std::move(x)); });

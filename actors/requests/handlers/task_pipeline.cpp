@@ -73,11 +73,11 @@ void claim(const request_context& context, task_request request,
   watch_until_own_end(context.self, context.services->coordinator);
   ask<task_claimed>(context, context.services->coordinator, limits::task::claim,
                     std::move(wish), done,
-                    [done, request](task_claimed claimed) {
+                    [self = context.self, done, request](task_claimed claimed) {
                       if (claimed.known)
-                        done.conclude(message_json(claimed.accepted));
-                      else
-                        done.deliver({request, std::move(claimed.cell), {}});
+                        return done.conclude(message_json(claimed.accepted));
+                      self->state.claimed = request.task;
+                      done.deliver({request, std::move(claimed.cell), {}});
                     });
 }
 
@@ -276,6 +276,7 @@ void record_success(const request_context& context, const std::string& task,
 void undo_placement(const request_context& context, const std::string& task,
                     failure why,
                     const std::function<void(const failure&)>& done) {
+  context.self->state.claimed.clear();
   record_failure fact{task, why.message};
   why.hint = "the other steps were rolled back"
              + (why.hint.empty() ? "" : "; " + why.hint);

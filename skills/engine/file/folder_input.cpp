@@ -58,7 +58,7 @@ void folder_input::open() {
                       + std::strerror(errno) + "; correct its permissions");
   if (!options_.follow)
     return;
-  changes_.emplace();
+  changes_.emplace(say_);
   constexpr auto coming = IN_MOVED_TO | IN_CLOSE_WRITE;
   constexpr auto going = IN_MOVED_FROM | IN_DELETE;
   constexpr auto lost = IN_DELETE_SELF | IN_MOVE_SELF;
@@ -120,8 +120,9 @@ bool folder_input::push_file(const std::string& name, frame_sink& sink,
   auto path = path_ + (path_.back() == '/' ? "" : "/") + name;
   auto known = done_.find(name);
   struct stat info {};
-  if (known != done_.end() && ::stat(path.c_str(), &info) == 0
-      && known->second == file_identity::of(info))
+  if (::stat(path.c_str(), &info) == 0
+      && ((known != done_.end() && known->second == file_identity::of(info))
+          || (changes_ && changes_->may_be_unfinished(info))))
     return !stop.is_set();
   auto file = read_whole_file(path, options_.max_frame_bytes, say_);
   if (!file)
@@ -144,7 +145,8 @@ bool folder_input::on_event(const inotify_watch::event& e, frame_sink& sink,
   constexpr auto lost = IN_DELETE_SELF | IN_MOVE_SELF | IN_UNMOUNT | IN_IGNORED;
   if ((e.mask & lost) != 0)
     throw stream_error("input folder '" + path_ + "' was taken away");
-  // The kernel lost events, because the executor is far behind.
+  // The kernel lost events, because the executor is far behind, or there are
+  // none to be had.
   if ((e.mask & IN_Q_OVERFLOW) != 0)
     return push_all(sink, stop);
   if (is_left_out(e.name))

@@ -1,6 +1,9 @@
 #pragma once
 
+#include "roscell/skill/handlers.hpp"
 #include "skills/engine/life/unique_fd.hpp"
+
+#include <sys/stat.h>
 
 #include <cstdint>
 #include <string>
@@ -8,7 +11,10 @@
 
 namespace roscell::engine {
 
-/// Hears of changes in the file system, by inotify(7).
+/// Hears of changes in the file system, by inotify(7). A user has few instances
+/// of it, 128 as a rule: whoever comes when they are in use looks at the files
+/// once a second instead. Then each look comes as one event with IN_Q_OVERFLOW,
+/// as where the kernel has lost some: anything may have changed.
 class inotify_watch {
 public:
   struct event {
@@ -17,8 +23,17 @@ public:
     std::string name; ///< of the file in a watched folder, else empty
   };
 
-  /// Throws start_error when the user has no inotify instance left.
-  inotify_watch();
+  /// Says so if it has to look. Throws start_error when it cannot even do that.
+  explicit inotify_watch(const say_function& say = nullptr);
+
+  /// Whether it hears of nothing, and looks.
+  bool looks() const noexcept {
+    return looks_;
+  }
+
+  /// Whether a file may still be written to. Who hears of changes knows when a
+  /// file is closed; who looks waits until it has been left alone for a second.
+  bool may_be_unfinished(const struct stat& file) const;
 
   /// Watches a file or folder. Returns the number of the watch, or -1 with
   /// errno set.
@@ -35,7 +50,11 @@ public:
   }
 
 private:
+  void look_instead(const say_function& say);
+
   unique_fd fd_;
+  bool looks_ = false;
+  int last_watch_ = 0;
 };
 
 } // namespace roscell::engine

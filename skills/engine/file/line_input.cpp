@@ -19,7 +19,7 @@ line_input::line_input(const stream_context& input)
 
 void line_input::open() {
   if (options_.follow) {
-    changes_.emplace();
+    changes_.emplace(say_);
     // A replacement shows in the folder only. If the folder may not be read,
     // growth can still be followed.
     changes_->add(parent_folder(path_), IN_MOVED_TO | IN_CREATE);

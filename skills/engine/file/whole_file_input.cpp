@@ -21,7 +21,7 @@ void whole_file_input::open() {
                       + std::strerror(errno) + "; correct its permissions");
   if (!options_.follow)
     return;
-  changes_.emplace();
+  changes_.emplace(say_);
   // A replacement shows in the folder only. If the folder may not be read,
   // the file itself can still be followed.
   changes_->add(parent_folder(path_), IN_MOVED_TO | IN_CLOSE_WRITE);
@@ -53,6 +53,11 @@ void whole_file_input::watch_file() {
 }
 
 bool whole_file_input::push_if_new(frame_sink& sink, const stop_event& stop) {
+  struct stat info {};
+  if (::stat(path_.c_str(), &info) == 0
+      && (file_identity::of(info) == last_
+          || (changes_ && changes_->may_be_unfinished(info))))
+    return !stop.is_set();
   auto file = read_whole_file(path_, options_.max_frame_bytes, say_);
   if (!file || file->identity == last_)
     return !stop.is_set();

@@ -1,6 +1,7 @@
 #include "test/actors/fakes/crowded_cell.hpp"
 
 #include "actors/house/limits.hpp"
+#include "test/words.hpp"
 
 /// Nodes that are to be empty.
 namespace roscell::test {
@@ -9,6 +10,10 @@ namespace {
 
 json drain(const std::string& node) {
   return {{"type", "node_drain"}, {"node", node}};
+}
+
+json undrain(const std::string& node) {
+  return {{"type", "node_undrain"}, {"node", node}};
 }
 
 } // namespace
@@ -117,6 +122,74 @@ TEST_CASE_METHOD(crowded_cell,
 TEST_CASE_METHOD(crowded_cell, "A node that is not there cannot be drained",
                  "[drain]") {
   CHECK(error_of(request(drain("nobody"))) == "unknown_node");
+}
+
+TEST_CASE_METHOD(crowded_cell,
+                 "The drain of a node that is gone can be taken away by its "
+                 "name",
+                 "[drain]") {
+  auto& gone = add("gone");
+  request(drain("gone"));
+  time.settle();
+  depart(gone);
+  REQUIRE(row("gone").identity.name.empty());
+  CHECK(drains.size() == 1);
+  const auto unknown = request(undrain("nobody"));
+  CHECK(error_of(unknown) == "unknown_node");
+  CHECK(has(unknown.at("error").at("hint").get<std::string>(),
+            "gone and drained still: gone"));
+  CHECK(request(undrain("gone")).at("type") == "node_undrained");
+  CHECK(drains.empty());
+  REQUIRE(enter(gone));
+  CHECK(row("gone").draining_since_unix_ms == 0);
+  CHECK(error_of(request(undrain("nobody"))) == "unknown_node");
+}
+
+TEST_CASE_METHOD(crowded_cell, "A drained node comes back drained", "[drain]") {
+  auto& gone = add("gone");
+  request(drain("gone"));
+  time.settle();
+  depart(gone);
+  REQUIRE(enter(gone));
+  CHECK(row("gone").draining_since_unix_ms > 0);
+}
+
+TEST_CASE_METHOD(crowded_cell, "A node is drained under its present name",
+                 "[drain]") {
+  right.has.cpu.used = 4;
+  request(drain("left"));
+  time.settle();
+  lose(left);
+  left.identity.name = "west";
+  left.has.name = "west";
+  ++left.identity.epoch;
+  REQUIRE(enter(left));
+  CHECK(request(drain("west")).at("left").size() == 2);
+  CHECK(request(undrain("west")).at("type") == "node_undrained");
+  CHECK(drains.empty());
+}
+
+TEST_CASE_METHOD(paper_cell,
+                 "Of drained nodes that are gone the first ones are forgotten "
+                 "when there are too many",
+                 "[drain]") {
+  auto& first = add("first");
+  request(drain("first"));
+  depart(first);
+  for (size_t i = 1; i < limits::cell::drains; ++i) {
+    const auto name = "n" + std::to_string(i);
+    auto& x = add(name);
+    time.advance(1ms);
+    request(drain(name));
+    depart(x);
+  }
+  CHECK(drains.size() == limits::cell::drains);
+  CHECK(count("node_undrained") == 0);
+  add("last");
+  CHECK(request(drain("last")).at("type") == "node_drained");
+  CHECK(drains.size() == limits::cell::drains);
+  CHECK(drains.count(first.identity.uuid) == 0);
+  CHECK(count("node_undrained") == 1);
 }
 
 } // namespace roscell::test

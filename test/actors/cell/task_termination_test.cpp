@@ -62,6 +62,42 @@ TEST_CASE_METHOD(two_nodes,
   CHECK(left.removals.size() == 1);
 }
 
+TEST_CASE_METHOD(two_nodes,
+                 "A termination that is repeated by force leaves no more time "
+                 "to what ends politely",
+                 "[task_termination]") {
+  request(both());
+  left.slow_removals = right.slow_removals = true;
+  const auto first = post(termination("t"));
+  auto forced = termination("t");
+  forced["force"] = true;
+  const auto second = post(forced);
+  REQUIRE(left.removals.size() == 2);
+  CHECK_FALSE(left.removals[0].force);
+  CHECK(left.removals[1].force);
+  CHECK(right.removals.back().force);
+  left.finish_removals();
+  right.finish_removals();
+  time.settle();
+  CHECK(reply_of(first).at("type") == "task_terminated");
+  CHECK(reply_of(second) == reply_of(first));
+}
+
+TEST_CASE_METHOD(two_nodes,
+                 "A task whose request was refused is none to be terminated",
+                 "[task_termination]") {
+  slow_disk = true;
+  const auto refused = post(
+      echo_task("t", {echo_step("s0", 3, "left"), echo_step("s1", 3, "left")}));
+  // Whoever hears of the refusal finds that there is no such task.
+  CHECK_FALSE(*refused);
+  finish_writes();
+  time.settle();
+  CHECK(error_of(reply_of(refused)) == "no_feasible_allocation");
+  CHECK(error_of(request(termination("t"))) == "unknown_task");
+  CHECK(count("task_terminated") == 0);
+}
+
 TEST_CASE_METHOD(two_nodes, "A task that was never there cannot be terminated",
                  "[task_termination]") {
   const auto reply = request(termination("t"));

@@ -92,11 +92,15 @@ TEST_CASE("The node's actors are listed when asked for", "[rest_routes]") {
   CHECK(asked(get("/v1/node", {{"actors", "false"}})).at("actors") == false);
 }
 
-TEST_CASE("Whoever asks for a proof of a registration gives a nonce",
-          "[rest_routes]") {
+TEST_CASE(
+    "Whoever asks for a proof of a registration gives a nonce and his own",
+    "[rest_routes]") {
   CHECK(asked(get("/v1/registration")) == json{{"type", "registration_query"}});
   CHECK(asked(get("/v1/registration", {{"nonce", "ab"}}))
         == json{{"type", "registration_query"}, {"nonce", "ab"}});
+  CHECK(asked(get("/v1/registration", {{"nonce", "ab"}, {"proof", "cd"}}))
+        == json{
+            {"type", "registration_query"}, {"nonce", "ab"}, {"proof", "cd"}});
 }
 
 TEST_CASE("Events are followed unless it is refused", "[rest_routes]") {

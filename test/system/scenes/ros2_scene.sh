@@ -101,5 +101,5 @@ relay_descriptor() {
        models: [{name: "stock", parameters: {level: 1},
          deployments: [{name: "host", base_image: "debian:bookworm-slim",
            architectures: ["amd64", "arm64"],
-           resources: {cpu: 0, memory_mib: 64, disk_mib: 1}}]}]}'
+           resources: {cpu: 0, memory_mib: 0, disk_mib: 1}}]}]}'
 }

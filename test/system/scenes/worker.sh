@@ -58,7 +58,7 @@ PROGRAM
     models: [{name: "plain", parameters: {orders: "", careful: false},
       deployments: [{name: "any", base_image: "debian:bookworm-slim",
         architectures: ["amd64", "arm64"],
-        resources: {cpu: 0, memory_mib: 1, disk_mib: 1}}]}]}' \
+        resources: {cpu: 0, memory_mib: 0, disk_mib: 1}}]}]}' \
     > "$skills/work/skill.json"
 }
 

@@ -102,6 +102,9 @@ TEST_CASE("a command that does not end is ended", "[doctor]") {
   CHECK(run_bounded({"sh", "-c", "echo said; exit 3"}, 5s).said == "said\n");
   CHECK(run_bounded({"sh", "-c", "exit 3"}, 5s).code == 3);
   CHECK(run_bounded({"/nowhere/nft"}, 5s).code == command_not_found);
+  // It says nothing more, and does not end.
+  CHECK(run_bounded({"sh", "-c", "exec >&- 2>&-; exec sleep 1000"}, 20ms).code
+        == command_took_too_long);
   CHECK(run_bounded({"tail", "-f", "/dev/null"}, 20ms).code
         == command_took_too_long);
 }

@@ -1,12 +1,17 @@
+#include "actors/edge/io/unique_fd.hpp"
 #include "test/places.hpp"
 #include "tools/roscell/doctor/host/clock.hpp"
 #include "tools/roscell/doctor/host/disk.hpp"
 #include "tools/roscell/doctor/host/engines.hpp"
 #include "tools/roscell/doctor/host/gpu.hpp"
+#include "tools/roscell/doctor/host/inotify.hpp"
 #include "tools/roscell/doctor/host/programs.hpp"
 #include "tools/roscell/doctor/host/shared_memory.hpp"
 
 #include <catch2/catch.hpp>
+
+#include <sys/inotify.h>
+#include <unistd.h>
 
 #include <cerrno>
 
@@ -69,6 +74,27 @@ TEST_CASE("an engine is broken only where it was asked for", "[doctor]") {
                            edge_error{error_code::timeout, "no answer", ""}};
   CHECK(judge_engines("docker", {hangs}, true)[0].remedy
         == "sudo systemctl status docker");
+}
+
+TEST_CASE("inotify instances are judged by how many are left", "[doctor]") {
+  CHECK(judge_inotify({}).how == judgement::skipped);
+  CHECK(judge_inotify({128, 3}).how == judgement::ok);
+  const auto few = judge_inotify({128, 120});
+  CHECK(few.how == judgement::warning);
+  CHECK(few.seen == "120 of 128 inotify instances of this user are in use");
+  CHECK(few.remedy == "sudo sysctl -w fs.inotify.max_user_instances=1024");
+  CHECK(judge_inotify({4096, 4096}).remedy
+        == "sudo sysctl -w fs.inotify.max_user_instances=8192");
+}
+
+TEST_CASE("the inotify instances of this user are counted", "[doctor]") {
+  const auto before = look_at_inotify("/proc", ::geteuid());
+  CHECK(before.most > 0);
+  const unique_fd one{::inotify_init1(IN_CLOEXEC)};
+  // Others of this user come and go meanwhile.
+  if (one)
+    CHECK(look_at_inotify("/proc", ::geteuid()).used > 0);
+  CHECK(look_at_inotify("/nowhere", ::geteuid()).most < 0);
 }
 
 TEST_CASE("what of a GPU is missing is named", "[doctor]") {

@@ -1,3 +1,4 @@
+#include "actors/node/start/granted.hpp"
 #include "tools/roscell/commands.hpp"
 #include "tools/roscell/daemon/config_file.hpp"
 #include "tools/roscell/daemon/node_options.hpp"
@@ -16,10 +17,9 @@ constexpr auto footer =
 Running instances go on, and the node takes them over when it is started again.
 
 Examples:
-  roscell node --coordinator --interface eth0 --site-token /etc/roscell/site.token
-  roscell node --interface eth0 --join 192.168.1.10 \
-      --site-token /etc/roscell/site.token --label room=lab
-  roscell node --coordinator --interface lo --data-dir /tmp/n1 --runtime process
+  roscell node --coordinator --interface eth0
+  roscell node --interface eth0 --join 192.168.1.10 --label room=lab
+  roscell node --coordinator --interface lo --data-dir ~/n1 --runtime process
   roscell node --config /etc/roscell/node.conf)";
 
 void add_identity(CLI::App& command, node_options& options) {
@@ -89,9 +89,16 @@ void add_network(CLI::App& command, node_options& options) {
   command
       .add_option(
           "--site-token", config.site_token_file,
-          "Secret that the nodes of a site share; without it only nodes "
-          "of this machine can be members")
-      ->option_text("FILE");
+          "Secret that the nodes of a site share: a copy of another host's, "
+          "or of another user's. The first coordinator of a user makes his")
+      ->option_text("FILE [$ROSCELL_SITE_TOKEN, else /etc/roscell/site.token "
+                    "for root, ~/.config/roscell/site.token]");
+}
+
+std::string names_a_cgroup(const std::string& text) {
+  return text == "auto" || text == "none" || text.rfind('/', 0) == 0
+             ? std::string{}
+             : "give a folder that begins with '/', auto or none";
 }
 
 std::string names_a_runtime(const std::string& text) {
@@ -119,6 +126,23 @@ void add_resources(CLI::App& command, node_options& options) {
           "and DATA_DIR/skills; can be repeated")
       ->option_text("DIR")
       ->allow_extra_args(false);
+  command
+      .add_option("--grant", config.grants,
+                  "What a skill may have beyond an ordinary program's due: "
+                  "capability:NET_RAW, user:NAME, scheduling:fifo:PRIORITY, "
+                  "scheduling:rr:PRIORITY, scheduling:nice:VALUE. SKILL is its "
+                  "operation, or * for all; can be repeated")
+      ->check(grant_problem)
+      ->option_text("SKILL=WHAT[,WHAT...]")
+      ->allow_extra_args(false);
+  command
+      .add_option("--cgroup", config.cgroup,
+                  "Where instances that are processes get cgroups, which hold "
+                  "them to their memory: a folder of the cgroup file system, "
+                  "auto or none")
+      ->check(names_a_cgroup)
+      ->envname("ROSCELL_CGROUP")
+      ->option_text("FOLDER|auto|none [$ROSCELL_CGROUP, else auto]");
   command
       .add_option("--capacity", config.capacity,
                   "Offer no more than this: cores, MiB, MiB")

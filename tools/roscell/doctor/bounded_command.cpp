@@ -1,6 +1,7 @@
 #include "tools/roscell/doctor/bounded_command.hpp"
 
 #include "actors/edge/io/unique_fd.hpp"
+#include "actors/edge/process/pidfd.hpp"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <csignal>
+#include <optional>
 
 namespace roscell::cli {
 
@@ -59,6 +61,28 @@ bool read_until(int fd, command_clock::time_point deadline, std::string& said) {
   return false;
 }
 
+/// How it has ended, as `waitpid` tells; none: it has not by then. What hangs
+/// in the kernel does not even die of SIGKILL.
+std::optional<int> await_end(pid_t pid, command_clock::time_point deadline) {
+  const unique_fd process{pidfd_open(pid, 0)};
+  const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(
+      deadline - command_clock::now());
+  pollfd wanted{process.get(), POLLIN, 0};
+  if (process && left.count() > 0)
+    poll(&wanted, 1, static_cast<int>(left.count()));
+  int status = 0;
+  if (waitpid(pid, &status, WNOHANG) != pid)
+    return std::nullopt;
+  return status;
+}
+
+/// It is left to the end of this program where it does not go.
+void end_by_force(pid_t pid) {
+  constexpr std::chrono::milliseconds patience{1000};
+  kill(pid, SIGKILL);
+  await_end(pid, command_clock::now() + patience);
+}
+
 } // namespace
 
 command_result run_bounded(const std::vector<std::string>& words,
@@ -74,14 +98,13 @@ command_result run_bounded(const std::vector<std::string>& words,
   if (pid == 0)
     return {command_not_found, {}};
   command_result result;
-  const bool ended = read_until(reading.get(), deadline, result.said);
-  if (!ended)
-    kill(pid, SIGKILL);
-  int status = 0;
-  waitpid(pid, &status, 0);
-  result.code = !ended              ? command_took_too_long
-                : WIFEXITED(status) ? WEXITSTATUS(status)
-                                    : command_took_too_long;
+  const bool is_silent = read_until(reading.get(), deadline, result.said);
+  // One that closes its output may go on for ever.
+  const auto status = is_silent ? await_end(pid, deadline) : std::nullopt;
+  if (!status)
+    end_by_force(pid);
+  result.code = status && WIFEXITED(*status) ? WEXITSTATUS(*status)
+                                             : command_took_too_long;
   return result;
 }
 

@@ -2,9 +2,12 @@
 
 #include "tools/roscell/doctor/host/clock.hpp"
 #include "tools/roscell/doctor/host/disk.hpp"
+#include "tools/roscell/doctor/host/doors.hpp"
 #include "tools/roscell/doctor/host/engines.hpp"
 #include "tools/roscell/doctor/host/gpu.hpp"
+#include "tools/roscell/doctor/host/inotify.hpp"
 #include "tools/roscell/doctor/host/memory_sharing.hpp"
+#include "tools/roscell/doctor/host/node_user.hpp"
 #include "tools/roscell/doctor/host/programs.hpp"
 #include "tools/roscell/doctor/host/shared_memory.hpp"
 #include "tools/roscell/doctor/network/addresses.hpp"
@@ -179,11 +182,17 @@ const std::vector<check>& host_checks() {
       {"clock", "host", "the clock is synchronised", examine_clock},
       {"descriptors", "host", "how many files a node may open",
        examine_descriptors},
+      {"inotify", "host", "skills can follow files", examine_inotify},
       {"engine", "host", "a container engine answers this user",
        examine_engines},
       {"gpu", "host", "NVIDIA's driver and library fit", examine_gpu},
       {"versions", "host", "ROSCell and Fast DDS", examine_versions},
       {"skills", "host", "skills of this host can be loaded", examine_skills},
+      {"site-token", "host", "what proves a node to the others of its site",
+       examine_site_token},
+      {"node-user", "host", "the node is not root", examine_node_user},
+      {"skill-owners", "host", "nobody else decides what a node of root runs",
+       examine_skill_owners},
   };
   return all;
 }

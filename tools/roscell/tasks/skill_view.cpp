@@ -1,3 +1,4 @@
+#include "actors/edge/process/skill_grants.hpp"
 #include "schemas/parameters/engine_parameters.hpp"
 #include "tools/roscell/tasks/task_view.hpp"
 #include "tools/roscell/view/format.hpp"
@@ -18,14 +19,18 @@ std::string port_line(const char* name, const port_description& port) {
          + "\n       by " + printable(joined(port.protocols, ", ")) + "\n";
 }
 
-std::string labels_of(const deployment_option& x) {
+/// What the node must have, and what it must grant.
+std::string wishes_of(const std::string& skill, const deployment_option& x) {
   std::vector<std::string> words = x.devices;
   for (const auto& [name, value] : x.labels)
     words.push_back(name + "=" + value);
+  for (const auto& what : skill_grants{}.missing(skill, x))
+    words.push_back(what);
   return joined(words);
 }
 
-std::string deployments_view(const implementation_model& model,
+std::string deployments_view(const std::string& skill,
+                             const implementation_model& model,
                              const text_style& style) {
   table t{{{"DEPLOYMENT"},
            {"RUNS ON"},
@@ -43,7 +48,7 @@ std::string deployments_view(const implementation_model& model,
          format_bytes(r.memory_mib * bytes_per_mib),
          format_bytes(r.disk_mib * bytes_per_mib),
          r.needs_gpu() ? format_bytes(r.gpu_memory_mib * bytes_per_mib) : "",
-         labels_of(x)});
+         wishes_of(skill, x)});
   }
   return t.render(style);
 }
@@ -103,7 +108,7 @@ std::string skill_view(const std::vector<skill_row>& rows,
             + port_line("gives  ", skill.output);
     for (const auto& model : skill.models)
       text += "\nmodel " + printable(model.name) + "\n\n"
-              + deployments_view(model, style) + "\n"
+              + deployments_view(skill.operation, model, style) + "\n"
               + parameters_view(skill, model, style);
     text += &row == &newest.back() ? "" : "\n";
   }

@@ -1,11 +1,15 @@
 #include "actors/cell/books/cell_registry.hpp"
 
+#include "actors/house/limits.hpp"
+
 #include <caf/actor_cast.hpp>
 #include <caf/actor_system.hpp>
 #include <caf/actor_system_config.hpp>
 #include <caf/scoped_actor.hpp>
 
 #include <catch2/catch.hpp>
+
+#include <set>
 
 namespace roscell::test {
 
@@ -49,13 +53,13 @@ TEST_CASE("A name belongs to one UUID while its row is active",
 TEST_CASE("A node's discovery server gets an id that no other has",
           "[cell_registry]") {
   cell_registry registry;
-  CHECK(registry.choose_server_id("u1", -1, false, {0}) == 1);
+  CHECK(registry.choose_server_id("u1", -1, false, 0, {}) == 1);
   auto arm = node("arm", "u1");
   arm.server_id = 1;
   registry.activate(arm, at(0ms));
-  CHECK(registry.choose_server_id("u2", -1, false, {0, 2}) == 3);
-  CHECK(registry.choose_server_id("u2", 1, true, {0}) == 2);
-  CHECK(registry.choose_server_id("u2", 7, true, {0}) == 7);
+  CHECK(registry.choose_server_id("u2", -1, false, 0, {2}) == 3);
+  CHECK(registry.choose_server_id("u2", 1, true, 0, {}) == 2);
+  CHECK(registry.choose_server_id("u2", 7, true, 0, {}) == 7);
 }
 
 TEST_CASE("A node keeps the id of its discovery server, unless another cell "
@@ -63,23 +67,71 @@ TEST_CASE("A node keeps the id of its discovery server, unless another cell "
           "[cell_registry]") {
   cell_registry registry;
   registry.expect({{"arm", "u1", 1, ""}, join_origin::given, 9}, at(0ms));
-  CHECK(registry.choose_server_id("u1", -1, false, {0}) == 9);
-  CHECK(registry.choose_server_id("u1", 12, false, {0}) == 9);
-  CHECK(registry.choose_server_id("u1", 9, true, {0}) == 9);
-  CHECK(registry.choose_server_id("u1", 9, false, {0}) == 1);
-  CHECK(registry.choose_server_id("u2", 1, false, {0}) == 2);
+  CHECK(registry.choose_server_id("u1", -1, false, 0, {}) == 9);
+  CHECK(registry.choose_server_id("u1", 12, false, 0, {}) == 9);
+  CHECK(registry.choose_server_id("u1", 9, true, 0, {}) == 9);
+  CHECK(registry.choose_server_id("u1", 9, false, 0, {}) == 1);
+  CHECK(registry.choose_server_id("u2", 1, false, 0, {}) == 2);
 }
 
-TEST_CASE("A cell runs out of ids for discovery servers, and says so",
-          "[cell_registry]") {
-  cell_registry registry;
-  for (int i = 1; i < 256; ++i) {
+namespace {
+
+/// A cell with a row less than it may have.
+cell_registry almost_full_cell() {
+  cell_registry result;
+  for (size_t i = 1; i < limits::cell::rows; ++i) {
     auto x = node("n" + std::to_string(i), "u" + std::to_string(i));
-    x.server_id = i;
-    registry.activate(x, at(0ms));
+    x.server_id = static_cast<int64_t>(i);
+    result.activate(x, at(0ms));
   }
-  CHECK(registry.choose_server_id("more", -1, false, {0}) == -1);
-  CHECK(registry.choose_server_id("u7", 7, true, {0}) == 7);
+  return result;
+}
+
+/// The ids of whatever other coordinators there may be.
+std::set<int64_t> all_ids() {
+  std::set<int64_t> result;
+  for (int64_t i = 0; i <= UINT8_MAX; ++i)
+    result.insert(i);
+  return result;
+}
+
+} // namespace
+
+TEST_CASE("A full cell refuses one more node, and says what can be done",
+          "[cell_registry]") {
+  auto registry = almost_full_cell();
+  const node_identity last{"last", "u-last", 1, "10.0.1.1:8420"};
+  const node_identity more{"more", "u-more", 1, "10.0.1.2:8420"};
+  CHECK_FALSE(registry.refusal(last, at(0ms)));
+  SECTION("when the last one is a member") {
+    registry.activate(node("last", "u-last"), at(0ms));
+  }
+  SECTION("when the last one is being written down") {
+    registry.propose(node("last", "u-last"));
+  }
+  const auto why = registry.refusal(more, at(0ms));
+  REQUIRE(why);
+  CHECK(why->code == error_code::conflict);
+  CHECK(why->message
+        == "the cell has 250 nodes, those that are away with them, and takes "
+           "no more");
+  CHECK(why->hint.find("another cell") != std::string::npos);
+  CHECK(why->hint.find("roscell release") != std::string::npos);
+  // Who is in it may come back.
+  CHECK_FALSE(registry.refusal({"n7", "u7", 1, ""}, at(0ms)));
+  CHECK_FALSE(registry.refusal(last, at(0ms)));
+}
+
+TEST_CASE("Every node that a cell takes gets an id for its discovery server, "
+          "whatever coordinators are in sight",
+          "[cell_registry]") {
+  const auto registry = almost_full_cell();
+  CHECK(registry.choose_server_id("more", -1, false, 0, {}) == 250);
+  const auto elsewhere = all_ids();
+  CHECK(registry.choose_server_id("more", -1, false, 0, elsewhere) == 250);
+  // The one that another cell gave it is avoided even then.
+  CHECK(registry.choose_server_id("more", 250, false, 0, elsewhere) == 251);
+  CHECK(registry.choose_server_id("more", -1, false, 250, elsewhere) == 0);
 }
 
 TEST_CASE("A lost node keeps its name for one lease", "[cell_registry]") {

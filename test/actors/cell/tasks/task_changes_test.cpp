@@ -122,6 +122,45 @@ TEST_CASE_METHOD(two_arms,
   CHECK(request(both()).at("type") == "task_accepted");
 }
 
+namespace {
+
+/// A task whose end is not on disk, and whose nodes have nothing of it left.
+struct unwritten_end : two_arms {
+  unwritten_end() {
+    request(both());
+    disk_full = true;
+    const auto reply = post(termination("t"));
+    for (int i = 0; i < 90 && !*reply; ++i)
+      time.advance(1s);
+    REQUIRE(*reply);
+    REQUIRE(has(message_of(reply_of(reply)), "the disk is full"));
+    // However long that lasts.
+    time.advance(30min);
+    REQUIRE(disk.count("t") == 1);
+    disk_full = false;
+  }
+};
+
+} // namespace
+
+TEST_CASE_METHOD(unwritten_end,
+                 "A refused termination is on disk soon after there is room",
+                 "[task_changes]") {
+  time.advance(2s);
+  CHECK(disk.empty());
+  CHECK(count("task_terminated") == 1);
+}
+
+TEST_CASE_METHOD(unwritten_end,
+                 "A refused termination is on disk as soon as anything else is",
+                 "[task_changes]") {
+  request(echo_task("other", {echo_step("s0", 1, "left")}));
+  time.advance(1ms);
+  CHECK(disk.count("t") == 0);
+  CHECK(disk.count("other") == 1);
+  CHECK(count("task_terminated") == 1);
+}
+
 TEST_CASE_METHOD(two_arms, "An end that was not stored is stored later",
                  "[task_changes]") {
   request(echo_task("t", {echo_step("s0", 1, "left")}));

@@ -1,9 +1,44 @@
 #include "actors/edge/io/name_lookup.hpp"
+
+#include "actors/edge/dds/server_inquiry.hpp"
 #include "actors/edge/io/socket_address.hpp"
 #include "test/actors/edge/io/edge_fixture.hpp"
 
+#include <pthread.h>
+
+#include <csignal>
+#include <system_error>
+
 using namespace roscell;
 using namespace roscell::test::wire;
+
+namespace {
+
+/// While it lives no thread can be made: none has room for its stack.
+class no_threads {
+public:
+  no_threads() {
+    pthread_attr_t wanted;
+    pthread_attr_init(&wanted);
+    pthread_getattr_default_np(&before_);
+    pthread_attr_setstacksize(&wanted, size_t{1} << 46);
+    REQUIRE(pthread_setattr_default_np(&wanted) == 0);
+    pthread_attr_destroy(&wanted);
+  }
+
+  ~no_threads() {
+    pthread_setattr_default_np(&before_);
+    pthread_attr_destroy(&before_);
+  }
+
+  no_threads(const no_threads&) = delete;
+  no_threads& operator=(const no_threads&) = delete;
+
+private:
+  pthread_attr_t before_{};
+};
+
+} // namespace
 
 TEST_CASE("a host is an IPv4 address or a name, with or without a port") {
   CHECK(to_string(*parse_host_address("10.0.0.1", 11811)) == "10.0.0.1:11811");
@@ -61,6 +96,58 @@ TEST_CASE("a name that is being looked up keeps no io thread from stopping") {
     settle(io);
   }
   CHECK(std::holds_alternative<edge_error>(answers.take()));
+}
+
+TEST_CASE("a name for which no thread can be had is refused, and looked up "
+          "once there is one") {
+  {
+    const no_threads shortage;
+    // More often than lookups may go on at a time.
+    for (size_t i = 0; i < 2 * limits::membership::lookups; ++i) {
+      const auto found = await_host("localhost", patience);
+      REQUIRE(std::holds_alternative<edge_error>(found));
+      CHECK(std::get<edge_error>(found).message.find("no thread can be had")
+            != std::string::npos);
+    }
+  }
+  CHECK(std::get<std::string>(await_host("localhost", patience))
+        == "127.0.0.1");
+}
+
+TEST_CASE("whoever asks from the io thread hears that no thread can be had") {
+  io_thread io;
+  inbox<edge_result<std::string>> answers;
+  {
+    const no_threads shortage;
+    look_up_host(io.core(), "localhost", patience,
+                 [&](auto x) { answers.put(x); });
+    CHECK(std::holds_alternative<edge_error>(answers.take()));
+  }
+}
+
+TEST_CASE("a discovery server for which no thread can be had is not looked "
+          "for, and nothing else ends") {
+  server_inquiry_options options;
+  options.server_address = "127.0.0.1";
+  options.server_port = 11811;
+  options.address = "127.0.0.1";
+  const no_threads shortage;
+  const auto opened = server_inquiry::open(options, [](const auto&) {});
+  REQUIRE(std::holds_alternative<edge_error>(opened));
+  CHECK(std::get<edge_error>(opened).message.find("no thread can be had")
+        != std::string::npos);
+}
+
+TEST_CASE("an io thread that cannot be had leaves the signals as they were") {
+  sigset_t before;
+  pthread_sigmask(SIG_SETMASK, nullptr, &before);
+  {
+    const no_threads shortage;
+    CHECK_THROWS_AS(io_thread{}, std::system_error);
+  }
+  sigset_t after;
+  pthread_sigmask(SIG_SETMASK, nullptr, &after);
+  CHECK(sigismember(&before, SIGTERM) == sigismember(&after, SIGTERM));
 }
 
 TEST_CASE("of many hosts those that resolve are given, with their ports") {

@@ -34,9 +34,9 @@ struct reachable_node {
       answer.reply(200, json_content, hello);
     };
     beat_socket_options beats;
-    beats.reach_key = reach_key(token);
+    beats.site = token;
     sockets = expect(open_node_sockets(io, options, beats));
-    port = expect(reach_port::open(io, {loopback, 71, reach_key(token)}));
+    port = expect(reach_port::open(io, {loopback, 71, token}));
   }
 
   reach_goal goal(const std::string& name) const {
@@ -86,8 +86,7 @@ TEST_CASE("a node answers from the address by which it is known", "[reach]") {
   {
     // The kernel itself would answer from 127.0.0.1.
     constexpr auto second = "127.0.0.2";
-    const auto port =
-        expect(reach_port::open(io, {second, 72, reach_key("token")}));
+    const auto port = expect(reach_port::open(io, {second, 72, "token"}));
     const auto found =
         try_goal(io, {"arm", std::string{second} + ":1", "", port->port()});
     CHECK(found.at("data") == "found");
@@ -99,8 +98,7 @@ TEST_CASE("a node answers from the address by which it is known", "[reach]") {
 TEST_CASE("a host without skills has one port for data", "[reach]") {
   io_thread io{[](const std::string&) {}};
   {
-    const auto port =
-        expect(reach_port::open(io, {loopback, 73, reach_key("token")}));
+    const auto port = expect(reach_port::open(io, {loopback, 73, "token"}));
     CHECK(port->port() == 7400 + 250 * 73 + 91);
     CHECK(first_data_port_beside(port->port()) == port->port());
   }
@@ -114,8 +112,7 @@ TEST_CASE("what is reached is where the first skills and the next one listen",
     constexpr unsigned domain = 74;
     const auto first = first_data_port(domain);
     const auto skill = expect(bind_udp(loopback, uint16_t(first - 1)));
-    const auto port =
-        expect(reach_port::open(io, {loopback, domain, reach_key("token")}));
+    const auto port = expect(reach_port::open(io, {loopback, domain, "token"}));
     CHECK(port->port() == first + 2);
     CHECK(first_data_port_beside(port->port()) == first);
     // The next skill finds its port free.

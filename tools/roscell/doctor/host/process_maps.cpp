@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-bool begins_with(std::string_view text, std::string_view begin) {
+bool path_has_prefix(std::string_view text, std::string_view begin) {
   return text.substr(0, begin.size()) == begin;
 }
 
@@ -31,7 +31,7 @@ void visit_line(const fs::path& process, const std::string& line,
   std::error_code error;
   const auto root = fs::read_symlink(process / "root", error).string();
   for (const auto& begin : {below, root + below})
-    if (begins_with(path, begin))
+    if (path_has_prefix(path, begin))
       return visit({process, device, path.substr(begin.size())});
 }
 
@@ -61,7 +61,8 @@ visit_mapped_files(const fs::path& proc, const fs::path& folder,
 
 bool is_dds_file(const std::string& name) {
   // Until version 2 of Fast DDS, and since version 3.
-  return begins_with(name, "fastrtps_") || begins_with(name, "fastdds_");
+  return path_has_prefix(name, "fastrtps_")
+         || path_has_prefix(name, "fastdds_");
 }
 
 } // namespace roscell::cli
