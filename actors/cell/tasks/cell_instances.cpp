@@ -220,11 +220,17 @@ std::vector<instance_verdict> take_up_instances(coordinator_pointer self,
 
 namespace {
 
+bool is_shortened(const instance_spec& x) {
+  return x.input.empty() && x.output.empty() && x.parameters.empty()
+         && x.environment.empty();
+}
+
 /// Where a whole row does not fit into a frame its node says less of the
 /// instance than the task knows.
 instance_row with_own_spec(const cell_coordinator_state& st, instance_row row,
                            const std::string& node) {
-  if (const auto* placed = st.deployments.find(row.spec.instance, node))
+  const auto* placed = st.deployments.find(row.spec.instance, node);
+  if (placed && is_shortened(row.spec))
     row.spec = placed->spec;
   return row;
 }
