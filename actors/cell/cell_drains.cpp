@@ -180,6 +180,7 @@ caf::result<node_undrained> undrain_node(coordinator_pointer self,
   if (drains.empty())
     return node_undrained{request.node};
   std::vector<store_record> records;
+  records.reserve(drains.size());
   for (const auto& x : drains)
     records.push_back({"drains", x.uuid, ""});
   auto promise = self->make_response_promise<node_undrained>();

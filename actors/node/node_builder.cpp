@@ -332,6 +332,22 @@ void tell_of_data(const house& context, const node_data& data) {
 
 } // namespace
 
+namespace {
+
+running_node first_facts(const node_config& config, const house& context,
+                         const node_edges& edges) {
+  running_node result;
+  result.events = context.events;
+  result.actors = context.directory;
+  result.name = config.name;
+  result.http_address = edges.http_address;
+  result.socket = edges.socket_path;
+  result.discovery_server = edges.discovery_server;
+  return result;
+}
+
+} // namespace
+
 caf::expected<running_node> spawn_node(caf::actor_system& system,
                                        const node_config& wanted,
                                        const node_additions& additions) {
@@ -370,13 +386,7 @@ caf::expected<running_node> spawn_node(caf::actor_system& system,
     return edges.error();
   }
   tell_of_data(context, *data);
-  running_node result;
-  result.events = context.events;
-  result.actors = context.directory;
-  result.name = config.name;
-  result.http_address = (*edges)->http_address;
-  result.socket = (*edges)->socket_path;
-  result.discovery_server = (*edges)->discovery_server;
+  auto result = first_facts(config, context, **edges);
   result.token_file = data->token_file;
   result.site_token_file = data->site.file().string();
   result.runtime = runtime->name;
