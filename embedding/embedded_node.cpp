@@ -2,7 +2,7 @@
 
 #include "actors/house/limits.hpp"
 #include "actors/instances/skill_descriptor_file.hpp"
-#include "actors/node/node_builder.hpp"
+#include "actors/node/spawn_node.hpp"
 #include "embedding/node_door.hpp"
 #include "embedding/skills/actor_runtime.hpp"
 #include "embedding/surroundings.hpp"

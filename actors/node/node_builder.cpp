@@ -3,15 +3,12 @@
 #include "actors/cell/cell_coordinator.hpp"
 #include "actors/edge/host/address_claim.hpp"
 #include "actors/edge/host/boot_id.hpp"
-#include "actors/house/edge_failure.hpp"
 #include "actors/instances/actor_skills/runtime_switch.hpp"
 #include "actors/instances/container_supervisor.hpp"
 #include "actors/instances/ros2/graph_watch.hpp"
 #include "actors/membership/discovery.hpp"
 #include "actors/membership/join_scout.hpp"
 #include "actors/membership/membership.hpp"
-#include "actors/node/event_log.hpp"
-#include "actors/node/history/node_history.hpp"
 #include "actors/node/node.hpp"
 #include "actors/node/node_agent.hpp"
 #include "actors/node/node_runtime.hpp"
@@ -19,7 +16,6 @@
 #include "actors/node/resource_probe.hpp"
 #include "actors/node/start/config_checks.hpp"
 #include "actors/node/start/granted.hpp"
-#include "actors/node/start/offered_skills.hpp"
 #include "actors/node/state_store.hpp"
 #include "actors/placement/scheduler.hpp"
 #include "actors/placement/searcher.hpp"
@@ -32,379 +28,247 @@
 #include "actors/session/session_connector.hpp"
 #include "messages/failure.hpp"
 
-#include <caf/actor_cast.hpp>
-#include <caf/actor_system_config.hpp>
-
-#include <filesystem>
 #include <utility>
 
 namespace roscell {
 
-namespace {
-
-/// Starts the actors of a node, those first that others need.
-class node_builder {
-public:
-  node_builder(caf::actor_system& system, node_config config, node_data data,
-               house context, node_history_actor history,
-               std::shared_ptr<node_edges> edges, capacity_bound bound,
-               chosen_runtime runtime, shared_skill_catalogue catalogue,
-               node_additions additions)
-      : system_(system), data_(std::move(data)), history_(std::move(history)),
-        bound_(std::move(bound)), runtime_(std::move(runtime)),
-        catalogue_(std::move(catalogue)), additions_(std::move(additions)) {
-    parts_.config = std::move(config);
-    parts_.context = std::move(context);
-    parts_.edges = std::move(edges);
-    parts_.lock = data_.lock;
-    parts_.database = data_.database;
-    parts_.services = std::make_shared<node_services>();
-    parts_.services->context = parts_.context;
-    parts_.services->name = parts_.config.name;
-    parts_.services->graph = parts_.edges->graph;
-    parts_.services->examine_host = one_at_a_time(additions_.examine_host);
-    parts_.identity = data_.identity;
-    parts_.limits = runtime_.limits;
-    parts_.identity.name = parts_.config.name;
-    parts_.identity.address = parts_.edges->http_address;
-  }
-
-  void build(running_node& result) {
-    add(parts_.context.events);
-    read_skills();
-    start_supervision();
-    if (parts_.config.coordinator)
-      start_coordination();
-    else
-      start_membership();
-    start_measuring();
-    start_prober();
-    start_requests();
-    result.actor = parts_.services->node;
-    result.router = parts_.router;
-  }
-
-private:
-  template <class Handle>
-  Handle add(Handle child) {
-    parts_.children.push_back(caf::actor_cast<caf::actor>(child));
-    return child;
-  }
-
-  template <class Function, class... Args>
-  auto start(Function function, Args&&... args) {
-    return add(
-        spawn(system_, parts_.context, function, std::forward<Args>(args)...));
-  }
-
-  template <class Function, class... Args>
-  auto start_blocking(Function function, Args&&... args) {
-    return add(spawn_blocking(system_, parts_.context, function,
-                              std::forward<Args>(args)...));
-  }
-
-  void read_skills() {
-    catalogue_->tell_problems(parts_.context);
-    parts_.skills = catalogue_->skills();
-    parts_.refused_skills = catalogue_->told_problems();
-  }
-
-  std::function<runtime_actor(container_listener_actor)> make_runtime() {
-    auto programs =
-        runtime_factory(system_, parts_.context, parts_.config, runtime_,
-                        data_.identity.uuid, *parts_.edges->io, history_);
-    if (additions_.actor_skills.empty())
-      return programs;
-    return [&system = system_, context = parts_.context, programs,
-            actors = additions_.make_actor_runtime](
-               const container_listener_actor& listener) {
-      return spawn(system, context, runtime_switch, programs(listener),
-                   actors(context, listener), listener);
-    };
-  }
-
-  void start_supervision() {
-    auto& config = parts_.config;
-    store_ = start_blocking(state_store, parts_.context, data_.database);
-    container_supervisor_config supervision;
-    supervision.context = parts_.context;
-    supervision.node = config.name;
-    supervision.skills = catalogue_;
-    supervision.make_runtime = make_runtime();
-    supervision.builds_images = !runtime_.socket.empty();
-    supervision.tell_environment = make_environment_teller(config, runtime_);
-    supervision.store = store_;
-    supervision.history = history_;
-    supervision.graph = start(graph_watch, parts_.edges->graph);
-    supervision.address = config.address;
-    supervision.restored = data_.instances;
-    supervision.started_at = data_.started_at;
-    supervision.started_in = data_.started_in;
-    supervision.boot = this_boot();
-    supervision.strays = data_.strays;
-    supervision.may_be_lost = !config.coordinator;
-    supervision.learns_place = !config.coordinator;
-    supervision.environment = parts_.edges->environment;
-    supervision.grants = grants_in(config);
-    parts_.services->supervisor = start(container_supervisor, supervision);
-    resource_probe_config probing;
-    probing.host.data_dir = config.data_dir.string();
-    probing.bound = bound_;
-    const auto probe = start_blocking(resource_probe, probing);
-    mark_samples_at_beats(*parts_.edges, probe);
-    parts_.agent =
-        start(node_agent,
-              node_agent_config{config.name, config.labels, config.devices,
-                                parts_.services->supervisor, probe,
-                                config.cpu_floor, config.grants});
-  }
-
-  void start_coordination() {
-    const auto& config = parts_.config;
-    coordinator_setup setup;
-    setup.cell = config.cell;
-    setup.discovery_server = parts_.edges->discovery_server;
-    setup.graph = parts_.edges->graph;
-    setup.incarnation = data_.incarnation;
-    setup.cell_uuid = data_.cell_uuid;
-    setup.self = parts_.identity;
-    setup.skills = parts_.skills;
-    setup.refused_skills = parts_.refused_skills;
-    setup.agent = parts_.agent;
-    setup.supervisor = parts_.services->supervisor;
-    setup.store = store_;
-    setup.tasks = data_.tasks;
-    setup.members = data_.members;
-    setup.transfers = data_.transfers;
-    setup.history = data_.history;
-    setup.drains = data_.drains;
-    setup.server_id = parts_.edges->server_id;
-    setup.rebalance = config.rebalance;
-    setup.ros_domain_id = config.ros_domain_id;
-    setup.environment = parts_.edges->environment;
-    setup.searches = std::make_shared<search_guard>();
-    setup.scheduler = start_scheduler(setup.searches);
-    setup.discovery = start_discovery();
-    setup.connector = start_connector();
-    setup.registration =
-        start(registration_client,
-              registration_client_config{parts_.edges->io.get(), data_.site});
-    parts_.services->scheduler = setup.scheduler;
-    auto coordinator = start(cell_coordinator, parts_.context, setup);
-    parts_.services->coordinator = coordinator;
-    caf::anon_send(parts_.services->supervisor,
-                   listen_to_instances{coordinator});
-    admit_sessions(
-        system_, parts_.context, *parts_.edges,
-        {config.name, parts_.identity.uuid, config.cell, data_.incarnation},
-        data_.site, coordinator);
-  }
-
-  scheduler_actor start_scheduler(std::shared_ptr<search_guard> guard) {
-    auto make = [&system = system_, context = parts_.context](
-                    auto searches, const scheduler_actor& owner) {
-      return spawn<caf::detached>(system, context, searcher, context, searches,
-                                  owner);
-    };
-    return start(scheduler, scheduler_config{std::move(guard), make});
-  }
-
-  discovery_actor start_discovery() {
-    const auto& config = parts_.config;
-    return start_blocking(
-        discovery, parts_.context,
-        discovery_config{config.address, config.name, config.public_domain_id,
-                         config.peers, config.discovery_port,
-                         parts_.edges->graph, parts_.edges->numbers,
-                         parts_.edges->discovery.get()});
-  }
-
-  session_connector_actor start_connector() {
-    return start(session_connector, parts_.context,
-                 connector_parts{parts_.edges->io.get(),
-                                 parts_.edges->sockets.beat.get(), data_.site});
-  }
-
-  membership_config membership_setup() const {
-    const auto& config = parts_.config;
-    membership_config result;
-    result.identity = parts_.identity;
-    result.skills = parts_.skills;
-    result.refused_skills = parts_.refused_skills;
-    result.restored = data_.membership;
-    result.configured = config.wait ? "wait" : config.join;
-    result.site = data_.site;
-    result.public_domain = config.public_domain_id;
-    result.claim_address = [at = config.address] { claim_address(at); };
-    return result;
-  }
-
-  void start_membership() {
-    const auto& config = parts_.config;
-    membership_parts with;
-    with.discovery = start_discovery();
-    with.connector = start_connector();
-    with.agent = parts_.agent;
-    with.supervisor = parts_.services->supervisor;
-    with.store = store_;
-    with.scout = start(
-        join_scout, join_scout_config{parts_.edges->io.get(), config.address});
-    const auto how = membership_setup();
-    auto member = start(membership, parts_.context, with, how);
-    parts_.services->membership = member;
-    caf::anon_send(parts_.services->supervisor, listen_to_instances{member});
-    if (takes_up_earlier_cell(how) || config.wait)
-      return;
-    if (config.join.empty())
-      caf::anon_send(member, seek_cell{});
-    else
-      caf::anon_send(member, join_cell{config.join});
-  }
-
-  void start_measuring() {
-    auto& costs = parts_.services->costs;
-    costs = std::make_shared<cost_meter>(
-        [book = parts_.context.metrics] { return read_cost(book); });
-    start(cost_sampler, costs);
-  }
-
-  void start_prober() {
-    const auto& config = parts_.config;
-    reach_prober_config with;
-    with.io = parts_.edges->io.get();
-    with.node = config.name;
-    with.address = config.address;
-    with.http_address = parts_.edges->http_address;
-    with.discovery_server = parts_.edges->discovery_server;
-    with.membership = parts_.services->membership;
-    with.domain_id = config.ros_domain_id;
-    with.site = data_.site;
-    parts_.services->prober = start(reach_prober, with);
-  }
-
-  void start_requests() {
-    const auto registry = std::make_shared<const request_registry>(
-        make_registry(parts_.config.coordinator));
-    parts_.router =
-        start(request_router, registry,
-              std::shared_ptr<const node_services>(parts_.services));
-    if (const auto& coordinator = parts_.services->coordinator)
-      caf::anon_send(coordinator, serve_members{parts_.router});
-    if (const auto& membership = parts_.services->membership)
-      caf::anon_send(membership, serve_members{parts_.router});
-    parts_.services->node = spawn(system_, parts_.context, node, parts_);
-    parts_.edges->handler->set(make_rest_handler(
-        system_, {parts_.context, parts_.router, parts_.services, pages()}));
-  }
-
-  /// A primary node knows too little to show it.
-  std::shared_ptr<const web_pages> pages() const {
-    return parts_.config.coordinator
-               ? std::make_shared<const web_pages>(parts_.config.pages)
-               : nullptr;
-  }
-
-  caf::actor_system& system_;
-  node_data data_;
-  node_history_actor history_;
-  capacity_bound bound_;
-  chosen_runtime runtime_;
-  node_parts parts_;
-  shared_skill_catalogue catalogue_;
-  node_additions additions_;
-  state_store_actor store_;
-};
-
-/// Without its type a message would be dropped in silence.
-bool knows_our_types(const caf::actor_system& system) {
-  return system.config().type_names_by_rtti.count(typeid(stop_node)) != 0;
+node_builder::node_builder(caf::actor_system& system, node_config config,
+                           node_data data, house context,
+                           node_history_actor history,
+                           std::shared_ptr<node_edges> edges,
+                           capacity_bound bound, chosen_runtime runtime,
+                           shared_skill_catalogue catalogue,
+                           node_additions additions)
+    : system_(system), data_(std::move(data)), history_(std::move(history)),
+      bound_(std::move(bound)), runtime_(std::move(runtime)),
+      catalogue_(std::move(catalogue)), additions_(std::move(additions)) {
+  parts_.config = std::move(config);
+  parts_.context = std::move(context);
+  parts_.edges = std::move(edges);
+  parts_.lock = data_.lock;
+  parts_.database = data_.database;
+  parts_.services = std::make_shared<node_services>();
+  parts_.services->context = parts_.context;
+  parts_.services->name = parts_.config.name;
+  parts_.services->graph = parts_.edges->graph;
+  parts_.services->examine_host = one_at_a_time(additions_.examine_host);
+  parts_.identity = data_.identity;
+  parts_.limits = runtime_.limits;
+  parts_.identity.name = parts_.config.name;
+  parts_.identity.address = parts_.edges->http_address;
 }
 
-/// What an operator should know of the data directory.
-void tell_of_data(const house& context, const node_data& data) {
-  if (!data.put_aside.empty())
-    context.tell("identity_renewed", data.identity.uuid,
-                 {{"put_aside", data.put_aside.filename().string()}});
-  for (const auto& x : data.unread)
-    context.tell("record_ignored", x.key,
-                 {{"table", x.table}, {"reason", x.why}});
+void node_builder::build(running_node& result) {
+  add(parts_.context.events);
+  read_skills();
+  start_supervision();
+  if (parts_.config.coordinator)
+    start_coordination();
+  else
+    start_membership();
+  start_measuring();
+  start_prober();
+  start_requests();
+  result.actor = parts_.services->node;
+  result.router = parts_.router;
 }
 
-} // namespace
+void node_builder::read_skills() {
+  catalogue_->tell_problems(parts_.context);
+  parts_.skills = catalogue_->skills();
+  parts_.refused_skills = catalogue_->told_problems();
+}
 
-namespace {
+std::function<runtime_actor(container_listener_actor)>
+node_builder::make_runtime() {
+  auto programs =
+      runtime_factory(system_, parts_.context, parts_.config, runtime_,
+                      data_.identity.uuid, *parts_.edges->io, history_);
+  if (additions_.actor_skills.empty())
+    return programs;
+  return [&system = system_, context = parts_.context, programs,
+          actors = additions_.make_actor_runtime](
+             const container_listener_actor& listener) {
+    return spawn(system, context, runtime_switch, programs(listener),
+                 actors(context, listener), listener);
+  };
+}
 
-running_node first_facts(const node_config& config, const house& context,
-                         const node_edges& edges) {
-  running_node result;
-  result.events = context.events;
-  result.actors = context.directory;
-  result.name = config.name;
-  result.http_address = edges.http_address;
-  result.socket = edges.socket_path;
-  result.discovery_server = edges.discovery_server;
+void node_builder::start_supervision() {
+  auto& config = parts_.config;
+  store_ = start_blocking(state_store, parts_.context, data_.database);
+  container_supervisor_config supervision;
+  supervision.context = parts_.context;
+  supervision.node = config.name;
+  supervision.skills = catalogue_;
+  supervision.make_runtime = make_runtime();
+  supervision.builds_images = !runtime_.socket.empty();
+  supervision.tell_environment = make_environment_teller(config, runtime_);
+  supervision.store = store_;
+  supervision.history = history_;
+  supervision.graph = start(graph_watch, parts_.edges->graph);
+  supervision.address = config.address;
+  supervision.restored = data_.instances;
+  supervision.started_at = data_.started_at;
+  supervision.started_in = data_.started_in;
+  supervision.boot = this_boot();
+  supervision.strays = data_.strays;
+  supervision.may_be_lost = !config.coordinator;
+  supervision.learns_place = !config.coordinator;
+  supervision.environment = parts_.edges->environment;
+  supervision.grants = grants_in(config);
+  parts_.services->supervisor = start(container_supervisor, supervision);
+  resource_probe_config probing;
+  probing.host.data_dir = config.data_dir.string();
+  probing.bound = bound_;
+  const auto probe = start_blocking(resource_probe, probing);
+  mark_samples_at_beats(*parts_.edges, probe);
+  parts_.agent = start(
+      node_agent, node_agent_config{config.name, config.labels, config.devices,
+                                    parts_.services->supervisor, probe,
+                                    config.cpu_floor, config.grants});
+}
+
+void node_builder::start_coordination() {
+  const auto& config = parts_.config;
+  coordinator_setup setup;
+  setup.cell = config.cell;
+  setup.discovery_server = parts_.edges->discovery_server;
+  setup.graph = parts_.edges->graph;
+  setup.incarnation = data_.incarnation;
+  setup.cell_uuid = data_.cell_uuid;
+  setup.self = parts_.identity;
+  setup.skills = parts_.skills;
+  setup.refused_skills = parts_.refused_skills;
+  setup.agent = parts_.agent;
+  setup.supervisor = parts_.services->supervisor;
+  setup.store = store_;
+  setup.tasks = data_.tasks;
+  setup.members = data_.members;
+  setup.transfers = data_.transfers;
+  setup.history = data_.history;
+  setup.drains = data_.drains;
+  setup.server_id = parts_.edges->server_id;
+  setup.rebalance = config.rebalance;
+  setup.ros_domain_id = config.ros_domain_id;
+  setup.environment = parts_.edges->environment;
+  setup.searches = std::make_shared<search_guard>();
+  setup.scheduler = start_scheduler(setup.searches);
+  setup.discovery = start_discovery();
+  setup.connector = start_connector();
+  setup.registration =
+      start(registration_client,
+            registration_client_config{parts_.edges->io.get(), data_.site});
+  parts_.services->scheduler = setup.scheduler;
+  auto coordinator = start(cell_coordinator, parts_.context, setup);
+  parts_.services->coordinator = coordinator;
+  caf::anon_send(parts_.services->supervisor, listen_to_instances{coordinator});
+  admit_sessions(
+      system_, parts_.context, *parts_.edges,
+      {config.name, parts_.identity.uuid, config.cell, data_.incarnation},
+      data_.site, coordinator);
+}
+
+scheduler_actor
+node_builder::start_scheduler(std::shared_ptr<search_guard> guard) {
+  auto make = [&system = system_, context = parts_.context](
+                  auto searches, const scheduler_actor& owner) {
+    return spawn<caf::detached>(system, context, searcher, context, searches,
+                                owner);
+  };
+  return start(scheduler, scheduler_config{std::move(guard), make});
+}
+
+discovery_actor node_builder::start_discovery() {
+  const auto& config = parts_.config;
+  return start_blocking(
+      discovery, parts_.context,
+      discovery_config{config.address, config.name, config.public_domain_id,
+                       config.peers, config.discovery_port, parts_.edges->graph,
+                       parts_.edges->numbers, parts_.edges->discovery.get()});
+}
+
+session_connector_actor node_builder::start_connector() {
+  return start(session_connector, parts_.context,
+               connector_parts{parts_.edges->io.get(),
+                               parts_.edges->sockets.beat.get(), data_.site});
+}
+
+membership_config node_builder::membership_setup() const {
+  const auto& config = parts_.config;
+  membership_config result;
+  result.identity = parts_.identity;
+  result.skills = parts_.skills;
+  result.refused_skills = parts_.refused_skills;
+  result.restored = data_.membership;
+  result.configured = config.wait ? "wait" : config.join;
+  result.site = data_.site;
+  result.public_domain = config.public_domain_id;
+  result.claim_address = [at = config.address] { claim_address(at); };
   return result;
 }
 
-} // namespace
+void node_builder::start_membership() {
+  const auto& config = parts_.config;
+  membership_parts with;
+  with.discovery = start_discovery();
+  with.connector = start_connector();
+  with.agent = parts_.agent;
+  with.supervisor = parts_.services->supervisor;
+  with.store = store_;
+  with.scout = start(join_scout,
+                     join_scout_config{parts_.edges->io.get(), config.address});
+  const auto how = membership_setup();
+  auto member = start(membership, parts_.context, with, how);
+  parts_.services->membership = member;
+  caf::anon_send(parts_.services->supervisor, listen_to_instances{member});
+  if (takes_up_earlier_cell(how) || config.wait)
+    return;
+  if (config.join.empty())
+    caf::anon_send(member, seek_cell{});
+  else
+    caf::anon_send(member, join_cell{config.join});
+}
 
-caf::expected<running_node> spawn_node(caf::actor_system& system,
-                                       const node_config& wanted,
-                                       const node_additions& additions) {
-  if (!knows_our_types(system))
-    return fail(error_code::internal,
-                "this actor system does not know the messages of a node", "",
-                "call roscell::add_message_types(config) before the "
-                "caf::actor_system is made");
-  auto config = wanted;
-  if (auto why = complete_config(config))
-    return why;
-  auto bound = parse_capacity(config.capacity);
-  if (auto* why = std::get_if<edge_error>(&bound))
-    return to_caf(*why);
-  auto runtime = choose_runtime(config);
-  if (!runtime)
-    return runtime.error();
-  if (auto why = check_grants(config, *runtime))
-    return why;
-  config.runtime = runtime->name;
-  auto skills = offered_skills(config, *runtime, additions.actor_skills);
-  if (!skills)
-    return skills.error();
-  auto data = open_node_data(config);
-  if (!data)
-    return data.error();
-  house context{std::make_shared<actor_directory>(), {}};
-  context.metrics = std::make_shared<metric_book>();
-  context.blocking = std::make_shared<blocking_threads>(system);
-  const auto past = spawn_blocking(system, context, node_history, data->past);
-  context.events = spawn(system, context, event_log,
-                         event_log_setup{past, data->past->first_number()});
-  auto edges = open_edges(config, *data, context);
-  if (!edges) {
-    caf::anon_send_exit(context.events, caf::exit_reason::user_shutdown);
-    return edges.error();
-  }
-  tell_of_data(context, *data);
-  auto result = first_facts(config, context, **edges);
-  result.token_file = data->token_file;
-  result.site_token_file = data->site.file().string();
-  result.runtime = runtime->name;
-  result.runtime_reason = runtime->reason;
-  find_limits(config, data->identity.uuid, *runtime);
-  result.limits = runtime->limits;
-  node_builder builder{system,
-                       std::move(config),
-                       std::move(*data),
-                       context,
-                       past,
-                       *edges,
-                       std::get<capacity_bound>(bound),
-                       *runtime,
-                       std::move(*skills),
-                       additions};
-  builder.build(result);
-  return result;
+void node_builder::start_measuring() {
+  auto& costs = parts_.services->costs;
+  costs = std::make_shared<cost_meter>(
+      [book = parts_.context.metrics] { return read_cost(book); });
+  start(cost_sampler, costs);
+}
+
+void node_builder::start_prober() {
+  const auto& config = parts_.config;
+  reach_prober_config with;
+  with.io = parts_.edges->io.get();
+  with.node = config.name;
+  with.address = config.address;
+  with.http_address = parts_.edges->http_address;
+  with.discovery_server = parts_.edges->discovery_server;
+  with.membership = parts_.services->membership;
+  with.domain_id = config.ros_domain_id;
+  with.site = data_.site;
+  parts_.services->prober = start(reach_prober, with);
+}
+
+void node_builder::start_requests() {
+  const auto registry = std::make_shared<const request_registry>(
+      make_registry(parts_.config.coordinator));
+  parts_.router = start(request_router, registry,
+                        std::shared_ptr<const node_services>(parts_.services));
+  if (const auto& coordinator = parts_.services->coordinator)
+    caf::anon_send(coordinator, serve_members{parts_.router});
+  if (const auto& membership = parts_.services->membership)
+    caf::anon_send(membership, serve_members{parts_.router});
+  parts_.services->node = spawn(system_, parts_.context, node, parts_);
+  parts_.edges->handler->set(make_rest_handler(
+      system_, {parts_.context, parts_.router, parts_.services, pages()}));
+}
+
+std::shared_ptr<const web_pages> node_builder::pages() const {
+  return parts_.config.coordinator
+             ? std::make_shared<const web_pages>(parts_.config.pages)
+             : nullptr;
 }
 
 } // namespace roscell

@@ -1,53 +1,79 @@
 #pragma once
 
+#include "actors/edge/host/host_probe_capacity.hpp"
 #include "actors/house/house.hpp"
-#include "messages/failure.hpp"
-#include "messages/messages.hpp"
-#include "roscell/node_config.hpp"
-#include "roscell/node_facts.hpp"
+#include "actors/instances/skill_catalogue.hpp"
+#include "actors/membership/membership.hpp"
+#include "actors/node/node.hpp"
+#include "actors/node/node_data.hpp"
+#include "actors/node/node_edges.hpp"
+#include "actors/node/node_runtime.hpp"
+#include "actors/node/spawn_node.hpp"
+#include "actors/placement/search_guard.hpp"
 
+#include <caf/actor_cast.hpp>
 #include <caf/actor_system.hpp>
-#include <caf/expected.hpp>
 
 #include <functional>
 #include <memory>
-#include <string>
-#include <vector>
+#include <utility>
 
 namespace roscell {
 
-/// A node that runs: its root actor and where it can be reached.
-struct running_node : node_facts {
-  node_actor actor;            ///< `stop_node` ends it in order.
-  event_log_actor events;      ///< The node's facts, for whoever embeds it.
-  request_router_actor router; ///< Takes requests as they come from outside.
-  /// Who of the node's actors lives, also after `actor` has ended.
-  std::shared_ptr<actor_directory> actors;
-};
+/// Starts the actors of a node, those first that others need.
+class node_builder {
+public:
+  node_builder(caf::actor_system& system, node_config config, node_data data,
+               house context, node_history_actor history,
+               std::shared_ptr<node_edges> edges, capacity_bound bound,
+               chosen_runtime runtime, shared_skill_catalogue catalogue,
+               node_additions additions);
+  void build(running_node& result);
 
-/// What the program that embeds a node adds to it.
-struct node_additions {
-  /// Descriptors of the skills whose instances are actors of this process.
-  std::vector<std::string> actor_skills;
-  /// Spawns what runs them; called again when it has died.
-  std::function<runtime_actor(const house&, const container_listener_actor&)>
-      make_actor_runtime;
-  /// Looks at the node's host, on a thread of its own; null: it cannot be
-  /// looked at from elsewhere.
-  std::function<findings()> examine_host;
-};
+private:
+  template <class Handle>
+  Handle add(Handle child) {
+    parts_.children.push_back(caf::actor_cast<caf::actor>(child));
+    return child;
+  }
 
-/// Starts a node inside `system`, which the caller owns and has configured with
-/// `roscell::add_message_types`. Blocks until its ports are
-/// open. Neither installs signal handlers nor ends the process.
-///
-/// Errors: conflict (a port or the data directory is in use), unreachable (the
-/// address is not of this host, the container engine that was asked for does
-/// not answer), unauthorized (no permission on the engine's socket),
-/// schema_violation (a bad option or descriptor, named), internal (the system
-/// does not know the types of our messages).
-caf::expected<running_node> spawn_node(caf::actor_system& system,
-                                       const node_config& config,
-                                       const node_additions& additions = {});
+  template <class Function, class... Args>
+  auto start(Function function, Args&&... args) {
+    return add(
+        spawn(system_, parts_.context, function, std::forward<Args>(args)...));
+  }
+
+  template <class Function, class... Args>
+  auto start_blocking(Function function, Args&&... args) {
+    return add(spawn_blocking(system_, parts_.context, function,
+                              std::forward<Args>(args)...));
+  }
+
+  void read_skills();
+  std::function<runtime_actor(container_listener_actor)> make_runtime();
+  void start_supervision();
+  void start_coordination();
+  scheduler_actor start_scheduler(std::shared_ptr<search_guard> guard);
+  discovery_actor start_discovery();
+  session_connector_actor start_connector();
+  membership_config membership_setup() const;
+  void start_membership();
+  void start_measuring();
+  void start_prober();
+  void start_requests();
+
+  /// A primary node knows too little to show it.
+  std::shared_ptr<const web_pages> pages() const;
+
+  caf::actor_system& system_;
+  node_data data_;
+  node_history_actor history_;
+  capacity_bound bound_;
+  chosen_runtime runtime_;
+  node_parts parts_;
+  shared_skill_catalogue catalogue_;
+  node_additions additions_;
+  state_store_actor store_;
+};
 
 } // namespace roscell

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "actors/node/node_builder.hpp"
+#include "actors/node/spawn_node.hpp"
 
 #include <caf/actor_system.hpp>
 

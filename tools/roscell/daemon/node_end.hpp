@@ -1,6 +1,6 @@
 #pragma once
 
-#include "actors/node/node_builder.hpp"
+#include "actors/node/spawn_node.hpp"
 #include "tools/roscell/daemon/stop_signals.hpp"
 #include "tools/roscell/exit_code.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "actors/edge/host/interfaces.hpp"
-#include "actors/node/node_builder.hpp"
+#include "actors/node/spawn_node.hpp"
 #include "tools/roscell/daemon/address/address_watch.hpp"
 #include "tools/roscell/daemon/node_options.hpp"
 #include "tools/roscell/daemon/readiness.hpp"

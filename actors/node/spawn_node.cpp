@@ -1,0 +1,108 @@
+#include "actors/node/spawn_node.hpp"
+
+#include "actors/house/edge_failure.hpp"
+#include "actors/node/event_log.hpp"
+#include "actors/node/history/node_history.hpp"
+#include "actors/node/node_builder.hpp"
+#include "actors/node/start/config_checks.hpp"
+#include "actors/node/start/granted.hpp"
+#include "actors/node/start/offered_skills.hpp"
+#include "messages/failure.hpp"
+
+#include <caf/actor_system_config.hpp>
+
+#include <utility>
+
+namespace roscell {
+
+namespace {
+
+/// Without its type a message would be dropped in silence.
+bool knows_our_types(const caf::actor_system& system) {
+  return system.config().type_names_by_rtti.count(typeid(stop_node)) != 0;
+}
+
+/// What an operator should know of the data directory.
+void tell_of_data(const house& context, const node_data& data) {
+  if (!data.put_aside.empty())
+    context.tell("identity_renewed", data.identity.uuid,
+                 {{"put_aside", data.put_aside.filename().string()}});
+  for (const auto& x : data.unread)
+    context.tell("record_ignored", x.key,
+                 {{"table", x.table}, {"reason", x.why}});
+}
+
+running_node first_facts(const node_config& config, const house& context,
+                         const node_edges& edges) {
+  running_node result;
+  result.events = context.events;
+  result.actors = context.directory;
+  result.name = config.name;
+  result.http_address = edges.http_address;
+  result.socket = edges.socket_path;
+  result.discovery_server = edges.discovery_server;
+  return result;
+}
+
+} // namespace
+
+caf::expected<running_node> spawn_node(caf::actor_system& system,
+                                       const node_config& wanted,
+                                       const node_additions& additions) {
+  if (!knows_our_types(system))
+    return fail(error_code::internal,
+                "this actor system does not know the messages of a node", "",
+                "call roscell::add_message_types(config) before the "
+                "caf::actor_system is made");
+  auto config = wanted;
+  if (auto why = complete_config(config))
+    return why;
+  auto bound = parse_capacity(config.capacity);
+  if (auto* why = std::get_if<edge_error>(&bound))
+    return to_caf(*why);
+  auto runtime = choose_runtime(config);
+  if (!runtime)
+    return runtime.error();
+  if (auto why = check_grants(config, *runtime))
+    return why;
+  config.runtime = runtime->name;
+  auto skills = offered_skills(config, *runtime, additions.actor_skills);
+  if (!skills)
+    return skills.error();
+  auto data = open_node_data(config);
+  if (!data)
+    return data.error();
+  house context{std::make_shared<actor_directory>(), {}};
+  context.metrics = std::make_shared<metric_book>();
+  context.blocking = std::make_shared<blocking_threads>(system);
+  const auto past = spawn_blocking(system, context, node_history, data->past);
+  context.events = spawn(system, context, event_log,
+                         event_log_setup{past, data->past->first_number()});
+  auto edges = open_edges(config, *data, context);
+  if (!edges) {
+    caf::anon_send_exit(context.events, caf::exit_reason::user_shutdown);
+    return edges.error();
+  }
+  tell_of_data(context, *data);
+  auto result = first_facts(config, context, **edges);
+  result.token_file = data->token_file;
+  result.site_token_file = data->site.file().string();
+  result.runtime = runtime->name;
+  result.runtime_reason = runtime->reason;
+  find_limits(config, data->identity.uuid, *runtime);
+  result.limits = runtime->limits;
+  node_builder builder{system,
+                       std::move(config),
+                       std::move(*data),
+                       context,
+                       past,
+                       *edges,
+                       std::get<capacity_bound>(bound),
+                       *runtime,
+                       std::move(*skills),
+                       additions};
+  builder.build(result);
+  return result;
+}
+
+} // namespace roscell
