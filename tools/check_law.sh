@@ -78,7 +78,7 @@ fi
 
 # Waiting is for events; a loop that sleeps wakes an idle robot.
 if grep -rnE 'sleep_for|sleep_until|usleep\(' --include='*.?pp' \
-     client dds embedding include messages schemas actors skills tools; then
+     client dds embedding include messages schemas actors skills tools test; then
   echo "law: nothing sleeps"
   broken=1
 fi

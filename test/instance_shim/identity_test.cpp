@@ -1,10 +1,12 @@
+#include "actors/edge/process/pidfd.hpp"
 #include "test/instance_shim/shim_run.hpp"
 
 #include <catch2/catch.hpp>
 
-#include <csignal>
-
+#include <poll.h>
 #include <unistd.h>
+
+#include <csignal>
 
 using namespace roscell::test;
 
@@ -75,13 +77,14 @@ TEST_CASE("a command of another user ends with its shim", "[identity]") {
   shim_run run{
       "echo up; exec sleep 1000", 65536, {}, {"--user", "65534:65534"}};
   REQUIRE((run.wait_for("pid") && run.wait_for_log("up")));
-  const auto child = "/proc/" + std::to_string(run.pids()[2]);
+  const roscell::engine::unique_fd child{
+      ::pidfd_open(static_cast<pid_t>(run.pids()[2]), 0)};
+  REQUIRE(child.get() >= 0);
   ::kill(static_cast<pid_t>(run.pids()[0]), SIGKILL);
   run.process.wait();
   // The kernel sends the signal when the parent ends; the end takes a moment.
-  for (int i = 0; i < 1000 && std::filesystem::exists(child); ++i)
-    ::usleep(5000);
-  CHECK_FALSE(std::filesystem::exists(child));
+  pollfd ended{child.get(), POLLIN, 0};
+  CHECK(::poll(&ended, 1, 5000) == 1);
 }
 
 TEST_CASE("words that are no identity are refused", "[identity]") {

@@ -3,9 +3,11 @@
 #include "actors/edge/cgroup/cgroup_use.hpp"
 #include "test/actors/edge/process/supervision_fixture.hpp"
 
+#include <fcntl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
@@ -44,16 +46,26 @@ struct real_place {
   cgroup_place place;
 };
 
-/// A process that is in a cgroup, sleeps, and can be waited for.
+/// A process that is in a cgroup, does nothing, and can be waited for.
 struct member {
-  explicit member(const instance_cgroup& cgroup) : pid(::fork()) {
-    if (pid != 0)
-      return;
-    for (const auto& x : cgroup.folders())
-      std::ofstream{x / "cgroup.procs"} << ::getpid() << std::flush;
-    ::setsid();
-    ::pause();
-    ::_exit(0);
+  explicit member(const instance_cgroup& cgroup) {
+    std::array<int, 2> entered{};
+    REQUIRE(::pipe2(entered.data(), O_CLOEXEC) == 0);
+    pid = ::fork();
+    if (pid == 0) {
+      for (const auto& x : cgroup.folders())
+        std::ofstream{x / "cgroup.procs"} << ::getpid() << std::flush;
+      ::setsid();
+      ::close(entered[0]);
+      ::close(entered[1]);
+      ::pause();
+      ::_exit(0);
+    }
+    // The other end is closed when it is inside, or has ended.
+    ::close(entered[1]);
+    char none = 0;
+    CHECK(::read(entered[0], &none, 1) == 0);
+    ::close(entered[0]);
   }
 
   ~member() {
@@ -66,7 +78,7 @@ struct member {
     return text.find(std::to_string(pid) + "\n") != std::string::npos;
   }
 
-  pid_t pid;
+  pid_t pid = -1;
 };
 
 } // namespace
@@ -100,9 +112,8 @@ TEST_CASE("all who are in a cgroup are killed, and it is removed", "[cgroup]") {
   {
     const member one{cgroup};
     const member two{cgroup};
-    while (!one.is_in(cgroup.folders().back())
-           || !two.is_in(cgroup.folders().back()))
-      ::usleep(1000);
+    CHECK((one.is_in(cgroup.folders().back())
+           && two.is_in(cgroup.folders().back())));
     CHECK_FALSE(cgroup.remove());
     CHECK(cgroup.kill());
   }

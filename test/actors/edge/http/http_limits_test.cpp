@@ -69,6 +69,14 @@ private:
   std::vector<int> fillers_;
 };
 
+/// Nobody waits on the Unix socket.
+http_limits for_one_local_client() {
+  http_limits result;
+  result.local = 1;
+  result.waiting = 0;
+  return result;
+}
+
 } // namespace
 
 TEST_CASE("a body of 100 MB is refused before it is read") {
@@ -365,10 +373,7 @@ TEST_CASE("200 requests at once on the Unix socket are all answered") {
 }
 
 TEST_CASE("a client of the Unix socket over all limits is told so") {
-  http_limits limits;
-  limits.local = 1;
-  limits.waiting = 0;
-  http_fixture node{limits};
+  http_fixture node{for_one_local_client()};
   raw_client first{node.socket_path()};
   first.send("GET /echo HTTP/1.1\r\n\r\n");
   first.read_until("local ");
@@ -380,10 +385,7 @@ TEST_CASE("a client of the Unix socket over all limits is told so") {
 
 TEST_CASE("a client of the Unix socket over all limits reads why, whenever it "
           "has written its request") {
-  http_limits limits;
-  limits.local = 1;
-  limits.waiting = 0;
-  http_fixture node{limits};
+  http_fixture node{for_one_local_client()};
   raw_client first{node.socket_path()};
   first.send("GET /echo HTTP/1.1\r\n\r\n");
   first.read_until("local ");
@@ -394,9 +396,7 @@ TEST_CASE("a client of the Unix socket over all limits reads why, whenever it "
 }
 
 TEST_CASE("clients that are refused and stay are no more than their bound") {
-  http_limits limits;
-  limits.local = 1;
-  limits.waiting = 0;
+  auto limits = for_one_local_client();
   limits.refused = 2;
   limits.grace = patience;
   http_fixture node{limits};
