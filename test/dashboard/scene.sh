@@ -51,7 +51,7 @@ PROGRAM
     {operation: "talk", engine: "primitive", entry_point: ["bin/talk"],
     input: {data_types: ["text/plain"], protocols: ["file"]},
     output: {data_types: ["text/plain"], protocols: ["file"]},
-    models: [model("plain"; 8), model("wide"; 1500), model("large"; 500000)]}' \
+    models: [model("plain"; 0), model("wide"; 1500), model("large"; 500000)]}' \
     > "$skills/talk/skill.json"
 }
 

@@ -8,8 +8,7 @@
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, size_t size) {
   using namespace roscell;
   const std::string nonce(64, '0');
-  acceptor_handshake acceptor{
-      {"base", "ffff", "kitchen", 3}, "token", "127.0.0.1", nonce};
+  acceptor_handshake acceptor{{"base", "ffff", "kitchen", 3}, "token", nonce};
   joiner_handshake joiner{{"robot", "0a1b", 7}, "token", {}, nonce};
   joiner_handshake coordinator{
       {"hall", "0a1c", 7, "coordinator"}, "token", {}, nonce};

@@ -199,8 +199,10 @@ TEST_CASE("without a folder the shim asks to end as it was told") {
   const fence_file fence{boot_now_ms() + hour_ms};
   const temp_folder folder;
   auto process =
-      run_plain("trap 'echo asked; exit 7' INT; : > " + (folder / "up")
-                    + "; while :; do sleep 1000 & wait; done",
+      // The background process says so itself: before, it is a copy of the
+      // shell that is not yet deaf to SIGINT.
+      run_plain("trap 'echo asked; exit 7' INT; (: > " + (folder / "up")
+                    + "; exec sleep 1000) & wait",
                 fence);
   REQUIRE(wait_in_folder(
       folder / "", [&] { return std::filesystem::exists(folder / "up"); }));
