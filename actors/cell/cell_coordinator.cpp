@@ -15,6 +15,7 @@
 #include "actors/cell/moves/rebalancing.hpp"
 #include "actors/cell/state/arrivals.hpp"
 #include "actors/cell/state/coordinator_timer.hpp"
+#include "actors/cell/state/may_start.hpp"
 #include "actors/cell/state/task_story.hpp"
 #include "actors/cell/tasks/cell_instances.hpp"
 #include "actors/cell/tasks/cell_resources.hpp"
@@ -102,7 +103,8 @@ json summary(coordinator_pointer self) {
           {"turn", st.desk.turn},        {"waiting", st.desk.waiting.size()},
           {"cells", list_cells(st)},     {"free", list_free_nodes(st)},
           {"places", st.places.size()},  {"transfers", st.transfers.size()},
-          {"balancing", st.balancing}};
+          {"balancing", st.balancing},   {"moves", st.moves.size()},
+          {"orders", st.orders.size()},  {"unsafe", st.desk.unsafe.size()}};
 }
 
 void on_session_admitted(coordinator_pointer self,
@@ -114,7 +116,7 @@ void on_session_admitted(coordinator_pointer self,
 }
 
 void on_tick(coordinator_pointer self, uint64_t number) {
-  if (!self->state.timer.rings(number))
+  if (number != at_once && !self->state.timer.rings(number))
     return;
   settle_overdue_places(self);
   settle_overdue_transfers(self);
@@ -123,6 +125,8 @@ void on_tick(coordinator_pointer self, uint64_t number) {
   ask_due_proofs(self);
   retry_due_changes(self);
   ask_overdue_removals(self);
+  give_up_late_waits(self);
+  start_due_again(self);
   move_lost_steps(self);
   go_on_draining(self);
   settle_due_move(self);
@@ -137,6 +141,8 @@ void begin(coordinator_pointer self) {
   restore_members(self);
   restore_transfers(self);
   restore_tasks(self);
+  restore_places(self, self->state.setup.tasks);
+  restore_orders(self);
   self->state.history.restore(self->state.setup.history);
   restore_drains(self);
   lose_steps_of_all(self);

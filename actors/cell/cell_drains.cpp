@@ -204,8 +204,4 @@ void go_on_draining(coordinator_pointer self) {
     move_away(self, x);
 }
 
-bool is_draining(const cell_coordinator_state& st, const registry_entry& node) {
-  return st.drains.find(node.row.identity.uuid) != nullptr;
-}
-
 } // namespace roscell

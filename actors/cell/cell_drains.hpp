@@ -20,7 +20,4 @@ caf::result<node_undrained> undrain_node(coordinator_pointer self,
 /// Moves what is due.
 void go_on_draining(coordinator_pointer self);
 
-/// Whether a node takes nothing new.
-bool is_draining(const cell_coordinator_state& st, const registry_entry& node);
-
 } // namespace roscell

@@ -85,7 +85,24 @@ void lose_departed(coordinator_pointer self, const transfer_row& row) {
   arm_balance(self);
 }
 
+/// For what a transfer waits that has not begun to switch its node.
+std::string wait_of(const cell_coordinator_state& st, const std::string& node) {
+  for (const auto& x : st.desk.unsafe)
+    if (x.wait.node == node)
+      return "'" + x.wait.task + "/" + x.wait.step + "' to be safe";
+  const auto waits = st.moves.waits_on(node);
+  return waits.empty() ? "what runs there" : waits;
+}
+
 void settle_overdue(coordinator_pointer self, cell_transfer& x) {
+  if (x.row.state == transfer_state::preparing)
+    return call_off_transfer(
+        self, x.row.transfer,
+        {error_code::timeout,
+         "node '" + x.row.node + "' stays: it has waited for too long for "
+             + wait_of(self->state, x.row.node),
+         "/instances",
+         "`roscell tasks` shows what is waited for; send the request again"});
   const auto waiting = self->state.transfers.set_unresolved(
       x, "neither the node nor the other cell has said how it ended",
       now_of(self).unix_ms);

@@ -490,6 +490,13 @@ constexpr size_t settled = 100;
 /// Terminated tasks that are remembered, to answer a repeated termination.
 constexpr size_t terminated = 100;
 
+/// Instances of all nodes of which it is known that they may run. Beyond it
+/// nothing more is started.
+constexpr size_t places = 16'384;
+/// What was told to end when the coordinator was started again is started anew
+/// where it fits; nodes that were away with it come back meanwhile.
+constexpr minutes return_of_nodes{2};
+
 /// Instances of all nodes that were not removed in time and are asked for
 /// again; beyond it a node hears of it at its next registration.
 constexpr size_t overdue_removals = 1000;
@@ -507,6 +514,7 @@ static_assert(agent_removal < removal - session::margin);
 static_assert(removal < removal_answer);
 static_assert(removal_answer + unwritten + store::write < termination);
 static_assert(removal_answer < rollback);
+static_assert(retry::longest < return_of_nodes);
 
 } // namespace task
 
@@ -520,6 +528,8 @@ constexpr minutes place{2};
 /// For one that another coordinator carries out: instances may have to be
 /// started elsewhere first.
 constexpr milliseconds forwarded = task::deployment + minutes{2};
+/// For the node to be let go: what is not safe by then keeps it here.
+constexpr milliseconds preparing = task::deployment_answer;
 /// What the request for it waits.
 constexpr milliseconds answer = forwarded + seconds{30};
 /// Ended ones that are remembered.
@@ -528,6 +538,7 @@ constexpr size_t ended = 100;
 static_assert(arrival + task::termination < place);
 static_assert(task::removal_answer + task::deployment_answer < task::restart);
 static_assert(task::deployment_answer < forwarded);
+static_assert(task::eviction < preparing && preparing < forwarded);
 
 } // namespace transfer
 

@@ -9,6 +9,7 @@
 
 namespace roscell {
 
+ROSCELL_CODEC(left_instance)
 ROSCELL_CODEC(task_record)
 
 namespace {
@@ -53,9 +54,18 @@ void add_instance(task_record& record, const replacement& x) {
   record.nodes.push_back(x.place.node);
 }
 
+void drop_order(task_record& record, const std::string& instance) {
+  auto& orders = record.orders;
+  orders.erase(
+      std::remove_if(orders.begin(), orders.end(),
+                     [&](const auto& x) { return x.instance == instance; }),
+      orders.end());
+}
+
 /// The new instance stands where the old one stood, which has no end any more.
 void replace(task_record& record, task_accepted& decision,
              const replacement& x) {
+  drop_order(record, x.old_instance);
   for (size_t i = 0; i < record.specs.size(); ++i)
     if (record.specs[i].instance == x.old_instance) {
       record.specs[i] = x.spec;
@@ -148,6 +158,7 @@ void task_book::apply(const task_record& record) {
   entry.ended_unix_ms = record.ended_unix_ms;
   entry.run = record.run;
   entry.request_ids = record.request_ids;
+  entry.orders = record.orders;
 }
 
 void task_book::forget(const std::string& task) {
@@ -208,6 +219,7 @@ task_record record_of(const std::string& task, const task_entry& entry,
   result.ended_unix_ms = entry.ended_unix_ms;
   result.run = entry.run;
   result.request_ids = entry.request_ids;
+  result.orders = entry.orders;
   for (const auto& x : deployments.of_task(task)) {
     result.specs.push_back(x.spec);
     result.nodes.push_back(x.node);
@@ -239,6 +251,7 @@ task_record with_placement(task_record record, const task_accepted& decision,
   record.nodes = std::move(nodes);
   record.ends.clear();
   record.tentative.clear();
+  record.orders.clear();
   return record;
 }
 
@@ -277,6 +290,19 @@ task_record with_ends(task_record record, const std::vector<instance_end>& ends,
     record.state = state_after(record);
   if (is_settled(record.state) && record.ended_unix_ms == 0)
     record.ended_unix_ms = now_unix_ms;
+  return record;
+}
+
+task_record with_order(task_record record, const end_order& order) {
+  if (find_end(record, order.instance))
+    return record;
+  drop_order(record, order.instance);
+  record.orders.push_back(order);
+  return record;
+}
+
+task_record without_order(task_record record, const std::string& instance) {
+  drop_order(record, instance);
   return record;
 }
 
@@ -331,6 +357,8 @@ task_record without(task_record record,
       std::remove_if(ends.begin(), ends.end(),
                      [&](const auto& x) { return has(instances, x.instance); }),
       ends.end());
+  for (const auto& instance : instances)
+    drop_order(record, instance);
   return record;
 }
 

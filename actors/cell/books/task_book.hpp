@@ -1,6 +1,7 @@
 #pragma once
 
 #include "actors/cell/books/deployment_book.hpp"
+#include "actors/cell/books/ordered_ends.hpp"
 #include "actors/house/limits.hpp"
 #include "messages/allocation_report.hpp"
 #include "messages/failure.hpp"
@@ -14,6 +15,22 @@
 #include <vector>
 
 namespace roscell {
+
+/// An instance that its task has given up, and that may run on where its node
+/// is away.
+struct left_instance {
+  std::string instance;
+  std::string step;
+  std::string node;
+  life_policy life; ///< What it does there.
+
+  static constexpr auto fields() {
+    return field_list{required("instance", &left_instance::instance),
+                      required("step", &left_instance::step),
+                      required("node", &left_instance::node),
+                      required("life", &left_instance::life)};
+  }
+};
 
 /// What of a task outlives the coordinator's process: its entry in the task
 /// book and what it has in the deployment book, together.
@@ -31,6 +48,8 @@ struct task_record {
   int64_t run = 1;           ///< How often it has been started as a whole.
   /// Of the requests that are of this run, the newest last.
   std::vector<std::string> request_ids;
+  std::vector<end_order> orders;   ///< Instances that were told to end.
+  std::vector<left_instance> left; ///< As of when this was written.
 
   static constexpr auto fields() {
     return field_list{
@@ -45,7 +64,9 @@ struct task_record {
         optional("tentative", &task_record::tentative),
         optional("ended_unix_ms", &task_record::ended_unix_ms),
         optional("run", &task_record::run),
-        optional("request_ids", &task_record::request_ids)};
+        optional("request_ids", &task_record::request_ids),
+        optional("orders", &task_record::orders),
+        optional("left", &task_record::left)};
   }
 };
 
@@ -59,6 +80,7 @@ struct task_entry {
   int64_t ended_unix_ms = 0;
   int64_t run = 1;
   std::vector<std::string> request_ids;
+  std::vector<end_order> orders;
 };
 
 /// How a claim stands to what the book knows.
@@ -157,6 +179,10 @@ task_record with_request(task_record record, const std::string& id);
 /// With ends of instances. The state follows when it was the last one.
 task_record with_ends(task_record record, const std::vector<instance_end>& ends,
                       int64_t now_unix_ms);
+
+/// With the word that an instance is told to end, unless it has ended.
+task_record with_order(task_record record, const end_order& order);
+task_record without_order(task_record record, const std::string& instance);
 
 /// An instance and the one whose place it takes.
 struct replacement {

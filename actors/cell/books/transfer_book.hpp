@@ -23,7 +23,8 @@ using transfer_done = std::function<void(const cell_transfer&, const failure*)>;
 struct cell_transfer {
   transfer_row row;
   bool kept = false; ///< The store has it. Before that nobody is told of it.
-  /// Of `switching`: then it is `unresolved` for whoever waits.
+  /// Of `preparing`: then the node stays. Of `switching`: then it is
+  /// `unresolved` for whoever waits.
   std::chrono::steady_clock::time_point deadline =
       std::chrono::steady_clock::time_point::max();
   std::vector<std::string> terminated;  ///< Tasks; nothing brings them back.

@@ -1,16 +1,17 @@
 #include "actors/cell/moves/lost_steps.hpp"
 
-#include "actors/cell/moves/lost_remains.hpp"
-#include "actors/cell/moves/move_stages.hpp"
+#include "actors/cell/moves/move_end.hpp"
+#include "actors/cell/moves/move_run.hpp"
 #include "actors/cell/state/coordinator_timer.hpp"
+#include "actors/cell/state/may_start.hpp"
 #include "actors/cell/state/task_story.hpp"
-#include "actors/cell/tasks/task_removals.hpp"
 #include "actors/cell/tasks/task_turns.hpp"
 #include "actors/house/limits.hpp"
 #include "messages/failure.hpp"
 
 #include <memory>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -27,16 +28,17 @@ milliseconds patience_of(const instance_spec& spec) {
 
 /// Whether it is still to be placed anew.
 bool is_lost(const cell_coordinator_state& st, const lost_step& x) {
-  return st.losses.find(x.instance) && st.tasks.is_running(x.task)
+  return st.failures.find_lost(x.instance) && st.tasks.is_running(x.task)
          && st.deployments.find(x.instance, x.node);
 }
 
 void postpone(coordinator_pointer self, const std::vector<lost_step>& steps,
               const failure& why) {
   for (const auto& x : steps) {
-    const auto* known = self->state.losses.find(x.instance);
+    auto& failures = self->state.failures;
+    const auto* known = failures.find_lost(x.instance);
     const bool news = known && known->trouble != why.message;
-    self->state.losses.postpone(x.instance, why.message, self->clock().now());
+    failures.postpone(x.instance, why.message, self->clock().now());
     if (news)
       tell_of_task(
           self, "step_stranded", x.task, x.instance,
@@ -61,13 +63,13 @@ void place_anew(coordinator_pointer self, const std::vector<lost_step>& steps) {
         continue;
       const auto request = request_of(*st.tasks.find(x.task));
       if (!request)
-        return fail_move(self, move,
-                         {error_code::internal, "the task has no request"});
+        return fail_move(self, move, without_request(x.task));
       if (auto why = add_moved_step(self, *move, *request,
-                                    *st.deployments.find(x.instance), ""))
+                                    *st.deployments.find(x.instance),
+                                    x.stays ? x.node : ""))
         return fail_move(self, move, *why);
     }
-    place_move(self, move);
+    run_move(self, move);
   });
 }
 
@@ -101,8 +103,10 @@ void clear_and_place(coordinator_pointer self,
     self->request(entry->agent, limits::task::removal_answer,
                   instance_removal{x.task, x.instance, false})
         .then(
-            [self, all](const instances_removed& reply) {
-              if (!reply.waiting.empty())
+            [self, all, x](const instances_removed& reply) {
+              if (reply.waiting.empty())
+                self->state.failures.end(x.uuid, x.instance);
+              else
                 all->problem = {error_code::conflict,
                                 "what is there is not safe yet"};
               end_one(self, all);
@@ -115,13 +119,20 @@ void clear_and_place(coordinator_pointer self,
   end_one(self, all);
 }
 
-/// Nothing is heard of it any more.
-void lose_step(cell_coordinator_state& st, const instance_spec& spec,
-               lost_step x) {
-  if (may_move(spec))
-    st.losses.lose(std::move(x), patience_of(spec));
-  else if (starts_alone(spec))
-    st.losses.lose_sight(std::move(x));
+/// Nothing is heard of it any more. Another machine may have the name of its
+/// node by now.
+void lose_step(cell_coordinator_state& st, const deployment& x,
+               const std::string& uuid,
+               std::chrono::steady_clock::time_point since,
+               std::chrono::steady_clock::time_point now) {
+  const auto* place = st.failures.find(x.spec.instance, now);
+  if (place && place->uuid != uuid)
+    return;
+  lost_step lost{x.spec.task, x.spec.step, x.spec.instance,
+                 x.node,      uuid,        since + patience_of(x.spec)};
+  lost.is_alone = !may_move(x.spec);
+  if (may_move(x.spec) || starts_alone(x.spec))
+    st.failures.lose(std::move(lost));
 }
 
 } // namespace
@@ -130,17 +141,11 @@ void lose_steps_of(coordinator_pointer self, const std::string& node,
                    const std::string& uuid,
                    std::chrono::steady_clock::time_point since) {
   auto& st = self->state;
+  st.failures.node_lost(uuid, since);
   for (const auto& [task, entry] : st.tasks.entries())
     for (const auto& x : st.deployments.of_task(task))
       if (x.node == node && !x.end && !x.tentative)
-        lose_step(st, x.spec, {task, x.spec.instance, node, uuid, since});
-  // What nobody wants any more may run on there for as long, from now on.
-  for (const auto& x : st.deployments.rows_on(node)) {
-    if (!is_left_over(st, x))
-      continue;
-    st.losses.forget(x.spec.instance);
-    lose_step(st, x.spec, {x.spec.task, x.spec.instance, node, uuid, since});
-  }
+        lose_step(st, x, uuid, since, self->clock().now());
   set_timer(self);
 }
 
@@ -158,13 +163,19 @@ void lose_steps_of_all(coordinator_pointer self) {
 
 void find_steps_of(coordinator_pointer self, const node_registration& node) {
   auto& st = self->state;
-  st.losses.see_again(node.identity.uuid);
+  std::set<std::string> live;
+  for (const auto& x : node.instances)
+    if (is_live(x.state))
+      live.insert(x.spec.instance);
+  st.failures.node_back(node.identity.uuid, live);
+  for (const auto& x : node.instances)
+    note_told(self, x, node.identity.name);
   for (const auto& [task, entry] : st.tasks.entries())
     for (const auto& x : st.deployments.of_task(task)) {
       const auto& instance = x.spec.instance;
-      if (x.node == node.identity.name && !st.losses.is_given_up(instance)
+      if (x.node == node.identity.name && !st.failures.is_given_up(instance)
           && !is_elsewhere(st, instance, node.identity.uuid)) {
-        st.losses.forget(instance);
+        st.failures.forget(instance);
         st.deployments.heed_end(instance);
       }
     }
@@ -172,23 +183,35 @@ void find_steps_of(coordinator_pointer self, const node_registration& node) {
 
 bool is_elsewhere(const cell_coordinator_state& st, const std::string& instance,
                   const std::string& uuid) {
-  const auto* lost = st.losses.find(instance);
+  const auto* lost = st.failures.find_lost(instance);
   return lost && lost->uuid != uuid;
+}
+
+void lose_own_start(coordinator_pointer self, const deployment& x,
+                    const std::string& uuid) {
+  lost_step lost{x.spec.task, x.spec.step, x.spec.instance,
+                 x.node,      uuid,        self->clock().now()};
+  lost.stays = !may_move(x.spec);
+  lost.trouble = "another instance of it may still run elsewhere";
+  self->state.failures.lose(std::move(lost));
+  // What is there of it ends, and that is no end of its work.
+  self->state.deployments.ignore_end(x.spec.instance);
+  set_timer(self);
 }
 
 void move_lost_steps(coordinator_pointer self) {
   auto& st = self->state;
-  for (const auto& [task, steps] : st.losses.due(self->clock().now())) {
+  for (const auto& [task, steps] : st.failures.due(self->clock().now())) {
     std::vector<lost_step> wanted;
     for (const auto& x : steps) {
       if (!is_lost(st, x)) {
-        st.losses.forget(x.instance);
+        st.failures.forget(x.instance);
         continue;
       }
       wanted.push_back(x);
       // It is due again only after this attempt.
-      st.losses.pause(x.instance,
-                      self->clock().now() + limits::task::deployment_answer);
+      st.failures.pause(x.instance,
+                        self->clock().now() + limits::task::deployment_answer);
     }
     if (!wanted.empty())
       clear_and_place(self, wanted);
@@ -197,7 +220,7 @@ void move_lost_steps(coordinator_pointer self) {
 
 std::string wait_of_lost(const cell_coordinator_state& st,
                          const instance_row& row) {
-  const auto* x = st.losses.find(row.spec.instance);
+  const auto* x = st.failures.find_lost(row.spec.instance);
   if ((!x || x->is_alone) && !st.deployments.find(row.spec.instance))
     return "no longer wanted, ends once node '" + row.node + "' is back";
   if (!x)

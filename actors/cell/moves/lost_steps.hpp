@@ -28,7 +28,15 @@ void find_steps_of(coordinator_pointer self, const node_registration& node);
 bool is_elsewhere(const cell_coordinator_state& st, const std::string& instance,
                   const std::string& uuid);
 
+/// A step is not started on its own node, which wants it, since another
+/// instance of it may run: it is placed once that has ended.
+void lose_own_start(coordinator_pointer self, const deployment& x,
+                    const std::string& uuid);
+
 /// Places anew what has been lost for long enough.
+///
+/// Until it is placed its node may come back, its task be terminated, and what
+/// it is placed on be lost: each part asks whether the step is still lost.
 void move_lost_steps(coordinator_pointer self);
 
 /// For what a step waits whose node is away, in a sentence.

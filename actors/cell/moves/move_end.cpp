@@ -1,15 +1,18 @@
-#include "actors/cell/moves/move_stages.hpp"
+#include "actors/cell/moves/move_end.hpp"
 
 #include "actors/cell/state/coordinator_timer.hpp"
+#include "actors/cell/state/may_start.hpp"
 #include "actors/cell/state/task_story.hpp"
+#include "actors/cell/tasks/ordered_stops.hpp"
+#include "actors/cell/tasks/step_ends.hpp"
 #include "actors/cell/tasks/task_changes.hpp"
-#include "actors/cell/tasks/task_endings.hpp"
 #include "actors/cell/tasks/task_removals.hpp"
+#include "actors/cell/tasks/task_turns.hpp"
 #include "actors/house/limits.hpp"
 
+#include <map>
 #include <utility>
 
-/// How a move ends.
 namespace roscell {
 
 namespace {
@@ -25,58 +28,73 @@ void tell_moved(coordinator_pointer self, const moved_step& x) {
                 {"step", x.change.spec.step}});
 }
 
-void forget_new(coordinator_pointer self, const move_ptr& move) {
-  for (const auto& [task, changes] : by_task(*move)) {
-    std::vector<std::string> added;
-    for (const auto& x : changes)
-      added.push_back(x.spec.instance);
-    if (!self->state.deployments.find(added.front()))
-      continue;
-    pending_change change;
-    change.still = &task_book::is_kept;
-    change.insistent = true;
-    change.make = [added](task_record record) {
-      return without(std::move(record), added);
-    };
-    change.done = [self, task = task](const failure*) {
-      record_ends(self, task);
-    };
-    change_task(self, task, std::move(change));
-  }
+/// A task's state is that of the instances it still has.
+void forget_new(coordinator_pointer self, const std::string& task,
+                const std::vector<std::string>& added) {
+  if (!self->state.deployments.find(added.front()))
+    return;
+  pending_change change;
+  change.still = &task_book::is_kept;
+  change.insistent = true;
+  change.make = [added](task_record record) {
+    return without(std::move(record), added);
+  };
+  change.done = [self, task](const failure*) { record_ends(self, task); };
+  change_task(self, task, std::move(change));
 }
 
-/// It has come to nothing: it is placed once more, elsewhere if need be.
+/// It has come to nothing: it is placed once more, elsewhere if need be, once
+/// it has surely ended there.
 void lose_again(coordinator_pointer self, const moved_step& x) {
   const auto& node = x.change.place.node;
   const auto* entry = self->state.registry.find_name(node);
-  const auto uuid = entry ? entry->row.identity.uuid : std::string{};
-  self->state.losses.lose(
-      {x.task, x.change.spec.instance, node, uuid, self->clock().now()},
-      limits::retry::longest);
+  lost_step again;
+  again.task = x.task;
+  again.step = x.change.spec.step;
+  again.instance = x.change.spec.instance;
+  again.node = node;
+  again.uuid = entry ? entry->row.identity.uuid : std::string{};
+  again.due = self->clock().now() + limits::retry::longest;
+  self->state.failures.lose(std::move(again));
   set_timer(self);
 }
 
-/// One that has ended already, to make room for the other, has failed by that.
-void heed_old(coordinator_pointer self, const task_move& move,
+/// The old instance of a step that does not move.
+void keep_old(coordinator_pointer self, const task_move& move,
               const moved_step& x) {
   const auto& old = x.change.old_instance;
-  if (move.ends_first && is_surely_gone(self->state, x.from, old))
-    record_forced_end(self, x.task, old,
-                      "it was ended to run elsewhere: " + move.problem->message,
-                      [](const failure*) {});
-  else
+  if (!x.was_asked)
     self->state.deployments.heed_end(old);
+  else
+    end_as_ordered(self, x.task, old,
+                   "it was ended to run elsewhere: " + move.problem->message);
 }
 
 } // namespace
 
-void complete_move(coordinator_pointer self, const move_ptr& move) {
-  move->open = move->steps.size();
-  const auto steps = move->steps;
-  for (const auto& x : steps) {
+void end_move(coordinator_pointer self, const move_ptr& move) {
+  end_turn(self, std::exchange(move->turn, 0));
+  self->state.moves.end(move->id);
+  move->done(move->problem ? &*move->problem : nullptr);
+}
+
+void fail_move(coordinator_pointer self, const move_ptr& move,
+               const failure& why) {
+  add_problem(move, why);
+  end_move(self, move);
+}
+
+void complete_steps(coordinator_pointer self, const move_ptr& move,
+                    const std::vector<size_t>& steps, move_stage_handler next) {
+  auto& st = self->state;
+  move->open = steps.size() + 1;
+  for (const auto i : steps) {
+    const auto& x = move->steps[i];
     const auto& added = x.change.spec.instance;
-    const auto* placed = self->state.deployments.find(added);
+    const auto* placed = st.deployments.find(added);
     const bool moved = placed && !placed->tentative;
+    st.moves.enter(move->id, i, moved ? move_stage::moved : move_stage::over,
+                   self->clock().now());
     if (moved)
       tell_moved(self, x);
     record_ends(self, x.task);
@@ -84,37 +102,54 @@ void complete_move(coordinator_pointer self, const move_ptr& move) {
                     moved
                         ? overdue_removal{x.from, x.task, x.change.old_instance}
                         : overdue_removal{x.change.place.node, x.task, added},
-                    [move] {
-                      if (--move->open == 0)
-                        move->done(nullptr);
-                    });
+                    [self, move, next] { end_part(self, move, next, next); });
   }
+  end_part(self, move, next, next);
+}
+
+void drop_new(coordinator_pointer self, const move_ptr& move,
+              const std::vector<size_t>& steps) {
+  std::map<std::string, std::vector<std::string>> added;
+  for (const auto i : steps) {
+    const auto& x = move->steps[i];
+    const auto& instance = x.change.spec.instance;
+    added[x.task].push_back(instance);
+    remove_instance(self, {x.change.place.node, x.task, instance}, [] {});
+  }
+  for (const auto& [task, instances] : added)
+    forget_new(self, task, instances);
+}
+
+void undo_move(coordinator_pointer self, const move_ptr& move) {
+  auto& st = self->state;
+  std::vector<size_t> left;
+  for (size_t i = 0; i < move->steps.size(); ++i)
+    // Before it has room it is in no table.
+    if (move->id == 0
+        || st.moves.enter(move->id, i, move_stage::undone, self->clock().now()))
+      left.push_back(i);
+  drop_new(self, move, left);
+  for (const auto i : left)
+    keep_old(self, *move, move->steps[i]);
+  end_move(self, move);
 }
 
 void complete_lost(coordinator_pointer self, const move_ptr& move) {
-  for (const auto& x : move->steps) {
-    self->state.losses.forget(x.change.old_instance);
-    if (x.is_up) {
-      self->state.deployments.heed_end(x.change.spec.instance);
+  auto& st = self->state;
+  for (size_t i = 0; i < move->steps.size(); ++i) {
+    const auto& x = move->steps[i];
+    st.failures.forget(x.change.old_instance);
+    if (st.moves.is_at(move->id, i, move_stage::up)) {
+      st.deployments.heed_end(x.change.spec.instance);
       tell_moved(self, x);
-    } else {
+    } else if (st.tasks.is_running(x.task)
+               && st.deployments.find(x.change.spec.instance)) {
       lose_again(self, x);
     }
   }
   for (const auto& x : move->steps)
     record_ends(self, x.task);
-  move->done(move->problem ? &*move->problem : nullptr);
-}
-
-void undo_move(coordinator_pointer self, const move_ptr& move) {
-  for (const auto& x : move->steps)
-    remove_instance(self, {x.change.place.node, x.task, x.change.spec.instance},
-                    [] {});
-  // A task's state is that of the instances it still has.
-  forget_new(self, move);
-  for (const auto& x : move->steps)
-    heed_old(self, *move, x);
-  fail_move(self, move, *move->problem);
+  end_move(self, move);
 }
 
 } // namespace roscell

@@ -1,7 +1,6 @@
 #include "actors/cell/moves/rebalancing.hpp"
 
-#include "actors/cell/cell_drains.hpp"
-#include "actors/cell/moves/move_stages.hpp"
+#include "actors/cell/moves/moved_steps.hpp"
 #include "actors/cell/moves/task_move.hpp"
 #include "actors/cell/state/coordinator_timer.hpp"
 #include "actors/cell/tasks/cell_resources.hpp"

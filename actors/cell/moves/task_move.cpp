@@ -1,6 +1,8 @@
 #include "actors/cell/moves/task_move.hpp"
 
-#include "actors/cell/moves/move_stages.hpp"
+#include "actors/cell/moves/move_end.hpp"
+#include "actors/cell/moves/move_run.hpp"
+#include "actors/cell/tasks/task_removals.hpp"
 #include "actors/cell/tasks/task_turns.hpp"
 #include "messages/failure.hpp"
 
@@ -11,16 +13,24 @@ namespace roscell {
 
 namespace {
 
+/// Who has asked for it did not know that the node would fall silent before
+/// there was a turn.
+failure fell_silent_before(const std::string& node) {
+  return {error_code::unreachable,
+          "node '" + node + "' fell silent before its instances were moved",
+          "/node", "send the request again when it is back"};
+}
+
 /// Adds a step that is to run elsewhere, or on that node.
 std::optional<failure> add_step(coordinator_pointer self, task_move& move,
                                 const task_request& request,
                                 const deployment& x, const std::string& to) {
+  const auto before = move.steps.size();
+  auto why = add_moved_step(self, move, request, x, to);
   // Two of them would move the same robot.
-  if (x.spec.life.safe_state) {
-    move.kind = move_kind::restarted;
-    move.ends_first = true;
-  }
-  return add_moved_step(self, move, request, x, to);
+  if (move.steps.size() > before)
+    move.steps.back().ends_first = x.spec.life.safe_state;
+  return why;
 }
 
 /// The steps of a task that run on the node, resolved anew: the node's own
@@ -31,10 +41,9 @@ std::optional<failure> add_steps(coordinator_pointer self, task_move& move,
   const auto& st = self->state;
   const auto request = request_of(*st.tasks.find(task));
   if (!request)
-    return failure{error_code::internal,
-                   "task '" + task + "' has no request any more"};
+    return without_request(task);
   for (const auto& x : st.deployments.of_task(task))
-    if (x.node == node && !x.end)
+    if (x.node == node && !x.end && !x.tentative)
       if (auto why = add_step(self, move, *request, x, ""))
         return why;
   return std::nullopt;
@@ -51,8 +60,7 @@ std::optional<failure> add_instance(coordinator_pointer self, task_move& move,
                    "instance '" + instance + "' does not run any more"};
   const auto request = request_of(*st.tasks.find(x->spec.task));
   if (!request)
-    return failure{error_code::internal,
-                   "task '" + x->spec.task + "' has no request any more"};
+    return without_request(x->spec.task);
   return add_step(self, move, *request, *x, to);
 }
 
@@ -64,13 +72,16 @@ void move_tasks(coordinator_pointer self, const std::string& node,
   auto move = std::make_shared<task_move>();
   move->what = "the instances of node '" + node + "'";
   move->done = done;
-  take_turn(self, caf::actor_addr{}, [self, move, node, tasks](uint64_t turn) {
+  const bool was_away = is_away(self->state, node);
+  take_turn(self, caf::actor_addr{}, [=](uint64_t turn) {
     move->turn = turn;
+    if (!was_away && is_away(self->state, node))
+      return fail_move(self, move, fell_silent_before(node));
     for (const auto& task : tasks)
       if (self->state.tasks.is_running(task))
         if (auto why = add_steps(self, *move, task, node))
           return fail_move(self, move, *why);
-    place_move(self, move);
+    run_move(self, move);
   });
 }
 
@@ -83,9 +94,12 @@ void move_instance(coordinator_pointer self, const std::string& instance,
   move->done = done;
   take_turn(self, caf::actor_addr{}, [self, move, instance, to](uint64_t turn) {
     move->turn = turn;
+    const auto* x = self->state.deployments.find(instance);
+    if (x && is_away(self->state, x->node))
+      return fail_move(self, move, fell_silent_before(x->node));
     if (auto why = add_instance(self, *move, instance, to))
       return fail_move(self, move, *why);
-    place_move(self, move);
+    run_move(self, move);
   });
 }
 

@@ -9,10 +9,11 @@
 namespace roscell {
 
 /// Moves what these tasks run on a node that is about to leave to the active
-/// members, where the scheduler places it. All or nothing: the new instances
-/// run before the old ones end, and if one of them does not come up, or there
-/// is no room for all, nothing has changed and `done` gets the failure. The
-/// tasks run.
+/// members, where the scheduler places it. There is room for all of it, or
+/// nothing happens. First all move whose new instances run before the old ones
+/// end, all or nothing; then, one by one, those that have to be safe. If one
+/// does not come up, `done` gets the failure, and what has not moved yet stays.
+/// The tasks run.
 void move_tasks(coordinator_pointer self, const std::string& node,
                 const std::vector<std::string>& tasks,
                 const std::function<void(const failure*)>& done);

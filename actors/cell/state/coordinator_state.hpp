@@ -5,11 +5,13 @@
 #include "actors/cell/books/drain_book.hpp"
 #include "actors/cell/books/free_node_book.hpp"
 #include "actors/cell/books/history_book.hpp"
-#include "actors/cell/books/loss_book.hpp"
+#include "actors/cell/books/node_failures.hpp"
+#include "actors/cell/books/ordered_ends.hpp"
 #include "actors/cell/books/peer_book.hpp"
 #include "actors/cell/books/place_book.hpp"
 #include "actors/cell/books/task_book.hpp"
 #include "actors/cell/books/transfer_book.hpp"
+#include "actors/cell/moves/move_table.hpp"
 #include "actors/cell/moves/rebalance_book.hpp"
 #include "actors/cell/streams/stream_watch.hpp"
 #include "actors/cell/tasks/task_desk.hpp"
@@ -83,7 +85,9 @@ struct cell_coordinator_state {
   /// When they are written; max(): there are none.
   std::chrono::steady_clock::time_point facts_due =
       std::chrono::steady_clock::time_point::max();
-  loss_book losses;
+  node_failures failures;
+  ordered_ends orders;
+  move_table moves;
   drain_book drains;
   rebalance_book rebalance;
 
@@ -104,6 +108,12 @@ using coordinator_pointer =
 
 /// The present moment, as the registry wants it.
 registry_time now_of(coordinator_pointer self);
+
+/// Adds to a spec what the cell adds to every instance.
+void complete_spec(const cell_coordinator_state& st, instance_spec& spec);
+
+/// Whether a node is to be empty, so that nothing is placed there.
+bool is_draining(const cell_coordinator_state& st, const registry_entry& node);
 
 /// Where this cell is to be found.
 cell_address own_address(const coordinator_setup& setup);

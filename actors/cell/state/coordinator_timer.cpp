@@ -18,10 +18,15 @@ void set_timer(coordinator_pointer self) {
       std::min({st.registry.next_overdue(), st.transfers.next_deadline(),
                 st.places.next_deadline(), next_peer, next_proof(st),
                 next_change_retry(st.desk), st.desk.removals.next_due(),
-                st.losses.next_due(), st.drains.next_due(),
+                st.failures.next_due(), st.orders.next_due(),
+                next_safety_deadline(st.desk), st.drains.next_due(),
                 st.rebalance.next_due(), st.facts_due, balance});
   if (when != time_point::max())
     st.timer.set(self, when);
+}
+
+void wake(coordinator_pointer self) {
+  self->send(cell_coordinator_actor{self}, caf::tick_atom_v, at_once);
 }
 
 void arm_balance(coordinator_pointer self) {

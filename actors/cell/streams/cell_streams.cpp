@@ -1,6 +1,6 @@
 #include "actors/cell/streams/cell_streams.hpp"
 
-#include "actors/cell/tasks/cell_instances.hpp"
+#include "actors/cell/state/task_story.hpp"
 #include "actors/house/limits.hpp"
 #include "schemas/utf8.hpp"
 
@@ -64,6 +64,38 @@ void add_verdict(const cell_coordinator_state& st, instance_row& row) {
     return;
   row.health = health;
   row.health_reason = bounded(*st.streams.reason_of(row.spec.instance));
+}
+
+void tell_change(coordinator_pointer self, instance_row x,
+                 const std::string& node) {
+  add_verdict(self->state, x);
+  json data{{"task", x.spec.task},
+            {"step", x.spec.step},
+            {"node", node},
+            {"state", to_word(x.state)}};
+  if (!x.reason.empty())
+    data["reason"] = x.reason;
+  if (x.exit_code >= 0)
+    data["exit_code"] = x.exit_code;
+  if (x.restarts > 0)
+    data["restarts"] = x.restarts;
+  if (x.next_start_unix_ms > 0)
+    data["next_start_unix_ms"] = x.next_start_unix_ms;
+  if (x.health != instance_health::good)
+    data["health"] = to_word(x.health);
+  if (!x.health_reason.empty())
+    data["health_reason"] = x.health_reason;
+  if (!x.waits.empty())
+    data["waits"] = x.waits;
+  constexpr const char* what = "instance_changed";
+  const auto& task = x.spec.task;
+  // Of a new start its history has the end before, and that it runs.
+  if (x.restarts > 0 && x.state < instance_state::running)
+    self->state.context.tell(what, x.spec.instance, data);
+  else if (x.restarts > 0 && x.state <= instance_state::backing_off)
+    tell_of_repetition(self, what, task, x.spec.instance, data);
+  else
+    tell_of_task(self, what, task, x.spec.instance, data);
 }
 
 } // namespace roscell

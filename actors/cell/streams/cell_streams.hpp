@@ -25,4 +25,9 @@ instance_health health_of(const cell_coordinator_state& st,
                           const std::string& instance, instance_state state,
                           instance_health told);
 
+/// Tells how an instance on a node stands, to whoever listens and in the
+/// history of its task.
+void tell_change(coordinator_pointer self, instance_row x,
+                 const std::string& node);
+
 } // namespace roscell

@@ -3,10 +3,13 @@
 #include "actors/cell/cell_figures.hpp"
 #include "actors/cell/moves/lost_steps.hpp"
 #include "actors/cell/moves/rebalancing.hpp"
+#include "actors/cell/state/coordinator_timer.hpp"
+#include "actors/cell/state/may_start.hpp"
 #include "actors/cell/state/task_story.hpp"
 #include "actors/cell/streams/cell_streams.hpp"
 #include "actors/cell/tasks/node_names.hpp"
-#include "actors/cell/tasks/task_endings.hpp"
+#include "actors/cell/tasks/ordered_stops.hpp"
+#include "actors/cell/tasks/step_ends.hpp"
 #include "actors/cell/tasks/task_removals.hpp"
 #include "actors/house/limits.hpp"
 #include "actors/house/wall_clock.hpp"
@@ -26,7 +29,7 @@ bool is_wanted(const cell_coordinator_state& st, const std::string& instance,
                const std::string& node) {
   const auto* placed = st.deployments.find(instance, node);
   return placed && st.tasks.is_kept(placed->spec.task)
-         && !st.losses.is_given_up(instance);
+         && !st.failures.is_given_up(instance);
 }
 
 /// What running tasks want on a node, without what has ended.
@@ -38,27 +41,90 @@ std::vector<instance_spec> to_be_run_on(const cell_coordinator_state& st,
       continue;
     for (const auto& x : st.deployments.of_task(task))
       if (x.node == node.name && !x.end && !x.tentative
-          && !st.losses.is_given_up(x.spec.instance)
+          && !st.orders.is_asked(x.spec.instance)
+          && !st.failures.is_given_up(x.spec.instance)
           && !is_elsewhere(st, x.spec.instance, node.uuid))
         result.push_back(x.spec);
   }
   return result;
 }
 
+/// What was told to end, and is not on its node any more: it has ended while
+/// nobody heard of it.
+std::vector<ordered_end> ended_by_order(const cell_coordinator_state& st,
+                                        const node_registration& node) {
+  std::set<std::string> known;
+  for (const auto& x : node.instances)
+    known.insert(x.spec.instance);
+  std::vector<ordered_end> result;
+  for (const auto& [task, entry] : st.tasks.entries())
+    for (const auto& order : entry.orders) {
+      const auto* x = st.orders.find(order.instance);
+      if (x && !x->held && st.orders.is_asked(order.instance)
+          && known.count(order.instance) == 0
+          && st.deployments.find(order.instance, node.identity.name))
+        result.push_back(*x);
+    }
+  return result;
+}
+
+/// Whether an order to end stands: its node knows of it, or somebody takes care
+/// of it, or there is none.
+bool is_to_end(const cell_coordinator_state& st, const instance_row& x) {
+  const auto* order = st.orders.find(x.spec.instance);
+  return !order || order->held || x.unsafe_since_unix_ms > 0;
+}
+
+/// A node registers without something that is waited for: it has ended while
+/// nobody heard of it.
+void settle_waits(coordinator_pointer self, const node_registration& node) {
+  std::set<std::string> live;
+  for (const auto& x : node.instances)
+    if (is_live(x.state))
+      live.insert(x.spec.instance);
+  const auto waits = self->state.desk.unsafe;
+  for (const auto& x : waits)
+    if (x.wait.node == node.identity.name && live.count(x.wait.instance) == 0)
+      on_instance_gone(self, x.wait.node, x.wait.instance);
+}
+
+/// Whether another instance of the step may run, so that this one must not
+/// begin anew where it does not run at present: it waits until that has ended.
+bool is_held(coordinator_pointer self, const instance_spec& spec,
+             const node_identity& node) {
+  const auto& st = self->state;
+  const auto held = st.failures.hold(spec.task, spec.step, self->clock().now(),
+                                     spec.instance);
+  // What waits for another node of the cell is no reason not to run here,
+  // unless two of them would move the same robot.
+  if (!held
+      || (held->place.silent_since && held->place.rule == away_rule::waits
+          && !spec.life.safe_state))
+    return false;
+  if (const auto* placed = st.deployments.find(spec.instance, node.name))
+    lose_own_start(self, *placed, node.uuid);
+  return true;
+}
+
 /// Keep, stop or start: what shall become of the instances of a node, given
 /// what it runs and what the tasks want of it.
-std::vector<instance_verdict> reconcile(const cell_coordinator_state& st,
+std::vector<instance_verdict> reconcile(coordinator_pointer self,
                                         const node_registration& node) {
+  const auto& st = self->state;
   std::vector<instance_verdict> result;
   std::set<std::string> known;
   for (const auto& x : node.instances) {
     const auto& id = x.spec.instance;
-    const bool wanted = is_wanted(st, id, node.identity.name);
     known.insert(id);
+    const auto* placed = st.deployments.find(id, node.identity.name);
+    const bool wanted = is_wanted(st, id, node.identity.name)
+                        && (x.state != instance_state::backing_off
+                            || !is_held(self, placed->spec, node.identity));
     result.push_back({id, wanted ? verdict::keep : verdict::stop, {}});
   }
   for (const auto& spec : to_be_run_on(st, node.identity))
-    if (known.count(spec.instance) == 0)
+    if (known.count(spec.instance) == 0 && !is_held(self, spec, node.identity)
+        && note_start(self, spec, node.identity.name))
       result.push_back({spec.instance, verdict::start, {spec}});
   return result;
 }
@@ -121,42 +187,6 @@ bool differs_in_words_only(const instance_row* before, instance_row now) {
   return *before == now;
 }
 
-} // namespace
-
-void tell_change(coordinator_pointer self, instance_row x,
-                 const std::string& node) {
-  add_verdict(self->state, x);
-  json data{{"task", x.spec.task},
-            {"step", x.spec.step},
-            {"node", node},
-            {"state", to_word(x.state)}};
-  if (!x.reason.empty())
-    data["reason"] = x.reason;
-  if (x.exit_code >= 0)
-    data["exit_code"] = x.exit_code;
-  if (x.restarts > 0)
-    data["restarts"] = x.restarts;
-  if (x.next_start_unix_ms > 0)
-    data["next_start_unix_ms"] = x.next_start_unix_ms;
-  if (x.health != instance_health::good)
-    data["health"] = to_word(x.health);
-  if (!x.health_reason.empty())
-    data["health_reason"] = x.health_reason;
-  if (!x.waits.empty())
-    data["waits"] = x.waits;
-  constexpr const char* what = "instance_changed";
-  const auto& task = x.spec.task;
-  // Of a new start its history has the end before, and that it runs.
-  if (x.restarts > 0 && x.state < instance_state::running)
-    self->state.context.tell(what, x.spec.instance, data);
-  else if (x.restarts > 0 && x.state <= instance_state::backing_off)
-    tell_of_repetition(self, what, task, x.spec.instance, data);
-  else
-    tell_of_task(self, what, task, x.spec.instance, data);
-}
-
-namespace {
-
 /// What the coordination node runs, as it would tell it in a registration.
 void take_up_own(coordinator_pointer self, instance_description& known) {
   const auto& st = self->state;
@@ -193,8 +223,8 @@ std::vector<instance_verdict> take_up_instances(coordinator_pointer self,
                                                 const node_registration& node) {
   auto& st = self->state;
   const auto& name = node.identity.name;
-  auto verdicts = reconcile(st, node);
   find_steps_of(self, node);
+  auto verdicts = reconcile(self, node);
   st.deployments.forget_node(name);
   std::set<std::string> tasks;
   for (auto x : node.instances) {
@@ -211,8 +241,21 @@ std::vector<instance_verdict> take_up_instances(coordinator_pointer self,
     tasks.insert(x.spec.task);
     st.deployments.tell(name, std::move(x));
   }
-  // It has just been told what to stop.
+  settle_waits(self, node);
+  for (const auto& x : node.instances)
+    if (is_live(x.state) && !is_to_end(st, x))
+      drop_order(self, x.spec.task, x.spec.instance);
+  for (const auto& x : ended_by_order(st, node))
+    record_forced_end(self, x.task, x.order.instance, x.order.reason,
+                      [](const failure*) {});
+  // It has just been told what to stop. Nobody answers to that, so it is asked
+  // for until it has ended.
   st.desk.removals.forget_node(name);
+  for (const auto& x : node.instances)
+    if (is_live(x.state) && !is_wanted(st, x.spec.instance, name))
+      st.desk.removals.add({name, x.spec.task, x.spec.instance},
+                           self->clock().now());
+  set_timer(self);
   for (const auto& task : tasks)
     record_ends(self, task);
   return verdicts;
@@ -245,6 +288,7 @@ void on_instance_changed(coordinator_pointer self,
   const auto node = node_of_sender(self);
   if (!node)
     return;
+  note_told(self, x, *node);
   const bool news = !differs_in_words_only(st.deployments.told(*node, id), x);
   if (is_wanted(st, id, *node) || is_live(x.state))
     st.deployments.tell(*node, with_own_spec(st, x, *node));

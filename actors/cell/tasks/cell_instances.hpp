@@ -23,11 +23,6 @@ std::vector<instance_verdict> take_up_instances(coordinator_pointer self,
 void on_instance_changed(coordinator_pointer self,
                          const instance_changed& fact);
 
-/// Tells how an instance on a node stands, to whoever listens and in the
-/// history of its task.
-void tell_change(coordinator_pointer self, instance_row x,
-                 const std::string& node);
-
 /// Whether a node has something that runs or will run.
 bool has_instances(const cell_coordinator_state& st, const std::string& node);
 

@@ -1,8 +1,6 @@
 #include "actors/cell/tasks/cell_resources.hpp"
 
-#include "actors/cell/cell_drains.hpp"
 #include "actors/cell/cell_topics.hpp"
-#include "actors/cell/tasks/task_preemption.hpp"
 #include "actors/house/limits.hpp"
 #include "actors/placement/reservation.hpp"
 
@@ -30,6 +28,22 @@ std::vector<deployed_end> written_in(const cell_coordinator_state& st) {
       if (!x.end && !x.tentative)
         for (const auto& end : x.spec.output)
           result.push_back({task, x.spec.step, x.node, end});
+  return result;
+}
+
+/// What runs in the cell, of any priority.
+std::vector<evictable_instance> evictable_in(const cell_coordinator_state& st) {
+  std::vector<evictable_instance> result;
+  for (const auto& [task, entry] : st.tasks.entries()) {
+    if (!st.tasks.is_running(task))
+      continue;
+    for (const auto& x : st.deployments.of_task(task))
+      if (!x.end && !x.tentative && !st.orders.find(x.spec.instance))
+        result.push_back(
+            {{x.spec.instance, task, x.spec.step, x.node, x.spec.life.priority},
+             x.spec.resources,
+             x.spec.gpu});
+  }
   return result;
 }
 

@@ -1,11 +1,13 @@
 #include "actors/cell/tasks/cell_tasks.hpp"
 
 #include "actors/cell/state/coordinator_store.hpp"
+#include "actors/cell/state/coordinator_timer.hpp"
+#include "actors/cell/state/may_start.hpp"
 #include "actors/cell/state/task_story.hpp"
+#include "actors/cell/tasks/step_ends.hpp"
 #include "actors/cell/tasks/task_changes.hpp"
 #include "actors/cell/tasks/task_claims.hpp"
 #include "actors/cell/tasks/task_endings.hpp"
-#include "actors/cell/tasks/task_preemption.hpp"
 #include "actors/cell/tasks/task_removals.hpp"
 #include "actors/cell/tasks/task_turns.hpp"
 #include "actors/house/wall_clock.hpp"
@@ -96,17 +98,11 @@ void on_accepted(coordinator_pointer self, const std::string& task,
   record_ends(self, task);
   settle_ended(self, task);
   settle_awaited_deployments(self);
-  restore_preempted(self, task);
+  st.orders.let_go_of(task, self->clock().now());
+  wake(self);
 }
 
 } // namespace
-
-void complete_spec(const cell_coordinator_state& st, instance_spec& spec) {
-  spec.cell = st.setup.cell;
-  // No skill may choose another cell's discovery server.
-  for (const auto& [name, value] : st.setup.environment)
-    spec.environment[name] = value;
-}
 
 void restore_tasks(coordinator_pointer self) {
   auto& st = self->state;
@@ -134,6 +130,13 @@ caf::result<intent_recorded> hold_placement(coordinator_pointer self,
       intent.specs, std::get<std::vector<node_agent_actor>>(std::move(found))};
   for (auto& spec : reply.specs)
     complete_spec(st, spec);
+  // What spoke against it is asked once more: to place it took its time.
+  if (!st.failures.has_room(reply.specs.size()))
+    return fail(error_code::conflict, "the cell runs too many instances",
+                "/pipeline", "send it again when some have ended");
+  for (const auto& spec : reply.specs)
+    if (auto why = why_not_yet(self, {task, spec.step}))
+      return to_error(*why);
   auto promise = self->make_response_promise<intent_recorded>();
   pending_change change;
   change.still = &task_book::is_deploying;
@@ -144,6 +147,9 @@ caf::result<intent_recorded> hold_placement(coordinator_pointer self,
   change.done = [self, intent, reply, promise](const failure* why) mutable {
     if (why)
       return refuse_unwritten(self, intent.task, *why, intent.nodes, promise);
+    // From here on the pipeline may start them at any time.
+    for (size_t i = 0; i < reply.specs.size(); ++i)
+      note_start(self, reply.specs[i], intent.nodes[i]);
     end_turn(self, self->state.desk.waiters[intent.task].turn);
     promise.deliver(std::move(reply));
   };

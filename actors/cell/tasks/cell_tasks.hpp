@@ -20,7 +20,4 @@ caf::result<task_rolled_back> undo_deployment(coordinator_pointer self,
 /// A pipeline has ended: what it was deploying is rolled back.
 void on_pipeline_down(coordinator_pointer self, const caf::actor_addr& gone);
 
-/// Adds to a spec what the cell adds to every instance.
-void complete_spec(const cell_coordinator_state& st, instance_spec& spec);
-
 } // namespace roscell

@@ -10,6 +10,8 @@ void rename_node(coordinator_pointer self, const std::string& from,
                  const std::string& to) {
   auto& st = self->state;
   const auto tasks = st.deployments.rename_node(from, to);
+  if (const auto* entry = st.registry.find_name(to))
+    st.failures.rename_node(entry->row.identity.uuid, to);
   st.context.tell("node_renamed", to, {{"from", from}, {"tasks", json(tasks)}});
   for (const auto& task : tasks) {
     pending_change change;

@@ -2,6 +2,7 @@
 
 #include "actors/cell/state/coordinator_store.hpp"
 #include "actors/cell/state/coordinator_timer.hpp"
+#include "actors/cell/state/may_start.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -35,6 +36,17 @@ void end_change(coordinator_pointer self, const std::string& task,
   write_next_change(self, task);
 }
 
+/// What was told to end and is no more, or has ended, is known to be so.
+void follow_orders(coordinator_pointer self, const std::string& task,
+                   const task_record& record) {
+  auto& orders = self->state.orders;
+  orders.keep_only(task, record.orders);
+  for (const auto& x : record.ends)
+    orders.end(x.instance, self->clock().now());
+  if (orders.next_due() <= self->clock().now())
+    wake(self);
+}
+
 void on_change_kept(coordinator_pointer self, const std::string& task,
                     const std::optional<task_record>& record) {
   auto& st = self->state;
@@ -45,6 +57,7 @@ void on_change_kept(coordinator_pointer self, const std::string& task,
     st.tasks.forget(task);
     st.deployments.forget_task(task);
   }
+  follow_orders(self, task, record ? *record : task_record{});
   end_change(self, task, nullptr);
 }
 
@@ -94,8 +107,9 @@ void write_next_change(coordinator_pointer self, const std::string& task) {
                       "task '" + task + "' was terminated meanwhile", "/task"};
     return end_change(self, task, &why);
   }
-  write_change(self, task,
-               change.make(record_of(task, *entry, st.deployments)));
+  write_change(
+      self, task,
+      with_left(self, change.make(record_of(task, *entry, st.deployments))));
 }
 
 } // namespace

@@ -1,6 +1,6 @@
 #include "actors/cell/tasks/task_claims.hpp"
 
-#include "actors/cell/moves/lost_remains.hpp"
+#include "actors/cell/state/may_start.hpp"
 #include "actors/cell/tasks/cell_resources.hpp"
 #include "actors/cell/tasks/task_changes.hpp"
 #include "actors/cell/tasks/task_endings.hpp"
@@ -116,6 +116,8 @@ void grant_turn(coordinator_pointer self, const claim_task& request,
     waiters.former = record_of(request.task, *entry, st.deployments);
   st.tasks.begin(request.task, request.request, request.request_id,
                  unix_now_ms());
+  // Whoever asks for it anew knows what is off.
+  st.failures.forget_waiting(request.task);
   waiters.owner = owner;
   waiters.turn = turn;
   collect_resources_of_cell(self, [self, task = request.task, turn,

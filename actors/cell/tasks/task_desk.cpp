@@ -11,4 +11,12 @@ std::chrono::steady_clock::time_point next_change_retry(const task_desk& desk) {
   return result;
 }
 
+std::chrono::steady_clock::time_point
+next_safety_deadline(const task_desk& desk) {
+  auto result = std::chrono::steady_clock::time_point::max();
+  for (const auto& x : desk.unsafe)
+    result = std::min(result, x.until);
+  return result;
+}
+
 } // namespace roscell

@@ -70,10 +70,12 @@ struct awaited_deployments {
 };
 
 /// Somebody waits until an instance, which is not safe yet, is gone. Called
-/// once.
+/// once: then, or when the time is over.
 struct awaited_safety {
   safety_wait wait;
-  std::function<void()> done;
+  std::function<void()> done; ///< Null: nobody waits any more.
+  std::chrono::steady_clock::time_point until =
+      std::chrono::steady_clock::time_point::max();
 };
 
 /// What of the coordinator's work on tasks goes on at present.
@@ -84,13 +86,15 @@ struct task_desk {
   std::map<std::string, task_waiters> waiters; ///< By task.
   std::map<std::string, change_line> lines;    ///< The same.
   removal_book removals;
-  /// What has made way, by the task that it has made way for.
-  std::map<std::string, std::vector<preempted_instance>> preempted;
   std::vector<awaited_safety> unsafe;
   std::vector<awaited_deployments> deployments_awaited;
 };
 
 /// When a change is to be tried again; time_point::max(): none waits for that.
 std::chrono::steady_clock::time_point next_change_retry(const task_desk& desk);
+
+/// When somebody who waits for an instance to be safe has waited for too long.
+std::chrono::steady_clock::time_point
+next_safety_deadline(const task_desk& desk);
 
 } // namespace roscell

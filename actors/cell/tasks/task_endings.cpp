@@ -1,16 +1,17 @@
 #include "actors/cell/tasks/task_endings.hpp"
 
 #include "actors/cell/state/coordinator_store.hpp"
+#include "actors/cell/state/coordinator_timer.hpp"
 #include "actors/cell/state/task_story.hpp"
 #include "actors/cell/tasks/task_changes.hpp"
-#include "actors/cell/tasks/task_preemption.hpp"
 #include "actors/cell/tasks/task_removals.hpp"
 #include "actors/cell/tasks/task_turns.hpp"
 #include "actors/house/limits.hpp"
-#include "actors/house/wall_clock.hpp"
 #include "messages/failure.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <memory>
 #include <utility>
 
 namespace roscell {
@@ -28,39 +29,33 @@ bool is_deploying_on(const cell_coordinator_state& st,
   });
 }
 
-/// Ends that are still to be written are taken up with those before them.
-bool has_waiting_ends(const cell_coordinator_state& st,
-                      const std::string& task) {
-  const auto line = st.desk.lines.find(task);
-  return line != st.desk.lines.end()
-         && std::any_of(line->second.changes.begin(),
-                        line->second.changes.end(),
-                        [](const auto& x) { return x.insistent && x.make; });
-}
-
-/// A task and what nodes have told of it are gone from the books.
-task_waiters take_waiters(coordinator_pointer self, const std::string& task) {
-  auto& waiters = self->state.desk.waiters;
-  auto result = std::move(waiters[task]);
-  waiters.erase(task);
+/// The one way in which what waits for a task comes to its end: it is gone from
+/// the books, or is as it was before it was begun.
+/// @param why What the same request hears.
+void end_waiting(coordinator_pointer self, const task_terminated& reply,
+                 const caf::error& why) {
+  auto& st = self->state;
+  auto& waiters = st.desk.waiters;
+  const auto gone = std::move(waiters[reply.task]);
+  waiters.erase(reply.task);
+  st.orders.let_go_of(reply.task, self->clock().now());
+  wake(self);
+  for (auto promise : gone.terminations)
+    promise.deliver(reply);
+  for (auto promise : gone.same_requests)
+    promise.deliver(why);
+  for (const auto& next : gone.gone)
+    next();
+  end_turn(self, gone.turn);
   settle_awaited_deployments(self);
-  restore_preempted(self, task);
-  return result;
 }
 
 void tell_terminated(coordinator_pointer self, const task_terminated& reply) {
-  auto& st = self->state;
-  auto gone = take_waiters(self, reply.task);
-  st.tasks.remember_terminated(reply);
+  self->state.tasks.remember_terminated(reply);
   tell_of_task(
       self, "task_terminated", reply.task, reply.task,
       {{"instances", reply.instances}, {"pending_nodes", reply.pending_nodes}});
-  for (auto& promise : gone.terminations)
-    promise.deliver(reply);
-  for (auto& promise : gone.same_requests)
-    promise.deliver(terminated_meanwhile(reply.task));
-  for (const auto& next : gone.gone)
-    next();
+  end_waiting(self, reply, terminated_meanwhile(reply.task));
 }
 
 /// Whoever waits for a termination hears that it is not on disk, and may ask
@@ -120,20 +115,30 @@ void finish_termination(coordinator_pointer self, const std::string& task,
   remove_everywhere(self, removal);
 }
 
+caf::error first_failed(const std::string& reason) {
+  return fail(error_code::engine_failed,
+              "the first request for this task failed: " + reason, "/task",
+              "send it again");
+}
+
 /// A task of which nothing was placed anywhere has not failed: its request was
 /// refused, and that is told already.
 void tell_rolled_back(coordinator_pointer self, const std::string& task,
                       const std::string& reason, bool begun) {
-  auto gone = take_waiters(self, task);
-  for (auto& promise : gone.same_requests)
-    promise.deliver(fail(error_code::engine_failed,
-                         "the first request for this task failed: " + reason,
-                         "/task", "send it again"));
-  for (auto& promise : gone.terminations)
-    promise.deliver(task_terminated{task, {}, {}});
   if (begun)
     tell_of_task(self, "task_failed", task, task, {{"reason", reason}});
-  end_turn(self, gone.turn);
+  end_waiting(self, {task, {}, {}}, first_failed(reason));
+}
+
+/// A task that is rolled back is not gone yet. Whoever waits for the request
+/// hears what has become of it.
+void answer_early(coordinator_pointer self, const std::string& task,
+                  const std::string& reason,
+                  const std::vector<safety_wait>& waiting) {
+  auto& same = self->state.desk.waiters[task].same_requests;
+  for (auto& promise : std::exchange(same, {}))
+    promise.deliver(first_failed(reason));
+  answer_terminations(self, {task, {}, {}, waiting});
 }
 
 /// Writes down that a task is being ended. Without it a restart would take the
@@ -144,14 +149,6 @@ void record_ending(coordinator_pointer self, const std::string& task) {
     return with_state(std::move(record), task_state::terminating);
   };
   change_task(self, task, std::move(change));
-}
-
-/// Ends a task that has no pipeline and that nobody waits for.
-void end_task(coordinator_pointer self, const std::string& task) {
-  if (!self->state.tasks.begin_ending(task))
-    return;
-  record_ending(self, task);
-  finish_termination(self, task, false);
 }
 
 /// It is being ended already. Asked again, it is ended by force; nobody waits
@@ -168,6 +165,13 @@ void end_anyway(coordinator_pointer self, const task_termination& request) {
 }
 
 } // namespace
+
+void end_settled(coordinator_pointer self, const std::string& task) {
+  if (!self->state.tasks.begin_ending(task))
+    return;
+  record_ending(self, task);
+  finish_termination(self, task, false);
+}
 
 caf::error terminated_meanwhile(const std::string& task) {
   return fail(error_code::conflict,
@@ -233,18 +237,28 @@ void roll_back(coordinator_pointer self, const std::string& task,
   st.desk.waiters[task].owner = nullptr;
   // Before it was placed there was nothing to be begun.
   const bool begun = !st.tasks.find(task)->accepted.empty();
+  // Called once, whichever comes first.
+  const auto open = std::make_shared<std::function<void()>>(done);
+  const auto finish = [open] {
+    if (const auto next = std::exchange(*open, nullptr))
+      next();
+  };
   task_removal removal{task, also_on};
-  removal.done = [self, task, reason, begun, done](const auto&) {
+  removal.waits = [self, task, reason, finish](const auto& waiting) {
+    answer_early(self, task, reason, waiting);
+    finish();
+  };
+  removal.done = [self, task, reason, begun, finish](const auto&) {
     pending_change change;
     const auto former =
         std::exchange(self->state.desk.waiters[task].former, std::nullopt);
     if (former)
       change.make = [former](const task_record&) { return *former; };
     change.done = [self, task, reason, begun, former,
-                   done](const failure* why) {
+                   finish](const failure* why) {
       take_back(self, task, former, why != nullptr);
       tell_rolled_back(self, task, reason, begun);
-      done();
+      finish();
     };
     change_task(self, task, std::move(change));
   };
@@ -258,67 +272,6 @@ void on_owner_gone(coordinator_pointer self, const std::string& task) {
     roll_back(self, task, "the request that deployed it has ended", {}, [] {});
   else
     finish_termination(self, task, st.desk.waiters[task].force);
-}
-
-void record_ends(coordinator_pointer self, const std::string& task) {
-  auto& st = self->state;
-  if (!st.tasks.is_running(task) || st.deployments.untaken_ends(task).empty()
-      || has_waiting_ends(st, task))
-    return;
-  pending_change change;
-  change.still = &task_book::is_running;
-  change.insistent = true;
-  change.make = [self, task](task_record record) {
-    return with_ends(std::move(record),
-                     self->state.deployments.untaken_ends(task), unix_now_ms());
-  };
-  change.done = [self, task](const failure* why) {
-    if (why)
-      return;
-    record_ends(self, task);
-    settle_ended(self, task);
-  };
-  change_task(self, task, std::move(change));
-}
-
-void record_forced_end(coordinator_pointer self, const std::string& task,
-                       const std::string& instance, const std::string& reason,
-                       const std::function<void(const failure*)>& done) {
-  const instance_end end{instance, instance_state::failed, -1, reason,
-                         unix_now_ms()};
-  pending_change change;
-  change.still = &task_book::is_running;
-  change.insistent = true;
-  change.make = [end](task_record record) {
-    return with_ends(std::move(record), {end}, end.unix_ms);
-  };
-  change.done = [self, task, instance, done](const failure* why) {
-    self->state.deployments.heed_end(instance);
-    if (!why)
-      settle_ended(self, task);
-    done(why);
-  };
-  change_task(self, task, std::move(change));
-}
-
-void settle_ended(coordinator_pointer self, const std::string& task) {
-  auto& st = self->state;
-  const auto* entry = st.tasks.find(task);
-  if (!entry || entry->ending || !is_settled(entry->state))
-    return;
-  json data = json::object();
-  for (const auto& x : st.deployments.of_task(task))
-    if (x.end && x.end->exit_code != 0)
-      data["reason"] = "step '" + x.spec.step + "': " + x.end->reason;
-  if (const auto span = entry->ended_unix_ms - entry->submitted_unix_ms;
-      span > 0)
-    data["duration_s"] = static_cast<double>(span) / 1000;
-  tell_of_task(self,
-               entry->state == task_state::finished ? "task_finished"
-                                                    : "task_failed",
-               task, task, data);
-  for (const auto& old : st.tasks.superfluous())
-    end_task(self, old);
 }
 
 void after_deployments_on(coordinator_pointer self, const std::string& node,

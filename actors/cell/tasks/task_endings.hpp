@@ -7,7 +7,7 @@
 #include <vector>
 
 /// How the CELL COORDINATOR ends tasks: on request, when a deployment fails,
-/// and when too many are settled.
+/// and when too many are settled. How steps end is in step_ends.hpp.
 namespace roscell {
 
 caf::error terminated_meanwhile(const std::string& task);
@@ -15,7 +15,11 @@ caf::error terminated_meanwhile(const std::string& task);
 caf::result<task_terminated> terminate_task(coordinator_pointer self,
                                             const task_termination& request);
 
-/// Undoes a deployment, on these nodes too, then calls `done`.
+/// Undoes a deployment, on these nodes too. Calls `done` once all of it is
+/// gone, or as soon as it is known what has to be safe before.
+///
+/// Meanwhile the task may be terminated, by force too, and its nodes be lost;
+/// whoever waits for it is answered by `end_waiting`, and nowhere else.
 void roll_back(coordinator_pointer self, const std::string& task,
                const std::string& reason,
                const std::vector<std::string>& also_on,
@@ -25,19 +29,8 @@ void roll_back(coordinator_pointer self, const std::string& task,
 /// and what it was deploying is rolled back.
 void on_owner_gone(coordinator_pointer self, const std::string& task);
 
-/// Takes what the nodes have told of a task's ends into its record.
-void record_ends(coordinator_pointer self, const std::string& task);
-
-/// Writes down that an instance whose end is ignored so far was ended for that
-/// reason, whatever its exit code, and heeds its ends again. Then `done` is
-/// called: with a failure if the task is gone.
-void record_forced_end(coordinator_pointer self, const std::string& task,
-                       const std::string& instance, const std::string& reason,
-                       const std::function<void(const failure*)>& done);
-
-/// Tells what has become of a task whose steps have all ended, and forgets the
-/// oldest of these. Nothing happens while a step of it runs.
-void settle_ended(coordinator_pointer self, const std::string& task);
+/// Ends a task that has no pipeline and that nobody waits for.
+void end_settled(coordinator_pointer self, const std::string& task);
 
 /// Calls `done` once no task is being deployed to the node: at once if none is.
 /// Each deployment ends, at the latest with its time limit.

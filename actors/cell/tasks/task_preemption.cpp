@@ -1,12 +1,13 @@
 #include "actors/cell/tasks/task_preemption.hpp"
 
+#include "actors/cell/state/coordinator_timer.hpp"
 #include "actors/cell/state/task_story.hpp"
+#include "actors/cell/tasks/ordered_stops.hpp"
+#include "actors/cell/tasks/step_ends.hpp"
 #include "actors/cell/tasks/task_endings.hpp"
-#include "actors/cell/tasks/task_removals.hpp"
 #include "actors/cell/tasks/task_restart.hpp"
 #include "messages/failure.hpp"
 
-#include <algorithm>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -18,28 +19,30 @@ namespace {
 
 using outcome_handler = std::function<void(const failure*)>;
 
-/// It is gone. Its task knows, and whoever asks for that task again starts it.
-void record_eviction(coordinator_pointer self, const std::string& by,
+/// It is gone. Its task knows, and what it has made way for may have come to
+/// nothing meanwhile.
+void record_eviction(coordinator_pointer self, const make_way& wish,
                      const preempted_instance& x, const outcome_handler& done) {
-  if (!is_surely_gone(self->state, x.node, x.instance)) {
-    self->state.deployments.heed_end(x.instance);
-    const failure why{error_code::conflict, "nobody knows whether '" + x.task
-                                                + "/" + x.step + "' on node '"
-                                                + x.node + "' has ended"};
-    return done(&why);
-  }
   record_forced_end(self, x.task, x.instance,
-                    "it makes way for task '" + by + "'",
-                    [self, by, x, done](const failure* why) {
+                    "it makes way for task '" + wish.task + "'",
+                    [self, by = wish.task, done](const failure*) {
                       auto& st = self->state;
-                      if (!why)
-                        st.desk.preempted[by].push_back(x);
                       done(nullptr);
-                      // It was waited for too long, or the task was terminated
-                      // meanwhile.
-                      if (!st.tasks.is_deploying(by))
-                        restore_preempted(self, by);
+                      if (st.tasks.is_deploying(by))
+                        return;
+                      st.orders.let_go_of(by, self->clock().now());
+                      wake(self);
                     });
+}
+
+void tell_preempted(coordinator_pointer self, const make_way& wish,
+                    const preempted_instance& x) {
+  tell_of_task(self, "instance_preempted", x.task, x.instance,
+               {{"task", x.task},
+                {"step", x.step},
+                {"node", x.node},
+                {"priority", x.priority},
+                {"by", wish.task}});
 }
 
 void evict(coordinator_pointer self, const make_way& wish,
@@ -48,45 +51,55 @@ void evict(coordinator_pointer self, const make_way& wish,
   const auto* placed = st.deployments.find(x.instance, x.node);
   if (!placed || placed->end)
     return done(nullptr);
-  st.deployments.ignore_end(x.instance);
-  tell_of_task(self, "instance_preempted", x.task, x.instance,
-               {{"task", x.task},
-                {"step", x.step},
-                {"node", x.node},
-                {"priority", x.priority},
-                {"by", wish.task}});
-  remove_instance(
-      self, {x.node, x.task, x.instance},
-      [self, by = wish.task, x, done] { record_eviction(self, by, x, done); },
-      wish.force);
+  ordered_stop stop;
+  stop.task = x.task;
+  stop.node = x.node;
+  stop.order = {x.instance, "it makes way for task '" + wish.task + "'",
+                wish.task, x.priority};
+  stop.force = wish.force;
+  stop.still = [self, by = wish.task] {
+    return self->state.tasks.is_deploying(by);
+  };
+  stop.asked = [self, wish, x] { tell_preempted(self, wish, x); };
+  stop.done = [self, wish, x, done](stop_outcome outcome, const failure* why) {
+    if (outcome == stop_outcome::ended)
+      record_eviction(self, wish, x, done);
+    else
+      done(why);
+  };
+  stop_by_order(self, stop);
 }
 
-void restore(coordinator_pointer self, const preempted_instance& x) {
-  start_ended(self, x.task, {x.instance}, [self, x](const failure* why) {
-    // A task that is gone needs no place.
-    if (why && self->state.tasks.is_kept(x.task))
-      tell_of_task(
-          self, "step_stranded", x.task, x.instance,
-          {{"task", x.task}, {"node", x.node}, {"reason", why->message}});
+/// It has no place now.
+void put_off(coordinator_pointer self, const ordered_end& x,
+             const failure& why) {
+  auto& st = self->state;
+  const auto& instance = x.order.instance;
+  // A task that is gone needs no place.
+  if (!st.tasks.is_kept(x.task))
+    return st.orders.forget(instance);
+  if (st.orders.postpone(instance, why.code == error_code::conflict,
+                         self->clock().now()))
+    return set_timer(self);
+  drop_order(self, x.task, instance);
+  tell_of_task(self, "step_stranded", x.task, instance,
+               {{"task", x.task}, {"reason", why.message}});
+}
+
+void start_one_again(coordinator_pointer self, const ordered_end& x) {
+  const auto& instance = x.order.instance;
+  const auto* placed = self->state.deployments.find(instance);
+  if (!placed || !placed->end || !self->state.tasks.is_kept(x.task))
+    return self->state.orders.forget(instance);
+  start_ended(self, x.task, {instance}, [self, x](const failure* why) {
+    if (why)
+      put_off(self, x, *why);
+    else
+      self->state.orders.forget(x.order.instance);
   });
 }
 
 } // namespace
-
-std::vector<evictable_instance> evictable_in(const cell_coordinator_state& st) {
-  std::vector<evictable_instance> result;
-  for (const auto& [task, entry] : st.tasks.entries()) {
-    if (!st.tasks.is_running(task))
-      continue;
-    for (const auto& x : st.deployments.of_task(task))
-      if (!x.end && !x.tentative)
-        result.push_back(
-            {{x.spec.instance, task, x.spec.step, x.node, x.spec.life.priority},
-             x.spec.resources,
-             x.spec.gpu});
-  }
-  return result;
-}
 
 caf::result<way_made> clear_way(coordinator_pointer self,
                                 const make_way& wish) {
@@ -115,18 +128,18 @@ caf::result<way_made> clear_way(coordinator_pointer self,
   return promise;
 }
 
-void restore_preempted(coordinator_pointer self, const std::string& task) {
-  auto& known = self->state.desk.preempted;
-  const auto found = known.find(task);
-  if (found == known.end())
-    return;
-  auto gone = std::move(found->second);
-  known.erase(found);
-  std::stable_sort(gone.begin(), gone.end(), [](const auto& x, const auto& y) {
-    return x.priority > y.priority;
-  });
-  for (const auto& x : gone)
-    restore(self, x);
+void restore_orders(coordinator_pointer self) {
+  auto& st = self->state;
+  for (const auto& [task, entry] : st.tasks.entries())
+    for (const auto& order : entry.orders)
+      if (const auto* placed = st.deployments.find(order.instance))
+        st.orders.restore(task, order, placed->end.has_value(),
+                          self->clock().now());
+}
+
+void start_due_again(coordinator_pointer self) {
+  for (const auto& x : self->state.orders.take_due(self->clock().now()))
+    start_one_again(self, x);
 }
 
 } // namespace roscell

@@ -35,15 +35,38 @@ void remember_overdue(coordinator_pointer self, const std::string& task,
   set_timer(self);
 }
 
-/// The instance ends by itself; it is asked for again when it has.
+using time_point = std::chrono::steady_clock::time_point;
+
+/// The instance ends by itself; it is asked for again when it has. It may have
+/// before this was told, or its node be away by now.
 void await_safety(coordinator_pointer self, const safety_wait& wait,
-                  const std::function<void()>& done) {
+                  const std::function<void()>& done, time_point until) {
+  auto& st = self->state;
+  if (is_away(st, wait.node))
+    return done();
+  if (!st.failures.find(wait.instance, self->clock().now())) {
+    st.desk.removals.add({wait.node, wait.task, wait.instance},
+                         self->clock().now());
+    set_timer(self);
+    return done();
+  }
   tell_of_task(self, "instance_awaited", wait.task, wait.instance,
                {{"task", wait.task},
                 {"step", wait.step},
                 {"node", wait.node},
                 {"until_unix_ms", wait.until_unix_ms}});
-  self->state.desk.unsafe.push_back({wait, done});
+  st.desk.unsafe.push_back({wait, done, until});
+  set_timer(self);
+}
+
+/// A node has answered: all that it had of a task there has ended but this.
+void note_removed(coordinator_pointer self, const std::string& uuid,
+                  const std::string& task,
+                  const std::vector<safety_wait>& waiting) {
+  std::set<std::string> left;
+  for (const auto& x : waiting)
+    left.insert(x.instance);
+  self->state.failures.end_all(uuid, task, left);
 }
 
 /// A task's removal, as the nodes answer.
@@ -66,23 +89,28 @@ void on_node_answered(const std::shared_ptr<removal_tally>& tally) {
   count_down(tally);
 }
 
-void ask_node(coordinator_pointer self, const std::string& node,
-              const node_agent_actor& agent,
+void ask_node(coordinator_pointer self, const registry_entry& entry,
               const std::shared_ptr<removal_tally>& tally) {
   const auto& task = tally->wish.task;
-  self->request(agent, limits::task::removal_answer,
+  const auto& node = entry.row.identity.name;
+  self->request(entry.agent, limits::task::removal_answer,
                 instance_removal{task, "", tally->wish.force})
       .then(
-          [self, node, tally](const instances_removed& reply) {
+          [self, node, uuid = entry.row.identity.uuid,
+           tally](const instances_removed& reply) {
+            note_removed(self, uuid, tally->wish.task, reply.waiting);
             for (auto wait : reply.waiting) {
               wait.node = node;
               ++tally->open;
               tally->waiting.push_back(wait);
-              await_safety(self, wait, [self, node, tally] {
-                if (is_away(self->state, node))
-                  tally->away.insert(node);
-                count_down(tally);
-              });
+              await_safety(
+                  self, wait,
+                  [self, node, tally] {
+                    if (is_away(self->state, node))
+                      tally->away.insert(node);
+                    count_down(tally);
+                  },
+                  time_point::max());
             }
             on_node_answered(tally);
           },
@@ -128,13 +156,14 @@ void remove_everywhere(coordinator_pointer self, const task_removal& wish) {
     }
     ++tally->asked;
     ++tally->open;
-    ask_node(self, node, self->state.registry.find_name(node)->agent, tally);
+    ask_node(self, *self->state.registry.find_name(node), tally);
   }
   on_node_answered(tally);
 }
 
 void remove_instance(coordinator_pointer self, const overdue_removal& what,
-                     const std::function<void()>& done, bool force) {
+                     const std::function<void()>& done, bool force,
+                     time_point until) {
   const auto* entry = self->state.registry.find_name(what.node);
   // A node that is away is told what to stop when it registers.
   if (!entry || !entry->agent) {
@@ -144,25 +173,22 @@ void remove_instance(coordinator_pointer self, const overdue_removal& what,
   self->request(entry->agent, limits::task::removal_answer,
                 instance_removal{what.task, what.instance, force})
       .then(
-          [self, what, done](const instances_removed& reply) {
+          [self, what, done, until,
+           uuid = entry->row.identity.uuid](const instances_removed& reply) {
             self->state.desk.removals.settle(what);
-            if (reply.waiting.empty())
+            if (reply.waiting.empty()) {
+              self->state.failures.end(uuid, what.instance);
               return done();
+            }
             auto wait = reply.waiting.front();
             wait.node = what.node;
-            await_safety(self, wait, done);
+            await_safety(self, wait, done, until);
           },
           [self, what, done](const caf::error&) {
             self->state.desk.removals.add(what, self->clock().now());
             set_timer(self);
             done();
           });
-}
-
-bool is_surely_gone(const cell_coordinator_state& st, const std::string& node,
-                    const std::string& instance) {
-  const auto* row = st.deployments.told(node, instance);
-  return row ? !is_live(row->state) : !is_away(st, node);
 }
 
 void force_removals(coordinator_pointer self, const std::string& task) {
@@ -202,14 +228,31 @@ void on_instance_gone(coordinator_pointer self, const std::string& node,
     return x.node == node && x.instance == instance;
   };
   // It has ended; what it has left is still to be removed.
+  self->state.desk.removals.settle({node, "", instance});
   for (const auto& x : take_waits(self, is_it))
-    remove_instance(self, {node, x.wait.task, instance}, x.done);
+    remove_instance(self, {node, x.wait.task, instance}, [done = x.done] {
+      if (done)
+        done();
+    });
 }
 
 void give_up_waits_on(coordinator_pointer self, const std::string& node) {
   for (const auto& x : take_waits(
            self, [&](const safety_wait& wait) { return wait.node == node; }))
-    x.done();
+    if (x.done)
+      x.done();
+}
+
+void give_up_late_waits(coordinator_pointer self) {
+  std::vector<std::function<void()>> late;
+  for (auto& x : self->state.desk.unsafe)
+    if (x.until <= self->clock().now()) {
+      // It is removed all the same when it has ended.
+      x.until = time_point::max();
+      late.push_back(std::exchange(x.done, nullptr));
+    }
+  for (const auto& done : late)
+    done();
 }
 
 void ask_overdue_removals(coordinator_pointer self) {

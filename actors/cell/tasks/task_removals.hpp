@@ -2,6 +2,7 @@
 
 #include "actors/cell/state/coordinator_state.hpp"
 
+#include <chrono>
 #include <functional>
 #include <string>
 #include <vector>
@@ -26,18 +27,15 @@ struct task_removal {
 void remove_everywhere(coordinator_pointer self, const task_removal& wish);
 
 /// Has a node remove one instance, then goes on. One that is overdue is asked
-/// for again, whatever comes next; one that is not safe yet is waited for.
+/// for again, whatever comes next; one that is not safe yet is waited for,
+/// until then. So what comes next asks whether it is gone.
 void remove_instance(coordinator_pointer self, const overdue_removal& what,
-                     const std::function<void()>& done, bool force = false);
+                     const std::function<void()>& done, bool force = false,
+                     std::chrono::steady_clock::time_point until =
+                         std::chrono::steady_clock::time_point::max());
 
 /// Whether a node cannot be asked for anything: it is lost, or gone.
 bool is_away(const cell_coordinator_state& st, const std::string& node);
-
-/// Whether a node has told that an instance on it has ended, which it does not
-/// start again by itself, or is there and knows none. Whoever was to remove it
-/// may have given up.
-bool is_surely_gone(const cell_coordinator_state& st, const std::string& node,
-                    const std::string& instance);
 
 /// Does not wait any longer for what of a task is not safe.
 void force_removals(coordinator_pointer self, const std::string& task);
@@ -56,6 +54,9 @@ void on_instance_gone(coordinator_pointer self, const std::string& node,
 /// A node is away, so nothing of it is waited for: it is told what to stop when
 /// it comes back.
 void give_up_waits_on(coordinator_pointer self, const std::string& node);
+
+/// Goes on where what is not safe was waited for long enough.
+void give_up_late_waits(coordinator_pointer self);
 
 /// Asks once more for what is overdue.
 void ask_overdue_removals(coordinator_pointer self);

@@ -1,8 +1,9 @@
 #include "actors/cell/tasks/task_restart.hpp"
 
-#include "actors/cell/moves/move_stages.hpp"
-#include "actors/cell/tasks/task_endings.hpp"
-#include "actors/cell/tasks/task_removals.hpp"
+#include "actors/cell/moves/move_end.hpp"
+#include "actors/cell/moves/move_run.hpp"
+#include "actors/cell/tasks/ordered_stops.hpp"
+#include "actors/cell/tasks/step_ends.hpp"
 #include "actors/cell/tasks/task_turns.hpp"
 #include "actors/cell/tasks/task_views.hpp"
 #include "messages/failure.hpp"
@@ -64,15 +65,13 @@ void start_again(coordinator_pointer self, const move_ptr& move,
     return fail_move(self, move, *why);
   const auto request = request_of(*st.tasks.find(task));
   if (!request)
-    return fail_move(
-        self, move,
-        {error_code::internal, "task '" + task + "' has no request any more"});
+    return fail_move(self, move, without_request(task));
   for (const auto& x : st.deployments.of_task(task))
     if (has(wanted, x.spec.instance))
       if (auto why = add_moved_step(self, *move, *request, x,
                                     has(stay, x.spec.instance) ? x.node : ""))
         return fail_move(self, move, *why);
-  place_move(self, move);
+  run_move(self, move);
 }
 
 void take_turn_to_start(coordinator_pointer self, const std::string& task,
@@ -89,26 +88,38 @@ void take_turn_to_start(coordinator_pointer self, const std::string& task,
             });
 }
 
-/// Ends these instances of a task on their nodes, then goes on.
-void end_instances(coordinator_pointer self, const std::string& task,
-                   const instance_list& instances, bool force,
-                   const std::function<void()>& next) {
-  auto open = std::make_shared<size_t>(instances.size() + 1);
-  auto finish = [open, next] {
-    if (--*open == 0)
-      next();
+/// Ends these instances of a task on their nodes, then goes on, with the first
+/// problem or null.
+///
+/// Meanwhile each may end by itself, and is started again all the same.
+void end_instances(coordinator_pointer self, const task_restart& request,
+                   const instance_list& instances, const done_handler& next) {
+  struct tally {
+    size_t open = 1;
+    std::optional<failure> problem;
+  };
+  auto all = std::make_shared<tally>();
+  const auto finish = [all, next](const failure* why) {
+    if (why && !all->problem)
+      all->problem = *why;
+    if (--all->open == 0)
+      next(all->problem ? &*all->problem : nullptr);
   };
   for (const auto& instance : instances) {
     const auto* x = self->state.deployments.find(instance);
-    if (!x) {
-      finish();
+    if (!x)
       continue;
-    }
-    const auto node = x->node;
-    self->state.deployments.ignore_end(instance);
-    remove_instance(self, {node, task, instance}, finish, force);
+    ++all->open;
+    ordered_stop stop;
+    stop.task = request.task;
+    stop.node = x->node;
+    stop.order = {instance, "it was ended to be started again", "", 5};
+    stop.force = request.force;
+    stop.has_successor = true;
+    stop.done = [finish](stop_outcome, const failure* why) { finish(why); };
+    stop_by_order(self, stop);
   }
-  finish();
+  finish(nullptr);
 }
 
 /// What a restart is about; or why there can be none.
@@ -129,6 +140,8 @@ restart_plan plan_restart(const cell_coordinator_state& st,
     if (x.end)
       continue;
     result.running.push_back(x.spec.instance);
+    if (!result.problem)
+      result.problem = why_not_ordered(st, x.spec.instance);
     const auto* node = st.registry.find_name(x.node);
     if (!result.problem && (!node || !node->agent))
       result.problem =
@@ -157,20 +170,6 @@ instance_list all_instances(const cell_coordinator_state& st,
   for (const auto& x : st.deployments.of_task(task))
     result.push_back(x.spec.instance);
   return result;
-}
-
-/// What was ended and does not run again has failed by that, even if its
-/// program has ended with 0.
-void heed_ended(coordinator_pointer self, const std::string& task,
-                const std::string& instance, const failure* why) {
-  auto& deployments = self->state.deployments;
-  const auto* x = deployments.find(instance);
-  if (why && x && is_surely_gone(self->state, x->node, instance))
-    record_forced_end(self, task, instance,
-                      "it was ended to be started again: " + why->message,
-                      [](const failure*) {});
-  else
-    deployments.heed_end(instance);
 }
 
 } // namespace
@@ -228,7 +227,9 @@ caf::result<task_restarted> restart_task(coordinator_pointer self,
   auto finish = [self, request, before, plan,
                  promise](const failure* why) mutable {
     for (const auto& instance : plan.running)
-      heed_ended(self, request.task, instance, why);
+      end_as_ordered(self, request.task, instance,
+                     "it was ended to be started again: "
+                         + (why ? why->message : ""));
     record_ends(self, request.task);
     if (why)
       promise.deliver(to_error(*why));
@@ -236,10 +237,13 @@ caf::result<task_restarted> restart_task(coordinator_pointer self,
       promise.deliver(task_restarted{
           request.task, new_instances(self->state, request, before)});
   };
-  end_instances(self, request.task, plan.running, request.force,
-                [self, request, plan, finish] {
-                  take_turn_to_start(self, request.task, plan.wanted,
-                                     plan.running, finish);
+  end_instances(self, request, plan.running,
+                [self, request, plan, finish](const failure* why) mutable {
+                  if (why)
+                    finish(why);
+                  else
+                    take_turn_to_start(self, request.task, plan.wanted,
+                                       plan.running, finish);
                 });
   return promise;
 }

@@ -2,9 +2,11 @@
 
 #include "actors/cell/state/coordinator_publish.hpp"
 #include "actors/cell/state/coordinator_store.hpp"
+#include "actors/cell/state/coordinator_timer.hpp"
 #include "actors/cell/state/transfer_end.hpp"
 #include "actors/cell/transfers/transfer_instances.hpp"
 #include "actors/cell/transfers/transfer_switch.hpp"
+#include "actors/house/limits.hpp"
 #include "messages/failure.hpp"
 
 #include <utility>
@@ -93,9 +95,11 @@ void on_transfer_kept(coordinator_pointer self, const std::string& id,
   if (const auto* proposed = st.transfers.find_proposed(id))
     end_unresolved(self, proposed->row.uuid);
   st.transfers.open(id);
-  const auto* x = st.transfers.find_open(id);
+  auto* x = st.transfers.find_open(id);
   if (!x)
     return;
+  x->deadline = self->clock().now() + limits::transfer::preparing;
+  set_timer(self);
   auto* entry = st.registry.find_uuid(x->row.uuid);
   if (!entry)
     return call_off_transfer(self, id, came_back(wish.node));

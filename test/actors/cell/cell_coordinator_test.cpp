@@ -21,7 +21,7 @@ instance_spec some_spec(const std::string& id, const std::string& task) {
   instance_spec result;
   result.instance = id;
   result.task = task;
-  result.step = "s0";
+  result.step = id;
   result.operation = "echo";
   result.model = "plain";
   result.deployment = "cpu-1";

@@ -276,9 +276,29 @@ paper_cell::paper_cell(const std::vector<task_record>& tasks,
   context.events = caf::actor_cast<event_log_actor>(fact_keeper);
   searches = std::make_shared<search_guard>();
   planner = spawn_planner(time.system, context, searches);
-  coordinator = spawn(time.system, context, cell_coordinator, context,
-                      setup(tasks, on_base));
-  base.coordinator = coordinator;
+  start_parts(setup(tasks, on_base));
+}
+
+void paper_cell::begin_anew() {
+  time.kill(router);
+  time.kill(coordinator);
+  writes.clear();
+  std::vector<task_record> tasks;
+  for (const auto& [task, record] : disk)
+    tasks.push_back(record.get<task_record>());
+  auto how = setup(tasks, {});
+  how.incarnation = 4;
+  for (const auto& [uuid, record] : members)
+    how.members.push_back(record.get<member_record>());
+  for (const auto& [uuid, record] : drains)
+    how.drains.push_back(record.get<drain_record>());
+  start_parts(how);
+}
+
+void paper_cell::start_parts(const coordinator_setup& how) {
+  coordinator = spawn(time.system, context, cell_coordinator, context, how);
+  for (const auto& x : agents)
+    x->coordinator = coordinator;
   auto services = std::make_shared<node_services>();
   services->context = context;
   services->coordinator = coordinator;
@@ -416,6 +436,7 @@ void paper_cell::write(const store_record& x) {
   auto* table = x.table == "tasks"     ? &disk
                 : x.table == "history" ? &history
                 : x.table == "drains"  ? &drains
+                : x.table == "members" ? &members
                                        : nullptr;
   if (table == nullptr)
     return;

@@ -90,7 +90,8 @@ struct paper_cell {
   virtual_time time;
   std::map<std::string, json> disk;    ///< Records of the table "tasks".
   std::map<std::string, json> history; ///< The same of that table,
-  std::map<std::string, json> drains;  ///< and of that.
+  std::map<std::string, json> drains;  ///< of that one,
+  std::map<std::string, json> members; ///< and of that one.
   bool disk_full = false;
   bool slow_disk = false; ///< Writes when told to.
   std::vector<std::pair<caf::response_promise, store_records>> writes;
@@ -127,6 +128,9 @@ struct paper_cell {
   json request_text(const std::string& text);
   pending_reply post(const json& document);
 
+  /// The coordinator is killed, and begins anew with what is on the disk.
+  void begin_anew();
+
   void write(const store_record& x);
   void finish_writes();
 
@@ -135,6 +139,7 @@ struct paper_cell {
   size_t count(const std::string& fact) const;
 
 private:
+  void start_parts(const coordinator_setup& how);
   coordinator_setup setup(const std::vector<task_record>& tasks,
                           const std::vector<instance_row>& on_base);
 };

@@ -188,6 +188,35 @@ TEST_CASE_METHOD(lossy_cell, "A place that comes to nothing is tried again",
   CHECK(node_of_a() == "right");
 }
 
+TEST_CASE("Where the new place is lost, too, its fence is waited for",
+          "[lost_steps]") {
+  lossy_cell x{movable_step(60)};
+  auto& third = x.add("third");
+  third.has.cpu.used = 4;
+  x.right.mood = temper::slow;
+  x.lose(x.left);
+  x.time.advance(61s);
+  REQUIRE(x.right.starting.size() == 1);
+  third.has.cpu.used = 0;
+  // A member that is lost fails what it was asked for before it is told of.
+  SECTION("at once") {
+    x.right.fail_starting("node 'right' is out of reach");
+    x.time.settle();
+  }
+  SECTION("some time after the program did not come up") {
+    x.right.fail_starting("no camera");
+    x.time.settle();
+    x.right.silent = x.right.slow_removals = true;
+    x.time.advance(100ms);
+  }
+  x.lose(x.right);
+  x.time.advance(59s);
+  CHECK(third.running.empty());
+  CHECK(third.deployments.empty());
+  x.time.advance(limits::retry::longest);
+  CHECK(third.running.size() == 1);
+}
+
 TEST_CASE_METHOD(lossy_cell, "A task that is ended meanwhile moves nowhere",
                  "[lost_steps]") {
   lose(left);
@@ -245,6 +274,7 @@ TEST_CASE_METHOD(lossy_cell,
                  "[lost_steps]") {
   const auto again = echo_task("a", {movable_step(30)});
   auto row = left.running.begin()->second;
+  left.slow_removals = true;
   lose(left);
   request({{"type", "task_termination"}, {"task", "a"}});
   const auto back = enter(left);
@@ -342,6 +372,31 @@ TEST_CASE_METHOD(lossy_cell,
   CHECK(twin.running.empty());
   time.advance(11s);
   CHECK(right.running.size() == 1);
+}
+
+TEST_CASE("What was given up holds its step over a restart of the coordinator",
+          "[lost_steps]") {
+  lossy_cell before{movable_step(60)};
+  before.right.mood = temper::slow;
+  before.post({{"type", "node_release"},
+               {"node", "left"},
+               {"instances", "reschedule"}});
+  REQUIRE(before.right.starting.size() == 1);
+  // The new one may run on there, and is no longer wanted.
+  before.lose(before.right);
+  before.right.fail_starting("node 'right' is out of reach");
+  before.time.settle();
+  REQUIRE(before.node_of_a() == "left");
+  const auto record = before.disk.at("a").get<task_record>();
+  REQUIRE(record.specs.size() == 1);
+  paper_cell after{{record}};
+  after.base.has.cpu.used = 4;
+  // The host of the old one has been switched off and on meanwhile.
+  auto& left = after.add("left");
+  after.time.advance(59s);
+  CHECK(left.running.empty());
+  after.time.advance(limits::retry::longest);
+  CHECK(left.running.size() == 1);
 }
 
 TEST_CASE("A coordinator that starts again counts from its start",

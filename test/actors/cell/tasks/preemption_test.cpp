@@ -204,6 +204,81 @@ TEST_CASE_METHOD(full_cell,
   CHECK(back->verdicts.at(0).what == verdict::keep);
 }
 
+/// The same cell, whose coordinator has begun anew.
+struct again_cell : paper_cell {
+  fake_agent& left = make_agent("left");
+
+  explicit again_cell(const full_cell& before)
+      : paper_cell(records_of(before)) {
+    left.skills = {echo_skill(), grasp_skill()};
+    left.running = before.left.running;
+    base.has.cpu.used = 4;
+  }
+
+  static std::vector<task_record> records_of(const full_cell& before) {
+    std::vector<task_record> result;
+    for (const auto& [task, record] : before.disk)
+      result.push_back(record.get<task_record>());
+    return result;
+  }
+
+  json low() {
+    return request({{"type", "task_query"}, {"task", "low"}}).at("tasks").at(0);
+  }
+};
+
+TEST_CASE_METHOD(full_cell,
+                 "What was told to make way has not finished, though the "
+                 "coordinator began anew",
+                 "[preempt]") {
+  const auto instance = low_instance();
+  left.unsafe.insert(instance);
+  post(high("yes"));
+  time.advance(1s);
+  left.running.at(instance).unsafe_since_unix_ms = 1;
+  again_cell after{*this};
+  REQUIRE(after.enter(after.left));
+  after.time.settle();
+  CHECK(after.tasks().size() == 1);
+  auto row = after.left.running.at(instance);
+  after.left.running.erase(instance);
+  row.state = instance_state::stopped;
+  row.exit_code = 0;
+  SECTION("there is room again") {
+    after.left.tell(row);
+    after.time.advance(1min);
+    CHECK(after.low().at("state") == "running");
+    CHECK(after.left.running.size() == 1);
+  }
+  SECTION("there is none") {
+    after.left.has.cpu.used = 4;
+    after.left.tell(row);
+    after.time.advance(10min);
+    CHECK(after.low().at("state") == "failed");
+    CHECK(after.low().at("instances")[0].at("reason")
+          == "it makes way for task 'high'");
+    CHECK(after.count("step_stranded") == 1);
+  }
+  CHECK(after.count("task_finished") == 0);
+}
+
+TEST_CASE_METHOD(full_cell,
+                 "What made way comes back, though the coordinator began anew",
+                 "[preempt]") {
+  left.mood = temper::slow;
+  post(high("yes"));
+  time.settle();
+  REQUIRE(left.starting.size() == 1);
+  REQUIRE(of_task("low").at("state") == "failed");
+  again_cell after{*this};
+  after.left.running.clear();
+  after.time.advance(10s);
+  REQUIRE(after.enter(after.left));
+  after.time.advance(1min);
+  CHECK(after.low().at("state") == "running");
+  CHECK(after.left.running.size() == 1);
+}
+
 TEST_CASE_METHOD(full_cell, "A plan shows what would have to go", "[preempt]") {
   auto query = high("none");
   query["type"] = "task_plan_query";

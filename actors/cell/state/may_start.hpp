@@ -1,0 +1,59 @@
+#pragma once
+
+#include "actors/cell/state/coordinator_state.hpp"
+#include "messages/failure.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+/// What whoever starts an instance asks first, and how the node failure table
+/// hears of facts. Nothing of a step is started while another instance of it
+/// may run.
+namespace roscell {
+
+/// Whether it may be placed anew where its node is lost.
+bool may_move(const instance_spec& x);
+
+/// Whether its host may start it without the coordinator.
+bool starts_alone(const instance_spec& x);
+
+/// Whose place an instance takes.
+struct start_wish {
+  std::string task;
+  std::string step;
+  std::string replaces; ///< Empty: nobody's.
+  /// That one runs on until the new one does, as long as its node is there.
+  bool beside = false;
+};
+
+/// Why it must not be started now; null: it may.
+std::optional<failure> why_not_yet(coordinator_pointer self,
+                                   const start_wish& wish);
+
+/// It is about to be told to start there. False: too many are known.
+bool note_start(coordinator_pointer self, const instance_spec& spec,
+                const std::string& node);
+
+/// A node has told of it. What has ended may have a successor.
+void note_told(coordinator_pointer self, const instance_row& row,
+               const std::string& node);
+
+/// Whether it surely does not run.
+bool is_surely_gone(coordinator_pointer self, const std::string& instance);
+
+/// Why a task must not be begun yet: a step of its name that nobody wants any
+/// more may still run.
+/// @param force Hosts that would start one alone are off, somebody says.
+std::optional<failure> remains_of(coordinator_pointer self,
+                                  const std::string& task, bool force);
+
+/// The record of a task, with what it has given up and may run on.
+task_record with_left(coordinator_pointer self, task_record record);
+
+/// Where instances of stored tasks may run, as the coordinator starts; also of
+/// those that it drops.
+void restore_places(coordinator_pointer self,
+                    const std::vector<task_record>& stored);
+
+} // namespace roscell
