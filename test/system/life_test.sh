@@ -235,6 +235,36 @@ test_what_runs_makes_way_for_a_task_of_higher_priority() {
   has_line 'runs once more, run 2' "$scratch/said" || fail "$(cat "$scratch/said")"
 }
 
+test_what_makes_way_has_not_finished_though_the_coordinator_is_killed() {
+  local said
+  make_worker
+  make_heavy 600
+  start_node head --coordinator --cell line --interface lo \
+    --capacity memory_mib=100
+  server=$(discovery_of head)
+  start_node arm --interface lo --join "$server" --capacity memory_mib=1000
+  await_joined head arm
+  work_task low '{"id": "a", "priority": 2, "parameters": {"careful": true}}' \
+    > "$scratch/low.json"
+  work_task high '{"id": "b", "priority": 8}' > "$scratch/high.json"
+  to head run "$scratch/low.json" > /dev/null
+  to head run "$scratch/high.json" --preempt --yes > "$scratch/said" 2>&1 &
+  said=$!
+  await head '.event == "instance_awaited" and .data.task == "low"' > /dev/null
+  stop_node head KILL
+  wait "$said"
+  start_node head --coordinator --cell line --interface lo \
+    --capacity memory_mib=100
+  await_joined head arm
+  # It is safe only now, and its program ends with 0.
+  order safe a
+  await head '.event == "instance_restarted" and .data.task == "low"' > /dev/null
+  expect "the task" "$(get head /v1/tasks/low | jq -r '.tasks[0].state')" running
+  expect "starts" "$(wc -l < "$scratch/orders/starts")" 2
+  expect "words of success" "$(to head tasks low --history | grep -c finished)" 0
+  expect "the other task" "$(get head /v1/tasks | jq '.tasks | length')" 1
+}
+
 test_a_cell_is_brought_nearer_to_its_optimum() {
   local task
   make_worker
