@@ -117,15 +117,21 @@ bool is_there(const cell_coordinator_state& st, const std::string& uuid) {
   return entry && entry->agent;
 }
 
-/// What is being deployed cannot be moved before it runs.
+void refuse_absent(coordinator_pointer self, const drain_record& drain) {
+  const failure away{error_code::conflict, "the node is away"};
+  on_moved(self, drain, &away);
+}
+
+/// What is being deployed cannot be moved before it runs; meanwhile the node
+/// may be lost.
 void move_away(coordinator_pointer self, const drain_record& drain) {
   self->state.drains.begin(drain.uuid);
-  if (!is_there(self->state, drain.uuid)) {
-    const failure away{error_code::conflict, "the node is away"};
-    return on_moved(self, drain, &away);
-  }
+  if (!is_there(self->state, drain.uuid))
+    return refuse_absent(self, drain);
   const auto node = name_of(self->state, drain);
   after_deployments_on(self, node, [self, drain, node] {
+    if (!is_there(self->state, drain.uuid))
+      return refuse_absent(self, drain);
     const auto tasks = self->state.deployments.tasks_bound_to(node);
     move_tasks(self, node, tasks, [self, drain](const failure* why) {
       on_moved(self, drain, why);
