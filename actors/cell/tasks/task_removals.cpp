@@ -1,6 +1,7 @@
 #include "actors/cell/tasks/task_removals.hpp"
 
 #include "actors/cell/state/coordinator_timer.hpp"
+#include "actors/cell/state/may_start.hpp"
 #include "actors/cell/state/task_story.hpp"
 #include "actors/house/limits.hpp"
 
@@ -201,7 +202,7 @@ void force_removals(coordinator_pointer self, const std::string& task) {
   // What has been asked politely to end has no more time for it.
   for (const auto& x : st.deployments.of_task(task))
     if (waiting.count(x.spec.instance) == 0
-        && !is_surely_gone(st, x.node, x.spec.instance))
+        && !is_surely_gone(self, x.spec.instance))
       remove_instance(
           self, {x.node, task, x.spec.instance}, [] {}, true);
 }
