@@ -24,11 +24,14 @@ namespace roscell {
 
 namespace {
 
-/// Whether a task wants the node to keep it.
-bool is_wanted(const cell_coordinator_state& st, const std::string& instance,
+/// Whether a task wants the node to keep it. What has ended there is shown as
+/// long as its task is; what runs though it is over is ended.
+bool is_wanted(const cell_coordinator_state& st, const instance_row& x,
                const std::string& node) {
+  const auto& instance = x.spec.instance;
   const auto* placed = st.deployments.find(instance, node);
   return placed && st.tasks.is_kept(placed->spec.task)
+         && !(placed->end && is_live(x.state))
          && !st.failures.is_given_up(instance);
 }
 
@@ -117,7 +120,7 @@ std::vector<instance_verdict> reconcile(coordinator_pointer self,
     const auto& id = x.spec.instance;
     known.insert(id);
     const auto* placed = st.deployments.find(id, node.identity.name);
-    const bool wanted = is_wanted(st, id, node.identity.name)
+    const bool wanted = is_wanted(st, x, node.identity.name)
                         && (x.state != instance_state::backing_off
                             || !is_held(self, placed->spec, node.identity));
     result.push_back({id, wanted ? verdict::keep : verdict::stop, {}});
@@ -228,7 +231,7 @@ std::vector<instance_verdict> take_up_instances(coordinator_pointer self,
   st.deployments.forget_node(name);
   std::set<std::string> tasks;
   for (auto x : node.instances) {
-    if (!is_wanted(st, x.spec.instance, name)) {
+    if (!is_wanted(st, x, name)) {
       // It is there until the node has ended it.
       if (is_live(x.state)) {
         tell_unwanted(self, x, name);
@@ -252,7 +255,7 @@ std::vector<instance_verdict> take_up_instances(coordinator_pointer self,
   // for until it has ended.
   st.desk.removals.forget_node(name);
   for (const auto& x : node.instances)
-    if (is_live(x.state) && !is_wanted(st, x.spec.instance, name))
+    if (is_live(x.state) && !is_wanted(st, x, name))
       st.desk.removals.add({name, x.spec.task, x.spec.instance},
                            self->clock().now());
   set_timer(self);
@@ -290,7 +293,7 @@ void on_instance_changed(coordinator_pointer self,
     return;
   note_told(self, x, *node);
   const bool news = !differs_in_words_only(st.deployments.told(*node, id), x);
-  if (is_wanted(st, id, *node) || is_live(x.state))
+  if (is_wanted(st, x, *node) || is_live(x.state))
     st.deployments.tell(*node, with_own_spec(st, x, *node));
   else
     st.deployments.forget_told(*node, id);

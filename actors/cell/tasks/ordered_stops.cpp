@@ -79,7 +79,8 @@ void end_as_ordered(coordinator_pointer self, const std::string& task,
   auto& st = self->state;
   if (!st.orders.find(instance))
     return st.deployments.heed_end(instance);
-  if (is_surely_gone(self, instance)) {
+  // What its fence has ended is to be placed anew: it has not failed.
+  if (is_surely_gone(self, instance) && !st.failures.find_lost(instance)) {
     record_forced_end(self, task, instance, reason, [](const failure*) {});
     return drop_order(self, task, instance);
   }

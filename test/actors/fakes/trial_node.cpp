@@ -32,17 +32,13 @@ caf::behavior trial_node::act(caf::event_based_actor* self) {
   return {
       [=](const resource_query&) {
         auto promise = self->make_response_promise();
-        if (takes_order())
+        if (is_reached_by(promise))
           promise.deliver(report());
-        else
-          unanswered_.push_back(promise);
       },
       [=](const instance_reservation& wish) {
         auto promise = self->make_response_promise();
-        if (!takes_order()) {
-          unanswered_.push_back(promise);
+        if (!is_reached_by(promise))
           return;
-        }
         instances_reserved reply;
         if (site_.chance(4))
           reply.refused.push_back({wish.specs.front().instance, "too busy"});
@@ -56,8 +52,7 @@ caf::behavior trial_node::act(caf::event_based_actor* self) {
       },
       [=](const figures_query&) { return figures_report{}; },
       [=](const registration_switch& order) {
-        departing_ = true;
-        return switch_accepted{order.epoch + 1};
+        on_switch(self->make_response_promise(), order);
       },
       [=](const close_session&) {
         linked_ = false;
@@ -76,10 +71,19 @@ void trial_node::inside(std::function<void()> work) {
   caf::anon_send(actor_, caf::tick_atom_v);
 }
 
-/// Whether a message gets through. One that does not stays unanswered until the
-/// session is lost; without a session nobody answers.
+/// Whether a message gets through.
 bool trial_node::takes_order() {
   return session_ && linked_;
+}
+
+/// What does not get through stays unanswered until the session is lost;
+/// without one it fails at once.
+bool trial_node::is_reached_by(caf::response_promise promise) {
+  if (!session_)
+    promise.deliver(out_of_reach(identity_.name));
+  else if (!linked_)
+    unanswered_.push_back(promise);
+  return takes_order();
 }
 
 resource_report trial_node::report() const {
@@ -182,12 +186,8 @@ void trial_node::set_fences(time_point proven) {
 
 void trial_node::on_removal(caf::response_promise promise,
                             const instance_removal& what) {
-  if (!session_)
-    return promise.deliver(out_of_reach(identity_.name));
-  if (!linked_) {
-    unanswered_.push_back(promise);
+  if (!is_reached_by(promise))
     return;
-  }
   removal x{promise, {}, {}};
   constexpr int safe_after_s[]{1, 3, 20, 20, 100, 2000};
   for (auto& [id, program] : programs_) {
@@ -230,6 +230,14 @@ void trial_node::settle_removals() {
 }
 
 // -- the session -------------------------------------------------------------
+
+void trial_node::on_switch(caf::response_promise promise,
+                           const registration_switch& order) {
+  if (!is_reached_by(promise))
+    return;
+  departing_ = true;
+  promise.deliver(switch_accepted{order.epoch + 1});
+}
 
 void trial_node::join() {
   ++identity_.epoch;

@@ -88,6 +88,8 @@ private:
   void tell(const instance_row& row);
   void on_deployment(caf::response_promise promise, const instance_spec& spec);
   void on_removal(caf::response_promise promise, const instance_removal& what);
+  void on_switch(caf::response_promise promise,
+                 const registration_switch& order);
   void settle_removals();
   void obey(const node_registered& reply);
   void lose_session();
@@ -96,6 +98,7 @@ private:
   resource_report report() const;
   instance_row row(const trial_program& x) const;
   bool takes_order();
+  bool is_reached_by(caf::response_promise promise);
 
   trial_site& site_;
   node_identity identity_;

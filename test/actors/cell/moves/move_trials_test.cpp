@@ -254,7 +254,8 @@ private:
     for (const auto& node : site_.nodes)
       for (const auto& [id, x] : node->programs()) {
         if (wanted.erase(id) == 0)
-          return id + " runs on " + node->name() + ", and nobody wants it";
+          return id + " runs on " + node->name()
+                 + ", and nobody wants it: " + cell_.tasks().dump();
       }
     return wanted.empty() ? "" : wanted.begin()->first + " does not run";
   }
