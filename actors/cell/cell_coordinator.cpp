@@ -16,6 +16,7 @@
 #include "actors/cell/state/arrivals.hpp"
 #include "actors/cell/state/coordinator_timer.hpp"
 #include "actors/cell/state/may_start.hpp"
+#include "actors/cell/state/task_remains.hpp"
 #include "actors/cell/state/task_story.hpp"
 #include "actors/cell/tasks/cell_instances.hpp"
 #include "actors/cell/tasks/cell_resources.hpp"
@@ -127,6 +128,7 @@ void on_tick(coordinator_pointer self, uint64_t number) {
   ask_overdue_removals(self);
   give_up_late_waits(self);
   start_due_again(self);
+  forget_past_remains(self);
   move_lost_steps(self);
   go_on_draining(self);
   settle_due_move(self);
@@ -146,6 +148,7 @@ void begin(coordinator_pointer self) {
   self->state.history.restore(self->state.setup.history);
   restore_drains(self);
   lose_steps_of_all(self);
+  drop_unfinished_tasks(self);
   reconcile_own_node(self);
   measure_own_node(self);
   appear(self);

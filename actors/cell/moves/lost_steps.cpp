@@ -4,6 +4,7 @@
 #include "actors/cell/moves/move_run.hpp"
 #include "actors/cell/state/coordinator_timer.hpp"
 #include "actors/cell/state/may_start.hpp"
+#include "actors/cell/state/task_remains.hpp"
 #include "actors/cell/state/task_story.hpp"
 #include "actors/cell/tasks/task_turns.hpp"
 #include "actors/house/limits.hpp"
@@ -18,13 +19,6 @@
 namespace roscell {
 
 namespace {
-
-using std::chrono::milliseconds;
-
-milliseconds patience_of(const instance_spec& spec) {
-  return milliseconds{
-      static_cast<int64_t>(spec.life.on_node_loss.after_s * 1000)};
-}
 
 /// Whether it is still to be placed anew.
 bool is_lost(const cell_coordinator_state& st, const lost_step& x) {
@@ -105,7 +99,7 @@ void clear_and_place(coordinator_pointer self,
         .then(
             [self, all, x](const instances_removed& reply) {
               if (reply.waiting.empty())
-                self->state.failures.end(x.uuid, x.instance);
+                note_gone(self, x.uuid, x.instance);
               else
                 all->problem = {error_code::conflict,
                                 "what is there is not safe yet"};
@@ -129,7 +123,7 @@ void lose_step(cell_coordinator_state& st, const deployment& x,
   if (place && place->uuid != uuid)
     return;
   lost_step lost{x.spec.task, x.spec.step, x.spec.instance,
-                 x.node,      uuid,        since + patience_of(x.spec)};
+                 x.node,      uuid,        since + fence_of(x.spec)};
   lost.is_alone = !may_move(x.spec);
   if (may_move(x.spec) || starts_alone(x.spec))
     st.failures.lose(std::move(lost));
@@ -230,7 +224,7 @@ std::string wait_of_lost(const cell_coordinator_state& st,
   if (!x->trouble.empty())
     return "waits for a place: " + x->trouble;
   return "moves unless node '" + row.node + "' is back within "
-         + std::to_string(patience_of(row.spec).count() / 1000) + " s";
+         + std::to_string(fence_of(row.spec).count() / 1000) + " s";
 }
 
 } // namespace roscell

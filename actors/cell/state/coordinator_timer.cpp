@@ -14,13 +14,13 @@ void set_timer(coordinator_pointer self) {
   const auto balance = st.balancing > 0 ? time_point::max() : st.balance_due;
   const auto next_peer =
       st.setup.connector ? st.peers.next_due() : time_point::max();
-  const auto when =
-      std::min({st.registry.next_overdue(), st.transfers.next_deadline(),
-                st.places.next_deadline(), next_peer, next_proof(st),
-                next_change_retry(st.desk), st.desk.removals.next_due(),
-                st.failures.next_due(), st.orders.next_due(),
-                next_safety_deadline(st.desk), st.drains.next_due(),
-                st.rebalance.next_due(), st.facts_due, balance});
+  const auto when = std::min(
+      {st.registry.next_overdue(), st.transfers.next_deadline(),
+       st.places.next_deadline(), next_peer, next_proof(st),
+       next_change_retry(st.desk), next_end_of_remains(st.desk),
+       st.desk.removals.next_due(), st.failures.next_due(),
+       st.orders.next_due(), next_safety_deadline(st.desk),
+       st.drains.next_due(), st.rebalance.next_due(), st.facts_due, balance});
   if (when != time_point::max())
     st.timer.set(self, when);
 }

@@ -1,5 +1,7 @@
 #include "actors/cell/state/may_start.hpp"
 
+#include "actors/cell/state/task_remains.hpp"
+
 #include <algorithm>
 #include <utility>
 
@@ -17,8 +19,7 @@ instance_place place_of(const cell_coordinator_state& st,
     result.uuid = entry->row.identity.uuid;
   if (may_move(spec)) {
     result.rule = away_rule::fenced;
-    result.after = milliseconds{
-        static_cast<int64_t>(spec.life.on_node_loss.after_s * 1000)};
+    result.after = fence_of(spec);
   } else if (starts_alone(spec)) {
     result.rule = away_rule::alone;
   }
@@ -80,6 +81,13 @@ bool may_move(const instance_spec& x) {
   return x.life.on_node_loss.policy == loss_action::move;
 }
 
+milliseconds fence_of(const instance_spec& x) {
+  // As the schema of requests has it; a record may be damaged.
+  constexpr double longest_s = 31'536'000;
+  return milliseconds{static_cast<int64_t>(
+      std::clamp(x.life.on_node_loss.after_s, 0.0, longest_s) * 1000)};
+}
+
 bool starts_alone(const instance_spec& x) {
   return boot_action_of(x.life) == boot_action::start;
 }
@@ -114,7 +122,7 @@ void note_told(coordinator_pointer self, const instance_row& row,
   if (is_live(row.state))
     note_start(self, placed ? placed->spec : row.spec, node);
   else if (const auto* entry = st.registry.find_name(node))
-    st.failures.end(entry->row.identity.uuid, row.spec.instance);
+    note_gone(self, entry->row.identity.uuid, row.spec.instance);
 }
 
 bool is_surely_gone(coordinator_pointer self, const std::string& instance) {

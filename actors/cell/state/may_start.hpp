@@ -3,6 +3,7 @@
 #include "actors/cell/state/coordinator_state.hpp"
 #include "messages/failure.hpp"
 
+#include <chrono>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,6 +15,9 @@ namespace roscell {
 
 /// Whether it may be placed anew where its node is lost.
 bool may_move(const instance_spec& x);
+
+/// How long it may run on there after the last word, if it may.
+std::chrono::milliseconds fence_of(const instance_spec& x);
 
 /// Whether its host may start it without the coordinator.
 bool starts_alone(const instance_spec& x);

@@ -5,6 +5,7 @@
 #include "actors/cell/moves/rebalancing.hpp"
 #include "actors/cell/state/coordinator_timer.hpp"
 #include "actors/cell/state/may_start.hpp"
+#include "actors/cell/state/task_remains.hpp"
 #include "actors/cell/state/task_story.hpp"
 #include "actors/cell/streams/cell_streams.hpp"
 #include "actors/cell/tasks/node_names.hpp"
@@ -227,6 +228,7 @@ std::vector<instance_verdict> take_up_instances(coordinator_pointer self,
   auto& st = self->state;
   const auto& name = node.identity.name;
   find_steps_of(self, node);
+  forget_past_remains(self);
   auto verdicts = reconcile(self, node);
   st.deployments.forget_node(name);
   std::set<std::string> tasks;

@@ -3,6 +3,7 @@
 #include "actors/cell/state/coordinator_store.hpp"
 #include "actors/cell/state/coordinator_timer.hpp"
 #include "actors/cell/state/may_start.hpp"
+#include "actors/cell/state/task_remains.hpp"
 #include "actors/cell/state/task_story.hpp"
 #include "actors/cell/tasks/step_ends.hpp"
 #include "actors/cell/tasks/task_changes.hpp"
@@ -108,13 +109,17 @@ void restore_tasks(coordinator_pointer self) {
   auto& st = self->state;
   for (const auto& stored : st.setup.tasks) {
     const auto record = restored(stored);
-    if (!record) {
-      record_fact(self, {"tasks", stored.task, ""});
+    if (!record)
       continue;
-    }
     st.tasks.apply(*record);
     st.deployments.place(record->task, deployments_in(*record));
   }
+}
+
+void drop_unfinished_tasks(coordinator_pointer self) {
+  for (const auto& stored : self->state.setup.tasks)
+    if (!restored(stored))
+      record_fact(self, record_of_remains(self, stored.task));
 }
 
 caf::result<intent_recorded> hold_placement(coordinator_pointer self,

@@ -10,6 +10,10 @@ namespace roscell {
 /// Takes up the tasks that an earlier run of the coordinator has stored.
 void restore_tasks(coordinator_pointer self);
 
+/// Those whose deployment or end was not over have no record any more, but for
+/// where they may run on.
+void drop_unfinished_tasks(coordinator_pointer self);
+
 caf::result<intent_recorded> hold_placement(coordinator_pointer self,
                                             const record_intent& intent);
 caf::result<task_accepted> accept_task(coordinator_pointer self,

@@ -3,6 +3,7 @@
 #include "actors/cell/state/coordinator_store.hpp"
 #include "actors/cell/state/coordinator_timer.hpp"
 #include "actors/cell/state/may_start.hpp"
+#include "actors/cell/state/task_remains.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -78,7 +79,9 @@ void on_change_not_kept(coordinator_pointer self, const std::string& task,
 void write_change(coordinator_pointer self, const std::string& task,
                   const std::optional<task_record>& record) {
   keep_records(
-      self, {{"tasks", task, record ? json(*record).dump() : std::string{}}},
+      self,
+      {record ? store_record{"tasks", task, json(*record).dump()}
+              : record_of_remains(self, task)},
       [self, task, record] { on_change_kept(self, task, record); },
       [self, task](const failure& why) {
         on_change_not_kept(self, task, why);

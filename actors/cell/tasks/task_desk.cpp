@@ -12,6 +12,14 @@ std::chrono::steady_clock::time_point next_change_retry(const task_desk& desk) {
 }
 
 std::chrono::steady_clock::time_point
+next_end_of_remains(const task_desk& desk) {
+  auto result = std::chrono::steady_clock::time_point::max();
+  for (const auto& [task, until] : desk.remains)
+    result = std::min(result, until);
+  return result;
+}
+
+std::chrono::steady_clock::time_point
 next_safety_deadline(const task_desk& desk) {
   auto result = std::chrono::steady_clock::time_point::max();
   for (const auto& x : desk.unsafe)

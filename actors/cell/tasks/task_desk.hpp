@@ -86,12 +86,20 @@ struct task_desk {
   std::map<std::string, task_waiters> waiters; ///< By task.
   std::map<std::string, change_line> lines;    ///< The same.
   removal_book removals;
+  /// Tasks that are no more and may run on, and until when. max(): until their
+  /// nodes say so.
+  std::map<std::string, std::chrono::steady_clock::time_point> remains;
   std::vector<awaited_safety> unsafe;
   std::vector<awaited_deployments> deployments_awaited;
 };
 
 /// When a change is to be tried again; time_point::max(): none waits for that.
 std::chrono::steady_clock::time_point next_change_retry(const task_desk& desk);
+
+/// When what is left of a task has surely ended; max(): nothing is left, or its
+/// node has to say so.
+std::chrono::steady_clock::time_point
+next_end_of_remains(const task_desk& desk);
 
 /// When somebody who waits for an instance to be safe has waited for too long.
 std::chrono::steady_clock::time_point

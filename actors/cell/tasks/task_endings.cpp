@@ -2,6 +2,7 @@
 
 #include "actors/cell/state/coordinator_store.hpp"
 #include "actors/cell/state/coordinator_timer.hpp"
+#include "actors/cell/state/task_remains.hpp"
 #include "actors/cell/state/task_story.hpp"
 #include "actors/cell/tasks/task_changes.hpp"
 #include "actors/cell/tasks/task_removals.hpp"
@@ -217,7 +218,7 @@ void take_back(coordinator_pointer self, const std::string& task,
                const std::optional<task_record>& former, bool is_unwritten) {
   auto& st = self->state;
   if (is_unwritten && !former)
-    forget_refused(self, "tasks", task);
+    record_fact(self, record_of_remains(self, task));
   st.tasks.forget(task);
   st.deployments.forget_task(task);
   if (!former)

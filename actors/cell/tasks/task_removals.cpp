@@ -2,6 +2,7 @@
 
 #include "actors/cell/state/coordinator_timer.hpp"
 #include "actors/cell/state/may_start.hpp"
+#include "actors/cell/state/task_remains.hpp"
 #include "actors/cell/state/task_story.hpp"
 #include "actors/house/limits.hpp"
 
@@ -68,6 +69,7 @@ void note_removed(coordinator_pointer self, const std::string& uuid,
   for (const auto& x : waiting)
     left.insert(x.instance);
   self->state.failures.end_all(uuid, task, left);
+  forget_past_remains(self);
 }
 
 /// A task's removal, as the nodes answer.
@@ -178,7 +180,7 @@ void remove_instance(coordinator_pointer self, const overdue_removal& what,
            uuid = entry->row.identity.uuid](const instances_removed& reply) {
             self->state.desk.removals.settle(what);
             if (reply.waiting.empty()) {
-              self->state.failures.end(uuid, what.instance);
+              note_gone(self, uuid, what.instance);
               return done();
             }
             auto wait = reply.waiting.front();

@@ -238,6 +238,29 @@ TEST_CASE("A damaged record of a task is told and ends nothing", "[moves]") {
         == "internal");
 }
 
+TEST_CASE(
+    "Orders and remains that a damaged record names start and end nothing",
+    "[moves]") {
+  mixed_cell before;
+  before.run_on_left(echo_task("a", {echo_step("s0", 1)}));
+  auto record = before.disk.at("a").get<task_record>();
+  const auto running = record.specs.front().instance;
+  const auto named = GENERATE(as<std::string>{}, "", "nobody");
+  record.orders = {{named, "", "nothing", 1'000'000'000},
+                   {named, "", "", -1'000'000'000}};
+  life_policy life;
+  life.on_node_loss = {loss_action::move, GENERATE(-1.0, 0.0, 1e300)};
+  record.left = {{named, "s9", "nowhere", life}, {running, "s0", "left", life}};
+  paper_cell after{{record}};
+  auto& left = after.make_agent("left");
+  left.running = before.left.running;
+  REQUIRE(after.enter(left));
+  after.time.advance(1h);
+  CHECK(left.running.size() == 1);
+  CHECK(left.running.count(running) == 1);
+  CHECK(after.tasks().at(0).at("state") == "running");
+}
+
 TEST_CASE_METHOD(mixed_cell,
                  "What a node is told to stop when it registers is asked for "
                  "until it has ended",

@@ -416,4 +416,32 @@ TEST_CASE("A coordinator that starts again counts from its start",
   CHECK(reply->verdicts.at(0).what == verdict::keep);
 }
 
+TEST_CASE("What a task has left on a lost node is known though the coordinator "
+          "begins anew",
+          "[lost_steps]") {
+  lossy_cell cell{movable_step(60)};
+  cell.lose(cell.left);
+  REQUIRE(cell.request(termination("a")).at("type") == "task_terminated");
+  CHECK(cell.tasks().empty());
+  const auto times = GENERATE(0, 1, 2);
+  for (int i = 0; i < times; ++i)
+    cell.begin_anew();
+  REQUIRE(cell.enter(cell.right));
+  const auto again = echo_task("a", {movable_step(60)});
+  CHECK(error_of(cell.request(again)) == "conflict");
+  CHECK(cell.right.running.empty());
+  SECTION("until its fence has passed") {
+    cell.time.advance(61s);
+    CHECK(cell.disk.empty());
+    CHECK(cell.request(again).at("type") == "task_accepted");
+  }
+  SECTION("until its node is back without it") {
+    cell.left.running.clear();
+    REQUIRE(cell.enter(cell.left));
+    cell.time.advance(1s);
+    CHECK(cell.disk.empty());
+    CHECK(cell.request(again).at("type") == "task_accepted");
+  }
+}
+
 } // namespace roscell::test
