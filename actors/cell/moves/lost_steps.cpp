@@ -4,7 +4,6 @@
 #include "actors/cell/moves/move_run.hpp"
 #include "actors/cell/state/coordinator_timer.hpp"
 #include "actors/cell/state/may_start.hpp"
-#include "actors/cell/state/task_remains.hpp"
 #include "actors/cell/state/task_story.hpp"
 #include "actors/cell/tasks/task_turns.hpp"
 #include "actors/house/limits.hpp"

@@ -1,6 +1,6 @@
 #include "actors/cell/state/may_start.hpp"
 
-#include "actors/cell/state/task_remains.hpp"
+#include "actors/cell/state/coordinator_timer.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -123,6 +123,14 @@ void note_told(coordinator_pointer self, const instance_row& row,
     note_start(self, placed ? placed->spec : row.spec, node);
   else if (const auto* entry = st.registry.find_name(node))
     note_gone(self, entry->row.identity.uuid, row.spec.instance);
+}
+
+void note_gone(coordinator_pointer self, const std::string& uuid,
+               const std::string& instance) {
+  auto& st = self->state;
+  st.failures.end(uuid, instance);
+  if (!st.desk.remains.empty())
+    wake(self);
 }
 
 bool is_surely_gone(coordinator_pointer self, const std::string& instance) {

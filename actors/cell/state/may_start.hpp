@@ -43,6 +43,11 @@ bool note_start(coordinator_pointer self, const instance_spec& spec,
 void note_told(coordinator_pointer self, const instance_row& row,
                const std::string& node);
 
+/// It has ended there, which may have been the last one of a task that is no
+/// more.
+void note_gone(coordinator_pointer self, const std::string& uuid,
+               const std::string& instance);
+
 /// Whether it surely does not run.
 bool is_surely_gone(coordinator_pointer self, const std::string& instance);
 

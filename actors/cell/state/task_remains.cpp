@@ -42,12 +42,4 @@ void forget_past_remains(coordinator_pointer self) {
   }
 }
 
-void note_gone(coordinator_pointer self, const std::string& uuid,
-               const std::string& instance) {
-  auto& st = self->state;
-  st.failures.end(uuid, instance);
-  if (!st.desk.remains.empty())
-    wake(self);
-}
-
 } // namespace roscell

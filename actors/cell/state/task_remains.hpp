@@ -18,8 +18,4 @@ store_record record_of_remains(coordinator_pointer self,
 /// that was begun anew has a record of its own.
 void forget_past_remains(coordinator_pointer self);
 
-/// An instance has ended, which may have been the last one of its task.
-void note_gone(coordinator_pointer self, const std::string& uuid,
-               const std::string& instance);
-
 } // namespace roscell
