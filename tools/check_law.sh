@@ -76,6 +76,15 @@ if [[ -n $crowded ]]; then
   broken=1
 fi
 
+# Parts of the coordinator know each other in one direction only.
+if ! circle=$(grep -roE '#include "actors/cell/[^"]+' --include='*.?pp' actors/cell \
+  | sed -E 's/^(.*)\.[ch]pp:#include "(.*)\.hpp$/\1 \2/' | awk '$1 != $2' \
+  | tsort 2>&1 > /dev/null); then
+  echo "law: these include each other in a circle:"
+  echo "$circle"
+  broken=1
+fi
+
 # Waiting is for events; a loop that sleeps wakes an idle robot.
 if grep -rnE 'sleep_for|sleep_until|usleep\(' --include='*.?pp' \
      client dds embedding include messages schemas actors skills tools test; then
