@@ -33,6 +33,11 @@ public:
   /// When the next pause is over; time_point::max() if none is waited for.
   time_point next_due() const;
 
+  /// Whether it is asked for once more.
+  bool has(const std::string& node, const std::string& instance) const {
+    return entries_.count({node, instance}) > 0;
+  }
+
   /// The node has removed it.
   void settle(const overdue_removal& what);
   void forget_node(const std::string& node);

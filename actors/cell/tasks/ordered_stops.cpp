@@ -7,6 +7,7 @@
 #include "actors/cell/tasks/task_removals.hpp"
 #include "actors/house/limits.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace roscell {
@@ -53,6 +54,20 @@ void on_order_kept(coordinator_pointer self, const ordered_stop& stop) {
       self->clock().now() + limits::task::eviction);
 }
 
+/// Its node has come back with it meanwhile, and nobody asks to end it any
+/// more.
+bool runs_on(const cell_coordinator_state& st, const std::string& instance) {
+  const auto* placed = st.deployments.find(instance);
+  if (!placed || is_away(st, placed->node)
+      || st.desk.removals.has(placed->node, instance))
+    return false;
+  const auto& unsafe = st.desk.unsafe;
+  const auto waits = [&](const auto& x) { return x.wait.instance == instance; };
+  const auto* row = st.deployments.told(placed->node, instance);
+  return row && is_live(row->state) && row->unsafe_since_unix_ms == 0
+         && std::none_of(unsafe.begin(), unsafe.end(), waits);
+}
+
 } // namespace
 
 void stop_by_order(coordinator_pointer self, const ordered_stop& stop) {
@@ -87,6 +102,8 @@ void end_as_ordered(coordinator_pointer self, const std::string& task,
   st.orders.let_go(instance, self->clock().now());
   st.deployments.heed_end(instance);
   record_ends(self, task);
+  if (runs_on(st, instance))
+    drop_order(self, task, instance);
 }
 
 void drop_order(coordinator_pointer self, const std::string& task,

@@ -44,7 +44,8 @@ struct ordered_stop {
 void stop_by_order(coordinator_pointer self, const ordered_stop& stop);
 
 /// What had a successor does not get one. If it has ended it has failed, for
-/// this reason; if not, it is started anew once it has.
+/// this reason; if not, it is started anew once it has, or runs on where its
+/// node was away and nobody asks to end it any more.
 void end_as_ordered(coordinator_pointer self, const std::string& task,
                     const std::string& instance, const std::string& reason);
 
