@@ -20,7 +20,7 @@ bool has_waiting_ends(const cell_coordinator_state& st,
   return line != st.desk.lines.end()
          && std::any_of(line->second.changes.begin(),
                         line->second.changes.end(),
-                        [](const auto& x) { return x.insistent && x.make; });
+                        [](const auto& x) { return x.takes_ends; });
 }
 
 /// The ends that nodes have told of. What was told to end has not done its
@@ -47,6 +47,7 @@ void record_ends(coordinator_pointer self, const std::string& task) {
   pending_change change;
   change.still = &task_book::is_running;
   change.insistent = true;
+  change.takes_ends = true;
   change.make = [self, task](task_record record) {
     return with_ends(std::move(record), ends_of(self->state, task),
                      unix_now_ms());

@@ -47,6 +47,8 @@ struct pending_change {
   std::function<task_record(task_record)> make;
   /// Tried until the store has kept it.
   bool insistent = false;
+  /// Takes up all ends that are told until it is written.
+  bool takes_ends = false;
   /// Null: the store has kept it, and the books show it.
   std::function<void(const failure*)> done;
   /// Told of every try that failed, of one that is tried again.

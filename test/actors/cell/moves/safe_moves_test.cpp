@@ -198,6 +198,34 @@ TEST_CASE_METHOD(mixed_cell,
   CHECK(tasks().empty());
 }
 
+TEST_CASE_METHOD(mixed_cell,
+                 "An end is written down though an order beside it is taken "
+                 "back",
+                 "[moves]") {
+  run_on_left(echo_task("a", {echo_step("s0", 1), echo_step("s1", 1)}));
+  const auto ended = on(left, "s0");
+  const auto live = on(left, "s1");
+  const auto programs = left.running;
+  left.slow_removals = true;
+  post({{"type", "task_restart"}, {"task", "a"}});
+  time.settle();
+  begin_anew();
+  left.finish_removals();
+  left.slow_removals = false;
+  REQUIRE(enter(right));
+  left.running = programs;
+  left.running.at(ended).state = instance_state::stopped;
+  left.running.at(ended).exit_code = 0;
+  REQUIRE(enter(left));
+  time.advance(1min);
+  // By order it has failed, so it runs anew; the other one was not told to end.
+  CHECK(left.running.count(live) == 1);
+  CHECK(task_of("a").at("state") == "running");
+  const auto record = disk.at("a").get<task_record>();
+  CHECK(record.orders.empty());
+  CHECK(disk.at("a").dump().find(ended) == std::string::npos);
+}
+
 TEST_CASE_METHOD(mixed_cell, "A wait that is told after the end is none",
                  "[moves]") {
   run_on_left(echo_task("a", {grasp_step("s0")}));
