@@ -99,13 +99,22 @@ caf::result<request_routed> relay_to_member(coordinator_pointer self,
 
 json summary(coordinator_pointer self) {
   const auto& st = self->state;
-  return {{"cell", st.setup.cell},       {"incarnation", st.setup.incarnation},
-          {"nodes", describe_nodes(st)}, {"tasks", describe_all_tasks(st)},
-          {"turn", st.desk.turn},        {"waiting", st.desk.waiting.size()},
-          {"cells", list_cells(st)},     {"free", list_free_nodes(st)},
-          {"places", st.places.size()},  {"transfers", st.transfers.size()},
-          {"balancing", st.balancing},   {"moves", st.moves.size()},
-          {"orders", st.orders.size()},  {"unsafe", st.desk.unsafe.size()}};
+  return {{"cell", st.setup.cell},
+          {"incarnation", st.setup.incarnation},
+          {"nodes", describe_nodes(st)},
+          {"tasks", describe_all_tasks(st)},
+          {"turn", st.desk.turn},
+          {"waiting", st.desk.waiting.size()},
+          {"cells", list_cells(st)},
+          {"free", list_free_nodes(st)},
+          {"places", st.places.size()},
+          {"transfers", st.transfers.size()},
+          {"balancing", st.balancing},
+          {"moves", st.moves.size()},
+          {"orders", st.orders.size()},
+          {"unsafe", st.desk.unsafe.size()},
+          {"may_run", st.failures.count(self->clock().now())},
+          {"remains", st.desk.remains.size()}};
 }
 
 void on_session_admitted(coordinator_pointer self,

@@ -93,7 +93,6 @@ void node_failures::node_back(const std::string& uuid,
 }
 
 void node_failures::node_lost(const std::string& uuid, time_point since) {
-  erase_if([&](const instance_place& x) { return surely_ended(x) <= since; });
   for (auto& [key, places] : places_)
     for (auto& [instance, x] : places)
       if (x.uuid == uuid)
@@ -117,6 +116,10 @@ void node_failures::rename_node(const std::string& uuid,
     for (auto& [instance, x] : places)
       if (x.uuid == uuid)
         x.node = name;
+}
+
+void node_failures::forget_ended(time_point now) {
+  erase_if([&](const instance_place& x) { return surely_ended(x) <= now; });
 }
 
 void node_failures::forget_waiting(const std::string& task) {
@@ -187,6 +190,14 @@ std::set<std::string> node_failures::nodes_there() const {
     for (const auto& [instance, x] : places)
       if (!x.silent_since)
         result.insert(x.uuid);
+  return result;
+}
+
+size_t node_failures::count(time_point now) const {
+  size_t result = 0;
+  for (const auto& [key, places] : places_)
+    for (const auto& [instance, x] : places)
+      result += surely_ended(x) > now ? 1 : 0;
   return result;
 }
 

@@ -116,6 +116,9 @@ public:
 
   void rename_node(const std::string& uuid, const std::string& name);
 
+  /// Nothing is known any more of what its fence has surely ended.
+  void forget_ended(time_point now);
+
   /// Nobody is left whose instances could wait for their nodes.
   void forget_waiting(const std::string& task);
 
@@ -141,6 +144,9 @@ public:
 
   /// UUIDs of the nodes that are taken to be there.
   std::set<std::string> nodes_there() const;
+
+  /// How many may run.
+  size_t count(time_point now) const;
 
   size_t size() const {
     return steps_of_.size();

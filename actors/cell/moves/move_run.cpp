@@ -7,7 +7,6 @@
 #include "actors/cell/tasks/task_changes.hpp"
 #include "actors/cell/tasks/task_removals.hpp"
 #include "actors/cell/tasks/task_turns.hpp"
-#include "actors/house/limits.hpp"
 #include "messages/failure.hpp"
 
 #include <utility>
@@ -138,8 +137,8 @@ void start_new(coordinator_pointer self, const move_ptr& move, size_t i) {
     return fail_step(self, move, i,
                      {error_code::conflict, "too many instances are known"});
   enter(self, move, i, move_stage::starting);
-  self->request(entry->agent, limits::task::deployment,
-                instance_deployment{spec})
+  const auto longest = st.moves.deadline_of(move->id, i) - self->clock().now();
+  self->request(entry->agent, longest, instance_deployment{spec})
       .then(
           [self, move, i](const instance_deployed&) {
             enter(self, move, i, move_stage::up);
@@ -154,11 +153,13 @@ void start_new(coordinator_pointer self, const move_ptr& move, size_t i) {
 /// may be lost.
 void end_old(coordinator_pointer self, const move_ptr& move, size_t i) {
   const auto& x = move->steps[i];
+  enter(self, move, i, move_stage::ordered);
   ordered_stop stop;
   stop.task = x.task;
   stop.node = x.from;
   stop.order = {x.change.old_instance, "it was ended to run elsewhere", "", 5};
   stop.force = move->force;
+  stop.until = self->state.moves.deadline_of(move->id, i);
   stop.has_successor = true;
   stop.asked = [self, move, i] {
     move->steps[i].was_asked = true;
@@ -172,7 +173,6 @@ void end_old(coordinator_pointer self, const move_ptr& move, size_t i) {
     else
       fail_step(self, move, i, *why);
   };
-  enter(self, move, i, move_stage::ordered);
   stop_by_order(self, stop);
 }
 

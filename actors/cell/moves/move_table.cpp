@@ -125,10 +125,10 @@ bool move_table::enter(uint64_t id, size_t step, move_stage stage,
     return false;
   auto& x = moves_.at(id).steps[step];
   x.stage = stage;
-  x.deadline = stage == move_stage::ending ? now + limits::task::eviction
-               : stage == move_stage::starting
-                   ? now + limits::task::deployment_answer
-                   : time_point::max();
+  if (stage == move_stage::ordered)
+    x.deadline = now + limits::task::eviction;
+  else if (stage == move_stage::starting)
+    x.deadline = now + limits::task::deployment;
   return true;
 }
 
@@ -145,15 +145,6 @@ bool move_table::ends_first(uint64_t id, size_t step) const {
 move_table::time_point move_table::deadline_of(uint64_t id, size_t step) const {
   const auto* x = find(id, step);
   return x ? x->deadline : time_point::max();
-}
-
-std::string move_table::waits_for(uint64_t id) const {
-  const auto i = moves_.find(id);
-  if (i != moves_.end())
-    for (const auto& x : i->second.steps)
-      if (auto words = words_of(x); !words.empty())
-        return words;
-  return "";
 }
 
 std::string move_table::waits_on(const std::string& node) const {

@@ -31,7 +31,8 @@ struct moving_step {
   uint64_t together = 0;
   size_t wave = 0;
   move_stage stage = move_stage::placed;
-  /// It does not wait any longer than that in `ending` and `starting`.
+  /// It does not wait any longer than that until it has ended, and then until
+  /// the new one runs.
   std::chrono::steady_clock::time_point deadline =
       std::chrono::steady_clock::time_point::max();
 };
@@ -82,10 +83,8 @@ public:
 
   time_point deadline_of(uint64_t id, size_t step) const;
 
-  /// For what the move waits, in words; empty: for nothing.
-  std::string waits_for(uint64_t id) const;
-
-  /// For what anything waits that moves away from a node.
+  /// For what anything waits that moves away from a node, in words; empty: for
+  /// nothing.
   std::string waits_on(const std::string& node) const;
 
   void end(uint64_t id);

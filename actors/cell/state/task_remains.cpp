@@ -28,6 +28,7 @@ store_record record_of_remains(coordinator_pointer self,
 void forget_past_remains(coordinator_pointer self) {
   auto& st = self->state;
   auto& remains = st.desk.remains;
+  st.failures.forget_ended(self->clock().now());
   for (auto i = remains.begin(); i != remains.end();) {
     const auto hold = st.failures.hold_of_task(i->first, self->clock().now());
     const bool is_begun_anew = st.tasks.find(i->first) != nullptr;

@@ -14,8 +14,9 @@ namespace roscell {
 store_record record_of_remains(coordinator_pointer self,
                                const std::string& task);
 
-/// Removes what is remembered of tasks that surely run nowhere by now. A task
-/// that was begun anew has a record of its own.
+/// Forgets what its fence has ended, and removes what is remembered of tasks
+/// that surely run nowhere by now. A task that was begun anew has a record of
+/// its own.
 void forget_past_remains(coordinator_pointer self);
 
 } // namespace roscell

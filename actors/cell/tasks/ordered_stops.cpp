@@ -5,7 +5,6 @@
 #include "actors/cell/tasks/step_ends.hpp"
 #include "actors/cell/tasks/task_changes.hpp"
 #include "actors/cell/tasks/task_removals.hpp"
-#include "actors/house/limits.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -50,8 +49,7 @@ void on_order_kept(coordinator_pointer self, const ordered_stop& stop) {
     stop.asked();
   remove_instance(
       self, {stop.node, stop.task, instance},
-      [self, stop] { on_stopped(self, stop); }, stop.force,
-      self->clock().now() + limits::task::eviction);
+      [self, stop] { on_stopped(self, stop); }, stop.force, stop.until);
 }
 
 /// Its node has come back with it meanwhile, and nobody asks to end it any

@@ -3,6 +3,7 @@
 #include "actors/cell/state/coordinator_state.hpp"
 #include "messages/failure.hpp"
 
+#include <chrono>
 #include <functional>
 #include <optional>
 #include <string>
@@ -23,6 +24,9 @@ struct ordered_stop {
   std::string node;
   end_order order;
   bool force = false;
+  /// When it is waited for no longer.
+  std::chrono::steady_clock::time_point until =
+      std::chrono::steady_clock::time_point::max();
   /// Whoever has it ended starts another one in its place: until then its end
   /// is none of its task.
   bool has_successor = false;
@@ -34,8 +38,7 @@ struct ordered_stop {
   std::function<void(stop_outcome, const failure*)> done;
 };
 
-/// Ends an instance by order, and waits until it is safe, but not for longer
-/// than `task::eviction`.
+/// Ends an instance by order, and waits until it is safe, or the time is over.
 ///
 /// While the order is written it may end by itself, which is its own end then.
 /// While it is waited for its node may be lost, its task be terminated, or the

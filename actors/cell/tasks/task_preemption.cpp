@@ -6,6 +6,7 @@
 #include "actors/cell/tasks/step_ends.hpp"
 #include "actors/cell/tasks/task_endings.hpp"
 #include "actors/cell/tasks/task_restart.hpp"
+#include "actors/house/limits.hpp"
 #include "messages/failure.hpp"
 
 #include <functional>
@@ -57,6 +58,7 @@ void evict(coordinator_pointer self, const make_way& wish,
   stop.order = {x.instance, "it makes way for task '" + wish.task + "'",
                 wish.task, x.priority};
   stop.force = wish.force;
+  stop.until = self->clock().now() + limits::task::eviction;
   stop.still = [self, by = wish.task] {
     return self->state.tasks.is_deploying(by);
   };

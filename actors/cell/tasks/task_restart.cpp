@@ -6,6 +6,7 @@
 #include "actors/cell/tasks/step_ends.hpp"
 #include "actors/cell/tasks/task_turns.hpp"
 #include "actors/cell/tasks/task_views.hpp"
+#include "actors/house/limits.hpp"
 #include "messages/failure.hpp"
 
 #include <algorithm>
@@ -115,6 +116,7 @@ void end_instances(coordinator_pointer self, const task_restart& request,
     stop.node = x->node;
     stop.order = {instance, "it was ended to be started again", "", 5};
     stop.force = request.force;
+    stop.until = self->clock().now() + limits::task::eviction;
     stop.has_successor = true;
     stop.done = [finish](stop_outcome, const failure* why) { finish(why); };
     stop_by_order(self, stop);

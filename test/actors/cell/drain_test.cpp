@@ -62,6 +62,22 @@ TEST_CASE_METHOD(crowded_cell,
   CHECK(count("node_drained") == 1);
 }
 
+TEST_CASE_METHOD(crowded_cell,
+                 "What runs on a node that is lost while its deployments are "
+                 "waited for is not started elsewhere",
+                 "[drain]") {
+  right.has.cpu.used = 4;
+  left.mood = temper::slow;
+  post(echo_task("c", {echo_step("s0", 1)}));
+  REQUIRE(left.starting.size() == 1);
+  right.has.cpu.used = 0;
+  request(drain("left"));
+  left.fail_starting("the node is out of reach");
+  lose(left);
+  time.advance(5min);
+  CHECK(right.running.empty());
+}
+
 namespace {
 
 /// A drained node is away for a while, and comes back.

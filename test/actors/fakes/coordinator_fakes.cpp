@@ -116,7 +116,6 @@ caf::behavior agent(caf::event_based_actor* self, fake_agent* x) {
         return switch_accepted{order.epoch + 1};
       },
       [=](const close_session& wish) { x->closed.push_back(wish.reason); },
-      [=](const registration_switch&) { return switch_accepted{}; },
       [=](caf::tick_atom) {
         for (const auto& work : std::exchange(x->todo, {}))
           work();
@@ -262,6 +261,13 @@ void fake_agent::finish_removals() {
   inside(*this, [this] {
     for (auto& [promise, what] : std::exchange(ending, {}))
       take_down(promise, what);
+  });
+}
+
+void fake_agent::fail_removals() {
+  inside(*this, [this] {
+    for (auto& [promise, what] : std::exchange(ending, {}))
+      promise.deliver(fail(error_code::unreachable, "it is out of reach"));
   });
 }
 

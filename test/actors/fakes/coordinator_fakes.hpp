@@ -73,6 +73,7 @@ struct fake_agent {
   void tell_figures(); ///< Of what it was asked while it was mute.
   void finish_reports();
   void finish_removals();
+  void fail_removals(); ///< As of a member that is lost.
 };
 
 /// A fact that somebody has told.

@@ -68,6 +68,20 @@ TEST_CASE("A fence is over after_s after the last word, and not before",
   CHECK_FALSE(x.hold("t", "s", lost_time(5s + after)));
 }
 
+TEST_CASE("What its fence has ended is forgotten, and no moment before",
+          "[node_failures]") {
+  node_failures x;
+  REQUIRE(x.order(fenced_place("i", "left")));
+  x.node_lost("uuid-of-left", lost_time(0s));
+  const auto end = lost_time(0s) + fenced_place("i", "left").after;
+  x.forget_ended(end - 1ms);
+  CHECK(x.count(end - 1ms) == 1);
+  CHECK(x.count(end) == 0);
+  CHECK(x.size() == 1);
+  x.forget_ended(end);
+  CHECK(x.size() == 0);
+}
+
 TEST_CASE("Of several fences of a step the last one counts",
           "[node_failures]") {
   node_failures x;

@@ -92,17 +92,17 @@ TEST_CASE("Whatever is waited for has a deadline, and says what it is",
           "[move_table]") {
   move_table x;
   const auto id = x.begin({step_of_move("a", true)}, true);
-  CHECK(x.waits_for(id).empty());
-  x.enter(id, 0, move_stage::ending, noon());
+  CHECK(x.waits_on("left").empty());
+  x.enter(id, 0, move_stage::ordered, noon());
+  x.enter(id, 0, move_stage::ending, noon() + 1s);
   CHECK(x.deadline_of(id, 0) == noon() + limits::task::eviction);
-  CHECK(x.waits_for(id) == "'t/a' on node 'left' to be safe and to end");
-  CHECK(x.waits_on("left") == x.waits_for(id));
+  CHECK(x.waits_on("left") == "'t/a' on node 'left' to be safe and to end");
   CHECK(x.waits_on("right").empty());
   x.enter(id, 0, move_stage::starting, noon());
-  CHECK(x.deadline_of(id, 0) == noon() + limits::task::deployment_answer);
-  CHECK(x.waits_for(id) == "'t/a' to run on its new node");
+  CHECK(x.deadline_of(id, 0) == noon() + limits::task::deployment);
+  CHECK(x.waits_on("left") == "'t/a' to run on its new node");
   x.enter(id, 0, move_stage::up, noon());
-  CHECK(x.waits_for(id).empty());
+  CHECK(x.waits_on("left").empty());
 }
 
 } // namespace roscell::test

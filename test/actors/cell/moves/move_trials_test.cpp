@@ -232,9 +232,15 @@ private:
       if (node.at("state") == "departing")
         return "a node departs for ever: " + node.dump();
     const auto state = state_of_coordinator();
-    for (const auto* what : {"moves", "orders", "unsafe", "turn"})
+    for (const auto* what : {"moves", "orders", "unsafe", "turn", "remains"})
       if (state.at(what) != 0)
         return std::string{what} + " are left over: " + state.dump();
+    size_t programs = 0;
+    for (const auto& node : site_.nodes)
+      programs += node->programs().size();
+    if (state.at("may_run") != programs)
+      return "of " + std::to_string(programs)
+             + " programs it is known: " + state.at("may_run").dump();
     return programs_left_over();
   }
 

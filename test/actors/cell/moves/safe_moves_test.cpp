@@ -1,6 +1,5 @@
-#include "test/actors/fakes/coordinator_fakes.hpp"
-
 #include "actors/house/limits.hpp"
+#include "test/actors/fakes/careful_cell.hpp"
 
 /// A step that has to be safe ends before its successor starts, and nothing
 /// else ends for it.
@@ -8,52 +7,12 @@ namespace roscell::test {
 
 namespace {
 
-json grasp_step(const std::string& id, const std::string& node = "") {
-  auto result = echo_step(id, 1, node);
-  result["operation"] = "grasp";
-  return result;
-}
-
-/// Nodes "left" and "right" have both skills. Only "left" has room until the
-/// tasks run.
-struct mixed_cell : paper_cell {
-  fake_agent& left = make_agent("left");
-  fake_agent& right = make_agent("right");
-
-  mixed_cell() {
-    for (auto* x : {&left, &right}) {
-      x->skills = {echo_skill(), grasp_skill()};
-      REQUIRE(enter(*x));
-    }
-    base.has.cpu.used = 4;
-  }
-
+/// Only "left" has room until the tasks run.
+struct mixed_cell : careful_cell {
   void run_on_left(const json& task) {
     right.has.cpu.used = 4;
     REQUIRE(request(task).at("type") == "task_accepted");
     right.has.cpu.used = 0;
-  }
-
-  /// The instance of a step.
-  std::string on(const fake_agent& node, const std::string& step) {
-    for (const auto& [id, row] : node.running)
-      if (row.spec.step == step)
-        return id;
-    return "";
-  }
-
-  json task_of(const std::string& task) {
-    return request({{"type", "task_query"}, {"task", task}}).at("tasks").at(0);
-  }
-
-  /// A program ends by itself, with 0.
-  void finish(fake_agent& node, const std::string& instance) {
-    auto row = node.running.at(instance);
-    node.running.erase(instance);
-    row.state = instance_state::stopped;
-    row.exit_code = 0;
-    node.tell(row);
-    time.settle();
   }
 };
 
@@ -196,34 +155,6 @@ TEST_CASE_METHOD(mixed_cell,
   left.become_safe(on(left, "s0"));
   time.settle();
   CHECK(tasks().empty());
-}
-
-TEST_CASE_METHOD(mixed_cell,
-                 "An end is written down though an order beside it is taken "
-                 "back",
-                 "[moves]") {
-  run_on_left(echo_task("a", {echo_step("s0", 1), echo_step("s1", 1)}));
-  const auto ended = on(left, "s0");
-  const auto live = on(left, "s1");
-  const auto programs = left.running;
-  left.slow_removals = true;
-  post({{"type", "task_restart"}, {"task", "a"}});
-  time.settle();
-  begin_anew();
-  left.finish_removals();
-  left.slow_removals = false;
-  REQUIRE(enter(right));
-  left.running = programs;
-  left.running.at(ended).state = instance_state::stopped;
-  left.running.at(ended).exit_code = 0;
-  REQUIRE(enter(left));
-  time.advance(1min);
-  // By order it has failed, so it runs anew; the other one was not told to end.
-  CHECK(left.running.count(live) == 1);
-  CHECK(task_of("a").at("state") == "running");
-  const auto record = disk.at("a").get<task_record>();
-  CHECK(record.orders.empty());
-  CHECK(disk.at("a").dump().find(ended) == std::string::npos);
 }
 
 TEST_CASE_METHOD(mixed_cell, "A wait that is told after the end is none",

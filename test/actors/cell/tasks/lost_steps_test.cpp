@@ -416,6 +416,21 @@ TEST_CASE("A coordinator that starts again counts from its start",
   CHECK(reply->verdicts.at(0).what == verdict::keep);
 }
 
+TEST_CASE("What a record has left on a node that is gone holds no step",
+          "[lost_steps]") {
+  lossy_cell before;
+  auto record = before.disk.at("a").get<task_record>();
+  record.left = {{"a-s0-old", "s0", "gone", life_policy{}}};
+  paper_cell cell{{record}};
+  auto& left = cell.make_agent("left");
+  left.running = before.left.running;
+  REQUIRE(cell.enter(left));
+  CHECK(cell.request({{"type", "task_restart"}, {"task", "a"}}).at("type")
+        == "task_restarted");
+  CHECK(left.running.size() == 1);
+  CHECK(left.running.count(record.specs.front().instance) == 0);
+}
+
 TEST_CASE("What a task has left on a lost node is known though the coordinator "
           "begins anew",
           "[lost_steps]") {

@@ -1,6 +1,5 @@
-#include "test/actors/fakes/coordinator_fakes.hpp"
-
 #include "actors/house/limits.hpp"
+#include "test/actors/fakes/careful_cell.hpp"
 
 /// What runs makes way for tasks of higher priority, if somebody says so.
 namespace roscell::test {
@@ -9,16 +8,8 @@ namespace {
 
 /// Task "low" fills node "left"; "right" and the coordination node are full of
 /// other programs.
-struct full_cell : paper_cell {
-  fake_agent& left = make_agent("left");
-  fake_agent& right = make_agent("right");
-
+struct full_cell : careful_cell {
   full_cell() {
-    for (auto* x : {&left, &right}) {
-      x->skills = {echo_skill(), grasp_skill()};
-      REQUIRE(enter(*x));
-    }
-    base.has.cpu.used = 4;
     right.has.cpu.used = 4;
     REQUIRE(request(low()).at("type") == "task_accepted");
     REQUIRE(left.running.size() == 1);
