@@ -48,6 +48,21 @@ test_data_flow_after_a_host_was_shut_down() {
   day_ends 5
 }
 
+# A camera goes to the other host that has room for it, whose node dies then.
+test_data_flow_after_a_host_was_drained() {
+  local streams=(guest moving)
+  start_day
+  to head drain right > "$scratch/said" 2>&1 || true
+  await head '.event == "instance_moved" and .data.task == "moving"
+    and .data.to == "left"' > /dev/null
+  to head undrain right > /dev/null
+  day_ends 5
+  day_begins "the node that has taken it was killed"
+  kill_node left
+  start_host left
+  day_ends 5
+}
+
 # A site that is switched off in the evening and on in the morning, in any order.
 test_data_flow_after_all_hosts_were_off() {
   local order name end=shut_down

@@ -194,6 +194,83 @@ test_a_lost_step_has_ended_before_it_starts_elsewhere() {
   done
 }
 
+# move_task TASK: a step "s" that may move among the nodes that can.
+move_task() {
+  work_task "$1" '{"id": "s", "labels": {"can": "yes"},
+    "on_node_loss": {"policy": "move", "after_s": 24}}'
+}
+
+# One after the other the nodes that have the step are cut off from all others.
+test_a_step_whose_new_node_is_lost_too_has_ended_before_it_starts_again() {
+  local n ended started
+  bridge_hosts 4
+  make_site_token
+  make_worker
+  forget_safety
+  start_on 1 head --coordinator --cell line
+  server=$(discovery_of head)
+  for n in 2 3 4; do
+    start_on "$n" "node$n" --join "$server" --label can=yes
+    await_joined head "node$n"
+    if [[ $n == 2 ]]; then
+      move_task t | to head request > /dev/null
+    else
+      # The place of the step is there, and its next one, no other.
+      drop_on $((n - 1)) input iifname
+      await head ".event == \"instance_moved\" and .data.task == \"t\"
+        and .data.to == \"node$n\"" > /dev/null
+      ended=$(cat "$scratch/end.s") started=$(last_start s)
+      echo "    it ended $(jq -n "$started - $ended") s before it started on node$n"
+      expect "it ended first" "$(jq -n "$ended < $started")" true
+    fi
+    watch_end s
+  done
+  expect "starts" "$(wc -l < "$scratch/orders/starts")" 3
+  for n in 2 3; do
+    ip netns exec "${hosts[$((n - 1))]}" nft delete table inet cut
+    await_joined head "node$n" \
+      "$(await head ".event == \"node_lost\" and .subject == \"node$n\"" \
+        | jq .sequence)"
+    expect "what node$n runs" "$(get "node$n" /v1/node \
+      | jq '[.instances[] | select(.state != "stopped")] | length')" 0
+  done
+  expect "starts in the end" "$(wc -l < "$scratch/orders/starts")" 3
+}
+
+# A task is ended while its node is away, and the coordinator is killed.
+test_a_task_is_not_begun_while_one_of_its_name_may_run_on_a_lost_node() {
+  local lost
+  discovery_port=11811 http_port=8420
+  bridge_hosts 3
+  make_site_token
+  make_worker
+  forget_safety
+  start_on 1 head --coordinator --cell line
+  server=$(discovery_of head)
+  start_on 2 node2 --join "$server" --label can=yes
+  await_joined head node2
+  move_task t > "$scratch/t.json"
+  to head request < "$scratch/t.json" > /dev/null
+  watch_end s
+  start_on 3 node3 --join "$server" --label can=yes
+  await_joined head node3
+  drop_on 2 input iifname
+  lost=$(await head '.event == "node_lost" and .subject == "node2"' | jq .sequence)
+  to head stop t > /dev/null
+  stop_node head KILL
+  start_on 1 head --coordinator --cell line
+  await_joined head node3 "$lost"
+  to head run "$scratch/t.json" > "$scratch/said" 2>&1 \
+    && fail "it was begun: $(cat "$scratch/said")"
+  has_line "may still run on 'node2'" "$scratch/said" || fail "$(cat "$scratch/said")"
+  expect "starts" "$(wc -l < "$scratch/orders/starts")" 1
+  ip netns exec "${hosts[1]}" nft delete table inet cut
+  await_joined head node2 "$lost"
+  to head run "$scratch/t.json" > "$scratch/said" 2>&1 || fail "$(cat "$scratch/said")"
+  expect "it ended first" "$(jq -n "$(cat "$scratch/end.s") < $(last_start s)")" true
+  expect "starts in the end" "$(wc -l < "$scratch/orders/starts")" 2
+}
+
 # make_heavy: the program takes so many MiB of memory by its description.
 make_heavy() {
   local text
@@ -202,15 +279,24 @@ make_heavy() {
   echo "$text" > "$skills/work/skill.json"
 }
 
+# start_cell_of_arm: only the member `arm` has memory for what is heavy.
+start_cell_of_arm() {
+  start_head_without_room
+  server=$(discovery_of head)
+  start_node arm --interface lo --join "$server" --capacity memory_mib=1000
+  await_joined head arm
+}
+
+start_head_without_room() {
+  start_node head --coordinator --cell line --interface lo \
+    --capacity memory_mib=100
+}
+
 test_what_runs_makes_way_for_a_task_of_higher_priority() {
   local text
   make_worker
   make_heavy 600
-  start_node head --coordinator --cell line --interface lo \
-    --capacity memory_mib=100
-  server=$(discovery_of head)
-  start_node arm --interface lo --join "$server" --capacity memory_mib=1000
-  await_joined head arm
+  start_cell_of_arm
   work_task low '{"id": "a", "priority": 2}' > "$scratch/low.json"
   work_task high '{"id": "b", "priority": 8}' > "$scratch/high.json"
   to head run "$scratch/low.json" > /dev/null
@@ -239,11 +325,7 @@ test_what_makes_way_has_not_finished_though_the_coordinator_is_killed() {
   local said
   make_worker
   make_heavy 600
-  start_node head --coordinator --cell line --interface lo \
-    --capacity memory_mib=100
-  server=$(discovery_of head)
-  start_node arm --interface lo --join "$server" --capacity memory_mib=1000
-  await_joined head arm
+  start_cell_of_arm
   work_task low '{"id": "a", "priority": 2, "parameters": {"careful": true}}' \
     > "$scratch/low.json"
   work_task high '{"id": "b", "priority": 8}' > "$scratch/high.json"
@@ -253,8 +335,7 @@ test_what_makes_way_has_not_finished_though_the_coordinator_is_killed() {
   await head '.event == "instance_awaited" and .data.task == "low"' > /dev/null
   stop_node head KILL
   wait "$said"
-  start_node head --coordinator --cell line --interface lo \
-    --capacity memory_mib=100
+  start_head_without_room
   await_joined head arm
   # It is safe only now, and its program ends with 0.
   order safe a
@@ -270,11 +351,7 @@ test_a_cell_is_brought_nearer_to_its_optimum() {
   make_worker
   forget_safety
   make_heavy 300
-  start_node head --coordinator --cell line --interface lo \
-    --capacity memory_mib=100
-  server=$(discovery_of head)
-  start_node arm --interface lo --join "$server" --capacity memory_mib=1000
-  await_joined head arm
+  start_cell_of_arm
   for task in t u; do
     work_task $task '{"id": "a"}' | to head request > /dev/null
   done

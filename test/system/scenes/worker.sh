@@ -85,11 +85,11 @@ order() {
   touch "$scratch/orders/$1.$2"
 }
 
-# watch_end STEP: writes down when the first program of a step ends, by the
+# watch_end STEP: writes down when the program that a step has now ends, by the
 # clock of the boot.
 watch_end() {
   local number
-  number=$(awk -v s="$1" '$2 == s { print $4; exit }' "$scratch/orders/starts")
+  number=$(awk -v s="$1" '$2 == s { n = $4 } END { print n }' "$scratch/orders/starts")
   python3 - "$number" > "$scratch/end.$1" << 'WATCH' &
 import os, select, sys, time
 fd = os.pidfd_open(int(sys.argv[1]))

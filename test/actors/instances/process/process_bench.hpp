@@ -180,9 +180,10 @@ struct process_bench {
     return get<container_started>(wish).container;
   }
 
-  log_excerpt log(int64_t offset, int64_t wait_ms = 0) {
+  log_excerpt log(int64_t offset, int64_t wait_ms = 0,
+                  const std::string& instance = "i") {
     log_query query;
-    query.instance = "i";
+    query.instance = instance;
     query.offset = offset;
     query.wait_ms = wait_ms;
     return get<log_excerpt>(query);

@@ -68,8 +68,11 @@ TEST_CASE("an order for an older container moves no fence on") {
 TEST_CASE("a fence that cannot be moved on is told, once") {
   process_bench b;
   const auto first = boot_now_ms(b.system) + hour_ms;
-  const auto one = b.start(endless, "i", first);
-  const auto other = b.start(endless, "j", first);
+  const auto one = b.start("echo up; " + endless, "i", first);
+  const auto other = b.start("echo up; " + endless, "j", first);
+  // Their shims have opened the fences by then.
+  for (const auto* instance : {"i", "j"})
+    REQUIRE(b.log(0, 30'000, instance).text == "up\n");
   const auto move = [&](const std::string& instance,
                         const std::string& container) {
     caf::anon_send(b.runtime,
