@@ -8,7 +8,7 @@
 #
 #   --percent N  so much of what is measured, for a short look (100)
 #   KIND         only these: hello strangers instances tasks_list cells post metrics
-#                events passed_on tasks restarts dashboards sessions transfers
+#                events passed_on tasks restarts drains dashboards sessions transfers
 set -uo pipefail
 cd "$(dirname "$0")/../.."
 usage="usage: tools/bench/growth_bench.sh BUILD_DIR [--percent N] [KIND...]"
@@ -33,15 +33,15 @@ first_queries=2000
 query_kib=0.05
 # A node has whole pages, and an allocator has some more of them now and then.
 pages_kib=64
-declare -A count=([tasks]=5000 [restarts]=2000 [dashboards]=50 [sessions]=500
+declare -A count=([tasks]=5000 [restarts]=2000 [drains]=2000 [dashboards]=50 [sessions]=500
   [transfers]=500)
-declare -A first=([tasks]=1000 [restarts]=1100 [dashboards]=10 [sessions]=50
+declare -A first=([tasks]=1000 [restarts]=1100 [drains]=5000 [dashboards]=10 [sessions]=50
   [transfers]=250)
 # Of a dashboard the bound is that of all its questions, and a stream.
-declare -A most_kib=([tasks]=0.3 [restarts]=0.3 [dashboards]=1 [sessions]=0.3
+declare -A most_kib=([tasks]=0.3 [restarts]=0.3 [drains]=0.3 [dashboards]=1 [sessions]=0.3
   [transfers]=0.3)
 all=(hello strangers instances tasks_list cells post metrics events passed_on tasks
-  restarts dashboards sessions transfers)
+  restarts drains dashboards sessions transfers)
 [[ ${#kinds[@]} -gt 0 ]] || kinds=("${all[@]}")
 for kind in "${kinds[@]}"; do
   [[ " ${all[*]} " == *" $kind "* ]] || { echo "$usage" >&2; exit 2; }

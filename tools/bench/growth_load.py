@@ -118,12 +118,12 @@ class Load:
         for _ in range(count):
             node.post({"type": "instance_query"})
 
-    def request(self, name):
-        """A task of one step on the member."""
+    def request(self, name, labels=None):
+        """A task of one step, on the member unless the labels say otherwise."""
         data = f"{self.folder}/data"
         return {"type": "task_request", "task": name, "pipeline": [
             {"id": "say", "operation": "echo", "model": "plain",
-             "labels": {"place": "arm"},
+             "labels": {"place": "arm"} if labels is None else labels,
              "input": {"protocol": "file", "endpoint": f"{data}/in",
                        "data_type": "text/plain"},
              "output": {"protocol": "file", "endpoint": f"{data}/out",
@@ -141,6 +141,24 @@ class Load:
         for _ in range(count):
             node.post({"type": "task_restart", "task": f"again{self.first}"})
         node.post({"type": "task_termination", "task": f"again{self.first}"})
+
+    def drains(self, count):
+        """A step goes to and fro, as each node is drained in its turn."""
+        node, stream = self.node("head"), self.node("head")
+        task = f"moved{self.first}"
+        node.post(self.request(task, {}))
+        told = node.get("/v1/events?since=0&follow=0").decode()
+        last = [x for x in told.splitlines() if x.startswith("id: ")][-1]
+        stream.request("GET", f"/v1/events?since={last[4:]}")
+        events = stream.getresponse()
+        for i in range(count):
+            name = ("arm", "head")[i % 2]
+            node.post({"type": "node_drain", "node": name})
+            while (line := events.readline()) != b"event: node_drained\n":
+                if not line:
+                    raise WrongAnswer(f"drain {i}: no more events")
+            node.post({"type": "node_undrain", "node": name})
+        node.post({"type": "task_termination", "task": task})
 
     def transfers(self, count):
         """The node `rover`, to the other cell and back; it begins in head's."""
