@@ -184,7 +184,8 @@ void restore_places(coordinator_pointer self,
       spec.life = x.life;
       note_start(self, spec, x.node);
     }
-  // What a record has left on a node that has gone since holds nothing any more.
+  // What a record has left on a node that has gone since holds nothing any
+  // more.
   look_for_gone_nodes(self);
   for (const auto& uuid : st.failures.nodes_there())
     if (uuid != st.setup.self.uuid)
