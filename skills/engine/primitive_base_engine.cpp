@@ -327,6 +327,9 @@ std::string primitive_base_engine::call_process(const frame& input) {
   try {
     executor_->process(input, outputs_);
     return {};
+  } catch (const unusable_input& e) {
+    useless_ = true;
+    return e.what();
   } catch (...) {
     const auto reason = current_error();
     return reason.empty() ? "an error without a word" : reason;
@@ -335,12 +338,17 @@ std::string primitive_base_engine::call_process(const frame& input) {
 
 void primitive_base_engine::say_failure(const frame& input,
                                         const std::string& reason) const {
+  if (useless_)
+    return say_("giving up: '" + env_.inputs[input.port].endpoint + "' brings "
+                + reason);
   say_("frame '" + input.name + "' failed ("
        + std::to_string(work_.failed_in_row(input.port))
        + " in a row): " + reason);
 }
 
 bool primitive_base_engine::gives_up(std::size_t input) const {
+  if (useless_)
+    return true;
   const auto failed = work_.failed_in_row(input);
   if (failed < max_failures_)
     return false;

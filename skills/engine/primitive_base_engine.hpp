@@ -111,6 +111,7 @@ private:
   std::vector<std::unique_ptr<input_port>> inputs_;
   std::unique_ptr<executor> executor_;
   output_ports outputs_{meters_};
+  bool useless_ = false; ///< What an input brings can never be used.
   std::optional<heartbeat> heartbeat_;
   std::atomic<std::size_t> open_inputs_{0};
   std::atomic<bool> stream_failed_{false};

@@ -9,6 +9,7 @@
 #include "roscell/skill/errors.hpp"
 #include "skills/pose_estimation/overlay.hpp"
 #include "skills/vision/calibration.hpp"
+#include "skills/vision/colours.hpp"
 #include "skills/vision/compression.hpp"
 
 #include <algorithm>
@@ -89,7 +90,7 @@ pose_estimator::pose_estimator(const engine::environment& env,
       frame_id_(env.parameters.text("frame_id", "camera")),
       picture_rate_hz_(
           env.parameters.number("picture_rate_hz", 1, 0, 1'000'000)),
-      given_(vision::calibration_of(env.parameters)),
+      given_(vision::calibration_of(env.parameters)), accepted_(env.parameters),
       detector_(detector_options::of(env.parameters)), broken_files_(say_) {
   check_types(env);
   add_sources(env);
@@ -153,7 +154,9 @@ void pose_estimator::process(const engine::frame& input,
   } else if (input.data_type == compressed_image::type_name) {
     process_compressed(input, output);
   } else if (input.data_type == image::type_name) {
-    process_image(ros2::view_image(input.payload), input, output);
+    const auto sent = ros2::view_image(input.payload);
+    accepted_.check(sent.encoding);
+    process_image(sent, input, output);
   } else {
     process_file(input, output);
   }
@@ -238,7 +241,7 @@ pose_estimator::find_tags(const ros2::image_view& image,
   result.width = image.width;
   result.height = image.height;
   result.family = detector_.family();
-  for (auto& tag : detector_.detect(to_gray(image, gray_buffer_))) {
+  for (auto& tag : detector_.detect(vision::to_gray(image, gray_buffer_))) {
     std::optional<tag_pose> pose;
     if (camera)
       pose = estimate_pose(tag.camera_corners(), tag_size_m_, *camera);
@@ -254,7 +257,7 @@ vision::picture
 pose_estimator::draw(const frame_result& result, const ros2::image_view& image,
                      const std::optional<camera_model>& camera) const {
   vision::picture picture{image.width, image.height, vision::pixel_format::bgr8,
-                          to_bgr(image)};
+                          vision::to_bgr(image)};
   draw_overlay(result, tag_size_m_, camera, picture);
   return picture;
 }

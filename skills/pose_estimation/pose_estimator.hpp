@@ -7,6 +7,7 @@
 #include "roscell/skill/typed_ports.hpp"
 #include "skills/pose_estimation/camera_source.hpp"
 #include "skills/pose_estimation/frame_result.hpp"
+#include "skills/vision/accepted_encodings.hpp"
 #include "skills/vision/broken_files.hpp"
 #include "skills/vision/image_codec.hpp"
 
@@ -39,9 +40,10 @@ namespace roscell::pose {
 /// | picture_rate_hz | 1 | of a topic or video, at most so many pictures per
 ///   second are drawn, each in the place of the one before, so that they do not
 ///   fill a disk; 0: every picture under its own name. Files always get all
+/// | encodings | all of them | see vision/accepted_encodings.hpp
 ///
 /// A file that is no image is said once and skipped. An image whose message is
-/// broken fails.
+/// broken fails. One in an encoding that cannot be used ends the skill.
 class pose_estimator : public engine::executor {
 public:
   explicit pose_estimator(const engine::environment& env);
@@ -90,6 +92,7 @@ private:
   const double picture_rate_hz_;
   /// From the parameters; CameraInfo then does not count.
   const std::optional<ros2::sensor_msgs::camera_info> given_;
+  const vision::accepted_encodings accepted_;
   tag_detector detector_;
   std::vector<source> sources_;
   /// By input port: the number of its source.

@@ -5,6 +5,7 @@
 #include "roscell/ros2/sensor_msgs.hpp"
 #include "roscell/skill/errors.hpp"
 #include "roscell/skill/log_line.hpp"
+#include "skills/vision/colours.hpp"
 
 namespace roscell::rectify {
 
@@ -27,8 +28,9 @@ void check_types(const std::vector<engine::stream>& ends, const char* verb) {
 
 /// The raw image with other pixels, whose rows have no gaps.
 std::string rectified(const ros2::image_view& raw, const pixel_map& map) {
-  auto pixels = remap(raw, map);
-  auto result = raw;
+  std::vector<std::uint8_t> storage;
+  auto result = vision::to_plain_numbers(raw, storage);
+  const auto pixels = remap(result, map);
   result.step = static_cast<std::uint32_t>(pixels.size() / raw.height);
   result.data = pixels.data();
   result.size = pixels.size();

@@ -20,7 +20,8 @@ namespace roscell::rectify {
 ///
 /// Images of a camera without distortion are passed on as they are. As long as
 /// a camera is not calibrated, or for another size, its images are left out,
-/// and the log says so once. An image whose encoding cannot be rectified fails.
+/// and the log says so once. Bayer and YUV become bgr8 or bgr16, all other
+/// encodings stay. An unknown encoding ends the skill.
 class rectifier : public engine::executor {
 public:
   explicit rectifier(const engine::environment& env);

@@ -90,6 +90,8 @@ struct repeater : executor {
   }
 
   void process(const frame& input, emitter& output) override {
+    if (bad == "useless")
+      throw unusable_input("letters, of which nothing is known; send digits");
     if ((bad == "all" || bad.find(input.payload) != std::string::npos)
         && (of.empty() || of == input.data_type))
       throw std::runtime_error("bad frame");
@@ -230,6 +232,15 @@ TEST_CASE_METHOD(fixture, "an input that always fails ends the skill whatever "
         == exit_code::executor_failed);
   CHECK_THAT(log.said,
              Contains("giving up after 20 failures in a row at input '200'"));
+}
+
+TEST_CASE_METHOD(fixture,
+                 "what a skill can never use is said once, and ends it") {
+  CHECK(run({{"bad", "useless"}}) == exit_code::executor_failed);
+  CHECK(log.text == "open release close");
+  CHECK(log.said
+        == "giving up: '3' brings letters, of which nothing is known; send "
+           "digits\n");
 }
 
 TEST_CASE_METHOD(fixture, "failures of several inputs are not added up") {

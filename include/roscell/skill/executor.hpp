@@ -55,8 +55,8 @@ public:
   /// Handles one frame and emits any number of results. An exception is
   /// reported and counted, and the next frame follows; too many in a row of one
   /// input, whatever the others bring, end the skill (parameter
-  /// `max_failures`). A call that lasts longer than the watchdog period counts
-  /// as hung.
+  /// `max_failures`), and an unusable_input at once. A call that lasts longer
+  /// than the watchdog period counts as hung.
   virtual void process(const frame& input, emitter& output) = 0;
 
   /// Gives back what the executor holds. Called once, after the last
