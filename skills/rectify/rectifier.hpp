@@ -5,6 +5,7 @@
 #include "skills/rectify/raw_camera.hpp"
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace roscell::rectify {
@@ -39,10 +40,15 @@ private:
     raw_camera camera;
     std::size_t images = engine::typed_outputs::none;
     std::size_t infos = engine::typed_outputs::none;
+    std::optional<engine::frame> waiting; ///< An image, for its CameraInfo.
   };
 
-  void process_image(const engine::frame& input, source& from,
-                     engine::emitter& output);
+  void process_info(const engine::frame& input, source& from,
+                    engine::emitter& output);
+  void take_image(const engine::frame& input, source& from,
+                  engine::emitter& output);
+  static void process_image(const engine::frame& input, source& from,
+                            engine::emitter& output);
 
   std::vector<source> sources_;
   /// By input port: the number of its source.

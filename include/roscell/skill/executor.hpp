@@ -4,6 +4,7 @@
 #include "roscell/skill/safe_state.hpp"
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -99,10 +100,24 @@ protected:
     bound_to_address_ = true;
   }
 
+  /// Says that the frame that `process` has got is kept, to be worked on in a
+  /// later call, when one of another input has come: it counts then.
+  void set_kept() noexcept {
+    kept_ = true;
+  }
+
+  /// Says that this call of `process` worked on a frame of this input, counted
+  /// from 0, that had been kept.
+  void set_worked_on(std::size_t number) noexcept {
+    worked_on_ = number;
+  }
+
 private:
   friend class primitive_base_engine;
 
   safe_state safety_;
+  bool kept_ = false;
+  std::optional<std::size_t> worked_on_;
   bool bound_to_address_ = false;
   std::size_t main_input_ = 0;
 };
