@@ -75,9 +75,8 @@ void stretch(const image_view& source, const image_encoding& encoding,
   const auto known = find_levels(source, encoding);
   deep_rows rows{source, encoding};
   for (std::uint32_t y = 0; y < source.height; ++y) {
-    const auto* row = rows.row(y);
-    for (std::uint32_t x = 0; x < source.width; ++x)
-      *to++ = known.of(row[x]);
+    known.apply(rows.row(y), source.width, to);
+    to += source.width;
   }
 }
 

@@ -8,6 +8,24 @@ namespace roscell::vision {
 
 using ros2::pixel_form;
 
+namespace {
+
+void add_number_rows(const float* __restrict above,
+                     const float* __restrict here,
+                     const float* __restrict below, std::size_t width,
+                     float* __restrict sums) {
+  for (std::size_t x = 0; x < width; ++x)
+    sums[x] = above[x] + 2 * here[x] + below[x];
+}
+
+void add_number_columns(const float* __restrict sums, std::size_t width,
+                        float* __restrict to) {
+  for (std::size_t x = 0; x < width; ++x)
+    to[x] = (sums[x] + 2 * sums[x + 1] + sums[x + 2]) * (1.0F / 16);
+}
+
+} // namespace
+
 deep_rows::deep_rows(const ros2::image_view& source,
                      const ros2::image_encoding& encoding)
     : source_(source), encoding_(encoding), swapped_(is_swapped(source)),
@@ -48,36 +66,45 @@ void deep_rows::read_luma(std::uint32_t y) {
   }
 }
 
-/// (1 2 1) down, then across.
+/// A row that is needed for three of the result is read once.
+const float* deep_rows::kept(std::uint32_t y) {
+  const auto slot = y % 3;
+  auto& row = kept_[slot];
+  if (kept_y_[slot] != y) {
+    row.resize(source_.width);
+    read(y, row.data());
+    kept_y_[slot] = y;
+  }
+  return row.data();
+}
+
+/// (1 2 1) down, then across, of sums that have one more at each end.
 void deep_rows::smooth(std::uint32_t y) {
   const std::size_t width = source_.width;
-  numbers_.resize(3 * width);
-  auto* above = numbers_.data();
-  auto* here = above + width;
-  auto* below = here + width;
-  read(mirrored(std::int64_t{y} - 1, source_.height), above);
-  read(y, here);
-  read(mirrored(std::int64_t{y} + 1, source_.height), below);
-  for (std::size_t x = 0; x < width; ++x)
-    here[x] = above[x] + 2 * here[x] + below[x];
-  const auto at = [&](std::int64_t x) {
-    return here[mirrored(x, source_.width)];
-  };
-  const auto edge = [&](std::int64_t x) {
-    row_[static_cast<std::size_t>(x)] =
-        (at(x - 1) + 2 * at(x) + at(x + 1)) / 16;
-  };
-  for (std::size_t x = 1; x + 1 < width; ++x)
-    row_[x] = (here[x - 1] + 2 * here[x] + here[x + 1]) / 16;
-  edge(0);
-  edge(static_cast<std::int64_t>(width) - 1);
+  numbers_.resize(width + 2);
+  const auto* above = kept(mirrored(std::int64_t{y} - 1, source_.height));
+  const auto* below = kept(mirrored(std::int64_t{y} + 1, source_.height));
+  add_number_rows(above, kept(y), below, width, numbers_.data() + 1);
+  // Mirrored at the ends.
+  numbers_.front() = numbers_[std::min<std::size_t>(2, width)];
+  numbers_.back() = numbers_[std::max<std::size_t>(width, 2) - 1];
+  add_number_columns(numbers_.data(), width, row_.data());
+}
+
+void levels::apply(const float* __restrict numbers, std::size_t count,
+                   std::uint8_t* __restrict to) const {
+  const auto known = *this;
+  for (std::size_t i = 0; i < count; ++i)
+    to[i] = known.of(numbers[i]);
 }
 
 levels find_levels(const ros2::image_view& source,
                    const ros2::image_encoding& encoding) {
-  constexpr auto most_samples_a_side = 100U;
-  const auto across = std::max(source.width / most_samples_a_side, 1U);
-  const auto down = std::max(source.height / most_samples_a_side, 1U);
+  // A row costs more than a number of it.
+  constexpr auto most_in_a_row = 128U;
+  constexpr auto most_rows = 32U;
+  const auto across = std::max(source.width / most_in_a_row, 1U);
+  const auto down = std::max(source.height / most_rows, 1U);
   std::vector<float> samples;
   if (source.width == 0)
     return {};

@@ -4,6 +4,8 @@
 #include "roscell/ros2/image_view.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -16,9 +18,13 @@ struct levels {
 
   std::uint8_t of(float number) const {
     const auto level = (number - low) * per_number + 0.5F;
-    // No number at all is black.
-    return static_cast<std::uint8_t>(level > 0 ? std::min(level, 255.0F) : 0);
+    // What is no number is black: it is less than nothing.
+    return static_cast<std::uint8_t>(std::min(std::max(0.0F, level), 255.0F));
   }
+
+  /// The same for `count` of them, which do not overlap.
+  void apply(const float* __restrict numbers, std::size_t count,
+             std::uint8_t* __restrict to) const;
 };
 
 /// The brightness of rows of an image of more than 8 bits, as the numbers that
@@ -36,12 +42,16 @@ private:
   void read(std::uint32_t y, float* to) const;
   void read_luma(std::uint32_t y);
   void smooth(std::uint32_t y);
+  const float* kept(std::uint32_t y);
 
   const ros2::image_view& source_;
   const ros2::image_encoding encoding_;
   const bool swapped_;
   std::vector<float> row_;
-  std::vector<float> numbers_; ///< As they were sent, of one row or three.
+  std::vector<float> numbers_; ///< As they were sent, or sums of a mosaic.
+  /// Rows of a mosaic as they were sent, each at its number modulo 3.
+  std::array<std::vector<float>, 3> kept_;
+  std::array<std::int64_t, 3> kept_y_{-1, -1, -1};
 };
 
 /// Levels by which an image uses most of 8 bits, whatever depth its camera
