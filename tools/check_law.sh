@@ -64,6 +64,7 @@ if [[ $# -gt 0 ]]; then
   loads "$1/skills/image_source/bin/image_source" 'libcaf|libopencv'
   loads "$1/skills/pose_estimation/bin/pose_estimation" 'libcaf|libopencv'
   loads "$1/skills/rectify/bin/rectify" 'libcaf|libopencv'
+  loads "$1/skills/convert/bin/convert" 'libcaf|libopencv'
   loads "$1/skills/video_source/bin/video_source" 'libcaf'
 fi
 

@@ -227,29 +227,35 @@ void primitive_base_engine::run_input(input_port& input) {
 
 exit_code primitive_base_engine::move_frames() {
   while (auto input = queue_.pop()) {
-    handle(*input);
+    const auto port = handle(*input);
     if (!outputs_.failure().empty())
       return exit_code::stream_failed;
-    if (gives_up(input->port))
+    if (gives_up(port))
       return exit_code::executor_failed;
   }
   return stream_failed_ ? exit_code::stream_failed : exit_code::done;
 }
 
-void primitive_base_engine::handle(const frame& input) {
+/// Returns the input that the work was for: another one, where a frame of that
+/// had been kept.
+std::size_t primitive_base_engine::handle(const frame& input) {
   auto start = liveness::clock::now();
   alive_.work_begins(start);
   outputs_.begin(input);
   const auto failure = call_process(input);
   const auto spent = liveness::clock::now() - start;
   const bool failed = !failure.empty();
-  work_.add(input.port,
-            {spent - outputs_.write_time(), failed, outputs_.emitted(),
-             failed ? failure : outputs_.excuse()});
+  const auto port =
+      std::exchange(executor_->worked_on_, std::nullopt).value_or(input.port);
+  const auto is_kept = std::exchange(executor_->kept_, false);
+  if (!is_kept || failed)
+    work_.add(port, {spent - outputs_.write_time(), failed, outputs_.emitted(),
+                     failed ? failure : outputs_.excuse()});
   // An output that broke is reported once, at the end.
   if (failed && outputs_.failure().empty())
-    say_failure(input, failure);
+    say_failure(input, port, failure);
   work_has_ended();
+  return port;
 }
 
 void primitive_base_engine::work_has_ended() {
@@ -327,20 +333,27 @@ std::string primitive_base_engine::call_process(const frame& input) {
   try {
     executor_->process(input, outputs_);
     return {};
+  } catch (const unusable_input& e) {
+    useless_ = true;
+    return e.what();
   } catch (...) {
     const auto reason = current_error();
     return reason.empty() ? "an error without a word" : reason;
   }
 }
 
-void primitive_base_engine::say_failure(const frame& input,
+void primitive_base_engine::say_failure(const frame& input, std::size_t port,
                                         const std::string& reason) const {
+  if (useless_)
+    return say_("giving up: '" + env_.inputs[port].endpoint + "' brings "
+                + reason);
   say_("frame '" + input.name + "' failed ("
-       + std::to_string(work_.failed_in_row(input.port))
-       + " in a row): " + reason);
+       + std::to_string(work_.failed_in_row(port)) + " in a row): " + reason);
 }
 
 bool primitive_base_engine::gives_up(std::size_t input) const {
+  if (useless_)
+    return true;
   const auto failed = work_.failed_in_row(input);
   if (failed < max_failures_)
     return false;

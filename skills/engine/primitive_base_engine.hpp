@@ -86,9 +86,10 @@ private:
   void start_inputs();
   void run_input(input_port& input);
   exit_code move_frames();
-  void handle(const frame& input);
+  std::size_t handle(const frame& input);
   std::string call_process(const frame& input);
-  void say_failure(const frame& input, const std::string& reason) const;
+  void say_failure(const frame& input, std::size_t port,
+                   const std::string& reason) const;
   bool gives_up(std::size_t input) const;
   std::string told_status() const;
   void between_frames();
@@ -111,6 +112,7 @@ private:
   std::vector<std::unique_ptr<input_port>> inputs_;
   std::unique_ptr<executor> executor_;
   output_ports outputs_{meters_};
+  bool useless_ = false; ///< What an input brings can never be used.
   std::optional<heartbeat> heartbeat_;
   std::atomic<std::size_t> open_inputs_{0};
   std::atomic<bool> stream_failed_{false};

@@ -40,10 +40,6 @@ camera_model::of(const ros2::sensor_msgs::camera_info& info, bool rectified) {
   if (auto* wrong = std::get_if<std::string>(&lens))
     return *wrong;
   model.lens_ = std::get<vision::lens>(lens);
-  if (model.lens_.distorts() && info.distortion_model == "equidistant")
-    return std::string{"has the distortion model 'equidistant'; rectify the "
-                       "image first, by the skill rectify, and set the "
-                       "parameter 'rectified'"};
   return model;
 }
 
@@ -54,29 +50,17 @@ Eigen::Vector2d camera_model::project(const Eigen::Vector3d& point) const {
 Eigen::Vector2d camera_model::distort(const Eigen::Vector2d& pixel) const {
   if (!lens_.distorts())
     return pixel;
-  auto direction = normalize(pixel);
-  auto bend = lens_.bend_at(direction.x(), direction.y());
-  return to_pixel(direction * bend.radial + Eigen::Vector2d{bend.x, bend.y});
+  const auto direction = normalize(pixel);
+  const auto seen = lens_.bend({direction.x(), direction.y()});
+  return to_pixel({seen.x, seen.y});
 }
 
 Eigen::Vector2d camera_model::undistort(const Eigen::Vector2d& pixel) const {
   if (!lens_.distorts())
     return pixel;
-  // Far below the noise of any corner. Strong lenses need some 20 turns.
-  constexpr auto enough = 1e-10;
-  constexpr auto most_turns = 100;
-  Eigen::Vector2d seen = normalize(pixel);
-  Eigen::Vector2d direction = seen;
-  for (auto i = 0; i < most_turns; ++i) {
-    auto bend = lens_.bend_at(direction.x(), direction.y());
-    Eigen::Vector2d next =
-        (seen - Eigen::Vector2d{bend.x, bend.y}) / bend.radial;
-    auto change = (next - direction).norm();
-    direction = next;
-    if (change < enough)
-      break;
-  }
-  return to_pixel(direction);
+  const auto seen = normalize(pixel);
+  const auto direction = lens_.straighten({seen.x(), seen.y()});
+  return to_pixel({direction.x, direction.y});
 }
 
 } // namespace roscell::pose

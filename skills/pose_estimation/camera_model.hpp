@@ -21,16 +21,16 @@ public:
   }
 
   /// The model that a CameraInfo describes, or in one line what is wrong with
-  /// it. Of a raw image, K and the distortion count (plumb_bob and
-  /// rational_polynomial); of a rectified one P, as in apriltag_ros.
+  /// it. Of a raw image, K and the distortion count; of a rectified one P, as
+  /// in apriltag_ros.
   static std::variant<camera_model, std::string>
   of(const ros2::sensor_msgs::camera_info& info, bool rectified);
 
   /// The pixel at which a pinhole camera without distortion sees `point`.
   Eigen::Vector2d project(const Eigen::Vector3d& point) const;
 
-  /// Where the pixel would be without distortion. Inverts what the lens does by
-  /// fixed-point iteration, as cv::undistortPoints does.
+  /// Where the pixel would be without distortion; no numbers where no pinhole
+  /// camera sees that direction.
   Eigen::Vector2d undistort(const Eigen::Vector2d& pixel) const;
 
   /// Where distortion puts the pixel of a pinhole camera.

@@ -1,5 +1,7 @@
 #include "skills/pose_estimation/camera_source.hpp"
 
+#include <utility>
+
 namespace roscell::pose {
 
 namespace {
@@ -22,7 +24,8 @@ std::string size(std::uint32_t width, std::uint32_t height) {
 
 camera_source::camera_source(const std::string& name, bool expects_info,
                              bool rectified, engine::say_function say)
-    : expects_info_(expects_info), rectified_(rectified),
+    : name_(name), say_(say), expects_info_(expects_info),
+      rectified_(rectified),
       complaint_("'" + name + "' gives detections without poses: ",
                  "'" + name
                      + "': the camera's intrinsics are good now, poses follow",
@@ -30,11 +33,21 @@ camera_source::camera_source(const std::string& name, bool expects_info,
   // nop
 }
 
-void camera_source::calibrate(const ros2::sensor_msgs::camera_info& sent) {
+void camera_source::calibrate(stamp at,
+                              const ros2::sensor_msgs::camera_info& sent) {
+  calibrations_.add(at, sent);
+}
+
+void camera_source::use(const ros2::sensor_msgs::camera_info& sent) {
   auto info = vision::describe_sent_images(sent);
   // It comes with every image, and hardly ever changes.
   if (info_ && same_calibration(*info_, info))
     return;
+  if (info_ && model_ && !std::exchange(change_said_, true))
+    say_(
+        "'" + name_
+        + "': its calibration changes while it runs; each image is measured by "
+          "the CameraInfo of its stamp");
   info_ = info;
   model_.reset();
   fault_.clear();
@@ -45,8 +58,11 @@ void camera_source::calibrate(const ros2::sensor_msgs::camera_info& sent) {
     model_ = std::get<camera_model>(read);
 }
 
-std::optional<camera_model> camera_source::model_for(std::uint32_t width,
+std::optional<camera_model> camera_source::model_for(stamp image,
+                                                     std::uint32_t width,
                                                      std::uint32_t height) {
+  if (const auto* known = calibrations_.of(image))
+    use(*known);
   if (!info_ && expects_info_ && ++early_images_ < patient_images)
     return std::nullopt;
   auto problem = problem_with(width, height);

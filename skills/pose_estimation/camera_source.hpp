@@ -3,6 +3,7 @@
 #include "roscell/skill/handlers.hpp"
 #include "skills/pose_estimation/camera_model.hpp"
 #include "skills/vision/complaint.hpp"
+#include "skills/vision/stamped_calibrations.hpp"
 
 #include <optional>
 #include <string>
@@ -18,20 +19,33 @@ public:
   camera_source(const std::string& name, bool expects_info, bool rectified,
                 engine::say_function say);
 
-  /// Takes the camera's calibration, the first one or a new one.
-  void calibrate(const ros2::sensor_msgs::camera_info& sent);
+  using stamp = vision::stamped_calibrations::stamp;
 
-  /// The model for an image of this size. Nothing if there is none: no
-  /// CameraInfo yet, a bad one, or one of another size.
-  std::optional<camera_model> model_for(std::uint32_t width,
+  /// Takes the camera's calibration, the first one or a new one.
+  void calibrate(stamp at, const ros2::sensor_msgs::camera_info& sent);
+
+  /// Whether an image has to wait for its CameraInfo.
+  bool should_wait(stamp image) {
+    return expects_info_ && calibrations_.should_wait(image);
+  }
+
+  /// The model for an image of this stamp and size. Nothing if there is none:
+  /// no CameraInfo yet, a bad one, or one of another size.
+  std::optional<camera_model> model_for(stamp image, std::uint32_t width,
                                         std::uint32_t height);
 
 private:
+  void use(const ros2::sensor_msgs::camera_info& sent);
   std::string problem_with(std::uint32_t width, std::uint32_t height) const;
 
+  const std::string name_;
+  const engine::say_function say_;
   const bool expects_info_;
   const bool rectified_;
+  vision::stamped_calibrations calibrations_;
+  /// The one that the model is of, of images as they are sent.
   std::optional<ros2::sensor_msgs::camera_info> info_;
+  bool change_said_ = false;
   std::optional<camera_model> model_;
   /// Why the last calibration gave no model.
   std::string fault_;

@@ -53,7 +53,7 @@ void draw_axes(const tag_pose& pose, double length_m,
 
 } // namespace
 
-void draw_overlay(const frame_result& result, double tag_size_m,
+void draw_overlay(const frame_result& result,
                   const std::optional<camera_model>& camera,
                   vision::picture& target) {
   canvas drawing{target};
@@ -63,7 +63,7 @@ void draw_overlay(const frame_result& result, double tag_size_m,
     draw_outline(corners, width_px, drawing);
     draw_id(tag.detection.id, corners, drawing);
     if (tag.pose && camera)
-      draw_axes(*tag.pose, tag_size_m / 2, *camera, width_px, drawing);
+      draw_axes(*tag.pose, tag.size_m / 2, *camera, width_px, drawing);
   }
 }
 

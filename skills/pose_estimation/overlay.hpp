@@ -11,7 +11,7 @@ namespace roscell::pose {
 /// the outline of each tag in yellow with its bottom edge in magenta, its id,
 /// and, if it has a pose, its axes x in red, y in green, z in blue, half as
 /// long as the tag is wide.
-void draw_overlay(const frame_result& result, double tag_size_m,
+void draw_overlay(const frame_result& result,
                   const std::optional<camera_model>& camera,
                   vision::picture& target);
 

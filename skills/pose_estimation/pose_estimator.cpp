@@ -8,10 +8,13 @@
 #include "roscell/ros2/tf2_msgs.hpp"
 #include "roscell/skill/errors.hpp"
 #include "skills/pose_estimation/overlay.hpp"
+#include "skills/pose_estimation/step_streams.hpp"
 #include "skills/vision/calibration.hpp"
+#include "skills/vision/colours.hpp"
 #include "skills/vision/compression.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace roscell::pose {
 
@@ -22,36 +25,6 @@ using engine::typed_outputs;
 using ros2::sensor_msgs::camera_info;
 using ros2::sensor_msgs::compressed_image;
 using ros2::sensor_msgs::image;
-
-bool is_camera_info(const engine::stream& input) {
-  return input.data_type == camera_info::type_name;
-}
-
-bool is_image_message(const std::string& data_type) {
-  return data_type == image::type_name
-         || data_type == compressed_image::type_name;
-}
-
-void check_types(const engine::environment& env) {
-  for (const auto& in : env.inputs)
-    if (!is_camera_info(in) && !is_image_message(in.data_type)
-        && in.data_type.compare(0, 6, "image/") != 0)
-      throw start_error("input '" + in.endpoint + "' has the type '"
-                        + in.data_type
-                        + "'; this skill takes sensor_msgs/msg/Image, "
-                          "sensor_msgs/msg/CompressedImage, image/png, "
-                          "image/jpeg and sensor_msgs/msg/CameraInfo");
-  for (const auto& out : env.outputs)
-    if (out.data_type != ros2::tf2_msgs::tf_message::type_name
-        && out.data_type
-               != ros2::apriltag_msgs::april_tag_detection_array::type_name
-        && out.data_type != "application/json" && out.data_type != "image/png")
-      throw start_error("output '" + out.endpoint + "' has the type '"
-                        + out.data_type
-                        + "'; this skill gives tf2_msgs/msg/TFMessage, "
-                          "apriltag_msgs/msg/AprilTagDetectionArray, "
-                          "application/json and image/png");
-}
 
 /// "photo.jpg" becomes "photo.png".
 std::string png_name(const std::string& name) {
@@ -83,15 +56,13 @@ pose_estimator::pose_estimator(const engine::environment& env)
 
 pose_estimator::pose_estimator(const engine::environment& env,
                                engine::say_function say)
-    : say_(std::move(say)),
-      tag_size_m_(env.parameters.number("tag_size_m", 0.08, 1e-4, 100)),
-      rectified_(env.parameters.flag("rectified", false)),
+    : say_(std::move(say)), rectified_(env.parameters.flag("rectified", false)),
       frame_id_(env.parameters.text("frame_id", "camera")),
       picture_rate_hz_(
           env.parameters.number("picture_rate_hz", 1, 0, 1'000'000)),
-      given_(vision::calibration_of(env.parameters)),
-      detector_(detector_options::of(env.parameters)), broken_files_(say_) {
-  check_types(env);
+      given_(vision::calibration_of(env.parameters)), accepted_(env.parameters),
+      finder_(env.parameters, say_), broken_files_(say_) {
+  check_streams(env);
   add_sources(env);
 }
 
@@ -118,11 +89,18 @@ void pose_estimator::add_sources(const engine::environment& env) {
   typed_outputs detections{
       env.outputs, ros2::apriltag_msgs::april_tag_detection_array::type_name,
       count};
+  typed_outputs poses{env.outputs,
+                      ros2::vision_msgs::detection3_d_array::type_name, count};
   typed_outputs lines{env.outputs, "application/json", count};
   typed_outputs pictures{env.outputs, "image/png", count};
+  const auto frame_ids = texts_of_cameras(env.parameters, "frame_ids", count);
+  const auto prefixes = texts_of_cameras(env.parameters, "tag_prefixes", count);
   for (std::size_t k = 0; k < count; ++k) {
+    sources_[k].frame_id = frame_ids[k];
+    sources_[k].prefix = prefixes[k];
     sources_[k].transforms = transforms.of_source(k);
     sources_[k].detections = detections.of_source(k);
+    sources_[k].poses = poses.of_source(k);
     sources_[k].lines = lines.of_source(k);
     sources_[k].pictures = pictures.of_source(k);
   }
@@ -137,26 +115,58 @@ void pose_estimator::add_source(const engine::environment& env,
     known = vision::calibration_beside(input, env.parameters);
   auto is_live = is_image_message(input.data_type) && picture_rate_hz_ > 0;
   sources_.push_back({{input.endpoint, expects_info, rectified_, say_},
+                      input.endpoint,
+                      "",
+                      "",
                       is_live ? live_picture_name(input.endpoint) : "",
                       engine::pacer{picture_rate_hz_}});
   if (known)
-    sources_.back().camera.calibrate(*known);
+    sources_.back().camera.calibrate({}, *known);
 }
 
 void pose_estimator::process(const engine::frame& input,
                              engine::emitter& output) {
-  if (input.data_type == camera_info::type_name) {
-    if (given_)
-      return;
-    auto& camera = sources_.at(source_of_port_.at(input.port)).camera;
-    camera.calibrate(ros2::deserialize<camera_info>(input.payload));
-  } else if (input.data_type == compressed_image::type_name) {
-    process_compressed(input, output);
-  } else if (input.data_type == image::type_name) {
-    process_image(ros2::view_image(input.payload), input, output);
-  } else {
-    process_file(input, output);
-  }
+  if (input.data_type == camera_info::type_name)
+    process_info(input, output);
+  else
+    take_image(input, output);
+}
+
+void pose_estimator::process_info(const engine::frame& input,
+                                  engine::emitter& output) {
+  if (given_)
+    return;
+  auto& from = sources_.at(source_of_port_.at(input.port));
+  from.camera.calibrate(input.time,
+                        ros2::deserialize<camera_info>(input.payload));
+  if (!from.waiting || from.waiting->time != input.time)
+    return;
+  const auto image = *std::exchange(from.waiting, std::nullopt);
+  set_worked_on(image.port);
+  process_any(image, output);
+}
+
+void pose_estimator::take_image(const engine::frame& input,
+                                engine::emitter& output) {
+  auto& from = sources_.at(source_of_port_.at(input.port));
+  // What still waits has no CameraInfo of its own.
+  if (const auto before = std::exchange(from.waiting, std::nullopt))
+    process_any(*before, output);
+  if (!from.camera.should_wait(input.time))
+    return process_any(input, output);
+  from.waiting = input;
+  set_kept();
+}
+
+void pose_estimator::process_any(const engine::frame& input,
+                                 engine::emitter& output) {
+  if (input.data_type == compressed_image::type_name)
+    return process_compressed(input, output);
+  if (input.data_type != image::type_name)
+    return process_file(input, output);
+  const auto sent = ros2::view_image(input.payload);
+  accepted_.check(sent.encoding);
+  process_image(sent, input, output);
 }
 
 void pose_estimator::release() {
@@ -196,10 +206,9 @@ void pose_estimator::process_image(const ros2::image_view& image,
                                    engine::emitter& output) {
   auto number = source_of_port_.at(input.port);
   auto& source = sources_.at(number);
-  auto camera = source.camera.model_for(image.width, image.height);
-  auto result = find_tags(image, camera);
+  auto camera = source.camera.model_for(input.time, image.width, image.height);
+  auto result = find_tags(image, number, camera);
   result.frame_name = input.name;
-  result.source = number;
   auto emit = [&](std::size_t port, std::string payload) {
     engine::frame message;
     message.payload = std::move(payload);
@@ -210,6 +219,8 @@ void pose_estimator::process_image(const ros2::image_view& image,
     emit(source.transforms, ros2::serialize(to_tf_message(result)));
   if (source.detections != typed_outputs::none)
     emit(source.detections, ros2::serialize(to_detection_array(result)));
+  if (source.poses != typed_outputs::none)
+    emit(source.poses, ros2::serialize(to_detection3d_array(result)));
   if (source.lines != typed_outputs::none)
     emit(source.lines, to_line(result));
   if (source.pictures != typed_outputs::none)
@@ -230,20 +241,19 @@ void pose_estimator::emit_picture(source& from, const frame_result& result,
 }
 
 frame_result
-pose_estimator::find_tags(const ros2::image_view& image,
+pose_estimator::find_tags(const ros2::image_view& image, std::size_t number,
                           const std::optional<camera_model>& camera) {
   auto start = std::chrono::steady_clock::now();
+  const auto& from = sources_[number];
   frame_result result;
+  result.source = number;
   result.header = image.header;
+  if (!from.frame_id.empty())
+    result.header.frame_id = from.frame_id;
   result.width = image.width;
   result.height = image.height;
-  result.family = detector_.family();
-  for (auto& tag : detector_.detect(to_gray(image, gray_buffer_))) {
-    std::optional<tag_pose> pose;
-    if (camera)
-      pose = estimate_pose(tag.camera_corners(), tag_size_m_, *camera);
-    result.tags.push_back({std::move(tag), pose});
-  }
+  finder_.find(vision::to_gray(image, gray_buffer_), camera,
+               {number, from.transforms, from.name, from.prefix}, result);
   result.processing_time = std::chrono::steady_clock::now() - start;
   result.age = std::chrono::system_clock::now()
                - ros2::to_time_point(image.header.stamp);
@@ -254,8 +264,8 @@ vision::picture
 pose_estimator::draw(const frame_result& result, const ros2::image_view& image,
                      const std::optional<camera_model>& camera) const {
   vision::picture picture{image.width, image.height, vision::pixel_format::bgr8,
-                          to_bgr(image)};
-  draw_overlay(result, tag_size_m_, camera, picture);
+                          vision::to_bgr(image)};
+  draw_overlay(result, camera, picture);
   return picture;
 }
 

@@ -7,6 +7,8 @@
 #include "roscell/skill/typed_ports.hpp"
 #include "skills/pose_estimation/camera_source.hpp"
 #include "skills/pose_estimation/frame_result.hpp"
+#include "skills/pose_estimation/tag_finder.hpp"
+#include "skills/vision/accepted_encodings.hpp"
 #include "skills/vision/broken_files.hpp"
 #include "skills/vision/image_codec.hpp"
 
@@ -23,6 +25,7 @@ namespace roscell::pose {
 /// image/png, image/jpeg) and CameraInfo (sensor_msgs/msg/CameraInfo); the k-th
 /// CameraInfo input belongs to the k-th image input. Outputs, by data type:
 /// tf2_msgs/msg/TFMessage, apriltag_msgs/msg/AprilTagDetectionArray,
+/// vision_msgs/msg/Detection3DArray (poses with covariance),
 /// application/json (see `frame_result`) and image/png (see `draw_overlay`);
 /// the k-th image input feeds the k-th output of each type, or its only one.
 ///
@@ -32,16 +35,20 @@ namespace roscell::pose {
 ///
 /// | parameter | default | meaning |
 /// |---|---|---|
-/// | tag_size_m | 0.08 | width of a tag's black border, corner to corner
+/// | tag_size_m | 0.08 | side of the square whose corners AprilTag finds
+/// | bundles | [] | bodies with several tags, see `bundles_of`
+/// | frame_ids | [] | of the k-th camera, in place of what its images say
+/// | tag_prefixes | [] | before child frames of the k-th camera
 /// | rectified | false | images are rectified: P of CameraInfo counts, and no
 ///   distortion
 /// | frame_id | camera | frame of images that bring none, i.e. of files
 /// | picture_rate_hz | 1 | of a topic or video, at most so many pictures per
 ///   second are drawn, each in the place of the one before, so that they do not
 ///   fill a disk; 0: every picture under its own name. Files always get all
+/// | encodings | all of them | see vision/accepted_encodings.hpp
 ///
 /// A file that is no image is said once and skipped. An image whose message is
-/// broken fails.
+/// broken fails. One in an encoding that cannot be used ends the skill.
 class pose_estimator : public engine::executor {
 public:
   explicit pose_estimator(const engine::environment& env);
@@ -57,18 +64,26 @@ private:
   /// One image input, with what belongs to it.
   struct source {
     camera_source camera;
+    std::string name;      ///< What people call it.
+    std::string frame_id;  ///< Of its results; empty: that of the image.
+    std::string prefix;    ///< Of child frames.
     std::string live_name; ///< Of its pictures, if each replaces the last.
     engine::pacer picture_pace;
     std::size_t transforms = engine::typed_outputs::none;
     std::size_t detections = engine::typed_outputs::none;
+    std::size_t poses = engine::typed_outputs::none;
     std::size_t lines = engine::typed_outputs::none;
     std::size_t pictures = engine::typed_outputs::none;
+    std::optional<engine::frame> waiting; ///< An image, for its CameraInfo.
   };
 
   void add_sources(const engine::environment& env);
   void add_source(const engine::environment& env, std::size_t port,
                   bool expects_info);
   static vision::pixel_format format_for(const source& from);
+  void process_info(const engine::frame& input, engine::emitter& output);
+  void take_image(const engine::frame& input, engine::emitter& output);
+  void process_any(const engine::frame& input, engine::emitter& output);
   void process_file(const engine::frame& input, engine::emitter& output);
   void process_compressed(const engine::frame& input, engine::emitter& output);
   void process_image(const ros2::image_view& image, const engine::frame& input,
@@ -77,20 +92,20 @@ private:
                     const ros2::image_view& image,
                     const std::optional<camera_model>& camera,
                     engine::emitter& output);
-  frame_result find_tags(const ros2::image_view& image,
+  frame_result find_tags(const ros2::image_view& image, std::size_t number,
                          const std::optional<camera_model>& camera);
   vision::picture draw(const frame_result& result,
                        const ros2::image_view& image,
                        const std::optional<camera_model>& camera) const;
 
   const engine::say_function say_;
-  const double tag_size_m_;
   const bool rectified_;
   const std::string frame_id_;
   const double picture_rate_hz_;
   /// From the parameters; CameraInfo then does not count.
   const std::optional<ros2::sensor_msgs::camera_info> given_;
-  tag_detector detector_;
+  const vision::accepted_encodings accepted_;
+  tag_finder finder_;
   std::vector<source> sources_;
   /// By input port: the number of its source.
   std::vector<std::size_t> source_of_port_;

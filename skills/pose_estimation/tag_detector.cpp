@@ -2,9 +2,10 @@
 
 #include "roscell/skill/errors.hpp"
 #include "skills/pose_estimation/tag_family.hpp"
+#include "skills/vision/image_codec.hpp"
 
 #include <algorithm>
-#include <cstring>
+#include <stdexcept>
 
 namespace roscell::pose {
 
@@ -17,6 +18,20 @@ using detections_ptr = std::unique_ptr<zarray_t, void (*)(zarray_t*)>;
 /// The library thresholds in tiles of 4 pixels and reads out of bounds when an
 /// image has not even one; no tag is as small as this.
 constexpr auto least_side_px = 16.0F;
+
+/// The library counts half pixels in 16 bits, and ends the process when memory
+/// is short: it takes some 20 bytes a pixel.
+void check_size(const vision::gray_view& image) {
+  constexpr std::uint32_t longest_side_px = 32'000;
+  if (image.width > longest_side_px || image.height > longest_side_px
+      || std::uint64_t{image.width} * image.height > vision::max_picture_pixels)
+    throw std::invalid_argument(
+        "an image of " + std::to_string(image.width) + " x "
+        + std::to_string(image.height)
+        + " pixels is too large to look for tags; have the camera send at most "
+        + std::to_string(longest_side_px) + " in a row and "
+        + std::to_string(vision::max_picture_pixels) + " in all");
+}
 
 /// The library's table holds every code with up to `wrong_bits` bits changed,
 /// in 48 bytes each, and the library ends the process when memory is short.
@@ -94,7 +109,9 @@ tag_detector::tag_detector(const detector_options& options)
 
 tag_detector::~tag_detector() = default;
 
-std::vector<tag_detection> tag_detector::detect(const gray_view& image) {
+std::vector<tag_detection>
+tag_detector::detect(const vision::gray_view& image) {
+  check_size(image);
   auto side = static_cast<float>(std::min(image.width, image.height));
   if (side / options_.decimation < least_side_px)
     return {};

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "roscell/skill/parameters.hpp"
-#include "skills/pose_estimation/gray_image.hpp"
 #include "skills/pose_estimation/tag_pose.hpp"
+#include "skills/vision/brightness.hpp"
 
 #include <array>
 #include <memory>
@@ -62,8 +62,9 @@ public:
   ~tag_detector();
 
   /// In the order of ids. The pixels are read where they lie, except that a
-  /// blur without decimation needs a copy of its own.
-  std::vector<tag_detection> detect(const gray_view& image);
+  /// blur without decimation needs a copy of its own. Throws
+  /// std::invalid_argument when the image is larger than the library can count.
+  std::vector<tag_detection> detect(const vision::gray_view& image);
 
   const std::string& family() const noexcept {
     return options_.family;

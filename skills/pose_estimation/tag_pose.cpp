@@ -1,10 +1,10 @@
 #include "skills/pose_estimation/tag_pose.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <Eigen/SVD>
 
 #include <cmath>
+#include <limits>
 
 namespace roscell::pose {
 
@@ -13,22 +13,8 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-using vector6d = Eigen::Matrix<double, 6, 1>;
 using vector8d = Eigen::Matrix<double, 8, 1>;
-using matrix6d = Eigen::Matrix<double, 6, 6>;
 using matrix8d = Eigen::Matrix<double, 8, 8>;
-
-struct rigid_transform {
-  Matrix3d rotation;
-  Vector3d translation;
-};
-
-/// Corner points of the tag in its own frame, in the order of tag_corners.
-std::array<Vector3d, 4> tag_points(double tag_size_m) {
-  auto h = tag_size_m / 2;
-  return {Vector3d{-h, -h, 0}, Vector3d{h, -h, 0}, Vector3d{h, h, 0},
-          Vector3d{-h, h, 0}};
-}
 
 /// The H with H (x, y, 1) ~ (u, v, 1) for the points of the tag (x, y) and the
 /// directions (u, v), with H(2,2) = 1, which holds for every tag in front of
@@ -81,103 +67,6 @@ rigid_transform mirror_in_depth(const rigid_transform& pose) {
           pose.translation};
 }
 
-Matrix3d cross_matrix(const Vector3d& v) {
-  Matrix3d result;
-  result << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return result;
-}
-
-/// Squared reprojection error with its normal equations at one pose.
-struct linearization {
-  double cost = 0;
-  matrix6d hessian = matrix6d::Zero();
-  vector6d gradient = vector6d::Zero();
-  bool in_front = true;
-};
-
-/// The fit of a rigid transform to four undistorted corners.
-class pose_fit {
-public:
-  pose_fit(const std::array<Vector3d, 4>& points, const tag_corners& corners,
-           const camera_model& camera)
-      : points_(points), corners_(corners), camera_(camera) {
-    // nop
-  }
-
-  /// Levenberg-Marquardt. The parameters are a small rotation, applied from
-  /// the left, and a translation.
-  rigid_transform minimize(rigid_transform pose) const {
-    constexpr auto most_steps = 50;
-    auto damping = 1e-3;
-    auto here = linearize(pose);
-    for (auto i = 0; i < most_steps && damping < 1e9; ++i) {
-      matrix6d damped = here.hessian;
-      damped.diagonal() *= 1 + damping;
-      vector6d step = -damped.ldlt().solve(here.gradient);
-      auto next = move(pose, step);
-      auto there = linearize(next);
-      if (!there.in_front || !(there.cost < here.cost)) {
-        damping *= 10;
-        continue;
-      }
-      auto gain = here.cost - there.cost;
-      pose = next;
-      here = there;
-      damping = std::max(damping / 10, 1e-9);
-      if (gain < 1e-12 * here.cost)
-        break;
-    }
-    return pose;
-  }
-
-  linearization linearize(const rigid_transform& pose) const {
-    linearization result;
-    for (auto i = 0; i < 4; ++i) {
-      Vector3d turned = pose.rotation * points_[i];
-      Vector3d point = turned + pose.translation;
-      if (!(point.z() > 0)) {
-        result.in_front = false;
-        return result;
-      }
-      Vector2d residual = camera_.project(point) - corners_[i];
-      auto slope = projection_slope(point, turned);
-      result.cost += residual.squaredNorm();
-      result.hessian += slope.transpose() * slope;
-      result.gradient += slope.transpose() * residual;
-    }
-    return result;
-  }
-
-private:
-  using matrix26d = Eigen::Matrix<double, 2, 6>;
-
-  static rigid_transform move(const rigid_transform& pose,
-                              const vector6d& step) {
-    Vector3d turn = step.head<3>();
-    auto angle = turn.norm();
-    Matrix3d rotation = Matrix3d::Identity();
-    if (angle > 0)
-      rotation = Eigen::AngleAxisd{angle, turn / angle}.toRotationMatrix();
-    return {rotation * pose.rotation, pose.translation + step.tail<3>()};
-  }
-
-  /// How the pixel of `point` moves with the six parameters.
-  matrix26d projection_slope(const Vector3d& point,
-                             const Vector3d& turned) const {
-    Eigen::Matrix<double, 2, 3> of_point;
-    auto z = point.z();
-    of_point << 1 / z, 0, -point.x() / (z * z), 0, 1 / z, -point.y() / (z * z);
-    of_point = camera_.focal().asDiagonal() * of_point;
-    matrix26d result;
-    result << of_point * -cross_matrix(turned), of_point;
-    return result;
-  }
-
-  const std::array<Vector3d, 4>& points_;
-  const tag_corners& corners_;
-  const camera_model& camera_;
-};
-
 double raw_error(const tag_corners& seen, const tag_corners& expected) {
   auto sum = 0.0;
   for (auto i = 0; i < 4; ++i)
@@ -185,7 +74,48 @@ double raw_error(const tag_corners& seen, const tag_corners& expected) {
   return std::sqrt(sum / 4);
 }
 
+/// The four corners of a tag, to be fitted to where they are without
+/// distortion.
+struct tag_problem {
+  tag_problem(const tag_corners& corners, double tag_size_m,
+              const camera_model& camera)
+      : points(tag_points(tag_size_m)), fit(camera) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      const auto straight = camera.undistort(corners[i]);
+      is_finite = is_finite && straight.allFinite();
+      directions[i] = camera.normalize(straight);
+      fit.add(points[i], straight);
+    }
+  }
+
+  /// Both minima of a flat target.
+  std::vector<rigid_transform> solve() const {
+    const auto h = is_finite ? homography(points, directions) : std::nullopt;
+    const auto start = h ? decompose(*h) : std::nullopt;
+    std::vector<rigid_transform> result;
+    if (!start)
+      return result;
+    for (const auto& guess : {*start, mirror_in_depth(*start)}) {
+      const auto found = fit.minimize(guess);
+      if (fit.linearize(found).in_front)
+        result.push_back(found);
+    }
+    return result;
+  }
+
+  std::array<Vector3d, 4> points;
+  std::array<Vector2d, 4> directions;
+  rigid_fit fit;
+  bool is_finite = true;
+};
+
 } // namespace
+
+std::array<Vector3d, 4> tag_points(double tag_size_m) {
+  auto h = tag_size_m / 2;
+  return {Vector3d{-h, -h, 0}, Vector3d{h, -h, 0}, Vector3d{h, h, 0},
+          Vector3d{-h, h, 0}};
+}
 
 tag_corners project_corners(const tag_pose& pose, double tag_size_m,
                             const camera_model& camera) {
@@ -197,31 +127,26 @@ tag_corners project_corners(const tag_pose& pose, double tag_size_m,
   return result;
 }
 
+std::vector<rigid_transform> pose_candidates(const tag_corners& corners,
+                                             double tag_size_m,
+                                             const camera_model& camera) {
+  return tag_problem{corners, tag_size_m, camera}.solve();
+}
+
 std::optional<tag_pose> estimate_pose(const tag_corners& corners,
                                       double tag_size_m,
                                       const camera_model& camera) {
-  auto points = tag_points(tag_size_m);
-  tag_corners straight;
-  std::array<Vector2d, 4> directions;
-  for (auto i = 0; i < 4; ++i) {
-    straight[i] = camera.undistort(corners[i]);
-    directions[i] = camera.normalize(straight[i]);
-  }
-  auto h = homography(points, directions);
-  auto start = h ? decompose(*h) : std::nullopt;
-  if (!start)
-    return std::nullopt;
-  pose_fit fit{points, straight, camera};
+  const tag_problem problem{corners, tag_size_m, camera};
   std::optional<tag_pose> best;
   auto least = std::numeric_limits<double>::infinity();
-  for (const auto& guess : {*start, mirror_in_depth(*start)}) {
-    auto found = fit.minimize(guess);
-    auto at = fit.linearize(found);
-    if (!at.in_front || !(at.cost < least))
+  for (const auto& found : problem.solve()) {
+    const auto at = problem.fit.linearize(found);
+    if (!(at.cost < least))
       continue;
     least = at.cost;
     best = tag_pose{found.translation,
-                    Eigen::Quaterniond{found.rotation}.normalized()};
+                    Eigen::Quaterniond{found.rotation}.normalized(), 0,
+                    covariance_of(at, 4)};
   }
   if (best)
     best->reprojection_error_px =

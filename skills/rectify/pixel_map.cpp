@@ -73,12 +73,10 @@ pixel_map make_map(const ros2::sensor_msgs::camera_info& sent,
       auto depth = m[6] * u + m[7] * v + m[8];
       auto x = (m[0] * u + m[1] * v + m[2]) / depth;
       auto y = (m[3] * u + m[4] * v + m[5]) / depth;
-      auto bend = lens.bend_at(x, y);
+      const auto seen = lens.bend({x, y});
       result.places.push_back(
-          {near_image(sent.k[0] * (x * bend.radial + bend.x) + sent.k[2],
-                      sent.width),
-           near_image(sent.k[4] * (y * bend.radial + bend.y) + sent.k[5],
-                      sent.height)});
+          {near_image(sent.k[0] * seen.x + sent.k[2], sent.width),
+           near_image(sent.k[4] * seen.y + sent.k[5], sent.height)});
     }
   return result;
 }

@@ -33,11 +33,9 @@ pixel_map make_map(const ros2::sensor_msgs::camera_info& sent,
 /// Whether `make_map` can invert what P and R do to a direction.
 bool can_be_inverted(const ros2::sensor_msgs::camera_info& sent);
 
-/// The image that the map makes of a raw one of its size: linear between four
-/// pixels, black where the raw image shows nothing, rows without gaps. Throws
-/// std::invalid_argument when the encoding is none of mono8, mono16, rgb8,
-/// bgr8, rgba8, bgra8, 8UC1, 8UC3, 8UC4 and 16UC1, or has its bytes in another
-/// order than this machine.
+/// The pixels that the map makes of a raw image of its size, whose numbers each
+/// stand for themselves (see vision::to_plain_numbers): linear between four
+/// pixels, black where the raw image shows nothing, rows without gaps.
 std::vector<std::uint8_t> remap(const ros2::image_view& raw,
                                 const pixel_map& map);
 

@@ -1,6 +1,7 @@
 #include "skills/rectify/raw_camera.hpp"
 
 #include <cmath>
+#include <utility>
 
 namespace roscell::rectify {
 
@@ -44,16 +45,25 @@ std::string size(std::uint32_t width, std::uint32_t height) {
 } // namespace
 
 raw_camera::raw_camera(const std::string& name, engine::say_function say)
-    : complaint_("'" + name + "' gives no rectified images: ",
+    : name_(name), say_(say),
+      complaint_("'" + name + "' gives no rectified images: ",
                  "'" + name + "': the calibration is good now, images follow",
                  std::move(say)) {
   // nop
 }
 
-void raw_camera::calibrate(const camera_info& info) {
+void raw_camera::calibrate(stamp at, const camera_info& info) {
+  calibrations_.add(at, info);
+}
+
+void raw_camera::use(const camera_info& info) {
   // It comes with every image, and hardly ever changes.
   if (info_ && same_calibration(*info_, info))
     return;
+  if (info_ && fault_.empty() && !std::exchange(change_said_, true))
+    say_("'" + name_
+         + "': its calibration changes while it runs; each image is rectified "
+           "by the CameraInfo of its stamp");
   info_ = info;
   sent_ = vision::describe_sent_images(info);
   map_.reset();
@@ -65,7 +75,10 @@ void raw_camera::calibrate(const camera_info& info) {
     lens_ = std::get<vision::lens>(read);
 }
 
-bool raw_camera::is_ready_for(std::uint32_t width, std::uint32_t height) {
+bool raw_camera::is_ready_for(stamp image, std::uint32_t width,
+                              std::uint32_t height) {
+  if (const auto* known = calibrations_.of(image))
+    use(*known);
   if (!info_ && ++early_images_ < patient_images)
     return false;
   problem_ = problem_with(width, height);

@@ -2,6 +2,7 @@
 
 #include "skills/rectify/pixel_map.hpp"
 #include "skills/vision/complaint.hpp"
+#include "skills/vision/stamped_calibrations.hpp"
 
 #include <optional>
 #include <string>
@@ -15,11 +16,18 @@ public:
   /// `name` is what a person calls the camera, e.g. the image's endpoint.
   raw_camera(const std::string& name, engine::say_function say);
 
-  /// Takes the camera's calibration, the first one or a new one.
-  void calibrate(const ros2::sensor_msgs::camera_info& info);
+  using stamp = vision::stamped_calibrations::stamp;
 
-  /// Whether images of this size can be rectified.
-  bool is_ready_for(std::uint32_t width, std::uint32_t height);
+  /// Takes the camera's calibration, the first one or a new one.
+  void calibrate(stamp at, const ros2::sensor_msgs::camera_info& info);
+
+  /// Whether an image has to wait for its CameraInfo.
+  bool should_wait(stamp image) {
+    return calibrations_.should_wait(image);
+  }
+
+  /// Whether an image of this stamp and size can be rectified.
+  bool is_ready_for(stamp image, std::uint32_t width, std::uint32_t height);
 
   /// Why images were not ready when it was asked last; empty: they were, or it
   /// is too early to tell.
@@ -32,7 +40,7 @@ public:
   /// calibration.
   const pixel_map* map();
 
-  /// The calibration as it came.
+  /// The calibration of that image as it came.
   const ros2::sensor_msgs::camera_info& info() const {
     return info_.value();
   }
@@ -40,7 +48,13 @@ public:
 private:
   std::string problem_with(std::uint32_t width, std::uint32_t height) const;
 
+  void use(const ros2::sensor_msgs::camera_info& info);
+
+  const std::string name_;
+  const engine::say_function say_;
+  vision::stamped_calibrations calibrations_;
   std::optional<ros2::sensor_msgs::camera_info> info_;
+  bool change_said_ = false;
   ros2::sensor_msgs::camera_info sent_;
   vision::lens lens_;
   /// Why the last calibration is of no use.

@@ -5,6 +5,9 @@
 #include "roscell/ros2/sensor_msgs.hpp"
 #include "roscell/skill/errors.hpp"
 #include "roscell/skill/log_line.hpp"
+#include "skills/vision/colours.hpp"
+
+#include <utility>
 
 namespace roscell::rectify {
 
@@ -27,8 +30,9 @@ void check_types(const std::vector<engine::stream>& ends, const char* verb) {
 
 /// The raw image with other pixels, whose rows have no gaps.
 std::string rectified(const ros2::image_view& raw, const pixel_map& map) {
-  auto pixels = remap(raw, map);
-  auto result = raw;
+  std::vector<std::uint8_t> storage;
+  auto result = vision::to_plain_numbers(raw, storage);
+  const auto pixels = remap(result, map);
   result.step = static_cast<std::uint32_t>(pixels.size() / raw.height);
   result.data = pixels.data();
   result.size = pixels.size();
@@ -70,9 +74,31 @@ rectifier::rectifier(const engine::environment& env,
 void rectifier::process(const engine::frame& input, engine::emitter& output) {
   auto& from = sources_.at(source_of_port_.at(input.port));
   if (input.data_type == camera_info::type_name)
-    from.camera.calibrate(ros2::deserialize<camera_info>(input.payload));
+    process_info(input, from, output);
   else
-    process_image(input, from, output);
+    take_image(input, from, output);
+}
+
+void rectifier::process_info(const engine::frame& input, source& from,
+                             engine::emitter& output) {
+  from.camera.calibrate(input.time,
+                        ros2::deserialize<camera_info>(input.payload));
+  if (!from.waiting || from.waiting->time != input.time)
+    return;
+  const auto image = *std::exchange(from.waiting, std::nullopt);
+  set_worked_on(image.port);
+  process_image(image, from, output);
+}
+
+void rectifier::take_image(const engine::frame& input, source& from,
+                           engine::emitter& output) {
+  // What still waits has no CameraInfo of its own.
+  if (const auto before = std::exchange(from.waiting, std::nullopt))
+    process_image(*before, from, output);
+  if (!from.camera.should_wait(input.time))
+    return process_image(input, from, output);
+  from.waiting = input;
+  set_kept();
 }
 
 void rectifier::release() {
@@ -82,7 +108,7 @@ void rectifier::release() {
 void rectifier::process_image(const engine::frame& input, source& from,
                               engine::emitter& output) {
   auto raw = ros2::view_image(input.payload);
-  if (!from.camera.is_ready_for(raw.width, raw.height))
+  if (!from.camera.is_ready_for(input.time, raw.width, raw.height))
     return output.give_nothing(from.camera.problem());
   if (from.images != typed_outputs::none) {
     const auto* map = from.camera.map();

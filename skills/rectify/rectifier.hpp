@@ -5,6 +5,7 @@
 #include "skills/rectify/raw_camera.hpp"
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace roscell::rectify {
@@ -20,7 +21,8 @@ namespace roscell::rectify {
 ///
 /// Images of a camera without distortion are passed on as they are. As long as
 /// a camera is not calibrated, or for another size, its images are left out,
-/// and the log says so once. An image whose encoding cannot be rectified fails.
+/// and the log says so once. Bayer and YUV become bgr8 or bgr16, all other
+/// encodings stay. An unknown encoding ends the skill.
 class rectifier : public engine::executor {
 public:
   explicit rectifier(const engine::environment& env);
@@ -38,10 +40,15 @@ private:
     raw_camera camera;
     std::size_t images = engine::typed_outputs::none;
     std::size_t infos = engine::typed_outputs::none;
+    std::optional<engine::frame> waiting; ///< An image, for its CameraInfo.
   };
 
-  void process_image(const engine::frame& input, source& from,
-                     engine::emitter& output);
+  void process_info(const engine::frame& input, source& from,
+                    engine::emitter& output);
+  void take_image(const engine::frame& input, source& from,
+                  engine::emitter& output);
+  static void process_image(const engine::frame& input, source& from,
+                            engine::emitter& output);
 
   std::vector<source> sources_;
   /// By input port: the number of its source.

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 constexpr std::uintmax_t max_file_bytes = 65536;
 
 std::string model_of(std::size_t coefficients) {
-  return coefficients == 8 ? "rational_polynomial" : "plumb_bob";
+  return coefficients > 5 ? "rational_polynomial" : "plumb_bob";
 }
 
 void set_intrinsics(ros2::sensor_msgs::camera_info& info, double fx, double fy,
@@ -42,6 +42,14 @@ void read_numbers(const YAML::Node& node, Numbers& numbers) {
     if (!std::isfinite(numbers[i]))
       throw std::runtime_error("must have finite numbers");
   }
+}
+
+/// OpenCV's files begin with "%YAML:1.0", which is no directive of YAML.
+std::string without_directive(const std::string& text) {
+  if (text.compare(0, 6, "%YAML:") != 0)
+    return text;
+  const auto end = text.find('\n');
+  return end == std::string::npos ? "" : text.substr(end);
 }
 
 /// Calls `read`, and lets what it throws name the place.
@@ -89,14 +97,14 @@ calibration_of(const engine::parameters& options) {
                  options.number("fy", 0, 1e-3, far),
                  options.number("cx", 0, -far, far),
                  options.number("cy", 0, -far, far));
-  result.d = options.numbers("distortion", {}, 8);
+  result.d = options.numbers("distortion", {}, 14);
   result.distortion_model =
       options.text("distortion_model", model_of(result.d.size()));
   return result;
 }
 
 ros2::sensor_msgs::camera_info parse_calibration(const std::string& text) {
-  auto document = YAML::Load(text);
+  auto document = YAML::Load(without_directive(text));
   if (!document.IsMap())
     throw std::runtime_error("is no calibration");
   ros2::sensor_msgs::camera_info result;
@@ -110,7 +118,8 @@ ros2::sensor_msgs::camera_info parse_calibration(const std::string& text) {
   set_intrinsics(result, result.k[0], result.k[4], result.k[2], result.k[5]);
   if (auto node = document["distortion_coefficients"])
     in_field("distortion_coefficients", [&] {
-      result.d.resize(std::min<std::size_t>(node["data"].size(), 16));
+      constexpr std::size_t most_coefficients = 32;
+      result.d.resize(std::min(node["data"].size(), most_coefficients));
       read_numbers(node, result.d);
     });
   result.distortion_model =

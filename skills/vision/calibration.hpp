@@ -16,9 +16,12 @@ namespace roscell::vision {
 /// | fx, fy | - | focal lengths in pixels
 /// | cx, cy | - | principal point in pixels; the middle of the upper left
 ///   pixel is (0, 0)
-/// | distortion | [] | coefficients k1, k2, p1, p2, k3 of plumb_bob, or 8 of
-///   rational_polynomial
-/// | distortion_model | by their number | one of these two
+/// | distortion | [] | coefficients k1, k2, p1, p2, k3 of plumb_bob, 8, 12 or
+/// 14
+///   of rational_polynomial, or 4 of equidistant
+/// | distortion_model | by their number | one of these three; equidistant must
+/// be
+///   said
 ///
 /// Nothing if none of them is given. Width and height stay 0, which means: of
 /// any size. Throws start_error when they are incomplete or make no sense.
@@ -26,8 +29,8 @@ std::optional<ros2::sensor_msgs::camera_info>
 calibration_of(const engine::parameters& options);
 
 /// The calibration in a text as camera_calibration and camera_info_manager
-/// write it in YAML; JSON with the same names is a part of YAML. Throws
-/// std::runtime_error, naming what is wrong.
+/// write it in YAML, or OpenCV's FileStorage; JSON with the same names is a
+/// part of YAML. Throws std::runtime_error, naming what is wrong.
 ros2::sensor_msgs::camera_info parse_calibration(const std::string& text);
 
 /// Reads such a text. Throws start_error, naming the file and what is wrong.

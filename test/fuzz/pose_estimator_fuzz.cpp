@@ -1,7 +1,9 @@
 #include "roscell/ros2/cdr.hpp"
 #include "roscell/ros2/sensor_msgs.hpp"
 #include "roscell/ros2/tf2_msgs.hpp"
+#include "roscell/skill/errors.hpp"
 #include "skills/pose_estimation/pose_estimator.hpp"
+#include "skills/vision/colours.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -16,8 +18,10 @@ class checking_emitter : public engine::emitter {
   void write(engine::frame result, std::size_t port) override {
     if (port == 0)
       ros2::deserialize<ros2::tf2_msgs::tf_message>(result.payload);
-    else
+    else if (port == 1)
       nlohmann::json::parse(result.payload);
+    else
+      vision::decode_picture(result.payload, vision::pixel_format::bgr8);
   }
 };
 
@@ -27,7 +31,9 @@ engine::environment make_environment() {
       {"ros2", "/image", ros2::sensor_msgs::image::type_name},
       {"ros2", "/camera_info", ros2::sensor_msgs::camera_info::type_name}};
   env.outputs = {{"ros2", "/tf", ros2::tf2_msgs::tf_message::type_name},
-                 {"file", "/poses", "application/json"}};
+                 {"file", "/poses", "application/json"},
+                 {"file", "/pictures/", "image/png"}};
+  env.parameters = engine::parameters::parse(R"({"picture_rate_hz": 0})");
   return env;
 }
 
@@ -43,6 +49,23 @@ void offer(pose::pose_estimator& estimator, std::size_t port, const char* type,
   } catch (const ros2::cdr_error&) {
     // The engine reports it.
   } catch (const std::invalid_argument&) {
+    // An image that is too large.
+  } catch (const engine::unusable_input&) {
+    // An encoding that cannot be used.
+  } catch (const vision::image_error&) {
+    // A picture without pixels cannot be written.
+  }
+}
+
+/// As rectify does it.
+void separate_numbers(const std::string& message) {
+  std::vector<std::uint8_t> storage;
+  try {
+    const auto image = ros2::view_image(message);
+    ros2::serialize(vision::to_plain_numbers(image, storage));
+  } catch (const ros2::cdr_error&) {
+    // The engine reports it.
+  } catch (const engine::unusable_input&) {
     // An encoding that cannot be used.
   }
 }
@@ -61,5 +84,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, size_t size) {
         bytes.substr(0, length));
   offer(estimator, 0, ros2::sensor_msgs::image::type_name,
         bytes.substr(length));
+  separate_numbers(bytes.substr(length));
   return 0;
 }

@@ -83,6 +83,36 @@ TEST_CASE("an image without pixels is an image") {
   CHECK(ros2::view_image(payload).size == 0);
 }
 
+TEST_CASE("rows of colours follow those of pixels, counted among them or not") {
+  const auto height_of = [](const char* encoding, std::uint32_t height,
+                            std::size_t bytes) {
+    const std::vector<std::uint8_t> data(bytes);
+    ros2::sensor_msgs::image sent;
+    sent.height = height;
+    sent.width = 4;
+    sent.encoding = encoding;
+    sent.step = 4;
+    sent.data = data;
+    const auto payload = ros2::serialize(sent);
+    try {
+      return static_cast<int>(ros2::view_image(payload).height);
+    } catch (const ros2::cdr_error&) {
+      return -1;
+    }
+  };
+  for (const char* encoding : {"nv12", "nv21", "i420"}) {
+    CHECK(height_of(encoding, 4, 24) == 4);
+    CHECK(height_of(encoding, 6, 24) == 4);
+    CHECK(height_of(encoding, 3, 20) == 3);
+    CHECK(height_of(encoding, 4, 16) == -1);
+    CHECK(height_of(encoding, 5, 20) == -1);
+  }
+  CHECK(height_of("nv24", 4, 48) == 4);
+  CHECK(height_of("nv24", 12, 48) == 4);
+  CHECK(height_of("nv24", 4, 24) == -1);
+  CHECK(height_of("mono8", 4, 24) == -1);
+}
+
 TEST_CASE("the encodings of ROS 2 and OpenCV have the pixels they say") {
   using ros2::bytes_per_pixel;
   CHECK(bytes_per_pixel("mono8") == 1U);
@@ -93,6 +123,9 @@ TEST_CASE("the encodings of ROS 2 and OpenCV have the pixels they say") {
   CHECK(bytes_per_pixel("32FC1") == 4U);
   CHECK(bytes_per_pixel("64FC9") == 72U);
   CHECK(bytes_per_pixel("16U") == 2U);
-  for (const char* name : {"", "mono", "8UC", "8UC0", "8UC11", "8UX3", "nv12"})
+  CHECK(bytes_per_pixel("uyvy") == 2U);
+  CHECK(bytes_per_pixel("nv12") == 1U);
+  CHECK(bytes_per_pixel("NV12") == 1U);
+  for (const char* name : {"", "mono", "8UC", "8UC0", "8UC11", "8UX3", "nv99"})
     CHECK_FALSE(bytes_per_pixel(name));
 }

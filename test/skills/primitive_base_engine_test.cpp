@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <stdexcept>
 #include <thread>
 
@@ -90,6 +91,8 @@ struct repeater : executor {
   }
 
   void process(const frame& input, emitter& output) override {
+    if (bad == "useless")
+      throw unusable_input("letters, of which nothing is known; send digits");
     if ((bad == "all" || bad.find(input.payload) != std::string::npos)
         && (of.empty() || of == input.data_type))
       throw std::runtime_error("bad frame");
@@ -111,6 +114,26 @@ struct repeater : executor {
   std::string excuse;
   std::uint64_t times;
   std::size_t port;
+};
+
+/// Keeps the first input's frames until one of the second comes.
+struct joiner : executor {
+  void process(const frame& input, emitter& output) override {
+    if (input.port == 0) {
+      waiting = input.payload;
+      set_kept();
+    } else if (!waiting.empty()) {
+      set_worked_on(0);
+      output.emit(waiting);
+      waiting.clear();
+    }
+  }
+
+  void release() override {
+    // nop
+  }
+
+  std::string waiting;
 };
 
 /// Says that it is not safe, and that it is when it is wanted to be.
@@ -151,6 +174,8 @@ struct fixture {
     parts.add_executor("careful", [this](const environment&) {
       return std::make_unique<careful>(log);
     });
+    parts.add_executor(
+        "join", [](const environment&) { return std::make_unique<joiner>(); });
     env.model = "repeat";
     env.inputs = {{"finite", "3", "number"}};
     env.outputs = {{"journal", "j", "digits"}};
@@ -230,6 +255,27 @@ TEST_CASE_METHOD(fixture, "an input that always fails ends the skill whatever "
         == exit_code::executor_failed);
   CHECK_THAT(log.said,
              Contains("giving up after 20 failures in a row at input '200'"));
+}
+
+TEST_CASE_METHOD(fixture,
+                 "what a skill can never use is said once, and ends it") {
+  CHECK(run({{"bad", "useless"}}) == exit_code::executor_failed);
+  CHECK(log.text == "open release close");
+  CHECK(log.said
+        == "giving up: '3' brings letters, of which nothing is known; send "
+           "digits\n");
+}
+
+TEST_CASE_METHOD(fixture, "a frame that is kept for another counts when it is "
+                          "worked on") {
+  env.model = "join";
+  env.inputs = {{"finite", "50", "image"}, {"finite", "50", "info"}};
+  CHECK(run() == exit_code::done);
+  const auto emitted = std::count(log.text.begin(), log.text.end(), ' ') - 1;
+  CAPTURE(log.text);
+  CHECK(emitted >= 1);
+  CHECK_THAT(frames,
+             StartsWith("input:0 50 " + std::to_string(emitted) + " 0 "));
 }
 
 TEST_CASE_METHOD(fixture, "failures of several inputs are not added up") {

@@ -79,7 +79,7 @@ TEST_CASE("CameraInfo that gives no model is explained with its remedy") {
   info = raw_camera();
   info.d = {0.1, 0.1, 0.1, 0.1};
   info.distortion_model = "equidistant";
-  CHECK_THAT(problem_of(info), Contains("equidistant") && Contains("rectif"));
+  CHECK(problem_of(info) == "none");
   CHECK(problem_of(info, true) == "none");
   info.distortion_model = "plumb_bob";
   info.d = {1, 2, 3, 4, 5, 6};

@@ -26,6 +26,7 @@ constexpr auto compressed_type = "sensor_msgs/msg/CompressedImage";
 constexpr auto info_type = "sensor_msgs/msg/CameraInfo";
 constexpr auto transforms_type = "tf2_msgs/msg/TFMessage";
 constexpr auto detections_type = "apriltag_msgs/msg/AprilTagDetectionArray";
+constexpr auto detections3d_type = "vision_msgs/msg/Detection3DArray";
 constexpr auto lines_type = "application/json";
 constexpr auto picture_type = "image/png";
 

@@ -268,12 +268,13 @@ TEST_CASE("bad CameraInfo is said once each time it changes") {
   CHECK(see_with(scene.info()) == 4);
   CHECK(see_with(other_size) == 0);
   CHECK(see_with(scene.info()) == 4);
-  REQUIRE(b.said.lines().size() == 4);
+  REQUIRE(b.said.lines().size() == 5);
   CHECK_THAT(b.said.lines()[0], Contains("all zero") && Contains("calibrate"));
   CHECK_THAT(b.said.lines()[1], Contains("good now"));
-  CHECK_THAT(b.said.lines()[2],
+  CHECK_THAT(b.said.lines()[2], Contains("changes while it runs"));
+  CHECK_THAT(b.said.lines()[3],
              Contains("1280 x 480") && Contains("640 x 480"));
-  CHECK_THAT(b.said.lines()[3], Contains("good now"));
+  CHECK_THAT(b.said.lines()[4], Contains("good now"));
 }
 
 TEST_CASE("intrinsics from parameters go before CameraInfo") {

@@ -308,10 +308,11 @@ TEST_CASE("images follow when the calibration has come or was mended") {
   CHECK(b.out.of(0)[1].payload != b.out.of(0)[0].payload);
 }
 
-TEST_CASE("a raw image that cannot be mixed from pixels fails") {
+TEST_CASE("a raw image in an unknown encoding ends the skill") {
   bench b;
   b.calibrate(camera_with("plumb_bob", bent));
-  CHECK_THROWS_WITH(b.see(noise("bayer_rggb8", 1)), Contains("bayer_rggb8"));
+  CHECK_THROWS_AS(b.see(noise("h264", 1)), engine::unusable_input);
+  CHECK_THROWS_WITH(b.see(noise("h264", 1)), Contains("'h264'"));
 }
 
 TEST_CASE("poses of a rectified image are those of one without distortion") {

@@ -147,7 +147,7 @@ TEST_CASE("a step that pose_estimation cannot do ends with one clear line") {
 
 TEST_CASE("each skill folder is complete and says what its program can do") {
   auto name = GENERATE("image_source", "video_source", "pose_estimation",
-                       "pose_estimation_video");
+                       "pose_estimation_video", "rectify", "convert");
   CAPTURE(name);
   auto descriptor = descriptor_of(name);
   auto program =

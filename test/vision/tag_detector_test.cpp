@@ -14,7 +14,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-gray_view view_of(const vision::picture& picture) {
+vision::gray_view view_of(const vision::picture& picture) {
   return {picture.width, picture.height, picture.width, picture.pixels.data()};
 }
 

@@ -6,8 +6,13 @@
 #include <apriltag/apriltag.h>
 #include <apriltag/tag16h5.h>
 #include <apriltag/tag25h9.h>
+#include <apriltag/tag36h10.h>
 #include <apriltag/tag36h11.h>
+#include <apriltag/tagCircle21h7.h>
+#include <apriltag/tagCircle49h12.h>
+#include <apriltag/tagCustom48h12.h>
 #include <apriltag/tagStandard41h12.h>
+#include <apriltag/tagStandard52h13.h>
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
@@ -30,19 +35,25 @@ struct known_family {
 };
 
 constexpr known_family families[] = {
-    {"tag36h11", tag36h11_create, tag36h11_destroy},
-    {"tag25h9", tag25h9_create, tag25h9_destroy},
     {"tag16h5", tag16h5_create, tag16h5_destroy},
+    {"tag25h9", tag25h9_create, tag25h9_destroy},
+    {"tag36h10", tag36h10_create, tag36h10_destroy},
+    {"tag36h11", tag36h11_create, tag36h11_destroy},
+    {"tagCircle21h7", tagCircle21h7_create, tagCircle21h7_destroy},
+    {"tagCircle49h12", tagCircle49h12_create, tagCircle49h12_destroy},
+    {"tagCustom48h12", tagCustom48h12_create, tagCustom48h12_destroy},
     {"tagStandard41h12", tagStandard41h12_create, tagStandard41h12_destroy},
+    {"tagStandard52h13", tagStandard52h13_create, tagStandard52h13_destroy},
 };
 
 const known_family& find_family(const std::string& name) {
   for (const auto& known : families)
     if (name == known.name)
       return known;
-  throw std::runtime_error("family '" + name
-                           + "' is none of tag36h11, tag25h9, tag16h5 and "
-                             "tagStandard41h12");
+  std::string names;
+  for (const auto& known : families)
+    names += std::string{names.empty() ? "" : ", "} + known.name;
+  throw std::runtime_error("family '" + name + "' is none of " + names);
 }
 
 /// The library has no function of its own to free this in Debian.
@@ -148,8 +159,23 @@ tag_sheet::tag_sheet(const std::string& family, unsigned tags) {
     cells_.push_back(cells_of(made.get(), id));
 }
 
+std::vector<std::string> family_names() {
+  std::vector<std::string> result;
+  for (const auto& known : families)
+    result.emplace_back(known.name);
+  return result;
+}
+
 double tag_sheet::margin() const {
   return (cells_.front().cols / border_cells_ - 1) / 2;
+}
+
+int tag_sheet::border_cells() const {
+  return static_cast<int>(border_cells_);
+}
+
+int tag_sheet::sheet_cells() const {
+  return cells_.front().cols;
 }
 
 int tag_sheet::shade(int id, double x, double y) const {

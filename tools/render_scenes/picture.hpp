@@ -4,6 +4,7 @@
 
 #include <opencv2/core.hpp>
 
+#include <string>
 #include <vector>
 
 namespace roscell::scenes {
@@ -15,7 +16,13 @@ public:
   /// Throws std::runtime_error when the family is unknown, or has fewer tags.
   tag_sheet(const std::string& family, unsigned tags);
 
-  /// Width of the white margin as a part of the tag's size.
+  /// Across the square whose corners AprilTag finds: a tag's size.
+  int border_cells() const;
+
+  /// Across all that is printed.
+  int sheet_cells() const;
+
+  /// Width of what lies around that square as a part of the tag's size.
   double margin() const;
 
   /// 1 for white and 0 for black at a place on tag `id`, in units of the tag's
@@ -26,6 +33,9 @@ private:
   std::vector<cv::Mat> cells_;
   double border_cells_ = 0;
 };
+
+/// All families of the AprilTag library.
+std::vector<std::string> family_names();
 
 /// The scene as a perfect camera sees it, on a background of soft shapes: each
 /// pixel is the mean of 6 x 6 rays. 8 bits, one channel.

@@ -1,5 +1,6 @@
 #include "actors/placement/reading/task_reading.hpp"
 
+#include "actors/placement/reading/image_encodings.hpp"
 #include "actors/placement/reading/wiring.hpp"
 #include "actors/placement/skill_resolution.hpp"
 #include "schemas/parameters/engine_parameters.hpp"
@@ -37,6 +38,17 @@ error_list parameter_errors_of(const resolved_step& x, const skill_list& skills,
                           json::parse(x.step.parameters), place);
 }
 
+/// By the newest build.
+json values_of(const resolved_step& x) {
+  const auto& model = x.builds.front().model;
+  auto result = model.parameters.empty()
+                    ? json::object()
+                    : parameter_defaults(json::parse(model.parameters));
+  if (!x.step.parameters.empty())
+    result.update(json::parse(x.step.parameters));
+  return result;
+}
+
 std::vector<task_step> steps_of(const written_pipeline& x) {
   std::vector<task_step> result;
   for (const auto& written : x.steps)
@@ -66,6 +78,10 @@ read_task(const std::string& task, const std::vector<task_step>& pipeline,
                                            + "/parameters"));
   }
   append(errors, wires.errors);
+  std::vector<valued_step> valued;
+  for (size_t i = 0; i < result.steps.size(); ++i)
+    valued.push_back({written.steps[i], values_of(result.steps[i])});
+  append(errors, encoding_errors(valued));
   if (!errors.empty())
     return to_failure(errors);
   result.warnings = std::move(wires.warnings);

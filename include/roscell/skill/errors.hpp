@@ -12,7 +12,8 @@ enum class exit_code {
   done = 0,
   /// The skill could not start: its configuration or an endpoint is wrong.
   cannot_start = 2,
-  /// `process` failed too many times in a row, or `release` failed.
+  /// `process` failed too many times in a row, or for good, or `release`
+  /// failed.
   executor_failed = 3,
   /// An input or output broke while the skill ran, e.g. the disk is full.
   stream_failed = 4,
@@ -26,6 +27,14 @@ struct start_error : std::runtime_error {
 
 /// An input or output broke while the skill ran.
 struct stream_error : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// What an input brings is of no use to this skill, and what follows will be of
+/// none either: images in an encoding that it cannot read. Thrown by `process`,
+/// it ends the skill with one line and exit code 3. The text goes on after "the
+/// input brings", and names the remedy.
+struct unusable_input : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 

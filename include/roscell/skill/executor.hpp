@@ -4,6 +4,7 @@
 #include "roscell/skill/safe_state.hpp"
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -55,8 +56,8 @@ public:
   /// Handles one frame and emits any number of results. An exception is
   /// reported and counted, and the next frame follows; too many in a row of one
   /// input, whatever the others bring, end the skill (parameter
-  /// `max_failures`). A call that lasts longer than the watchdog period counts
-  /// as hung.
+  /// `max_failures`), and an unusable_input at once. A call that lasts longer
+  /// than the watchdog period counts as hung.
   virtual void process(const frame& input, emitter& output) = 0;
 
   /// Gives back what the executor holds. Called once, after the last
@@ -99,10 +100,24 @@ protected:
     bound_to_address_ = true;
   }
 
+  /// Says that the frame that `process` has got is kept, to be worked on in a
+  /// later call, when one of another input has come: it counts then.
+  void set_kept() noexcept {
+    kept_ = true;
+  }
+
+  /// Says that this call of `process` worked on a frame of this input, counted
+  /// from 0, that had been kept.
+  void set_worked_on(std::size_t number) noexcept {
+    worked_on_ = number;
+  }
+
 private:
   friend class primitive_base_engine;
 
   safe_state safety_;
+  bool kept_ = false;
+  std::optional<std::size_t> worked_on_;
   bool bound_to_address_ = false;
   std::size_t main_input_ = 0;
 };

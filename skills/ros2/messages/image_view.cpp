@@ -2,59 +2,44 @@
 
 #include "roscell/ros2/detail/cdr_reader.hpp"
 #include "roscell/ros2/detail/cdr_writer.hpp"
-
-#include <algorithm>
-#include <array>
+#include "roscell/ros2/image_encoding.hpp"
 
 namespace roscell::ros2 {
 
 namespace {
 
-struct known_encoding {
-  std::string_view name;
-  std::uint32_t bytes;
-};
+bool is_planar(const image_view& x) {
+  const auto encoding = find_encoding(x.encoding);
+  return encoding && encoding->form == pixel_form::planar_yuv;
+}
 
-constexpr std::array<known_encoding, 22> encodings{{
-    {"mono8", 1},        {"mono16", 2},       {"rgb8", 3},
-    {"bgr8", 3},         {"rgb16", 6},        {"bgr16", 6},
-    {"rgba8", 4},        {"bgra8", 4},        {"rgba16", 8},
-    {"bgra16", 8},       {"bayer_rggb8", 1},  {"bayer_bggr8", 1},
-    {"bayer_gbrg8", 1},  {"bayer_grbg8", 1},  {"bayer_rggb16", 2},
-    {"bayer_bggr16", 2}, {"bayer_gbrg16", 2}, {"bayer_grbg16", 2},
-    {"yuv422", 2},       {"yuv422_yuy2", 2},  {"uyvy", 2},
-    {"yuyv", 2},
-}};
+/// Where it is known how many bytes the rows have beside those of brightness.
+std::uint64_t expected_bytes(const image_view& x) {
+  const auto rows = std::uint64_t{x.step} * x.height;
+  const auto encoding = find_encoding(x.encoding);
+  // What is more than there is anyway must not overflow.
+  return encoding && rows <= x.size ? encoding->bytes_of(x.step, x.height)
+                                    : rows;
+}
 
-/// OpenCV's names: bits, kind, and perhaps "C" and the number of channels, as
-/// in "8UC3", "32FC1" and "16U".
-std::optional<std::uint32_t> bytes_of_matrix(std::string_view name) {
-  constexpr std::array<known_encoding, 7> depths{{{"8U", 1},
-                                                  {"8S", 1},
-                                                  {"16U", 2},
-                                                  {"16S", 2},
-                                                  {"32S", 4},
-                                                  {"32F", 4},
-                                                  {"64F", 8}}};
-  for (const auto& depth : depths) {
-    if (name.substr(0, depth.name.size()) != depth.name)
-      continue;
-    auto channels = name.substr(depth.name.size());
-    if (channels.empty())
-      return depth.bytes;
-    if (channels.size() == 2 && channels[0] == 'C' && channels[1] >= '1'
-        && channels[1] <= '9')
-      return depth.bytes * static_cast<std::uint32_t>(channels[1] - '0');
-  }
-  return std::nullopt;
+/// OpenCV, and with it cv_bridge, counts the rows of colours among the image's.
+void count_rows_of_pixels(image_view& x) {
+  const auto encoding = find_encoding(x.encoding);
+  if (!is_planar(x) || x.height % 3 != 0
+      || std::uint64_t{x.step} * x.height != x.size)
+    return;
+  x.height /= 3;
+  if (encoding->chroma != chroma_form::uv_full)
+    x.height *= 2;
 }
 
 void check_sizes(const image_view& x) {
   using std::to_string;
-  if (std::uint64_t{x.step} * x.height != x.size)
+  if (expected_bytes(x) != x.size)
     throw cdr_error("data", to_string(x.size) + " bytes are not "
                                 + to_string(x.height) + " rows of "
-                                + to_string(x.step) + " bytes");
+                                + to_string(x.step) + " bytes"
+                                + (is_planar(x) ? " in " + x.encoding : ""));
   auto pixel = bytes_per_pixel(x.encoding);
   if (pixel && std::uint64_t{x.width} * *pixel > x.step)
     throw cdr_error("step", to_string(x.step) + " bytes are too few for "
@@ -77,6 +62,7 @@ image_view view_image(std::string_view payload) {
   result.data = reinterpret_cast<const std::uint8_t*>(data.data());
   result.size = data.size();
   in.finish();
+  count_rows_of_pixels(result);
   check_sizes(result);
   return result;
 }
@@ -100,10 +86,8 @@ std::string serialize(const image_view& image) {
 }
 
 std::optional<std::uint32_t> bytes_per_pixel(std::string_view encoding) {
-  const auto* found =
-      std::find_if(encodings.begin(), encodings.end(),
-                   [=](const auto& x) { return x.name == encoding; });
-  return found != encodings.end() ? found->bytes : bytes_of_matrix(encoding);
+  const auto found = find_encoding(encoding);
+  return found ? std::optional{found->bytes_per_pixel()} : std::nullopt;
 }
 
 } // namespace roscell::ros2

@@ -119,3 +119,22 @@ TEST_CASE("a camera that is not calibrated is broken for who reads it",
   CHECK_THAT(found.seen, Contains("/cam/camera_info is all zero"));
   CHECK_THAT(found.remedy, Contains("image:=/cam/image"));
 }
+
+TEST_CASE("images that no skill can read are broken for who reads them",
+          "[doctor]") {
+  const topic_end end{"camera", "best_effort", "volatile"};
+  topic_row topic{"/cam/image", "sensor_msgs/msg/Image", {end}, {}, {}};
+  CHECK(judge_images(topic, std::nullopt).how == judgement::skipped);
+  for (const auto* encoding : {"yuv422_yuy2", "bayer_rggb16", "nv12", "32FC1"})
+    CHECK(judge_images(topic, seen_image{encoding, ""}).how == judgement::ok);
+  CHECK(judge_images(topic, seen_image{"16UC2", ""}).how == judgement::warning);
+  topic.readers.push_back(end);
+  auto found = judge_images(topic, seen_image{"16UC2", ""});
+  CHECK(found.how == judgement::broken);
+  CHECK_THAT(found.seen, Contains("/cam/image") && Contains("'16UC2'"));
+  CHECK_THAT(judge_images(topic, seen_image{"h264", ""}).seen,
+             Contains("nothing is known"));
+  found = judge_images(topic, seen_image{"", "field 'step': 5 bytes are few"});
+  CHECK(found.how == judgement::broken);
+  CHECK_THAT(found.seen, Contains("sizes lie: field 'step'"));
+}

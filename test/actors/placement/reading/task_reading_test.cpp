@@ -78,4 +78,31 @@ TEST_CASE("Steps that share files are told to the search", "[task_reading]") {
   CHECK(steps[1].together == 1);
 }
 
+TEST_CASE("Images in an encoding that their reader does not take are refused "
+          "with both places",
+          "[task_reading]") {
+  auto skills = vision_skills();
+  skills.skills[1].skill.descriptor.models[0].parameters =
+      R"({"encodings": ["mono8", "nv12"]})";
+  const auto read = [&](const std::string& encoding) {
+    return read_task("t",
+                     steps_in(R"([
+        {"id": "c", "operation": "camera", "model": "m", "input": "/d/x.png",
+         "parameters": {"encoding": ")"
+                              + encoding + R"("}},
+        {"id": "p", "operation": "poses", "model": "m",
+         "input": {"from": "c"}, "output": "/tmp/poses.jsonl"}])"),
+                     {skills, {}, {}});
+  };
+  CHECK(std::holds_alternative<task_reading>(read("mono8")));
+  const auto refused = read("bgr8");
+  REQUIRE(std::holds_alternative<failure>(refused));
+  const auto& why = std::get<failure>(refused);
+  CHECK(why.where == "/pipeline/1/input");
+  CHECK(why.message.find(R"(step "c" (at )") != std::string::npos);
+  CHECK(why.message.find(
+            R"(encoding "bgr8", but step "p" takes only mono8, nv12)")
+        != std::string::npos);
+}
+
 } // namespace roscell::test

@@ -1,5 +1,8 @@
 #include "tools/roscell/doctor/node/camera_checks.hpp"
 
+#include "roscell/ros2/cdr_error.hpp"
+#include "roscell/ros2/image_encoding.hpp"
+#include "roscell/ros2/image_view.hpp"
 #include "roscell/skill/errors.hpp"
 #include "skills/ros2/topic_listener.hpp"
 #include "tools/roscell/doctor/command_text.hpp"
@@ -19,10 +22,11 @@ namespace {
 
 using calibration = std::optional<std::vector<double>>;
 
-/// What a camera says of its images.
+/// What a camera says of its images, or the images say themselves.
 struct camera_words {
   calibration k;
   sent_image image; ///< Of no bytes where it says nothing.
+  std::optional<seen_image> seen;
 };
 
 /// A camera tells it with each image.
@@ -32,6 +36,24 @@ constexpr std::chrono::seconds camera_patience{3};
 constexpr size_t most_cameras = 8;
 
 constexpr auto camera_info = "sensor_msgs/msg/CameraInfo";
+constexpr auto image_message = "sensor_msgs/msg/Image";
+
+camera_words words_of_info(const std::string& payload) {
+  message_library library{{}};
+  const auto value = message_value(library, camera_info, payload, 16);
+  return {value.at("k").get<std::vector<double>>(),
+          image_of(value.at("width").get<uint32_t>(),
+                   value.at("height").get<uint32_t>()),
+          {}};
+}
+
+camera_words words_of_image(const std::string& payload) {
+  try {
+    return {{}, {}, seen_image{ros2::view_image(payload).encoding, ""}};
+  } catch (const ros2::cdr_error& e) {
+    return {{}, {}, seen_image{"", e.what()}};
+  }
+}
 
 /// One camera that is listened to.
 class heard_camera {
@@ -40,7 +62,9 @@ public:
     const auto found = find_topic(node, row.topic);
     listener_ = std::make_unique<ros2::topic_listener>(
         found.config, row.topic, row.data_type, found.qos,
-        [said = said_](const ros2::heard_message& x) { hear(*said, x); });
+        [said = said_, is_image = is_image()](const ros2::heard_message& x) {
+          hear(*said, is_image, x);
+        });
   }
 
   camera_words words(std::chrono::steady_clock::time_point deadline) {
@@ -54,6 +78,10 @@ public:
     return row_;
   }
 
+  bool is_image() const {
+    return row_.data_type == image_message;
+  }
+
 private:
   struct first_word {
     std::promise<camera_words> promise;
@@ -61,15 +89,13 @@ private:
   };
 
   /// On a thread of Fast DDS, one call at a time.
-  static void hear(first_word& said, const ros2::heard_message& x) {
+  static void hear(first_word& said, bool is_image,
+                   const ros2::heard_message& x) {
     if (std::exchange(said.heard, true))
       return;
     try {
-      message_library library{{}};
-      const auto value = message_value(library, camera_info, x.payload, 16);
-      said.promise.set_value({value.at("k").get<std::vector<double>>(),
-                              image_of(value.at("width").get<uint32_t>(),
-                                       value.at("height").get<uint32_t>())});
+      said.promise.set_value(is_image ? words_of_image(x.payload)
+                                      : words_of_info(x.payload));
     } catch (const std::exception&) {
       said.promise.set_value({});
     }
@@ -80,12 +106,15 @@ private:
   std::unique_ptr<ros2::topic_listener> listener_;
 };
 
+/// At most so many of either type.
 std::vector<topic_row> cameras_in(const topic_list& topics) {
   std::vector<topic_row> result;
-  for (const auto& x : topics.topics)
-    if (x.data_type == camera_info && !x.writers.empty()
-        && result.size() < most_cameras)
-      result.push_back(x);
+  for (const auto* type : {camera_info, image_message}) {
+    size_t count = 0;
+    for (const auto& x : topics.topics)
+      if (x.data_type == type && !x.writers.empty() && count++ < most_cameras)
+        result.push_back(x);
+  }
   return result;
 }
 
@@ -100,7 +129,8 @@ findings listen_to(const node_client& node,
   sent_image largest;
   for (const auto& x : heard) {
     const auto words = x->words(deadline);
-    result.push_back(judge_camera(x->row(), words.k));
+    result.push_back(x->is_image() ? judge_images(x->row(), words.seen)
+                                   : judge_camera(x->row(), words.k));
     if (words.image.bytes > largest.bytes)
       largest = words.image;
   }
@@ -131,6 +161,37 @@ finding judge_camera(const topic_row& topic, const calibration& k) {
       "0.025 --ros-args -r "
           + shell_word("image:=" + topic.topic.substr(0, topic.topic.rfind('/'))
                        + "/image")};
+}
+
+finding judge_images(const topic_row& topic,
+                     const std::optional<seen_image>& seen) {
+  const auto echo = "roscell echo " + shell_word(topic.topic) + " --count 1";
+  if (!seen)
+    return {judgement::skipped,
+            "no image came on " + topic.topic + " within "
+                + std::to_string(camera_patience.count()) + " s",
+            "its writer is waiting for pictures, or cannot be heard from here",
+            echo};
+  const auto how =
+      topic.readers.empty() ? judgement::warning : judgement::broken;
+  if (!seen->fault.empty())
+    return {
+        how, topic.topic + " has images whose sizes lie: " + seen->fault,
+        "skills that read it refuse each of them: correct the driver of the "
+        "camera",
+        echo};
+  const auto encoding = ros2::find_encoding(seen->encoding);
+  if (encoding && encoding->is_picture())
+    return {judgement::ok,
+            topic.topic + " has images in encoding " + seen->encoding};
+  return {how,
+          topic.topic + " has images in encoding '" + seen->encoding
+              + "', of which "
+              + (encoding ? "nothing says how bright a pixel is"
+                          : "nothing is known"),
+          "pose_estimation and convert end when they read it: have the camera "
+          "send gray, colours, Bayer or YUV",
+          echo};
 }
 
 findings examine_cameras(const node_client& node) {
