@@ -4,8 +4,10 @@
 #include "actors/instances/skill_descriptor_file.hpp"
 #include "actors/node/spawn_node.hpp"
 #include "embedding/node_door.hpp"
+#include "embedding/program_callbacks.hpp"
 #include "embedding/skills/actor_runtime.hpp"
 #include "embedding/surroundings.hpp"
+#include "embedding/task_calls.hpp"
 #include "embedding/thread_setting.hpp"
 #include "messages/type_ids.hpp"
 
@@ -95,7 +97,8 @@ factories_of(const std::vector<actor_skill>& skills) {
 
 class embedded_node::impl {
 public:
-  impl(caf::actor_system* system, const node_setup& setup) {
+  impl(caf::actor_system* system, const node_setup& setup)
+      : threads_(setup.threads) {
     embedding::check_surroundings();
     embedding::run_on_own_thread(setup.threads, [&] { start(system, setup); });
   }
@@ -123,6 +126,20 @@ public:
     return door_;
   }
 
+  const embedding::task_door& tasks() const {
+    return tasks_;
+  }
+
+  /// A thread for it is one of the node's, whoever asks.
+  task_watch watch(const std::string& task,
+                   const std::function<void(const task_status&)>& on_change) {
+    std::shared_ptr<task_watch::impl> result;
+    embedding::run_on_own_thread(threads_, [&] {
+      result = embedding::watch_task(tasks_, task, on_change);
+    });
+    return task_watch{std::move(result)};
+  }
+
 private:
   void start(caf::actor_system* system, const node_setup& setup) {
     if (!setup.skills.empty())
@@ -138,6 +155,15 @@ private:
     door_ = spawn<caf::detached>(
         *system, house{node_.actors, node_.events}, embedding::node_door,
         embedding::node_door_config{node_.actor, node_.router, node_.events});
+    const house context{node_.actors, node_.events};
+    tasks_ = {system, node_.router, node_.events, context,
+              setup.node.coordinator};
+    if (embedding::wants_to_hear(setup.calls)) {
+      const auto listener = spawn<caf::detached>(
+          *system, context, embedding::program_callbacks, node_.events,
+          std::make_shared<const node_callbacks>(setup.calls));
+      caf::anon_send(node_.events, subscribe_events{listener, 0});
+    }
     node_.actor->attach_functor([ended = ended_] { ended->set(); });
   }
 
@@ -167,6 +193,8 @@ private:
   std::unique_ptr<owned_system> own_;
   running_node node_;
   node_door_actor door_;
+  embedding::task_door tasks_;
+  const node_threads threads_;
   const std::shared_ptr<end_mark> ended_ = std::make_shared<end_mark>();
 };
 
@@ -184,6 +212,28 @@ const node_facts& embedded_node::facts() const noexcept {
 
 node_door_actor embedded_node::door() const {
   return impl_->door();
+}
+
+task_status embedded_node::run(const std::string& request,
+                               std::chrono::milliseconds limit) {
+  return state(embedding::run_task(impl_->tasks(), request, limit), limit);
+}
+
+void embedded_node::stop(const std::string& task, bool force,
+                         std::chrono::milliseconds limit) {
+  embedding::ask_node(impl_->tasks(),
+                      message_json(task_termination{task, force}), limit);
+}
+
+task_status embedded_node::state(const std::string& task,
+                                 std::chrono::milliseconds limit) const {
+  return embedding::status_of_task(impl_->tasks(), task, limit);
+}
+
+task_watch
+embedded_node::watch(const std::string& task,
+                     std::function<void(const task_status&)> on_change) const {
+  return impl_->watch(task, on_change);
 }
 
 bool embedded_node::stop(std::chrono::milliseconds limit) {

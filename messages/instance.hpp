@@ -54,6 +54,7 @@ struct instance_spec {
   std::map<std::string, std::string> environment;
   resource_request resources;
   life_policy life;
+  std::vector<std::string> arguments; ///< The step's, after the skill's.
 
   static constexpr auto fields() {
     return field_list{required("instance", &instance_spec::instance),
@@ -70,7 +71,8 @@ struct instance_spec {
                       raw_json("parameters", &instance_spec::parameters),
                       optional("environment", &instance_spec::environment),
                       required("resources", &instance_spec::resources),
-                      optional("life", &instance_spec::life)};
+                      optional("life", &instance_spec::life),
+                      optional("arguments", &instance_spec::arguments)};
   }
 };
 
@@ -137,6 +139,7 @@ struct instance_use {
   double cpu = -1;          ///< Cores, since it was asked before.
   double cpu_s = -1;        ///< Time of a core since its program started.
   int64_t memory_kills = 0; ///< Processes of it that were ended for memory.
+  int64_t pid = 0; ///< Of its program, as its host counts; 0: not known.
 
   static constexpr auto fields() {
     return field_list{
@@ -144,7 +147,8 @@ struct instance_use {
         optional("memory_limit_mib", &instance_use::memory_limit_mib),
         optional("cpu", &instance_use::cpu),
         optional("cpu_s", &instance_use::cpu_s),
-        optional("memory_kills", &instance_use::memory_kills)};
+        optional("memory_kills", &instance_use::memory_kills),
+        optional("pid", &instance_use::pid)};
   }
 };
 
@@ -308,13 +312,16 @@ struct log_excerpt {
   /// If it was asked for: when each line of `text` was logged, or the rest of
   /// one that began before it; 0: not known.
   std::vector<int64_t> times_unix_ms;
+  /// Where `text` is not what was logged byte by byte: that, in base64.
+  std::string bytes;
 
   static constexpr auto fields() {
     return field_list{required("instance", &log_excerpt::instance),
                       required("text", &log_excerpt::text),
                       required("next_offset", &log_excerpt::next_offset),
                       required("ended", &log_excerpt::ended),
-                      optional("times_unix_ms", &log_excerpt::times_unix_ms)};
+                      optional("times_unix_ms", &log_excerpt::times_unix_ms),
+                      optional("bytes", &log_excerpt::bytes)};
   }
 };
 

@@ -31,6 +31,9 @@ struct task_step {
   double safe_timeout_s = 0; ///< 0: as its skill says.
   int64_t priority = 5;      ///< 0 to 9.
   std::string on_boot; ///< A word of `boot_action`; empty: as its skill says.
+  /// Environment variables of its program, over those of its skill.
+  std::map<std::string, std::string> env;
+  std::vector<std::string> arguments; ///< Of its program, after its skill's.
 
   static constexpr auto fields() {
     return field_list{required("id", &task_step::id),
@@ -48,7 +51,9 @@ struct task_step {
                       raw_json("health", &task_step::health),
                       optional("safe_timeout_s", &task_step::safe_timeout_s),
                       optional("priority", &task_step::priority),
-                      optional("on_boot", &task_step::on_boot)};
+                      optional("on_boot", &task_step::on_boot),
+                      optional("env", &task_step::env),
+                      optional("arguments", &task_step::arguments)};
   }
 };
 

@@ -1,85 +1,26 @@
 #include "schemas/semantic_checks.hpp"
 
-#include "messages/step_end.hpp"
-#include "schemas/parameters/declared_parameter.hpp"
+#include "schemas/checks/descriptor_checks.hpp"
 #include "schemas/text_excerpt.hpp"
 
+#include <algorithm>
 #include <array>
 #include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace roscell {
 
 namespace {
 
-using pointer = json::json_pointer;
-using error_list = std::vector<schema_error>;
-
-/// A value and where it stands in the document.
-struct place {
-  const json& value;
-  pointer at;
-
-  /// Its member or null, which has no members in turn.
-  place operator/(const char* name) const {
-    static const json none;
-    auto i = value.is_object() ? value.find(name) : value.end();
-    auto found = value.is_object() && i != value.end();
-    return {found ? *i : none, at / name};
-  }
-
-  std::vector<place> items() const {
-    std::vector<place> result;
-    if (value.is_array())
-      for (size_t i = 0; i < value.size(); ++i)
-        result.push_back({value[i], at / i});
-    return result;
-  }
-
-  /// Its text; empty if it is no string.
-  std::string text() const {
-    return value.is_string() ? value.get<std::string>() : std::string{};
-  }
-};
-
-void refuse(error_list& errors, const place& x, const std::string& expected) {
-  auto got = x.value.is_null() ? std::string{"but it is missing"}
-                               : "got " + value_words(x.value);
-  errors.push_back({x.at.to_string(), "expected " + expected + ", " + got});
-}
-
-void check_unique(error_list& errors, const place& list, const char* member,
-                  const std::string& what) {
-  std::set<json> seen;
-  for (const auto& item : list.items()) {
-    auto id = item / member;
-    if (!id.value.is_null() && !seen.insert(id.value).second)
-      refuse(errors, id, what);
-  }
-}
+using namespace checks;
 
 void check_members(error_list& errors, const place& formation) {
   std::set<json> seen;
   for (const auto& name : (formation / "members").items())
     if (!seen.insert(name.value).second)
       refuse(errors, name, "a name that is not in the list already");
-}
-
-bool climbs(const std::string& path) {
-  return ("/" + path + "/").find("/../") != std::string::npos;
-}
-
-void check_absolute(error_list& errors, const place& x,
-                    const std::string& what) {
-  auto path = x.text();
-  if (!path.empty() && (path.front() != '/' || climbs(path)))
-    refuse(errors, x, what + " to be an absolute path without '..'");
-}
-
-void check_devices(error_list& errors, const place& list) {
-  for (const auto& device : list.items())
-    check_absolute(errors, device, "the device");
 }
 
 void check_resources(error_list& errors, const place& node) {
@@ -112,150 +53,36 @@ void check_streams(error_list& errors, const place& x) {
   check_endpoints(errors, x / "output");
 }
 
+/// What the engine tells a program by its environment: a step that said
+/// otherwise would take it out of its cell.
+bool is_of_engine(std::string_view variable) {
+  constexpr std::array<std::string_view, 8> names{
+      "NOTIFY_SOCKET",        "WATCHDOG_USEC",      "ROS_DISCOVERY_SERVER",
+      "ROS_DOMAIN_ID",        "ROS_LOCALHOST_ONLY", "RMW_IMPLEMENTATION",
+      "CUDA_VISIBLE_DEVICES", "ROS_STATIC_PEERS"};
+  constexpr std::string_view own = "ROSCELL_";
+  return variable.substr(0, own.size()) == own
+         || std::find(names.begin(), names.end(), variable) != names.end();
+}
+
+void check_env(error_list& errors, const place& variables) {
+  if (!variables.value.is_object())
+    return;
+  for (const auto& [name, value] : variables.value.items())
+    if (is_of_engine(name))
+      errors.push_back({(variables.at / name).to_string(),
+                        "expected a variable that the engine does not set "
+                        "itself, got "
+                            + in_quotes(name)});
+}
+
 void check_pipeline(error_list& errors, const place& request) {
   auto steps = request / "pipeline";
   check_unique(errors, steps, "id", "an id that no other step has");
-  for (const auto& step : steps.items())
+  for (const auto& step : steps.items()) {
     check_streams(errors, step);
-}
-
-void check_volume(error_list& errors, const place& volume) {
-  auto text = volume.text();
-  auto mode = text.size() > 3 ? text.rfind(":ro") : std::string::npos;
-  if (mode != std::string::npos && mode == text.size() - 3)
-    text.erase(mode);
-  auto colon = text.find(':');
-  if (colon == std::string::npos)
-    return;
-  auto host = text.substr(0, colon);
-  auto container = text.substr(colon + 1);
-  auto fine = container.find(':') == std::string::npos && !climbs(host)
-              && !climbs(container) && container.size() > 1;
-  if (!fine)
-    refuse(errors, volume,
-           "/host/path:/container/path or /host/path:/container/path:ro, "
-           "without '..'");
-}
-
-void check_entry_point(error_list& errors, const place& words) {
-  auto programs = words.items();
-  if (programs.empty())
-    return;
-  auto path = programs.front().text();
-  if (!path.empty()
-      && (path.front() == '/' || path.back() == '/' || climbs(path)))
-    refuse(errors, programs.front(),
-           "the program to be a path below the skill's folder, without '..'");
-}
-
-void check_topics(error_list& errors, const place& topics) {
-  if (!topics.value.is_object())
-    return;
-  for (const auto& [name, end] : topics.value.items())
-    if (end.is_string() && !parse_step_end(end.get<std::string>()))
-      refuse(errors, {end, topics.at / name},
-             "an end of the step: input, output, or with its place, input:1");
-}
-
-/// An actor is part of a program that runs already.
-void check_actor_skill(error_list& errors, const place& skill) {
-  if (!(skill / "entry_point").value.is_null())
-    refuse(errors, skill / "entry_point",
-           "no program: the one that embeds the node has the actor");
-}
-
-void check_folder_skill(error_list& errors, const place& skill) {
-  if ((skill / "entry_point").value.is_null())
-    refuse(errors, skill / "entry_point",
-           "the program below the folder, and its arguments");
-}
-
-void check_base_images(error_list& errors, const place& skill) {
-  for (const auto& model : (skill / "models").items())
-    for (const auto& deployment : (model / "deployments").items())
-      if (deployment.value.is_object()
-          && (deployment / "base_image").value.is_null())
-        refuse(errors, deployment / "base_image",
-               "the image that a container of it is made from");
-}
-
-/// Who runs a ROS 2 program says which; anybody else brings a program along.
-void check_program(error_list& errors, const place& skill) {
-  if (!skill.value.is_object())
-    return;
-  const auto engine = (skill / "engine").text();
-  const auto program = skill / "ros2";
-  check_topics(errors, program / "topics");
-  if (engine != "actor")
-    check_base_images(errors, skill);
-  if (engine != "ros2_standalone") {
-    if (engine == "actor")
-      check_actor_skill(errors, skill);
-    else
-      check_folder_skill(errors, skill);
-    if (!program.value.is_null())
-      refuse(errors, program,
-             "no ROS 2 program without \"engine\": "
-             "\"ros2_standalone\"");
-    return;
+    check_env(errors, step / "env");
   }
-  const auto executable = program / "executable";
-  const auto launch = program / "launch";
-  const auto& said = launch.value.is_null() ? executable : launch;
-  if (!(skill / "entry_point").value.is_null())
-    refuse(errors, skill / "entry_point",
-           "no program of the folder: \"ros2\" names the one that is run");
-  if (executable.value.is_null() == launch.value.is_null())
-    refuse(errors, executable, "either an executable or a launch file");
-  else if (said.text().rfind('/', 0) != 0
-           && (program / "package").value.is_null())
-    refuse(errors, program / "package",
-           "the package of " + said.text() + ", or an absolute path there");
-}
-
-/// Only what is real time has priorities.
-void check_scheduling(error_list& errors, const place& wish) {
-  if (!wish.value.is_object())
-    return;
-  const auto policy = (wish / "policy").text();
-  const auto real_time = policy == "fifo" || policy == "rr";
-  const auto priority = wish / "priority";
-  if (real_time && priority.value.is_null())
-    refuse(errors, priority,
-           "a priority from 1 to 99, which " + policy + " needs");
-  if (!real_time && !priority.value.is_null())
-    refuse(errors, priority, "no priority without the policy fifo or rr");
-}
-
-void append(error_list& errors, const error_list& others) {
-  errors.insert(errors.end(), others.begin(), others.end());
-}
-
-void check_descriptor(error_list& errors, const place& skill) {
-  check_entry_point(errors, skill / "entry_point");
-  check_unique(errors, skill / "models", "name",
-               "a name that no other model has");
-  for (const auto& model : (skill / "models").items()) {
-    if (const auto declared = model / "parameters"; declared.value.is_object())
-      append(errors,
-             declaration_errors(declared.value, declared.at.to_string()));
-    auto deployments = model / "deployments";
-    check_unique(errors, deployments, "name",
-                 "a name that no other deployment of the model has");
-    for (const auto& deployment : deployments.items()) {
-      check_devices(errors, deployment / "devices");
-      check_scheduling(errors, deployment / "scheduling");
-      for (const auto& volume : (deployment / "volumes").items())
-        check_volume(errors, volume);
-    }
-  }
-}
-
-/// As an author writes it. What a member registers has been looked at when it
-/// read the file.
-void check_written_descriptor(error_list& errors, const place& skill) {
-  check_program(errors, skill);
-  check_descriptor(errors, skill);
 }
 
 void check_plan_document(error_list& errors, const place& plan) {
@@ -318,7 +145,7 @@ void check_verdicts(error_list& errors, const place& x) {
 
 using check = void (*)(error_list&, const place&);
 
-constexpr std::array<std::pair<std::string_view, check>, 10> checks{{
+constexpr std::array<std::pair<std::string_view, check>, 10> all_checks{{
     {"cell_formation", check_members},
     {"instance_deployment", check_deployment},
     {"instance_reservation", check_reservation},
@@ -336,7 +163,7 @@ constexpr std::array<std::pair<std::string_view, check>, 10> checks{{
 std::vector<schema_error> semantic_errors(std::string_view type,
                                           const json& document) {
   error_list errors;
-  for (const auto& [name, check] : checks)
+  for (const auto& [name, check] : all_checks)
     if (name == type)
       check(errors, {document, pointer{}});
   return errors;

@@ -44,6 +44,11 @@ std::string in_quotes(std::string_view text, size_t max_characters) {
   return result;
 }
 
+std::string absence_words(std::string_view name, const std::string& expected) {
+  return "expected " + in_quotes(name) + ", " + expected
+         + ", but it is missing";
+}
+
 std::string range_words(double minimum, double maximum) {
   const bool low = std::isfinite(minimum);
   const bool high = std::isfinite(maximum);

@@ -130,9 +130,8 @@ private:
   }
 
   void refuse_absence(const std::string& name, const schema_rule& rule) {
-    here_.push_back(name);
-    refuse(rule, "but it is missing");
-    here_.pop_back();
+    errors.push_back(
+        {(here_ / name).to_string(), absence_words(name, rule_words(rule))});
   }
 
   void visit_names(const schema_rule& rule, const json& x) {

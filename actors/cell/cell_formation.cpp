@@ -10,7 +10,9 @@
 #include <algorithm>
 #include <functional>
 #include <memory>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace roscell {
 
@@ -150,6 +152,27 @@ failure is_ambiguous(const node_presence& who, const named_node& found) {
           "", "give one of them another --name"};
 }
 
+/// Where the nodes in no cell are that announce the name.
+std::vector<std::string> free_addresses(const cell_coordinator_state& st,
+                                        const std::string& node) {
+  std::vector<std::string> result;
+  for (const auto& x : st.free_nodes.rows())
+    if (x.name == node && x.silent_since_unix_ms == 0)
+      result.push_back(x.address);
+  return result;
+}
+
+/// It is for a person to say which one is meant.
+failure are_twins(const std::string& node,
+                  const std::vector<std::string>& addresses) {
+  std::string where;
+  for (const auto& x : addresses)
+    where += (where.empty() ? "" : ", ") + x;
+  return {error_code::conflict,
+          "several nodes in no cell are called '" + node + "': at " + where, "",
+          "start one of them with another --name"};
+}
+
 /// Brings in a node that has no row here.
 void bring_in_stranger(coordinator_pointer self, const std::string& node,
                        instance_policy policy, const outcome_done& done) {
@@ -160,6 +183,8 @@ void bring_in_stranger(coordinator_pointer self, const std::string& node,
     return done(failed(node, found.why));
   if (!found.holder && !who)
     return done(failed(node, is_invisible(node)));
+  if (const auto twins = free_addresses(st, node); twins.size() > 1)
+    return done(failed(node, are_twins(node, twins)));
   if (!found.holder)
     return bring_in_free(self, node_presence{*who}, done);
   if (who && who->uuid != found.claim.uuid)

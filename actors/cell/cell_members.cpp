@@ -127,6 +127,11 @@ void admit(coordinator_pointer self, const register_node& request,
   auto& st = self->state;
   const auto& who = request.registration.identity;
   if (auto why = st.registry.refusal(who, now_of(self), gone)) {
+    st.context.tell("node_refused", who.name,
+                    {{"uuid", who.uuid},
+                     {"address", who.address},
+                     {"reason", why->message},
+                     {"hint", why->hint}});
     promise.deliver(to_error(*why));
     return;
   }

@@ -130,6 +130,8 @@ size_t bytes_of(const instance_row& row) {
   size_t result = rest + row.spec.parameters.size() + row.reason.size();
   for (const auto& [name, value] : row.spec.environment)
     result += name.size() + value.size();
+  for (const auto& argument : row.spec.arguments)
+    result += argument.size();
   for (const auto* ends : {&row.spec.input, &row.spec.output})
     for (const auto& x : *ends)
       result += x.endpoint.size();

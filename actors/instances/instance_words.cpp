@@ -79,7 +79,8 @@ failure deployment_failure(const instance_row& row) {
           who + " failed: " + row.reason,
           {},
           row.log_tail.empty() ? std::string{}
-                               : "its last lines are in log_tail",
+                               : "`roscell logs " + row.spec.instance
+                                     + "` shows all that it said",
           details.dump(-1, ' ', false, json::error_handler_t::replace)};
 }
 

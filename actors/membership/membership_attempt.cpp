@@ -235,6 +235,7 @@ void shorten(instance_row& row) {
   row.spec.output.clear();
   row.spec.parameters.clear();
   row.spec.environment.clear();
+  row.spec.arguments.clear();
 }
 
 bool is_current(self_pointer self, uint64_t attempt, phase where) {

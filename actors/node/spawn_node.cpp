@@ -32,6 +32,18 @@ void tell_of_data(const house& context, const node_data& data) {
                  {{"table", x.table}, {"reason", x.why}});
 }
 
+/// A step that says "node" by a label means a node's name, mostly.
+void tell_of_label(const house& context, const node_config& config) {
+  const auto own = config.labels.find("node");
+  if (own != config.labels.end() && own->second != config.name)
+    context.tell(
+        "name_label_ignored", config.name,
+        {{"label", "node=" + own->second},
+         {"reason", "the node has a label 'node' of its own, so that a step "
+                    "with the label node="
+                        + config.name + " does not find it"}});
+}
+
 running_node first_facts(const node_config& config, const house& context,
                          const node_edges& edges) {
   running_node result;
@@ -84,6 +96,7 @@ caf::expected<running_node> spawn_node(caf::actor_system& system,
     return edges.error();
   }
   tell_of_data(context, *data);
+  tell_of_label(context, config);
   auto result = first_facts(config, context, **edges);
   result.token_file = data->token_file;
   result.site_token_file = data->site.file().string();

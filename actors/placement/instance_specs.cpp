@@ -35,17 +35,6 @@ const deployment_option& chosen_option(const implementation_model& model,
                        [&](const auto& x) { return x.name == name; });
 }
 
-/// What a model declares, with what the step says put over its defaults.
-std::string parameters_for(const implementation_model& model,
-                           const task_step& step) {
-  json result = model.parameters.empty()
-                    ? json::object()
-                    : parameter_defaults(json::parse(model.parameters));
-  if (!step.parameters.empty())
-    result.update(json::parse(step.parameters));
-  return result.dump();
-}
-
 } // namespace
 
 std::vector<instance_spec> make_specs(const allocated_task& task) {
@@ -66,8 +55,12 @@ std::vector<instance_spec> make_specs(const allocated_task& task) {
     spec.gpu = placed.gpu;
     spec.input = x.step.input;
     spec.output = x.step.output;
-    spec.parameters = parameters_for(build.model, x.step);
-    spec.environment = option.environment;
+    spec.parameters =
+        step_parameters(build.model.parameters, x.step.parameters).dump();
+    spec.environment = x.step.env;
+    spec.environment.insert(option.environment.begin(),
+                            option.environment.end());
+    spec.arguments = x.step.arguments;
     spec.resources = option.resources;
     spec.life = life_of(x.step, option, build.safe_state);
     result.push_back(std::move(spec));

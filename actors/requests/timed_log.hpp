@@ -11,7 +11,7 @@ namespace roscell {
 /// several parts gets its time once, one whose time is not known a "-".
 class timed_log {
 public:
-  /// What is to be shown of the next part.
+  /// What is to be shown of the next part, byte by byte as it was logged.
   std::string add(const log_excerpt& part);
 
 private:

@@ -14,6 +14,8 @@ size_t long_bytes(const instance_spec& spec) {
   auto result = spec.parameters.size();
   for (const auto& [name, value] : spec.environment)
     result += name.size() + value.size();
+  for (const auto& argument : spec.arguments)
+    result += argument.size();
   return result;
 }
 

@@ -1,5 +1,7 @@
 #include "embedding/skills/line_ring.hpp"
 
+#include "actors/edge/process/line_times.hpp"
+#include "actors/house/limits.hpp"
 #include "schemas/utf8.hpp"
 
 #include <algorithm>
@@ -55,11 +57,18 @@ line_ring::excerpt line_ring::read_tail(std::size_t lines) const {
 
 line_ring::excerpt line_ring::read(std::size_t first_line) const {
   excerpt result;
-  for (auto i = first_line; i < lines_.size(); ++i) {
+  result.next_offset = dropped_bytes_;
+  for (std::size_t i = 0; i < first_line; ++i)
+    result.next_offset += static_cast<std::int64_t>(lines_[i].text.size());
+  auto i = first_line;
+  for (; i < lines_.size() && result.text.size() < limits::log::part_bytes
+         && i - first_line < static_cast<std::size_t>(most_timed_lines);
+       ++i) {
     result.text += lines_[i].text;
     result.times_unix_ms.push_back(lines_[i].time_unix_ms);
   }
-  result.next_offset = dropped_bytes_ + static_cast<std::int64_t>(bytes_);
+  result.next_offset += static_cast<std::int64_t>(result.text.size());
+  result.is_whole = i == lines_.size();
   return result;
 }
 

@@ -20,6 +20,7 @@ public:
     std::string text;
     std::int64_t next_offset = 0;
     std::vector<std::int64_t> times_unix_ms; ///< One a line.
+    bool is_whole = true; ///< Nothing has been logged behind it.
   };
 
   /// `on_line` is called after each line, from the thread that logs it.

@@ -15,8 +15,12 @@ log_excerpt look(const kept_skill& x, const log_query& query) {
   auto part = query.offset < 0
                   ? x.log->read_tail(static_cast<std::size_t>(lines))
                   : x.log->read_from(query.offset);
-  return {query.instance, std::move(part.text), part.next_offset, !x.keeper,
-          query.times ? std::move(part.times_unix_ms) : std::vector<int64_t>{}};
+  return {query.instance,
+          std::move(part.text),
+          part.next_offset,
+          !x.keeper && part.is_whole,
+          query.times ? std::move(part.times_unix_ms) : std::vector<int64_t>{},
+          {}};
 }
 
 std::size_t follower_count(const actor_runtime_state& st) {

@@ -3,11 +3,13 @@
 #include "roscell/actor_skill.hpp"
 #include "roscell/coded_error.hpp"
 #include "roscell/node_actors.hpp"
+#include "roscell/node_calls.hpp"
 #include "roscell/node_config.hpp"
 #include "roscell/node_facts.hpp"
 
 #include <chrono>
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -37,9 +39,11 @@ struct node_setup {
   node_config node;
   node_threads threads;
   std::vector<actor_skill> skills;
+  node_callbacks calls;
 };
 
-/// A node cannot start. `code` is a word of docs/protocols.md: "conflict" (a
+/// A node cannot start, or has refused what it was asked, with the code of the
+/// refusal. `code` is a word of docs/protocols.md: of a start "conflict" (a
 /// port or the data directory is in use), "unreachable", "unauthorized",
 /// "schema_violation" (a bad option or descriptor, named), "engine_failed" (no
 /// program can be run), "internal" (the actor system does not know our
@@ -86,6 +90,33 @@ public:
 
   /// For actors that ask the node by messages, of any actor system.
   node_door_actor door() const;
+
+  // -- tasks of the node's cell ----------------------------------------------
+  // A member passes these on to its coordinator. They wait on the calling
+  // thread, for `limit` at most, and throw node_error: the refusal, or
+  // "timeout".
+
+  /// Runs a task: `request` is what `roscell run` takes, as JSON or YAML.
+  /// Returns once all its steps run. One that runs already stays as it is.
+  task_status run(const std::string& request,
+                  std::chrono::milliseconds limit = std::chrono::minutes{2});
+
+  /// Ends a task. What has to be safe before it ends may outlive the call,
+  /// unless it is forced.
+  void stop(const std::string& task, bool force = false,
+            std::chrono::milliseconds limit = std::chrono::minutes{2});
+
+  /// How a task stands; its state is "gone" if the cell has none of that name.
+  task_status state(const std::string& task,
+                    std::chrono::milliseconds limit = std::chrono::seconds{
+                        10}) const;
+
+  /// Calls `on_change` with how a task stands, and each time that this changes,
+  /// on a thread for this watch, until the watch or the node ends. A
+  /// coordinator tells at once; a member what happens on itself at once, and
+  /// what happens elsewhere within 5 s.
+  task_watch watch(const std::string& task,
+                   std::function<void(const task_status&)> on_change) const;
 
   /// Stops it in order: actor skills get into their safe state and end;
   /// instances that are programs go on, and the next node on the same data

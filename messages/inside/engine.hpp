@@ -44,6 +44,7 @@ struct engine_log_read {
   int64_t next_offset = 0;
   bool is_whole = true;               ///< It is all that is there.
   std::vector<int64_t> times_unix_ms; ///< As in a log_excerpt.
+  std::string bytes;                  ///< As in a log_excerpt.
 
   static constexpr auto fields() {
     return field_list{
@@ -51,7 +52,8 @@ struct engine_log_read {
         required("text", &engine_log_read::text),
         required("next_offset", &engine_log_read::next_offset),
         required("is_whole", &engine_log_read::is_whole),
-        required("times_unix_ms", &engine_log_read::times_unix_ms)};
+        required("times_unix_ms", &engine_log_read::times_unix_ms),
+        required("bytes", &engine_log_read::bytes)};
   }
 };
 

@@ -34,6 +34,17 @@ bool has_type(const declared_parameter& x, const json& value) {
   return x.type.empty() || x.type == type_of(value);
 }
 
+bool has_item_type(const std::string& type, const json& item) {
+  return type == "integer" ? item.is_number_integer() : type == type_of(item);
+}
+
+bool has_items(const declared_parameter& x, const json& value) {
+  return x.items.empty() || !value.is_array()
+         || std::all_of(value.begin(), value.end(), [&](const json& item) {
+              return has_item_type(x.items, item);
+            });
+}
+
 bool is_in_range(const declared_parameter& x, const json& value) {
   if (!value.is_number())
     return true;
@@ -45,6 +56,13 @@ bool is_listed(const declared_parameter& x, const json& value) {
   return x.values.empty()
          || std::find(x.values.begin(), x.values.end(), value)
                 != x.values.end();
+}
+
+/// "a list of numbers"
+std::string list_words(const std::string& items) {
+  if (items.empty())
+    return "a list";
+  return "a list of " + (items == "string" ? "text" : items) + "s";
 }
 
 std::string type_words(const std::string& type) {
@@ -71,6 +89,8 @@ declared_parameter read_declaration(const json& x) {
   result.unit = x.value("unit", "");
   result.description = x.value("description", "");
   result.changeable = x.value("changeable", false);
+  result.items = x.value("items", "");
+  result.is_declared = true;
   return result;
 }
 
@@ -97,12 +117,14 @@ std::string parameter_words(const declared_parameter& x) {
       result += (&value == &x.values.front() ? " " : ", ") + value.dump();
     return result;
   }
-  return type_words(x.type) + range_words(x.minimum, x.maximum)
+  return (x.type == "array" ? list_words(x.items) : type_words(x.type))
+         + range_words(x.minimum, x.maximum)
          + (x.unit.empty() ? "" : " (" + x.unit + ")");
 }
 
 std::string value_problem(const declared_parameter& x, const json& value) {
-  if (has_type(x, value) && is_in_range(x, value) && is_listed(x, value))
+  if (has_type(x, value) && has_items(x, value) && is_in_range(x, value)
+      && is_listed(x, value))
     return {};
   return "expected " + parameter_words(x) + ", got " + value_words(value);
 }
@@ -118,12 +140,25 @@ std::vector<schema_error> declaration_errors(const json& parameters,
     if (declared.minimum > declared.maximum)
       result.push_back({at + "/minimum", "expected at most the maximum, got "
                                              + value_words(x["minimum"])});
+    if (!declared.items.empty() && declared.type != "array")
+      result.push_back(
+          {at + "/items", "expected \"type\": \"array\" beside it, "
+                          "got "
+                              + value_words(x["type"])});
     if (declared.value.is_null())
       continue;
     if (auto problem = value_problem(declared, declared.value);
         !problem.empty())
       result.push_back({at + "/default", std::move(problem)});
   }
+  return result;
+}
+
+json step_parameters(const std::string& model, const std::string& step) {
+  auto result =
+      model.empty() ? json::object() : parameter_defaults(json::parse(model));
+  if (!step.empty())
+    result.update(json::parse(step));
   return result;
 }
 

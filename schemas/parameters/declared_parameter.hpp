@@ -19,7 +19,9 @@ struct declared_parameter {
   std::vector<json> values; ///< All that it can be; empty: no list.
   std::string unit;
   std::string description;
-  bool changeable = false; ///< While the skill runs.
+  bool changeable = false;  ///< While the skill runs.
+  std::string items;        ///< Type of a list's items; empty: any.
+  bool is_declared = false; ///< By an object, not by its default alone.
 };
 
 /// By name.
@@ -44,5 +46,9 @@ std::vector<schema_error> declaration_errors(const json& parameters,
 
 /// The defaults of a model as a step begins with them.
 json parameter_defaults(const json& parameters);
+
+/// What an instance gets: the defaults, with what its step says put over them.
+/// @param model, step JSON objects as text; empty: none.
+json step_parameters(const std::string& model, const std::string& step);
 
 } // namespace roscell

@@ -101,6 +101,23 @@ TEST_CASE("the shim tells why a command could not be run") {
              Contains("/does/not/exist") && Contains("No such file"));
 }
 
+TEST_CASE("the shim names an interpreter that is not there") {
+  const auto [line, words] = GENERATE(
+      std::pair{"#!/no/such/python\n", "interpreter '/no/such/python' is not"},
+      std::pair{"#! /no/such/env python\n",
+                "interpreter '/no/such/env' is not"},
+      std::pair{"#!/bin/sh\r\n", "'/bin/sh' has a CR behind it"});
+  temp_folder folder;
+  const auto script = folder / "script";
+  std::ofstream{script} << line << "true\n";
+  REQUIRE(::chmod(script.c_str(), 0755) == 0);
+  child_process process{
+      {shim, "--dir", folder / "i", "--log-bytes", "4096", "--", script}, {}};
+  CHECK(process.wait() == 0);
+  CHECK(json::parse(content_of(folder / "i/exit"))["code"] == 127);
+  CHECK_THAT(content_of(folder / "i/log.0"), Contains(words));
+}
+
 TEST_CASE("the shim runs the command in the folder it is told") {
   temp_folder folder;
   folder.write("here", "found\n");

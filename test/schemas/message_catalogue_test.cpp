@@ -153,6 +153,30 @@ TEST_CASE("a member's name in other systems leads to the one here") {
         == "there is no member \"steps\" here; did you mean \"pipeline\"?");
 }
 
+TEST_CASE("words of other systems lead to those here, or say what to do") {
+  const std::pair<const char*, const char*> words[] = {
+      {"nodeSelector", "did you mean \"labels\"?"},
+      {"image", "did you mean \"operation\"?"},
+      {"max_retries", "did you mean \"restart\"?"},
+      {"restartPolicy", "did you mean \"restart\"?"},
+      {"environment", "did you mean \"env\"?"},
+      {"args", "did you mean \"arguments\"?"},
+      {"command", "did you mean \"arguments\"?"},
+      {"depends_on", "did you mean \"input\"?"},
+      {"livenessProbe", "did you mean \"health\"?"},
+      {"constraint", "did you mean \"labels\"?"},
+      {"replicas", "write a step for each"},
+      {"ports", "the network of its host"},
+      {"resources", "said by its skill.json"}};
+  for (const auto& [foreign, own] : words) {
+    INFO(foreign);
+    const auto why = validate_request(request_with(foreign, 1));
+    REQUIRE(why);
+    CHECK(why->where == "/pipeline/0/" + std::string{foreign});
+    CHECK(why->message.find(own) != std::string::npos);
+  }
+}
+
 TEST_CASE("a member that is near none is refused with those there are") {
   const auto why =
       validate_request({{"type", "task_query"}, {"colour", "red"}});

@@ -18,6 +18,11 @@ TEST_CASE("bytes that are no UTF-8 are replaced") {
   CHECK_NOTHROW(json(in_quotes("\x80\x80")).dump());
 }
 
+TEST_CASE("a member that is missing is named") {
+  CHECK(absence_words("id", "a name")
+        == R"(expected "id", a name, but it is missing)");
+}
+
 TEST_CASE("a value is told in few words") {
   CHECK(value_words(nullptr) == "null");
   CHECK(value_words(true) == "true");

@@ -38,7 +38,7 @@ TEST_CASE("all errors of a document are reported at once") {
   CHECK(errors
         == error_list{
             {"/a", "expected true or false, got the number 1"},
-            {"/b", "expected null, but it is missing"},
+            {"/b", R"(expected "b", null, but it is missing)"},
             {"/c/1", R"(expected an integer of at most 9, got "x")"},
             {"/c/2", "expected an integer of at most 9, got the number 10"},
             {"/c/3", "expected an integer of at most 9, got the number 2.5"}});
@@ -57,7 +57,7 @@ TEST_CASE("the choice of the value's own kind explains what is wrong") {
     {"type":"object","required":["a"],"properties":{"a":{"type":"null"}}},
     {"type":"array","items":{"type":"string"}}]})";
   CHECK(errors_of(schema, json::object())
-        == error_list{{"/a", "expected null, but it is missing"}});
+        == error_list{{"/a", R"(expected "a", null, but it is missing)"}});
   CHECK(errors_of(schema, {"x", 1})
         == error_list{{"/1", "expected a string, got the number 1"}});
   CHECK(

@@ -1,5 +1,7 @@
 #include "tools/roscell/daemon/journal.hpp"
 
+#include "actors/node/event_loudness.hpp"
+
 #include <catch2/catch.hpp>
 
 using namespace roscell;

@@ -42,6 +42,31 @@ TEST_CASE("each wrong place is shown, and ten of many") {
   CHECK(marks.substr(marks.size() - 9) == "and more\n");
 }
 
+TEST_CASE("wrong places are shown in the order of the file") {
+  const auto marks = marks_for(R"({"type": "task_request", "task": "t",
+"pipeline": [{
+"model": 1,
+"zzz": 2,
+"aaa": 3,
+"operation": 4,
+"id": 5}]})");
+  size_t before = 0;
+  for (const auto* at : {":3:1: ", ":4:1: ", ":5:1: ", ":6:1: ", ":7:1: "}) {
+    INFO(marks);
+    const auto found = marks.find(at);
+    REQUIRE(found != std::string::npos);
+    CHECK(found >= before);
+    before = found;
+  }
+}
+
+TEST_CASE("a member that is missing is named at what should have it") {
+  const auto marks = marks_for(R"({"type": "task_request", "pipeline": [
+{"id": "a", "operation": "echo", "model": "m"}]})");
+  CHECK(marks.find("task.json:1:1: expected \"task\", a name: ")
+        != std::string::npos);
+}
+
 TEST_CASE("of a long line the part around the place is shown") {
   const auto marks = marks_for(
       R"({"type": "task_query", "task": ")" + std::string(60, 'x')

@@ -124,6 +124,17 @@ TEST_CASE("a step that does not simply run says why", "[tools]") {
   CHECK(has(task_view({{task}}, at(0)), "it makes way for task 'high'\n"));
 }
 
+TEST_CASE("a node that has a coordinator is a member", "[tools]") {
+  cell_description cell;
+  cell.nodes.resize(2);
+  cell.nodes[0].role = node_role::coordinator;
+  cell.nodes[0].identity.name = "head";
+  cell.nodes[1].identity.name = "arm";
+  const auto text = members_view(cell, at(0));
+  CHECK(has(text, "\nhead  coordinator  "));
+  CHECK(has(text, "\narm   member       "));
+}
+
 TEST_CASE("nodes in no cell are listed below the members", "[tools]") {
   cell_description cell;
   cell.nodes.resize(1);
@@ -132,8 +143,8 @@ TEST_CASE("nodes in no cell are listed below the members", "[tools]") {
                {"arm-2", "v", "10.0.0.3:8420", node_state::orphaned, "hall"}};
   const auto text = members_view(cell, at(0));
   CHECK(text.find("\nhead ") < text.find("\narm-1 "));
-  CHECK(has(text, "\narm-1  primary  independent      -  10.0.0.2:8420"));
-  CHECK(has(text, "\narm-2  primary  orphaned         -  10.0.0.3:8420"));
+  CHECK(has(text, "\narm-1  -       independent      -  10.0.0.2:8420"));
+  CHECK(has(text, "\narm-2  -       orphaned         -  10.0.0.3:8420"));
   CHECK(has(text, "  it was in cell 'hall'\n"));
 }
 
@@ -242,7 +253,7 @@ TEST_CASE("a node that has fallen silent says when it was missed", "[tools]") {
   cell.free = {
       {"arm-1", "u", "10.0.0.2:8420", node_state::independent, "", 1000}};
   const auto text = members_view(cell, at(61'000));
-  CHECK(has(text, "\narm-1  primary  silent  1m00s  "));
+  CHECK(has(text, "\narm-1  -     silent  1m00s  "));
   CHECK(has(text, "missed 1m00s ago"));
 }
 

@@ -31,6 +31,37 @@ constexpr int kill_round_ms = 50;
   ::_exit(127);
 }
 
+/// Of a script whose interpreter is missing, and of a program whose loader is,
+/// the kernel says that they are not there themselves.
+[[noreturn]] void fail_to_run(const char* program) {
+  const auto why = errno;
+  char head[256] = {};
+  const auto file = ::open(program, O_RDONLY | O_CLOEXEC);
+  const auto size = file < 0 ? 0 : ::read(file, head, sizeof(head) - 1);
+  if (why == ENOENT && size > 2 && std::strncmp(head, "#!", 2) == 0) {
+    auto* interpreter = head + 2 + std::strspn(head + 2, " \t");
+    interpreter[std::strcspn(interpreter, " \t\n")] = '\0';
+    auto* end = interpreter + std::strlen(interpreter);
+    const auto foreign = end != interpreter && end[-1] == '\r';
+    if (foreign)
+      end[-1] = '\0';
+    ::dprintf(STDERR_FILENO, "shim: cannot run '%s': its interpreter '%s'%s\n",
+              program, interpreter,
+              foreign ? " has a CR behind it: its lines end as on Windows"
+                      : " is not there");
+    ::_exit(127);
+  }
+  if (why == ENOENT && size > 2) {
+    ::dprintf(STDERR_FILENO,
+              "shim: cannot run '%s': what loads it is not there (`file` names "
+              "it)\n",
+              program);
+    ::_exit(127);
+  }
+  errno = why;
+  fail("run", program);
+}
+
 void reset_signals() {
   // What the shim ignores would stay ignored across execve.
   for (auto number : {SIGHUP, SIGINT, SIGPIPE, SIGXFSZ})
@@ -73,7 +104,7 @@ void die_with(pid_t shim) {
   if (o.working_dir != nullptr && ::chdir(o.working_dir) != 0)
     fail("change to folder", o.working_dir);
   ::execvp(o.command[0], o.command);
-  fail("run", o.command[0]);
+  fail_to_run(o.command[0]);
 }
 
 void kill_one(pid_t process, void*) {

@@ -270,7 +270,7 @@ namespace {
 
 bool is_shortened(const instance_spec& x) {
   return x.input.empty() && x.output.empty() && x.parameters.empty()
-         && x.environment.empty();
+         && x.environment.empty() && x.arguments.empty();
 }
 
 /// Where a whole row does not fit into a frame its node says less of the

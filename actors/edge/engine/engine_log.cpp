@@ -1,5 +1,6 @@
 #include "actors/edge/engine/engine_log.hpp"
 
+#include "schemas/base64.hpp"
 #include "schemas/utf8.hpp"
 
 #include <algorithm>
@@ -148,8 +149,9 @@ bool log_collector::take_frame(std::string_view frame) {
   if (offset < range_.from)
     return true;
   const auto line = frame.substr(space + 1);
-  if (!range_.last_part && !text_.empty()
-      && text_.size() + line.size() > range_.most_bytes)
+  const bool full = text_.size() + line.size() > range_.most_bytes
+                    || static_cast<int64_t>(notes_.size()) >= range_.most_lines;
+  if (!range_.last_part && !text_.empty() && full)
     return false;
   if (range_.times)
     notes_.push_back(
@@ -179,12 +181,19 @@ log_part log_collector::part() const {
   log_part result;
   const auto cut =
       text_.size() > range_.most_bytes ? text_.size() - range_.most_bytes : 0;
-  const auto from = range_.last_part ? cut : 0;
-  const auto bytes = std::string_view{text_}.substr(from, range_.most_bytes);
+  auto from = range_.last_part ? cut : 0;
+  auto bytes = std::string_view{text_}.substr(from, range_.most_bytes);
+  if (range_.times && range_.last_part) {
+    const auto first = begin_of_last_lines(bytes, range_.most_lines);
+    bytes.remove_prefix(first);
+    from += first;
+  }
   if (range_.times)
     result.times_unix_ms =
         line_times(bytes, static_cast<int64_t>(from), notes_);
   result.text = valid_utf8(bytes);
+  if (result.text != bytes)
+    result.bytes = to_base64(bytes);
   result.next_offset = next_offset_;
   return result;
 }

@@ -54,6 +54,7 @@ struct log_range {
   bool last_part = false; ///< If it is too long, the end of it is wanted.
   bool times = false;     ///< The times of the lines are wanted.
   size_t most_bytes = limits::log::part_bytes; ///< In one part.
+  int64_t most_lines = most_timed_lines;       ///< The same, with their times.
 };
 
 /// Collects one part of an engine's log, whose lines carry their times. An

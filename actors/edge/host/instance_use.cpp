@@ -25,24 +25,32 @@ struct sight {
 
 using folders = std::vector<std::filesystem::path>;
 
-/// Below the shim, which is outside of it, any child may have left its cgroup;
-/// the first that has not counts.
-folders folders_of_process(const measured_instance& x, pid_t shim,
-                           const sight& host) {
-  const auto number = std::to_string(shim);
+/// The oldest first: of a shim that is its program.
+std::vector<pid_t> children_of(pid_t parent, const sight& host) {
+  const auto number = std::to_string(parent);
   const auto text =
       read_file((host.proc / number / "task" / number / "children").native(),
                 most_children_bytes)
           .value_or("");
+  std::vector<pid_t> result;
   std::string_view rest{text};
   for (auto word = take_word(rest); !word.empty(); word = take_word(rest))
-    if (const auto pid = to_number(word)) {
-      auto found =
-          named_cgroup_in(cgroups_of(static_cast<pid_t>(*pid), host.proc),
-                          x.instance, host.mounts);
-      if (!found.empty())
-        return found;
-    }
+    if (const auto pid = to_number(word))
+      result.push_back(static_cast<pid_t>(*pid));
+  return result;
+}
+
+/// Below the shim, which is outside of it, any child may have left its cgroup;
+/// the first that has not counts.
+folders folders_of_process(const measured_instance& x,
+                           const std::vector<pid_t>& children,
+                           const sight& host) {
+  for (const auto pid : children) {
+    auto found =
+        named_cgroup_in(cgroups_of(pid, host.proc), x.instance, host.mounts);
+    if (!found.empty())
+      return found;
+  }
   return {};
 }
 
@@ -106,12 +114,16 @@ uses_of(const std::vector<measured_instance>& instances,
   std::vector<measured_use> result;
   for (const auto& x : instances) {
     const auto process = process_of(x.container);
+    const auto children =
+        process ? children_of(process->pid, host) : std::vector<pid_t>{};
     const auto known = containers.find(x.container);
-    auto use = use_in(process ? folders_of_process(x, process->pid, host)
+    auto use = use_in(process ? folders_of_process(x, children, host)
                       : known != containers.end() ? known->second
                                                   : folders{});
     if (!use && process)
       use = use_of_session(process->pid, host);
+    if (use && !children.empty())
+      use->pid = children.front();
     if (use && *use != instance_use{})
       result.push_back({x.instance, *use});
   }

@@ -2,6 +2,7 @@
 
 #include "actors/edge/io/unique_fd.hpp"
 #include "actors/house/limits.hpp"
+#include "schemas/base64.hpp"
 #include "schemas/utf8.hpp"
 
 #include <fcntl.h>
@@ -36,21 +37,6 @@ std::optional<int64_t> start_of(const std::string& name) {
   if (error != std::errc{} || rest != end || result < 0)
     return std::nullopt;
   return result;
-}
-
-/// Where the last `lines` lines of `text` begin. A newline at the very end
-/// ends the last line and begins no other.
-size_t tail_begin(std::string_view text, int64_t lines) {
-  auto at = text.size();
-  if (at > 0 && text[at - 1] == '\n')
-    --at;
-  for (; lines > 0; --lines) {
-    const auto newline = at == 0 ? text.npos : text.rfind('\n', at - 1);
-    if (newline == text.npos)
-      return 0;
-    at = newline;
-  }
-  return std::min(at + 1, text.size());
 }
 
 } // namespace
@@ -194,6 +180,11 @@ log_part instance_log::read_from(int64_t offset, bool times) const {
   const auto read_to = from + static_cast<int64_t>(text.size());
   log_part result;
   result.ended = ended && read_to >= end;
+  if (times) {
+    const auto most = bytes_of_lines(text, most_timed_lines);
+    result.ended = result.ended && most == text.size();
+    text.resize(most);
+  }
   // The rest of a character may still be on its way.
   if (!result.ended)
     text.resize(text.size() - unfinished_utf8(text));
@@ -202,6 +193,8 @@ log_part instance_log::read_from(int64_t offset, bool times) const {
     result.times_unix_ms =
         line_times(text, from, notes(from, result.next_offset));
   result.text = valid_utf8(text);
+  if (result.text != text)
+    result.bytes = to_base64(text);
   return result;
 }
 
@@ -209,9 +202,11 @@ log_part instance_log::read_tail(int64_t lines, bool times) const {
   const auto all = files();
   const auto end = all.empty() ? 0 : all.back().start + all.back().size;
   const auto last = read(std::max<int64_t>(0, end - limits::log::part_bytes));
-  const auto wanted = std::clamp<int64_t>(lines, 0, limits::log::part_bytes);
+  const auto most = times ? most_timed_lines : limits::log::part_bytes;
+  const auto wanted = std::clamp<int64_t>(lines, 0, most);
   return read_from(
-      last.from + static_cast<int64_t>(tail_begin(last.bytes, wanted)), times);
+      last.from + static_cast<int64_t>(begin_of_last_lines(last.bytes, wanted)),
+      times);
 }
 
 } // namespace roscell

@@ -17,6 +17,7 @@ struct log_part {
   /// For each line of `text`, or the rest of one; empty if it was not asked
   /// for, 0 where it is not known.
   std::vector<int64_t> times_unix_ms;
+  std::string bytes; ///< In base64, where `text` is not what was logged.
 };
 
 /// Reads the bounded log that an instance's shim keeps in its folder: files

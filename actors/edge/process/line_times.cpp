@@ -21,4 +21,28 @@ std::vector<int64_t> line_times(std::string_view bytes, int64_t from,
   return result;
 }
 
+size_t bytes_of_lines(std::string_view text, int64_t lines) {
+  size_t result = 0;
+  for (; lines > 0 && result < text.size(); --lines) {
+    const auto newline = text.find('\n', result);
+    if (newline == std::string_view::npos)
+      return text.size();
+    result = newline + 1;
+  }
+  return result;
+}
+
+size_t begin_of_last_lines(std::string_view text, int64_t lines) {
+  auto at = text.size();
+  if (at > 0 && text[at - 1] == '\n')
+    --at;
+  for (; lines > 0; --lines) {
+    const auto newline = at == 0 ? text.npos : text.rfind('\n', at - 1);
+    if (newline == text.npos)
+      return 0;
+    at = newline;
+  }
+  return std::min(at + 1, text.size());
+}
+
 } // namespace roscell

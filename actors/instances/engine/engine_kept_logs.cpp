@@ -3,10 +3,12 @@
 #include "actors/house/limits.hpp"
 #include "actors/instances/engine/engine_containers.hpp"
 #include "actors/instances/engine/engine_parts.hpp"
+#include "schemas/base64.hpp"
 
 #include <caf/send.hpp>
 
 #include <chrono>
+#include <limits>
 #include <memory>
 #include <utility>
 
@@ -30,6 +32,7 @@ engine_stream_callbacks collect_end(engine_runtime_pointer self,
   log_range range;
   range.last_part = range.times = true;
   range.most_bytes = self->state.config.setting.log_bytes;
+  range.most_lines = std::numeric_limits<int64_t>::max();
   const auto collector = std::make_shared<log_collector>(range);
   engine_stream_callbacks calls;
   calls.on_bytes = [collector](std::string_view bytes) {
@@ -42,7 +45,8 @@ engine_stream_callbacks collect_end(engine_runtime_pointer self,
     auto part = collector->part();
     caf::anon_send(target,
                    engine_log_read{call, std::move(part.text), part.next_offset,
-                                   true, std::move(part.times_unix_ms)});
+                                   true, std::move(part.times_unix_ms),
+                                   std::move(part.bytes)});
   };
   return calls;
 }
@@ -88,7 +92,9 @@ bool take_end_of_log(engine_runtime_pointer self, const engine_log_read& end) {
   if (i == st.readings.end())
     return false;
   log_part part;
-  part.text = end.text;
+  part.text = from_base64(end.bytes).value_or("");
+  if (part.text.empty())
+    part.text = end.text;
   part.times_unix_ms = end.times_unix_ms;
   kept_log_folder history{st.config.kept_logs};
   if (history.keep(part, i->second.about) && st.config.history)

@@ -94,7 +94,8 @@ engine_stream_callbacks collect(engine_runtime_pointer self, uint64_t call,
     caf::anon_send(target,
                    engine_log_read{call, std::move(part.text), part.next_offset,
                                    is_whole && is_good(end),
-                                   std::move(part.times_unix_ms)});
+                                   std::move(part.times_unix_ms),
+                                   std::move(part.bytes)});
   };
   return calls;
 }
@@ -166,8 +167,9 @@ void on_log_read(engine_runtime_pointer self, const engine_log_read& part) {
   if (i == self->state.followers.end())
     return;
   const bool ended = !i->second.running && part.is_whole;
-  deliver(self, part.call,
-          {{}, part.text, part.next_offset, ended, part.times_unix_ms});
+  deliver(
+      self, part.call,
+      {{}, part.text, part.next_offset, ended, part.times_unix_ms, part.bytes});
 }
 
 void release_followers(engine_runtime_pointer self) {

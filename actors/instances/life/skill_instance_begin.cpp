@@ -96,9 +96,13 @@ void on_built(skill_instance_pointer self, const std::string& image,
 std::optional<program_plan> program_of(skill_instance_pointer self,
                                        const skill_descriptor& descriptor) {
   auto& st = self->state;
-  if (descriptor.ros2.empty())
-    return program_plan{descriptor.entry_point, {}};
-  auto start = ros2_start_of(descriptor.ros2.front(), st.row.spec);
+  if (descriptor.ros2.empty()) {
+    program_plan result{descriptor.entry_point, {}};
+    result.command.insert(result.command.end(), st.row.spec.arguments.begin(),
+                          st.row.spec.arguments.end());
+    return result;
+  }
+  auto start = ros2_start_of(descriptor, st.row.spec);
   if (const auto* why = std::get_if<failure>(&start)) {
     conclude(self, instance_state::failed, sentence(to_error(*why)));
     return std::nullopt;
@@ -182,8 +186,7 @@ void recall_endpoints(skill_instance_pointer self) {
   const auto* folder = folder_of(st);
   if (folder == nullptr || folder->skill.descriptor.ros2.empty())
     return;
-  auto start =
-      ros2_start_of(folder->skill.descriptor.ros2.front(), st.row.spec);
+  auto start = ros2_start_of(folder->skill.descriptor, st.row.spec);
   if (const auto* x = std::get_if<ros2_start>(&start))
     st.endpoints = x->endpoints;
 }

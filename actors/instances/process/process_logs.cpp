@@ -26,8 +26,8 @@ log_excerpt look(process_runtime_pointer self, const log_query& query) {
       query.tail_lines > 0 ? query.tail_lines : instance_log::default_lines;
   auto part = query.offset < 0 ? log.read_tail(lines, query.times)
                                : log.read_from(query.offset, query.times);
-  return {query.instance, std::move(part.text), part.next_offset, part.ended,
-          std::move(part.times_unix_ms)};
+  return {query.instance, std::move(part.text),          part.next_offset,
+          part.ended,     std::move(part.times_unix_ms), std::move(part.bytes)};
 }
 
 size_t follower_count(const process_runtime_state& st) {

@@ -3,6 +3,7 @@
 #include "actors/instances/ros2/ros_name.hpp"
 #include "messages/codec/json_codec.hpp"
 #include "messages/step_end.hpp"
+#include "schemas/parameters/ros_parameters.hpp"
 
 #include <optional>
 #include <utility>
@@ -74,14 +75,24 @@ json parameters_of(const ros2_program& program, const instance_spec& spec) {
   return result;
 }
 
-/// ROS 2 reads values as YAML, of which JSON is a part.
-std::string value_text(const json& value) {
-  return value.dump(-1, ' ', false, json::error_handler_t::replace);
+/// The first of the values that no ROS 2 program can be given, with the reason.
+std::optional<failure> refused_parameter(const json& values, ros_reader reader,
+                                         const instance_spec& spec) {
+  const auto errors = ros_errors(values, reader, "");
+  if (errors.empty())
+    return std::nullopt;
+  return failure{error_code::engine_failed,
+                 "step '" + spec.step
+                     + "' has a parameter that its program "
+                       "cannot be given: "
+                     + errors.front().pointer + ": " + errors.front().expected,
+                 "", "correct it in the request or in the skill.json"};
 }
 
-/// Launch files read text as it is.
-std::string argument_text(const json& value) {
-  return value.is_string() ? value.get<std::string>() : value_text(value);
+const declared_parameter* find_declared(const declared_parameters& known,
+                                        const std::string& name) {
+  const auto i = known.find(name);
+  return i == known.end() ? nullptr : &i->second;
 }
 
 failure no_such_end(const instance_spec& spec, const std::string& topic,
@@ -94,10 +105,19 @@ failure no_such_end(const instance_spec& spec, const std::string& topic,
           "input, output, or with its place, input:1"};
 }
 
+/// The step's stand behind the skill's, so that of two the step's counts.
+word_list own_arguments(const ros2_program& program,
+                        const instance_spec& spec) {
+  auto result = program.arguments;
+  result.insert(result.end(), spec.arguments.begin(), spec.arguments.end());
+  return result;
+}
+
 word_list ros_arguments(const ros2_program& program, const instance_spec& spec,
                         const std::string& enclave,
-                        const std::map<std::string, std::string>& topics) {
-  auto result = program.arguments;
+                        const std::map<std::string, std::string>& topics,
+                        const declared_parameters& declared) {
+  auto result = own_arguments(program, spec);
   result.insert(result.end(),
                 {"--ros-args", "-r", "__node:=" + ros_name(spec.step), "-r",
                  "__ns:=/" + ros_name(spec.task), "--enclave", enclave});
@@ -105,26 +125,37 @@ word_list ros_arguments(const ros2_program& program, const instance_spec& spec,
     result.insert(result.end(), {"-r", own + ":=" + topic});
   const auto parameters = parameters_of(program, spec);
   for (const auto& [name, value] : parameters.items())
-    result.insert(result.end(), {"-p", name + ":=" + value_text(value)});
+    result.insert(result.end(),
+                  {"-p", name + ":="
+                             + ros_text(value, find_declared(declared, name),
+                                        ros_reader::program)});
   return result;
 }
 
 word_list launch_arguments(const ros2_program& program,
                            const instance_spec& spec,
-                           const std::map<std::string, std::string>& topics) {
-  auto result = program.arguments;
+                           const std::map<std::string, std::string>& topics,
+                           const declared_parameters& declared) {
+  auto result = own_arguments(program, spec);
   for (const auto& [name, topic] : topics)
     result.push_back(name + ":=" + topic);
   const auto parameters = parameters_of(program, spec);
   for (const auto& [name, value] : parameters.items())
-    result.push_back(name + ":=" + argument_text(value));
+    result.push_back(name + ":="
+                     + ros_text(value, find_declared(declared, name),
+                                ros_reader::launch_file));
   return result;
 }
 
 } // namespace
 
-std::variant<ros2_start, failure> ros2_start_of(const ros2_program& program,
-                                                const instance_spec& spec) {
+std::variant<ros2_start, failure>
+ros2_start_of(const ros2_program& program, const instance_spec& spec,
+              const declared_parameters& declared) {
+  const auto reader =
+      program.launch.empty() ? ros_reader::program : ros_reader::launch_file;
+  if (auto why = refused_parameter(parameters_of(program, spec), reader, spec))
+    return std::move(*why);
   ros2_start result;
   result.endpoints.instance = spec.instance;
   std::map<std::string, std::string> topics;
@@ -157,12 +188,21 @@ std::variant<ros2_start, failure> ros2_start_of(const ros2_program& program,
     result.command.insert(result.command.end(), words.begin(), words.end());
   };
   add(program.setup);
-  add(launches ? launch_arguments(program, spec, topics)
-               : ros_arguments(program, spec, enclave, topics));
+  add(launches ? launch_arguments(program, spec, topics, declared)
+               : ros_arguments(program, spec, enclave, topics, declared));
   result.environment = {{"RMW_IMPLEMENTATION", "rmw_fastrtps_cpp"},
                         {"ROS_LOCALHOST_ONLY", "0"},
                         {"PYTHONUNBUFFERED", "1"}};
   return result;
+}
+
+std::variant<ros2_start, failure> ros2_start_of(const skill_descriptor& skill,
+                                                const instance_spec& spec) {
+  declared_parameters declared;
+  for (const auto& model : skill.models)
+    if (model.name == spec.model && !model.parameters.empty())
+      declared = read_parameters(json::parse(model.parameters));
+  return ros2_start_of(skill.ros2.front(), spec, declared);
 }
 
 } // namespace roscell

@@ -4,6 +4,7 @@
 #include "messages/inside/link.hpp"
 #include "messages/instance.hpp"
 #include "messages/skill_descriptor.hpp"
+#include "schemas/parameters/declared_parameter.hpp"
 
 #include <map>
 #include <string>
@@ -24,8 +25,15 @@ struct ros2_start {
 /// "step"), the topics of the step in place of its own, the parameters, and an
 /// enclave of its own, which names its DDS participant. A launch file gets its
 /// arguments, and topics and parameters as such; all that it starts counts.
-/// Refused when a topic stands for an end that the step has not.
-std::variant<ros2_start, failure> ros2_start_of(const ros2_program& program,
+/// Refused when a topic stands for an end that the step has not, and when a
+/// parameter cannot be given to such a program.
+/// @param declared by the model; the values get these types.
+std::variant<ros2_start, failure>
+ros2_start_of(const ros2_program& program, const instance_spec& spec,
+              const declared_parameters& declared = {});
+
+/// The same for the program of a skill, which has one.
+std::variant<ros2_start, failure> ros2_start_of(const skill_descriptor& skill,
                                                 const instance_spec& spec);
 
 } // namespace roscell

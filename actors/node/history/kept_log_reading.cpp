@@ -22,8 +22,9 @@ caf::result<log_excerpt> read_kept_log(const history_folder& history,
       query.tail_lines > 0 ? query.tail_lines : instance_log::default_lines;
   auto part = query.offset < 0 ? log->read_tail(lines, query.times)
                                : log->read_from(query.offset, query.times);
-  return log_excerpt{query.instance, std::move(part.text), part.next_offset,
-                     part.ended, std::move(part.times_unix_ms)};
+  return log_excerpt{
+      query.instance, std::move(part.text),          part.next_offset,
+      part.ended,     std::move(part.times_unix_ms), std::move(part.bytes)};
 }
 
 kept_logs list_kept_logs(const history_folder& history,

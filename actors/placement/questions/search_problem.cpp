@@ -3,6 +3,8 @@
 #include "actors/edge/process/skill_grants.hpp"
 
 #include <algorithm>
+#include <map>
+#include <string>
 #include <utility>
 #include <variant>
 
@@ -14,6 +16,14 @@ allocation::amount convert(const amount& x) {
   return {x.capacity, x.used};
 }
 
+/// To say "on that robot" needs no label of its own: each node has one with its
+/// name, unless its operator has given it another value.
+std::map<std::string, std::string> labels_of(const node_resources& x) {
+  auto result = x.labels;
+  result.emplace("node", x.name);
+  return result;
+}
+
 allocation::node convert(const node_resources& x) {
   allocation::node result{x.name,
                           x.architecture,
@@ -22,7 +32,7 @@ allocation::node convert(const node_resources& x) {
                           convert(x.memory_mib),
                           convert(x.disk_mib),
                           {},
-                          x.labels,
+                          labels_of(x),
                           x.devices,
                           x.cpu_compressible};
   for (const auto& gpu : x.gpus)

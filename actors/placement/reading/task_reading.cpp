@@ -4,7 +4,10 @@
 #include "actors/placement/reading/wiring.hpp"
 #include "actors/placement/skill_resolution.hpp"
 #include "schemas/parameters/engine_parameters.hpp"
+#include "schemas/parameters/ros_parameters.hpp"
 
+#include <cstddef>
+#include <string>
 #include <utility>
 
 namespace roscell {
@@ -25,6 +28,14 @@ const skill_descriptor* find_build(const skill_list& skills,
   return nullptr;
 }
 
+/// Linux gives a program no longer variable (MAX_ARG_STRLEN), and its name is
+/// to fit, too.
+constexpr size_t most_variable_bytes = 128UL * 1024 - 64;
+
+ros_reader reader_of(const ros2_program& program) {
+  return program.launch.empty() ? ros_reader::program : ros_reader::launch_file;
+}
+
 /// By what the newest build declares.
 error_list parameter_errors_of(const resolved_step& x, const skill_list& skills,
                                const std::string& place) {
@@ -34,8 +45,36 @@ error_list parameter_errors_of(const resolved_step& x, const skill_list& skills,
   const auto* skill = find_build(skills, build.hash);
   if (skill == nullptr)
     return {};
-  return parameter_errors(parameters_of(*skill, build.model),
-                          json::parse(x.step.parameters), place);
+  const auto given = json::parse(x.step.parameters);
+  auto result =
+      parameter_errors(parameters_of(*skill, build.model), given, place);
+  if (!result.empty() || skill->engine == "actor")
+    return result;
+  if (!skill->ros2.empty())
+    result = ros_errors(given, reader_of(skill->ros2.front()), place);
+  const auto bytes =
+      step_parameters(build.model.parameters, x.step.parameters).dump().size();
+  if (bytes > most_variable_bytes)
+    result.push_back({place, "expected at most 128 KiB of parameters, which a "
+                             "program gets in one variable, got "
+                                 + std::to_string(bytes / 1024) + " KiB"});
+  return result;
+}
+
+/// An actor is part of a program that runs already.
+error_list program_errors_of(const resolved_step& x, const skill_list& skills,
+                             const std::string& place) {
+  const auto* skill = find_build(skills, x.builds.front().hash);
+  error_list result;
+  if (skill == nullptr || skill->engine != "actor")
+    return result;
+  constexpr const char* why =
+      "its skill is an actor of a program that runs already; leave it out";
+  if (!x.step.env.empty())
+    result.push_back({place + "/env", why});
+  if (!x.step.arguments.empty())
+    result.push_back({place + "/arguments", why});
+  return result;
 }
 
 /// By the newest build.
@@ -73,9 +112,10 @@ read_task(const std::string& task, const std::vector<task_step>& pipeline,
   error_list errors;
   for (size_t i = 0; i < result.steps.size(); ++i) {
     result.steps[i].together = wires.together[i];
+    const auto place = pointer + "/" + std::to_string(i);
     append(errors, parameter_errors_of(result.steps[i], cell.skills,
-                                       pointer + "/" + std::to_string(i)
-                                           + "/parameters"));
+                                       place + "/parameters"));
+    append(errors, program_errors_of(result.steps[i], cell.skills, place));
   }
   append(errors, wires.errors);
   std::vector<valued_step> valued;

@@ -1,9 +1,11 @@
 #pragma once
 
+#include "actors/requests/handlers/coordinator_asking.hpp"
 #include "actors/requests/request_registry.hpp"
 
 #include <chrono>
 #include <utility>
+#include <variant>
 
 /// Requests that one actor of the node answers as they are.
 namespace roscell {
@@ -27,6 +29,30 @@ pipeline<Request, Reply> forward_within(std::chrono::milliseconds timeout,
                                         Handle node_services::*whom) {
   return forward_to<Request, Reply>(whom,
                                     [=](const Request&) { return timeout; });
+}
+
+/// The same as `forward_to`; what this node does not know a member asks its
+/// coordinator.
+template <class Request, class Reply, class Handle, class Timeout>
+pipeline<Request, Reply> forward_or_ask_cell(Handle node_services::*whom,
+                                             Timeout timeout_of) {
+  return pipeline<Request, Reply>{[=](const request_context& context,
+                                      Request request, outcome<Reply> done) {
+    const std::chrono::milliseconds timeout = timeout_of(request);
+    context.enter("forward");
+    context.template call<Reply>(
+        (*context.services).*whom, timeout, request,
+        [done](Reply& reply) { done.deliver(std::move(reply)); },
+        [context, request, done](const caf::error& why) {
+          ask_coordinator(context, message_json(request), to_failure(why),
+                          [done](std::variant<json, failure> answer) {
+                            if (auto* x = std::get_if<json>(&answer))
+                              done.conclude(std::move(*x));
+                            else
+                              done.fail(std::get<failure>(std::move(answer)));
+                          });
+        });
+  }};
 }
 
 } // namespace roscell

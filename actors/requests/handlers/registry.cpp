@@ -36,11 +36,11 @@ void add_node_requests(request_registry& registry) {
 }
 
 void add_primary_requests(request_registry& registry) {
-  registry.add(forward_within<instance_query, instance_description>(
-      soon, &services::supervisor));
+  registry.add(forward_or_ask_cell<instance_query, instance_description>(
+      &services::supervisor, [](const instance_query&) { return soon; }));
   registry.add(list_local_skills);
-  registry.add(
-      forward_to<log_query, log_excerpt>(&services::supervisor, log_timeout));
+  registry.add(forward_or_ask_cell<log_query, log_excerpt>(
+      &services::supervisor, log_timeout));
   registry.add(
       forward_within<kept_logs_query, kept_logs>(soon, &services::supervisor));
   registry.add(forward_within<registration_query, registration_challenge>(

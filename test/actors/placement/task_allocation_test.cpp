@@ -132,6 +132,20 @@ TEST_CASE("A node is no place for what it does not grant to the skill",
   CHECK(refusal(document).code == error_code::no_feasible_allocation);
 }
 
+TEST_CASE("Each node has a label with its name, unless it was given another",
+          "[task_allocation]") {
+  auto document = two_nodes();
+  auto& labels = document["request"]["pipeline"][0]["labels"];
+  labels = {{"node", "a"}};
+  CHECK(std::holds_alternative<task_plan>(plan(document)));
+  labels = {{"node", "nobody"}};
+  CHECK(refusal(document).details.find(
+            "needs the label 'node=nobody', the node has 'node=a'")
+        != std::string::npos);
+  document["nodes"][0]["labels"]["node"] = "nobody";
+  CHECK(std::holds_alternative<task_plan>(plan(document)));
+}
+
 TEST_CASE("What does not fit is refused with every candidate explained",
           "[task_allocation]") {
   auto document = two_nodes();

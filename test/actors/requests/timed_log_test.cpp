@@ -1,5 +1,7 @@
 #include "actors/requests/timed_log.hpp"
 
+#include "schemas/base64.hpp"
+
 #include <catch2/catch.hpp>
 
 namespace roscell::test {
@@ -26,6 +28,16 @@ TEST_CASE("A line that comes in two parts has one time", "[timed_log]") {
   CHECK(log.add(excerpt("on", {1000})) == "1970-01-01T00:00:01.000Z on");
   CHECK(log.add(excerpt("e\ntwo\n", {1500, 2000}))
         == "e\n1970-01-01T00:00:02.000Z two\n");
+}
+
+TEST_CASE("A log is shown byte by byte", "[timed_log]") {
+  timed_log log;
+  auto part = excerpt("a\xEF\xBF\xBD\n\xEF\xBF\xBD\n", {1000, 2000});
+  part.bytes = to_base64("a\xff\n\xe9\n");
+  CHECK(log.add(part)
+        == "1970-01-01T00:00:01.000Z a\xff\n1970-01-01T00:00:02.000Z \xe9\n");
+  part.times_unix_ms.clear();
+  CHECK(log.add(part) == "a\xff\n\xe9\n");
 }
 
 TEST_CASE("A line whose time is not known has a dash", "[timed_log]") {

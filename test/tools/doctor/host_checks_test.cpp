@@ -1,4 +1,5 @@
 #include "actors/edge/io/unique_fd.hpp"
+#include "test/actors/edge/process/supervision_fixture.hpp"
 #include "test/places.hpp"
 #include "tools/roscell/doctor/host/clock.hpp"
 #include "tools/roscell/doctor/host/disk.hpp"
@@ -14,6 +15,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <filesystem>
 
 using namespace roscell;
 using namespace roscell::cli;
@@ -147,6 +149,23 @@ TEST_CASE("shared memory is judged by room and by who may write", "[doctor]") {
   memory = {true, false, true, 0, 8ULL << 30, 8ULL << 30};
   CHECK(judge() == judgement::warning);
   CHECK(judge_shared_memory("/dev/shm", {}).how == judgement::broken);
+}
+
+TEST_CASE("a folder of fences that is not its user's is told", "[doctor]") {
+  const test::own_folder shm;
+  const auto own = "roscell-" + std::to_string(::geteuid());
+  std::filesystem::create_directory(shm.path() / own);
+  std::filesystem::permissions(shm.path() / own,
+                               std::filesystem::perms::owner_all);
+  shm.write("roscell-x", "no such folder");
+  CHECK(judge_fence_folders(shm.path()).empty());
+  const auto other = shm.path() / "roscell-4242";
+  std::filesystem::create_directory(other);
+  const auto found = judge_fence_folders(shm.path());
+  REQUIRE(found.size() == 1);
+  CHECK(found.front().how == judgement::broken);
+  CHECK(found.front().seen.find("should be '#4242''s") != std::string::npos);
+  CHECK(found.front().remedy == "sudo rm -r " + other.string());
 }
 
 TEST_CASE("few descriptors, another library and bad skills are told",

@@ -168,6 +168,13 @@ std::string event_text(const event& e, const char* key) {
   return text_at(particulars(e), key);
 }
 
+bool is_on_the_way(const event& e, node_role asked) {
+  if (e.what != "instance_changed")
+    return false;
+  return event_text(e, "state") == to_string(instance_state::pending)
+         || (asked == node_role::coordinator && event_text(e, "node").empty());
+}
+
 std::vector<std::string> progress_lines(const event& e,
                                         const std::string& task) {
   const auto data = particulars(e);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "client/event_stream.hpp"
+#include "messages/node.hpp"
 
 #include <string>
 #include <vector>
@@ -21,6 +22,11 @@ std::string event_particulars(const event& e);
 
 /// The text at `key` in an event's particulars; empty if there is none.
 std::string event_text(const event& e, const char* key);
+
+/// Whether people do without it: an instance is only on its way to something,
+/// or it is what a coordinator's own node says of one without saying where,
+/// which the coordinator then says again for the cell.
+bool is_on_the_way(const event& e, node_role asked);
 
 /// What an event means to somebody who waits for `task`, in lines such as
 /// "step poses: starting on arm-1". None if it does not concern the task.

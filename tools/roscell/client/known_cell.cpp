@@ -24,12 +24,16 @@ std::vector<known_thing> those(const std::vector<known_thing>& all,
 
 [[noreturn]] void refuse_ambiguous(const std::vector<known_thing>& found,
                                    const std::string& name) {
-  std::vector<std::string> words;
-  words.reserve(found.size());
+  std::set<std::string> words;
   for (const auto& x : found)
-    words.push_back(to_string(x.kind) + " " + x.name);
+    words.insert(to_string(x.kind) + " " + x.name);
+  if (words.size() == 1)
+    throw command_error{exit_usage, "several nodes are called '" + name + "'",
+                        "`roscell nodes` shows their addresses; start one of "
+                        "them with another --name"};
   throw command_error{exit_usage, "several things are called '" + name + "'",
-                      "say which one: " + joined(words, ", ")};
+                      "say which one: "
+                          + joined({words.begin(), words.end()}, ", ")};
 }
 
 [[noreturn]] void refuse_unknown(const std::vector<known_thing>& all,
@@ -76,6 +80,35 @@ known_cell ask_for_cell(const node_client& node) {
   result.skills = node.get("/v1/skills").get<skill_list>();
   result.events = kept_events_of(node);
   return result;
+}
+
+std::vector<instance_row> instances_in_cell(const node_client& node) {
+  std::vector<instance_row> result;
+  try {
+    const auto known = node.get("/v1/tasks").get<task_description>();
+    for (const auto& task : known.tasks)
+      result.insert(result.end(), task.instances.begin(), task.instances.end());
+  } catch (const refused&) {
+    // A node in no cell has told all that it knows.
+  }
+  return result;
+}
+
+bool add_cell_of_member(const node_client& node, known_cell& known) {
+  if (known.asked.role == node_role::coordinator || known.asked.cell.empty())
+    return false;
+  try {
+    known.cell = node.get("/v1/cell").get<cell_description>();
+  } catch (const refused&) {
+    return false;
+  }
+  for (auto& row : instances_in_cell(node))
+    if (std::none_of(known.instances.begin(), known.instances.end(),
+                     [&](const auto& x) {
+                       return x.spec.instance == row.spec.instance;
+                     }))
+      known.instances.push_back(std::move(row));
+  return true;
 }
 
 std::vector<known_thing> things_of(const known_cell& known) {

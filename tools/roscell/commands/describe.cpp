@@ -48,6 +48,18 @@ std::string log_of(const node_client& node, const known_thing& what) {
              : std::string{};
 }
 
+/// A member tells of what is elsewhere by its coordinator.
+known_thing find_in_cell(const node_client& node, known_cell& known,
+                         const std::string& kind, const std::string& name) {
+  try {
+    return find_thing(known, kind, name);
+  } catch (const command_error& why) {
+    if (why.code != exit_refused || !add_cell_of_member(node, known))
+      throw;
+  }
+  return find_thing(known, kind, name);
+}
+
 int describe(const describe_options& options) {
   const auto kind = options.words.size() == 2 ? options.words[0] : "";
   if (!kind.empty()
@@ -55,8 +67,8 @@ int describe(const describe_options& options) {
     throw command_error{exit_usage, "there is no kind '" + kind + "'",
                         "the kinds are node, task, instance, skill and cell"};
   const node_client node{options.connection};
-  const auto known = ask_for_cell(node);
-  const auto what = find_thing(known, kind, options.words.back());
+  auto known = ask_for_cell(node);
+  const auto what = find_in_cell(node, known, kind, options.words.back());
   const auto log = log_of(node, what);
   print(options.output == "json"
             ? pretty(describe_json(known, what, log))

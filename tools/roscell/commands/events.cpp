@@ -48,11 +48,12 @@ struct events_options {
 /// Prints events, below a heading if people read them.
 class event_printer {
 public:
-  explicit event_printer(bool as_json) : as_json_{as_json} {}
+  event_printer(bool as_json, node_role asked)
+      : as_json_{as_json}, asked_{asked} {}
 
   void print_event(const event& e) {
     // What repeats itself is counted for people.
-    if (e.passing && !as_json_)
+    if (!as_json_ && (e.passing || is_on_the_way(e, asked_)))
       return;
     if (!as_json_ && !std::exchange(begun_, true))
       print(event_heading(stdout_style().width) + "\n");
@@ -63,6 +64,7 @@ public:
 
 private:
   bool as_json_;
+  node_role asked_;
   bool begun_ = false;
 };
 
@@ -114,10 +116,17 @@ uint64_t print_past(const events_options& options, const node_client& node,
   return last;
 }
 
+/// That of the node that is asked, for which only people need to wait.
+node_role role_of(const node_client& node, const events_options& options) {
+  return options.output == "table"
+             ? node.get("/v1/node").get<node_description>().role
+             : node_role::primary;
+}
+
 int show_events(const events_options& options) {
   end_quietly_on_interrupt();
   const node_client node{options.connection};
-  event_printer out{options.output != "table"};
+  event_printer out{options.output != "table", role_of(node, options)};
   auto last = from_now_on;
   if (options.wants_past())
     last = print_past(options, node, out);
@@ -140,7 +149,9 @@ void add_events_command(CLI::App& app, action& chosen) {
       "Numbers go on when the node is started again, and none is given twice; "
       "after a loss of\npower some are left out. What repeats itself without "
       "end, such as the restarts of a program\nthat crashes, is told at first "
-      "and then counted (\"more\").\n\n"
+      "and then counted (\"more\"). What an instance is only on its way\nto "
+      "something is left out, and so is what the coordinator's own node says "
+      "before the coordinator\ndoes; -o json has it.\n\n"
       "Examples:\n  roscell events\n  roscell events -n 20 --no-follow\n"
       "  roscell events --since 2h --no-follow\n"
       "  roscell events --since '2026-11-25 18:00' --no-follow -o json");

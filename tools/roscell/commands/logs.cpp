@@ -2,6 +2,7 @@
 #include "messages/kept_log.hpp"
 #include "tools/roscell/client/find_instances.hpp"
 #include "tools/roscell/client/find_logs.hpp"
+#include "tools/roscell/client/known_cell.hpp"
 #include "tools/roscell/client/node_client.hpp"
 #include "tools/roscell/commands.hpp"
 #include "tools/roscell/commands/log_printer.hpp"
@@ -97,6 +98,7 @@ int show_previous(const logs_options& options, const node_client& node) {
 }
 
 /// Those that are there, or none if what is meant is gone and its log is kept.
+/// What a member does not have its coordinator may know.
 std::vector<instance_row> find_present(const logs_options& options,
                                        const node_client& node,
                                        std::vector<kept_log>& gone) {
@@ -107,9 +109,12 @@ std::vector<instance_row> find_present(const logs_options& options,
     if (why.code != exit_refused)
       throw;
     gone = find_kept_logs(ask_for_kept(node).logs, options.subject);
-    if (gone.empty())
+    if (!gone.empty())
+      return {};
+    const auto elsewhere = instances_in_cell(node);
+    if (elsewhere.empty())
       throw;
-    return {};
+    return find_instances(elsewhere, options.subject);
   }
 }
 

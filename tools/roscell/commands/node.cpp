@@ -22,13 +22,28 @@ Examples:
   roscell node --coordinator --interface lo --data-dir ~/n1 --runtime process
   roscell node --config /etc/roscell/node.conf)";
 
+/// A name that is not empty: a script whose variable is not set says nothing,
+/// and means something. CLI11 does not check empty values.
+CLI::Option* add_name(CLI::App& command, const std::string& option,
+                      std::string& name, const std::string& description) {
+  return command.add_option_function<std::string>(
+      option,
+      [option, &name](const std::string& said) {
+        if (said.empty())
+          throw CLI::ValidationError{
+              option, "the name is empty: leave the option out, or say one"};
+        name = said;
+      },
+      description);
+}
+
 void add_identity(CLI::App& command, node_options& options) {
   auto& config = options.config;
-  command.add_option("--name", config.name, "Unique name of this node")
+  add_name(command, "--name", config.name, "Unique name of this node")
       ->option_text("NAME [node-MAC]");
   command.add_flag("--coordinator", config.coordinator,
                    "Also manage a cell, as its coordination node");
-  command.add_option("--cell", config.cell, "Name of the coordinator's cell")
+  add_name(command, "--cell", config.cell, "Name of the coordinator's cell")
       ->option_text("NAME [the node's name]");
   command
       .add_option("--label", options.labels,

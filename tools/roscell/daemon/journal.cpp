@@ -1,6 +1,7 @@
 #include "tools/roscell/daemon/journal.hpp"
 
 #include "actors/house/watching.hpp"
+#include "actors/node/event_loudness.hpp"
 #include "messages/messages.hpp"
 #include "tools/roscell/client/event_words.hpp"
 #include "tools/roscell/view/format.hpp"
@@ -10,17 +11,9 @@
 
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
-#include <string_view>
-
 namespace roscell::cli {
 
 namespace {
-
-bool ends_with(std::string_view text, std::string_view end) {
-  return text.size() >= end.size()
-         && text.substr(text.size() - end.size()) == end;
-}
 
 std::string quoted(const std::string& name) {
   return "'" + name + "'";
@@ -54,16 +47,6 @@ event_listener_actor::behavior_type journal(event_listener_actor::pointer self,
 void start_journal(caf::actor_system& system, const event_log_actor& events) {
   const auto listener = system.spawn(journal, events);
   caf::anon_send(events, subscribe_events{listener, 0});
-}
-
-loudness loudness_of(const event& e) {
-  for (const auto* end : {"_lost", "_failed", "_refused", "_ignored"})
-    if (ends_with(e.what, end))
-      return loudness::warning;
-  if (e.what != "instance_changed")
-    return loudness::info;
-  return event_text(e, "state") == "failed" ? loudness::warning
-                                            : loudness::debug;
 }
 
 std::string journal_line(const event& e) {

@@ -13,11 +13,6 @@ namespace roscell::cli {
 /// losses and failures as warnings. Ends with `events`.
 void start_journal(caf::actor_system& system, const event_log_actor& events);
 
-/// How loud a fact is told.
-enum class loudness { debug, info, warning };
-
-loudness loudness_of(const event& e);
-
 /// A fact in one line: "joined cell 'lab' of 'arm-1'".
 std::string journal_line(const event& e);
 

@@ -31,15 +31,18 @@ std::string remedies_of(const std::string& doctor, const std::string& check) {
          + " '.[] | select(.check == $check) | .remedy // empty' | sh";
 }
 
-std::string own_user() {
+std::string user_word(uid_t id) {
   constexpr size_t most_bytes = 16384;
   std::array<char, most_bytes> text{};
   passwd row{};
   passwd* found = nullptr;
-  const auto id = geteuid();
   getpwuid_r(id, &row, text.data(), text.size(), &found);
   return found == nullptr ? "'#" + std::to_string(id) + "'"
                           : shell_word(found->pw_name);
+}
+
+std::string own_user() {
+  return user_word(geteuid());
 }
 
 } // namespace roscell::cli

@@ -2,6 +2,8 @@
 
 #include "tools/roscell/shell_word.hpp"
 
+#include <sys/types.h>
+
 #include <cstddef>
 #include <string>
 
@@ -19,6 +21,9 @@ std::string remedies_of(const std::string& doctor, const std::string& check);
 
 /// Remedies that are longer are had by `remedies_of`.
 constexpr size_t longest_remedy = 400;
+
+/// A user, as a word.
+std::string user_word(uid_t id);
 
 /// The user of this process, as a word: who pastes may be another one.
 std::string own_user();

@@ -1,7 +1,9 @@
 #include "tools/roscell/ros2/found_topic.hpp"
 
+#include "actors/placement/reading/stream_names.hpp"
 #include "messages/node.hpp"
 #include "roscell/skill/errors.hpp"
+#include "tools/roscell/client/known_cell.hpp"
 #include "tools/roscell/exit_code.hpp"
 
 #include <CLI/CLI.hpp>
@@ -15,6 +17,17 @@ namespace {
 
 constexpr std::chrono::seconds query_limit{10};
 
+/// What a step of a task is to write, which no discovery server may know yet:
+/// its program has just begun. Without a type nobody writes the topic.
+topic_row declared_row(const node_client& node, const std::string& topic) {
+  for (const auto& row : instances_in_cell(node))
+    for (const auto& end : row.spec.output)
+      if (end.protocol == "ros2" && full_topic(end.endpoint) == topic
+          && is_live(row.state))
+        return {topic, end.data_type, {}, {}, {}};
+  return {};
+}
+
 topic_row row_of(const node_client& node, const std::string& topic) {
   topic_query query;
   query.topic = topic;
@@ -22,18 +35,26 @@ topic_row row_of(const node_client& node, const std::string& topic) {
       node.ask(message_json(query), query_limit).get<topic_list>().topics;
   const auto written = std::find_if(rows.begin(), rows.end(),
                                     [](auto& x) { return !x.writers.empty(); });
-  if (written == rows.end())
+  if (written != rows.end())
+    return *written;
+  auto declared = declared_row(node, full_topic(topic));
+  if (declared.data_type.empty())
     throw command_error{exit_refused,
                         "nobody in the cell writes the topic '" + topic + "'",
                         "`roscell topics` lists what there is"};
-  return *written;
+  return declared;
 }
 
 /// A reader that wants what one of several writers does not offer would not
-/// match that one; the last messages of those who keep them are wanted.
+/// match that one; the last messages of those who keep them are wanted. Who
+/// wants least matches whoever comes.
 ros2::topic_qos qos_for(const topic_row& row) {
   const auto& xs = row.writers;
   ros2::topic_qos result;
+  if (xs.empty()) {
+    result.reliable = result.transient_local = false;
+    return result;
+  }
   result.reliable = std::all_of(xs.begin(), xs.end(), [](const auto& x) {
     return x.reliability == "reliable";
   });

@@ -27,8 +27,8 @@ struct check_options {
 };
 
 bool names_a_cell(const check_options& options) {
-  return !options.skills.connection.to.empty()
-         || std::getenv("ROSCELL_TO") != nullptr;
+  const auto* to = std::getenv("ROSCELL_TO");
+  return !options.skills.connection.to.empty() || (to != nullptr && *to != 0);
 }
 
 /// What the steps of the cell's tasks write.
@@ -42,6 +42,24 @@ std::vector<deployed_end> written_in_cell(const check_options& options) {
       for (const auto& end : x.spec.output)
         if (is_live(x.state))
           result.push_back({task.task, x.spec.step, x.node, end});
+  return result;
+}
+
+/// That of the node of this host, as all other commands take it; none if no
+/// node answers there.
+std::optional<reading_context>
+context_of_own_node(const check_options& options) {
+  reading_context result;
+  try {
+    result.skills = find_skills(options.skills);
+    result.written = written_in_cell(options);
+  } catch (const command_error& why) {
+    if (why.code != exit_unreachable)
+      throw;
+    return std::nullopt;
+  } catch (const refused&) {
+    // A node in no cell knows its own skills, and no other tasks.
+  }
   return result;
 }
 
@@ -60,7 +78,7 @@ std::optional<reading_context> context_of(const check_options& options,
   if (names_a_cell(options))
     return reading_context{
         find_skills(options.skills), written_in_cell(options), {}};
-  return std::nullopt;
+  return context_of_own_node(options);
 }
 
 void check_form(const task_file& file) {
@@ -94,8 +112,9 @@ int check(const check_options& options) {
   const auto request = file.request().get<task_request>();
   const auto context = context_of(options, file);
   if (!context) {
-    print_note("the form is right; say where its skills are with --skills DIR, "
-               "or a cell with --to, to have the rest checked");
+    print_note("the form is right; no node of this host answers: say where its "
+               "skills are with --skills DIR, or a cell with --to, to have the "
+               "rest checked");
     return exit_done;
   }
   const auto reading = read_request(file, request, *context);
@@ -119,8 +138,8 @@ void add_check_command(CLI::App& app, action& chosen) {
       "Checks the form, the skills, their parameters, and that what is read is "
       "written. Prints\nthe request without its short forms. A plan document "
       "brings its skills; for a request\nthey are looked for in --skills, else "
-      "in the cell of --to or $ROSCELL_TO, where also\nthe topics of its other "
-      "tasks are known.\n\n"
+      "in the cell of --to, $ROSCELL_TO or this host's node,\nwhere also the "
+      "topics of its other tasks are known.\n\n"
       "Examples:\n  roscell check --skills build/release/skills task.yaml\n"
       "  roscell check --to 192.168.1.10 task.yaml\n"
       "  roscell check cell.json");

@@ -52,6 +52,7 @@ void show_places(const wrong_document& e, const json& reply) {
   if (marks.empty())
     return print_refusal(reply);
   print_text(marks);
+  print_log_tail(e.why.details);
   const auto hint = hint_beside(e.why, !rejected.empty());
   if (!hint.empty())
     print_note("hint: " + printable(hint));

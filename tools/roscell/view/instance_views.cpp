@@ -42,6 +42,7 @@ std::string instances_view(const instance_description& instances,
            {"DEPLOYMENT", align::left, 7},
            {"EXIT", align::right, 3},
            {"REMARK", align::left, 4},
+           {"PID", align::right, only_wide},
            {"STREAMS", align::left, only_wide}},
           {}};
   for (const auto& row : instances.instances) {
@@ -53,6 +54,7 @@ std::string instances_view(const instance_description& instances,
                       figure(x.age_ms, 1, " ms"), memory_text(row),
                       cpu_text(row), row.spec.model + "/" + row.spec.deployment,
                       exit_text(row.exit_code), remark(row, style.now_unix_ms),
+                      x.use.pid > 0 ? std::to_string(x.use.pid) : "",
                       streams_text(row)});
   }
   return or_nothing(t, "instances", style);

@@ -70,6 +70,16 @@ std::string marked_error(const std::string& file, const document_place& at,
          + marked_line(at);
 }
 
+struct placed_error {
+  document_place at;
+  std::string words;
+};
+
+/// In the order of the file, whatever the order of the checks was.
+bool stands_before(const placed_error& x, const placed_error& y) {
+  return std::pair{x.at.line, x.at.column} < std::pair{y.at.line, y.at.column};
+}
+
 } // namespace
 
 std::string marked_errors(const std::string& file, std::string_view text,
@@ -81,15 +91,19 @@ std::string marked_errors(const std::string& file, std::string_view text,
     const auto problem = find_problem(text, format);
     return problem ? marked_error(name, problem->at, problem->words) : "";
   }
-  std::string result;
-  size_t shown = 0;
+  std::vector<placed_error> errors;
   for (const auto& [pointer, words] : errors_of(why)) {
     const auto at = find_place(text, format, pointer);
     if (!at)
       return {};
-    if (++shown > most_shown)
+    errors.push_back({*at, words});
+  }
+  std::stable_sort(errors.begin(), errors.end(), stands_before);
+  std::string result;
+  for (size_t i = 0; i < errors.size(); ++i) {
+    if (i == most_shown)
       return result + "and more\n";
-    result += marked_error(name, *at, words);
+    result += marked_error(name, errors[i].at, errors[i].words);
   }
   return result;
 }

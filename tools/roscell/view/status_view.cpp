@@ -92,7 +92,7 @@ std::string join_line(const join_trouble& x, int64_t now_unix_ms) {
 std::string node_view(const node_description& node, const view_style& style) {
   fact_list facts{style};
   facts.add("name", node.identity.name);
-  facts.add("role", to_string(node.role));
+  facts.add("role", node.cell.empty() ? "" : role_text(node.role));
   facts.add("state", to_string(node.state));
   facts.add("cell", node.cell);
   facts.add("coordinator", node.coordinator);

@@ -13,6 +13,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <sstream>
 
 namespace roscell::cli {
 
@@ -103,6 +104,18 @@ void print_places(const std::string& details) {
 
 } // namespace
 
+void print_log_tail(const std::string& details) {
+  const auto parsed = json::parse(details, nullptr, false);
+  const auto said =
+      parsed.is_object() ? parsed.value("log_tail", json{}) : json{};
+  if (!said.is_string() || said.get_ref<const std::string&>().empty())
+    return;
+  print_note("the last lines of its log:");
+  std::istringstream lines{said.get<std::string>()};
+  for (std::string line; std::getline(lines, line);)
+    print_note("  " + printable(line));
+}
+
 void print_refusal(const json& reply) {
   const auto why = failure_from(reply);
   auto text = why.message + " (" + to_string(why.code) + ")";
@@ -110,6 +123,7 @@ void print_refusal(const json& reply) {
     text += " at " + why.where;
   print_error(text);
   print_places(why.details);
+  print_log_tail(why.details);
   if (!why.hint.empty())
     print_note("hint: " + printable(why.hint));
 }

@@ -47,8 +47,12 @@ std::string compact(const json& document);
 /// Tells of an error on standard error: "roscell: what", and its hint.
 void print_error(const std::string& what, const std::string& hint = {});
 
-/// `print_error` for the error reply of a node, with its code and every place
-/// that it names.
+/// What a program that has failed said last, if the details of an error have
+/// it, to standard error.
+void print_log_tail(const std::string& details);
+
+/// `print_error` for the error reply of a node, with its code, every place that
+/// it names, and what a program that has failed said last.
 void print_refusal(const json& reply);
 
 } // namespace roscell::cli

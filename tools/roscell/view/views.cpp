@@ -71,7 +71,7 @@ std::vector<std::string> free_row(const free_node& node,
     words.push_back("it was in cell '" + node.cell + "'");
   const bool silent = node.silent_since_unix_ms != 0;
   return {node.name,
-          to_string(node_role::primary),
+          "",
           silent ? "silent" : to_string(node.state),
           format_since(node.silent_since_unix_ms, style.now_unix_ms),
           node.address,
@@ -85,6 +85,10 @@ std::vector<std::string> free_row(const free_node& node,
 }
 
 } // namespace
+
+std::string role_text(node_role role) {
+  return role == node_role::coordinator ? "coordinator" : "member";
+}
 
 std::string cells_view(const cell_list& cells, const view_style& style) {
   table t{{{"CELL"},
@@ -131,7 +135,7 @@ std::string members_view(const cell_description& cell,
           {}};
   for (const auto& row : cell.nodes) {
     const auto& r = row.resources;
-    t.rows.push_back({row.identity.name, to_string(row.role), state_of(row),
+    t.rows.push_back({row.identity.name, role_text(row.role), state_of(row),
                       format_since(row.since_unix_ms, style.now_unix_ms),
                       row.identity.address, r.architecture, cores(r.cpu),
                       memory(r.memory_mib), memory(r.disk_mib),

@@ -20,6 +20,9 @@ struct view_style {
   int64_t now_unix_ms = 0;
 };
 
+/// "coordinator", and "member" for a node that has one.
+std::string role_text(node_role role);
+
 std::string node_view(const node_description& node, const view_style& style);
 
 /// The part of a status that only a coordinator can tell.

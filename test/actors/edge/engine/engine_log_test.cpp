@@ -91,6 +91,24 @@ TEST_CASE("a part of a log is bounded") {
   }
 }
 
+TEST_CASE(
+    "a part of a log with times has so many lines that an answer can hold "
+    "them") {
+  std::string bytes;
+  for (int i = 0; i < 10'000; ++i)
+    bytes += line(i, "a");
+  SECTION("from an offset it is the first part") {
+    log_collector collector{{origin, 0, false, true}};
+    CHECK_FALSE(collector.take(bytes));
+    CHECK(collector.part().times_unix_ms.size() == size_t{most_timed_lines});
+  }
+  SECTION("of the last lines it is the last part") {
+    log_collector collector{{origin, 0, true, true}};
+    CHECK(collector.take(bytes));
+    CHECK(collector.part().times_unix_ms.size() == size_t{most_timed_lines});
+  }
+}
+
 TEST_CASE("what is no log is noticed") {
   log_collector html{{origin, 0, false}};
   CHECK_FALSE(html.take("<html>no log</html>"));

@@ -1,6 +1,7 @@
 #include "actors/edge/process/instance_log.hpp"
 
 #include "actors/house/limits.hpp"
+#include "schemas/base64.hpp"
 #include "test/actors/edge/process/supervision_fixture.hpp"
 
 #include <string>
@@ -93,6 +94,30 @@ TEST_CASE("a part is bounded, and reading all parts gives all bytes") {
   CHECK(read == all);
 }
 
+TEST_CASE(
+    "a part with the times of its lines has so many of them that an answer "
+    "can hold them") {
+  own_folder folder;
+  std::string all;
+  for (int i = 0; i < 20'000; ++i)
+    all += "a\n";
+  folder.write("log.0", all);
+  folder.write("exit", "{}");
+  const instance_log log{folder.path()};
+  std::string read;
+  for (auto part = log.read_from(0, true);;
+       part = log.read_from(part.next_offset, true)) {
+    CHECK(part.times_unix_ms.size() <= size_t{most_timed_lines});
+    read += part.text;
+    if (part.ended)
+      break;
+  }
+  CHECK(read == all);
+  CHECK(log.read_tail(20'000, true).times_unix_ms.size()
+        == size_t{most_timed_lines});
+  CHECK(log.read_tail(20'000, false).text == all);
+}
+
 TEST_CASE("the tail has the last lines, whatever the files") {
   own_folder folder;
   folder.write("log.0", lines(0, 50));
@@ -157,6 +182,7 @@ TEST_CASE("binary output becomes valid text") {
   folder.write("log.0", std::string{"\x00\xFF\x80z", 4});
   const auto part = instance_log{folder.path()}.read_from(0);
   CHECK(part.text == std::string{"\x00\xEF\xBF\xBD\xEF\xBF\xBDz", 8});
+  CHECK(from_base64(part.bytes) == std::string{"\x00\xFF\x80z", 4});
   CHECK(part.next_offset == 4);
 }
 

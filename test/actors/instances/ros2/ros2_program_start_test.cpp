@@ -100,6 +100,36 @@ TEST_CASE("a launch file gets topics and parameters as its arguments") {
   CHECK(start.endpoints.program.empty());
 }
 
+TEST_CASE("a ROS 2 program gets values in the types that its model declares") {
+  skill_descriptor skill;
+  skill.ros2 = {apriltag()};
+  skill.ros2.front().topics.clear();
+  skill.ros2.front().parameters.clear();
+  skill.models = {{"m",
+                   R"({"size": {"type": "number"}, "n": 1,
+                       "at": {"type": "array", "items": "number"}})",
+                   {}}};
+  auto spec = detector();
+  spec.model = "m";
+  spec.parameters = R"({"at":[1,2],"n":3,"size":2})";
+  spec.arguments = {"--log-level", "debug"};
+  const auto start = ros2_start_of(skill, spec);
+  REQUIRE(std::holds_alternative<ros2_start>(start));
+  const auto said = own_words(std::get<ros2_start>(start));
+  CHECK(words{said.begin(), said.begin() + 2} == words{"--log-level", "debug"});
+  CHECK(words{said.end() - 6, said.end()}
+        == words{"-p", "at:=[1.0,2.0]", "-p", "n:=3", "-p", "size:=2.0"});
+}
+
+TEST_CASE("a parameter that no ROS 2 program can be given is refused by name") {
+  auto spec = detector();
+  spec.parameters = R"({"pose": {"x": 1}})";
+  const auto start = ros2_start_of(apriltag(), spec);
+  REQUIRE(std::holds_alternative<failure>(start));
+  CHECK(std::get<failure>(start).message.find("/pose: expected no object")
+        != std::string::npos);
+}
+
 TEST_CASE("a topic that stands for an end that the step has not is refused") {
   auto program = apriltag();
   program.topics["depth"] = "input:2";

@@ -54,6 +54,53 @@ TEST_CASE("A parameter outside its range is refused with the range and unit",
         != std::string::npos);
 }
 
+namespace {
+
+/// A cell whose `run` is a ROS 2 program, whose `big` takes any text, and whose
+/// `act` is an actor.
+failure refusal_of_programs(const std::string& pipeline) {
+  const port_description text{{"text/plain"}, {"file"}};
+  auto run = skill_of("run", text, text, R"({"at": {"type": "array"}})");
+  run.skill.descriptor.engine = "ros2_standalone";
+  run.skill.descriptor.ros2.resize(1);
+  auto act = skill_of("act", text, text);
+  act.skill.descriptor.engine = "actor";
+  const auto big = skill_of("big", text, text, R"({"text": "", "more": ""})");
+  const auto result =
+      read_task("t", steps_in(pipeline), {{{run, act, big}, {}}, {}, {}});
+  REQUIRE(std::holds_alternative<failure>(result));
+  return std::get<failure>(result);
+}
+
+} // namespace
+
+TEST_CASE("What a ROS 2 program cannot be given is refused with its place",
+          "[task_reading]") {
+  const auto why = refusal_of_programs(R"([
+    {"id": "r", "operation": "run", "model": "m", "parameters": {"at": []}}])");
+  CHECK(why.where == "/pipeline/0/parameters/at");
+  CHECK(why.message.find("cannot be given an empty one") != std::string::npos);
+}
+
+TEST_CASE("Parameters that fit into no variable are refused",
+          "[task_reading]") {
+  const auto why = refusal_of_programs(
+      R"([{"id": "b", "operation": "big", "model": "m", "parameters": {"text": ")"
+      + std::string(100'000, 'x') + R"(", "more": ")"
+      + std::string(100'000, 'y') + R"("}}])");
+  CHECK(why.where == "/pipeline/0/parameters");
+  CHECK(why.message.find("at most 128 KiB") != std::string::npos);
+}
+
+TEST_CASE("An actor of a running program gets neither env nor arguments",
+          "[task_reading]") {
+  const auto why = refusal_of_programs(R"([
+    {"id": "a", "operation": "act", "model": "m", "env": {"A": "b"},
+     "arguments": ["c"]}])");
+  CHECK(why.where == "/pipeline/0/env");
+  CHECK(json::parse(why.details).at("errors").size() == 2);
+}
+
 TEST_CASE("Every wrong place of a request is told at once", "[task_reading]") {
   const auto why = refusal(R"([
     {"id": "p", "operation": "poses", "model": "m", "input": "/no/image",

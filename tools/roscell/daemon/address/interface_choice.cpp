@@ -103,7 +103,8 @@ find_interface(const std::string& wanted, bool with_carrier,
   if (link == links.end())
     return "'" + wanted + "' is not there";
   return "interface '" + wanted
-         + (link->up ? "' has no IPv4 address" : "' is down");
+         + (link->up ? "' has no IPv4 address, and IPv6 is not used"
+                     : "' is down");
 }
 
 } // namespace roscell::cli

@@ -13,9 +13,15 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <charconv>
 #include <chrono>
 #include <cstring>
 #include <ctime>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
 
 namespace roscell::cli {
 
@@ -105,9 +111,55 @@ finding judge_shared_memory(const fs::path& folder,
   return {judgement::ok, room};
 }
 
+namespace {
+
+/// Whose folder it is to be; none of another name.
+std::optional<uid_t> user_of(const std::string& name) {
+  constexpr std::string_view prefix = "roscell-";
+  uid_t result = 0;
+  const auto* end = name.data() + name.size();
+  if (name.compare(0, prefix.size(), prefix) != 0)
+    return std::nullopt;
+  const auto read = std::from_chars(name.data() + prefix.size(), end, result);
+  return read.ec == std::errc{} && read.ptr == end ? std::optional{result}
+                                                   : std::nullopt;
+}
+
+} // namespace
+
+findings judge_fence_folders(const fs::path& folder) {
+  findings result;
+  std::error_code error;
+  for (fs::directory_iterator i{folder, error}, end; !error && i != end;
+       i.increment(error)) {
+    const auto user = user_of(i->path().filename().string());
+    struct stat info {};
+    if (!user || lstat(i->path().c_str(), &info) != 0)
+      continue;
+    if (S_ISDIR(info.st_mode) && info.st_uid == *user
+        && (info.st_mode & (S_IWGRP | S_IWOTH)) == 0)
+      continue;
+    result.push_back(
+        {judgement::broken,
+         i->path().string()
+             + (info.st_uid == *user
+                    ? " is no folder that only its user may "
+                      "write to"
+                    : " belongs to " + user_word(info.st_uid)
+                          + " and should be " + user_word(*user) + "'s"),
+         "no step that may move to another node can be started by "
+             + user_word(*user),
+         "sudo rm -r " + shell_word(i->path().string())});
+  }
+  return result;
+}
+
 findings examine_shared_memory(const examined_host& host) {
   const auto folder = fs::path{host.dev} / "shm";
-  return {judge_shared_memory(folder, look_at_shared_memory(folder))};
+  findings result{judge_shared_memory(folder, look_at_shared_memory(folder))};
+  for (auto& x : judge_fence_folders(folder))
+    result.push_back(std::move(x));
+  return result;
 }
 
 findings examine_leftovers(const examined_host& host) {

@@ -24,6 +24,10 @@ shared_memory_facts look_at_shared_memory(const std::filesystem::path& folder);
 finding judge_shared_memory(const std::filesystem::path& folder,
                             const shared_memory_facts& memory);
 
+/// The folders of fences, roscell-UID, that are not that user's own: one that
+/// somebody else has made is in the way of whatever may move to another node.
+findings judge_fence_folders(const std::filesystem::path& folder);
+
 findings examine_shared_memory(const examined_host& host);
 findings examine_leftovers(const examined_host& host);
 

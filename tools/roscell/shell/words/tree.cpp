@@ -35,7 +35,7 @@ int show_tree(const tree_options& options) {
     return exit_done;
   }
   const auto node = reply.get<node_description>();
-  print(printable(node.identity.name) + ", " + to_string(node.role)
+  print(printable(node.identity.name) + ", " + role_text(node.role)
         + (node.cell.empty() ? "" : " in cell " + printable(node.cell)) + "\n\n"
         + actors_view(node.actors, view_style_now()));
   return exit_done;

@@ -31,13 +31,6 @@ const char* member_of(thing_kind kind) {
   return "";
 }
 
-/// A coordinator's own node tells of its instances without saying where, and
-/// the coordinator then says it again for the cell.
-bool is_told_again(const known_cell& known, const event& e) {
-  return known.asked.role == node_role::coordinator
-         && e.what == "instance_changed" && event_text(e, "node").empty();
-}
-
 } // namespace
 
 std::vector<event> events_of(const known_cell& known, const known_thing& what) {
@@ -45,7 +38,7 @@ std::vector<event> events_of(const known_cell& known, const known_thing& what) {
   for (const auto& e : known.events)
     if ((e.subject == what.name
          || event_text(e, member_of(what.kind)) == what.name)
-        && !is_told_again(known, e))
+        && !is_on_the_way(e, known.asked.role))
       result.push_back(e);
   if (result.size() > shown_events)
     result.erase(result.begin(),

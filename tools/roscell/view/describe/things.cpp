@@ -44,7 +44,7 @@ std::string skills_on(const known_cell& known, const std::string& node) {
 void describe_member(page& out, const known_cell& known,
                      const registry_row& row, const view_style& style) {
   const auto& name = row.identity.name;
-  out.fact("Role", to_string(row.role));
+  out.fact("Role", role_text(row.role));
   out.fact("State", to_string(row.state));
   out.fact("Since", time_words(row.since_unix_ms, style));
   out.fact("Reason", row.reason);
@@ -68,6 +68,23 @@ void describe_free(page& out, const free_node& node, const view_style& style) {
   out.fact("Former cell", node.cell);
   out.fact("Address", node.address);
   out.fact("UUID", node.uuid);
+}
+
+/// A process has no container and no image: its runtime's id of it is "<pid of
+/// its shim>:<start>", and what stands for the image the folder of its skill.
+void describe_program(page& out, const instance_row& row) {
+  const auto pid =
+      row.figures.use.pid > 0 ? std::to_string(row.figures.use.pid) : "";
+  if (row.image.rfind('/', 0) != 0) {
+    out.fact("Process", pid);
+    out.fact("Container", row.container);
+    out.fact("Image", row.image);
+    return;
+  }
+  if (!row.container.empty())
+    out.fact("Process", (pid.empty() ? "" : pid + ", ") + "its shim is "
+                            + row.container.substr(0, row.container.find(':')));
+  out.fact("Folder", row.image);
 }
 
 /// Where the task's steps were placed, and the score of that, if the node still
@@ -144,8 +161,7 @@ void describe_instance(page& out, const known_cell& known,
   out.fact("Build", spec.skill.substr(0, 12));
   out.fact("Needs", request_words(spec.resources));
   out.fact("GPU", spec.gpu < 0 ? "" : std::to_string(spec.gpu));
-  out.fact("Container", row.container);
-  out.fact("Image", row.image);
+  describe_program(out, row);
   out.section("Ports", ports_table(row));
   out.section("Parameters", parameters_table(spec.parameters));
   table environment{{{"VARIABLE"}, {"VALUE"}}, {}};

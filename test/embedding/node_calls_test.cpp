@@ -1,0 +1,168 @@
+#include "test/embedding/embedding_fixture.hpp"
+
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+
+using namespace roscell;
+using namespace roscell::test;
+
+namespace {
+
+constexpr std::chrono::seconds patience{30};
+
+/// What was heard, on whatever thread.
+class heard_words {
+public:
+  void add(const std::string& word) {
+    {
+      const std::lock_guard<std::mutex> lock{mutex_};
+      words_.push_back(word);
+    }
+    changed_.notify_all();
+  }
+
+  /// Whether it has come, or comes in time.
+  bool has(const std::string& word) {
+    std::unique_lock<std::mutex> lock{mutex_};
+    return changed_.wait_for(lock, patience, [&] {
+      return std::find(words_.begin(), words_.end(), word) != words_.end();
+    });
+  }
+
+private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<std::string> words_;
+};
+
+/// A coordinator with one skill, whose instances run until they are stopped.
+node_setup setup_with_skill(const std::filesystem::path& folder) {
+  auto result = setup_in(folder);
+  result.skills = {
+      {descriptor_of("rest"),
+       [](actor_skill_instance::pointer, const actor_skill_context& context)
+           -> actor_skill_instance::behavior_type {
+         context.ready();
+         return {
+             [](const skill_frame&) {},
+             [](check_life) {},
+             [](stop_skill) {},
+         };
+       }}};
+  return result;
+}
+
+constexpr const char* rest = R"(
+task: t
+pipeline:
+  - id: s
+    operation: rest
+    model: plain
+    input: {protocol: actor, endpoint: /b, data_type: text/plain}
+    output: {protocol: actor, endpoint: /a, data_type: text/plain}
+  - id: r
+    operation: rest
+    model: plain
+    input: {protocol: actor, endpoint: /a, data_type: text/plain}
+    output: {protocol: actor, endpoint: /b, data_type: text/plain}
+)";
+
+std::string code_of_call(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const node_error& error) {
+    return error.code();
+  }
+  return "";
+}
+
+} // namespace
+
+TEST_CASE("a program hears events and log of its node by plain calls") {
+  scratch_folder folder;
+  heard_words events;
+  heard_words lines;
+  auto setup = setup_in(folder.path);
+  setup.calls.on_event = [&](const node_event& x) {
+    events.add(x.what + " " + x.subject);
+    throw std::runtime_error{"which holds nobody up"};
+  };
+  setup.calls.on_log = [&](log_level level, const std::string& line) {
+    if (level == log_level::info)
+      lines.add(line.substr(0, line.find(" address=")));
+  };
+  SECTION("each event") {
+    embedded_node node{setup};
+    CHECK(events.has("node_started controller"));
+    CHECK(node.stop());
+  }
+  SECTION("each line") {
+    setup.calls.on_event = nullptr;
+    embedded_node node{setup};
+    CHECK(lines.has("node_started 'controller'"));
+    CHECK(node.stop());
+  }
+}
+
+TEST_CASE("a program hears what keeps its node from its cell") {
+  scratch_folder folder;
+  heard_words problems;
+  auto setup = setup_in(folder.path);
+  setup.node.coordinator = false;
+  // Nobody listens there.
+  setup.node.join = "127.0.0.1:9";
+  setup.calls.on_join_problem = [&](const join_problem& x) {
+    problems.add(x.where + (x.reason.empty() ? " joined" : " trouble"));
+  };
+  embedded_node node{setup};
+  CHECK(problems.has("127.0.0.1:9 trouble"));
+}
+
+TEST_CASE("a program runs, asks, watches and stops a task by plain calls") {
+  scratch_folder folder;
+  heard_words states;
+  embedded_node node{setup_with_skill(folder.path)};
+  const auto watch = node.watch(
+      "t", [&](const task_status& x) { states.add(x.task + " " + x.state); });
+  CHECK(states.has("t gone"));
+  const auto status = node.run(rest);
+  CHECK(status.state == "running");
+  REQUIRE(status.steps.size() == 2);
+  for (const auto& step : status.steps) {
+    CHECK(step.node == "controller");
+    CHECK(step.state == "running");
+  }
+  CHECK(node.state("t") == status);
+  CHECK(states.has("t running"));
+  node.stop("t");
+  CHECK(node.state("t").state == "gone");
+}
+
+TEST_CASE("a plain call that is refused throws with the code of the refusal") {
+  scratch_folder folder;
+  embedded_node node{setup_in(folder.path)};
+  CHECK(code_of_call([&] { node.run(rest); }) == "unknown_operation");
+  CHECK(code_of_call([&] { node.run("pipeline: ["); }) == "malformed_json");
+  CHECK(code_of_call([&] { node.stop("t"); }) == "unknown_task");
+  CHECK(node.state("t").state == "gone");
+}
+
+TEST_CASE("a watch may be ended by its own call, and makes no other one") {
+  scratch_folder folder;
+  embedded_node node{setup_in(folder.path)};
+  std::mutex mutex;
+  std::unique_ptr<task_watch> watch;
+  heard_words calls;
+  {
+    const std::lock_guard<std::mutex> lock{mutex};
+    watch =
+        std::make_unique<task_watch>(node.watch("t", [&](const task_status&) {
+          const std::lock_guard<std::mutex> inner{mutex};
+          watch.reset();
+          calls.add("ended");
+        }));
+  }
+  CHECK(calls.has("ended"));
+  CHECK(node.stop());
+}
