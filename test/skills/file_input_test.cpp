@@ -10,6 +10,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <future>
 
 using namespace roscell::engine;
 using namespace roscell::test;
@@ -115,7 +116,14 @@ TEST_CASE("the files of a folder are frames in the order of their names") {
 TEST_CASE("an empty folder is waited for, once it is known to be one") {
   temp_folder folder;
   std::filesystem::create_directory(folder / "in");
-  running_input input{make_input(folder / "in")};
+  std::promise<std::string> said;
+  running_input input{make_file_input(
+      {{"file", folder / "in", "text/plain"},
+       parameters::object(),
+       [&said](const std::string& text) { said.set_value(text); }})};
+  auto waiting = said.get_future();
+  REQUIRE(waiting.wait_for(patience) == std::future_status::ready);
+  CHECK_THAT(waiting.get(), Contains("is empty; waiting for files"));
   folder.write("in/written", "w");
   CHECK(payload(input, 0) == "w");
   folder.write(".tmp", "renamed");
