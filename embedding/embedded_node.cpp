@@ -156,8 +156,7 @@ private:
         *system, house{node_.actors, node_.events}, embedding::node_door,
         embedding::node_door_config{node_.actor, node_.router, node_.events});
     const house context{node_.actors, node_.events};
-    tasks_ = {system, node_.router, node_.events, context,
-              setup.node.coordinator};
+    tasks_ = {system, node_.router, context};
     if (embedding::wants_to_hear(setup.calls)) {
       const auto listener = spawn<caf::detached>(
           *system, context, embedding::program_callbacks, node_.events,

@@ -54,12 +54,12 @@ std::string run_task(const task_door& door, const std::string& request,
   return answer.value("task", "");
 }
 
-task_status status_in(const json& answer, const std::string& task) {
-  const auto known = answer.get<task_description>();
+task_status status_of(const std::vector<task_row>& rows,
+                      const std::string& task) {
   task_status result;
   result.task = task;
   result.state = "gone";
-  for (const auto& row : known.tasks) {
+  for (const auto& row : rows) {
     if (row.task != task)
       continue;
     result.state = to_string(row.state);
@@ -73,8 +73,8 @@ task_status status_in(const json& answer, const std::string& task) {
 task_status status_of_task(const task_door& door, const std::string& task,
                            std::chrono::milliseconds limit) {
   try {
-    return status_in(ask_node(door, message_json(task_query{task}), limit),
-                     task);
+    const auto answer = ask_node(door, message_json(task_query{task}), limit);
+    return status_of(answer.get<task_description>().tasks, task);
   } catch (const node_error& why) {
     if (why.code() != to_string(error_code::unknown_task))
       throw;

@@ -20,9 +20,7 @@ namespace roscell::embedding {
 struct task_door {
   caf::actor_system* system = nullptr;
   request_router_actor router;
-  event_log_actor events;
   house context;
-  bool is_coordinator = false; ///< It hears of all that happens in its cell.
 };
 
 /// The document that answers a request; a refusal is thrown.
@@ -38,8 +36,9 @@ std::string run_task(const task_door& door, const std::string& request,
 task_status status_of_task(const task_door& door, const std::string& task,
                            std::chrono::milliseconds limit);
 
-/// The same of the answer to a `task_query`; "gone" if it has none.
-task_status status_in(const json& answer, const std::string& task);
+/// The same of the rows of an answer; "gone" if the task is not among them.
+task_status status_of(const std::vector<task_row>& rows,
+                      const std::string& task);
 
 /// Watches a task; ended by the end of what is returned.
 std::shared_ptr<task_watch::impl>

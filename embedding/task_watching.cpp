@@ -1,10 +1,10 @@
 #include "actors/house/alarm.hpp"
 #include "actors/house/limits.hpp"
-#include "actors/house/watching.hpp"
 #include "embedding/task_calls.hpp"
 
 #include <caf/send.hpp>
 
+#include <algorithm>
 #include <mutex>
 #include <utility>
 
@@ -70,75 +70,58 @@ namespace roscell::embedding {
 
 namespace {
 
-/// A member is told of its own instances only; what becomes of the others it
-/// asks its coordinator so often.
-constexpr std::chrono::seconds member_pause{5};
-
-/// More than any event has: only new ones are wanted.
-constexpr uint64_t from_now_on = 9007199254740991;
+/// After which a watch asks again when the cell could not be asked: the first
+/// pause, which doubles up to the longest.
+constexpr std::chrono::seconds first_pause{1};
+constexpr std::chrono::seconds longest_pause{30};
 
 using task_watcher_actor =
-    introspected_actor::extend<caf::reacts_to<event>,
-                               // INTERNAL: alarm number N is due.
-                               caf::reacts_to<caf::tick_atom, uint64_t>>;
+    introspected_actor::extend< // INTERNAL: alarm number N is due.
+        caf::reacts_to<caf::tick_atom, uint64_t>>;
 
 struct task_watcher_state {
   static constexpr const char* name = "task-watcher";
 
   task_door door;
-  std::string task;
+  task_change_query query;
   std::weak_ptr<task_watch::impl> watch;
-  bool asking = false;
-  bool again = false; ///< Something has happened since it was asked.
+  std::chrono::seconds pause = first_pause;
   alarm timer;
 };
 
 using watcher_pointer =
     task_watcher_actor::stateful_pointer<task_watcher_state>;
 
-void ask_for_status(watcher_pointer self);
+void ask_for_change(watcher_pointer self);
 
 void on_answer(watcher_pointer self, const json& answer) {
   auto& st = self->state;
-  st.asking = false;
   const auto watch = st.watch.lock();
   if (!watch)
     return self->quit();
-  if (answer.value("type", "") == task_description::type)
-    watch->tell(status_in(answer, st.task));
-  else if (failure_from(answer).code == error_code::unknown_task)
-    watch->tell(status_in(message_json(task_description{}), st.task));
-  if (std::exchange(st.again, false))
-    ask_for_status(self);
+  if (answer.value("type", "") != task_change::type) {
+    st.timer.set(self, self->clock().now() + st.pause);
+    st.pause = std::min(2 * st.pause, longest_pause);
+    return;
+  }
+  auto change = answer.get<task_change>();
+  st.pause = first_pause;
+  st.query.known = std::move(change.mark);
+  watch->tell(status_of(change.tasks, st.query.task));
+  ask_for_change(self);
 }
 
-/// While it is asked, whatever happens is asked for once more.
-void ask_for_status(watcher_pointer self) {
+/// Whoever answers, here or at the coordinator, does so when there is something
+/// new, or after a while to show that he is still there.
+void ask_for_change(watcher_pointer self) {
   auto& st = self->state;
-  st.again = st.asking;
-  if (std::exchange(st.asking, true))
-    return;
   self->request(st.door.router, limits::request::router,
-                route_request{message_json(task_query{st.task}).dump(), "", ""})
+                route_request{message_json(st.query).dump(), "", ""})
       .then(
           [self](const request_routed& x) {
             on_answer(self, json::parse(x.text, nullptr, false));
           },
           [self](const caf::error&) { self->quit(); });
-}
-
-bool is_about(const event& e, const std::string& task) {
-  if (e.subject == task)
-    return true;
-  const auto data = json::parse(e.data, nullptr, false);
-  return data.is_object() && data.value("task", json{}) == task;
-}
-
-/// Asks for what nobody tells.
-void ask_now_and_then(watcher_pointer self) {
-  ask_for_status(self);
-  if (!self->state.door.is_coordinator)
-    self->state.timer.set(self, self->clock().now() + member_pause);
 }
 
 /// Has a thread of its own: the program's call may take its time.
@@ -148,22 +131,17 @@ task_watcher(watcher_pointer self, const task_door& door,
              const std::weak_ptr<task_watch::impl>& watch) {
   auto& st = self->state;
   st.door = door;
-  st.task = task;
+  st.query.task = task;
+  st.query.wait_ms = limits::task::change_wait.count();
   st.watch = watch;
-  watch_until_own_end(self, door.events);
-  self->set_down_handler([self](const caf::down_msg&) { self->quit(); });
-  ask_now_and_then(self);
+  ask_for_change(self);
   return {
       [self](const state_query&) {
-        return state_of({{"task", self->state.task}});
-      },
-      [self](const event& e) {
-        if (is_about(e, self->state.task))
-          ask_for_status(self);
+        return state_of({{"task", self->state.query.task}});
       },
       [self](caf::tick_atom, uint64_t number) {
         if (self->state.timer.rings(number))
-          ask_now_and_then(self);
+          ask_for_change(self);
       },
   };
 }
@@ -178,7 +156,6 @@ watch_task(const task_door& door, const std::string& task,
       spawn<caf::detached>(*door.system, door.context, task_watcher, door, task,
                            std::weak_ptr<task_watch::impl>{result});
   result->watch_by(caf::actor_cast<caf::actor>(watcher));
-  caf::anon_send(door.events, subscribe_events{watcher, from_now_on});
   return result;
 }
 

@@ -400,6 +400,14 @@ using request_router_actor = introspected_actor::extend<
 using handler_pipeline_actor = introspected_actor::extend<
     caf::replies_to<process_request>::with<request_processed>>;
 
+/// A TASK CHANGE WAITER: waits for one query, and ends with its answer.
+using task_change_waiter_actor = introspected_actor::extend<
+    caf::reacts_to<event>,
+    // Errors: those of the coordinator.
+    caf::replies_to<task_change_query>::with<task_change>,
+    // INTERNAL: alarm number N is due.
+    caf::reacts_to<caf::tick_atom, uint64_t>>;
+
 /// The NODE: root of everything that runs on one machine.
 using node_actor = introspected_actor::extend<
     caf::replies_to<node_query>::with<node_description>,

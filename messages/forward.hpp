@@ -25,6 +25,8 @@ struct task_history_query;
 struct task_history;
 struct task_query;
 struct task_description;
+struct task_change_query;
+struct task_change;
 struct task_accepted;
 struct task_plan;
 struct cell_query;

@@ -276,4 +276,31 @@ struct task_description {
   }
 };
 
+/// Asks for the state of a task once it is another one than the asker knows.
+/// The answer waits up to `wait_ms` for that, which is how a task is watched
+/// without polling.
+struct task_change_query {
+  static constexpr const char* type = "task_change_query";
+  std::string task;
+  std::string known;   ///< The mark of the last answer; empty: nothing.
+  int64_t wait_ms = 0; ///< At most 20,000.
+
+  static constexpr auto fields() {
+    return field_list{required("task", &task_change_query::task),
+                      optional("known", &task_change_query::known),
+                      optional("wait_ms", &task_change_query::wait_ms)};
+  }
+};
+
+struct task_change {
+  static constexpr const char* type = "task_change";
+  std::string mark;            ///< Of this state; opaque.
+  std::vector<task_row> tasks; ///< The task; empty: the cell has none such.
+
+  static constexpr auto fields() {
+    return field_list{required("mark", &task_change::mark),
+                      required("tasks", &task_change::tasks)};
+  }
+};
+
 } // namespace roscell

@@ -28,6 +28,8 @@
   X(task_history)                                                              \
   X(task_query)                                                                \
   X(task_description)                                                          \
+  X(task_change_query)                                                         \
+  X(task_change)                                                               \
   X(task_accepted)                                                             \
   X(task_plan)                                                                 \
   X(cell_query)                                                                \

@@ -464,6 +464,11 @@ constexpr size_t histories = 128;
 /// Most of each text in such a fact.
 constexpr size_t fact_text_bytes = 512;
 
+/// The longest that a query may wait for a change of a task
+/// (messages/task.hpp), and how many wait at a time.
+constexpr milliseconds change_wait{20'000};
+constexpr size_t change_waiters = 64;
+
 /// A termination whose record cannot be removed for so long is answered with
 /// the trouble; the removal goes on.
 constexpr seconds unwritten{15};

@@ -37,6 +37,9 @@ struct node_services {
   /// What was asked of this node, and what was decided.
   std::shared_ptr<request_history> history =
       std::make_shared<request_history>();
+  /// Whoever waits for a change of a task has a copy, which is how they are
+  /// counted.
+  std::shared_ptr<const void> waiting_places = std::make_shared<char>();
   /// What the node costs.
   std::shared_ptr<cost_meter> costs = std::make_shared<cost_meter>();
 };

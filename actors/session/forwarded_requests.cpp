@@ -57,6 +57,10 @@ std::optional<forwarding_limits> forwarding_of(const std::string& type) {
   if (type == log_query::type)
     return forwarding_limits{limits::log::wait + limits::log::answer,
                              limits::log::stream - log_margin};
+  if (type == task_change_query::type)
+    return forwarding_limits{
+        limits::task::change_wait + limits::request::forwarded_query,
+        limits::task::change_wait + limits::request::member_query};
   if (holds(commands, type))
     return forwarding_limits{limits::request::forwarded,
                              limits::request::member_request};

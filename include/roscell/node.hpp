@@ -112,9 +112,9 @@ public:
                         10}) const;
 
   /// Calls `on_change` with how a task stands, and each time that this changes,
-  /// on a thread for this watch, until the watch or the node ends. A
-  /// coordinator tells at once; a member what happens on itself at once, and
-  /// what happens elsewhere within 5 s.
+  /// on a thread for this watch, until the watch or the node ends: at
+  /// once, whatever node of the cell it happens on; where a member could not
+  /// ask its coordinator, at most 30 s after it can again.
   task_watch watch(const std::string& task,
                    std::function<void(const task_status&)> on_change) const;
 

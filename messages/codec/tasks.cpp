@@ -63,5 +63,7 @@ ROSCELL_CODEC(task_history_query)
 ROSCELL_CODEC(task_history)
 ROSCELL_CODEC(task_query)
 ROSCELL_CODEC(task_description)
+ROSCELL_CODEC(task_change_query)
+ROSCELL_CODEC(task_change)
 
 } // namespace roscell

@@ -10,6 +10,8 @@ using namespace roscell::test;
 namespace {
 
 constexpr std::chrono::seconds patience{30};
+/// Less than a question waits that has nothing new to be told.
+constexpr std::chrono::seconds at_once{10};
 
 /// What was heard, on whatever thread.
 class heard_words {
@@ -23,9 +25,9 @@ public:
   }
 
   /// Whether it has come, or comes in time.
-  bool has(const std::string& word) {
+  bool has(const std::string& word, std::chrono::seconds limit = patience) {
     std::unique_lock<std::mutex> lock{mutex_};
-    return changed_.wait_for(lock, patience, [&] {
+    return changed_.wait_for(lock, limit, [&] {
       return std::find(words_.begin(), words_.end(), word) != words_.end();
     });
   }
@@ -137,6 +139,32 @@ TEST_CASE("a program runs, asks, watches and stops a task by plain calls") {
   CHECK(states.has("t running"));
   node.stop("t");
   CHECK(node.state("t").state == "gone");
+}
+
+TEST_CASE("a program at a member hears of each change elsewhere at once") {
+  scratch_folder folder;
+  std::filesystem::create_directory(folder.path / "arm");
+  embedded_node base{setup_with_skill(folder.path)};
+  auto setup = setup_in(folder.path / "arm");
+  setup.node.name = "arm";
+  setup.node.coordinator = false;
+  setup.node.join = base.facts().discovery_server;
+  heard_words problems;
+  setup.calls.on_join_problem = [&](const join_problem& x) {
+    problems.add(x.reason.empty() ? "joined" : x.reason);
+  };
+  heard_words states;
+  embedded_node member{setup};
+  REQUIRE(problems.has("joined"));
+  const auto watch = member.watch(
+      "t", [&](const task_status& x) { states.add(x.task + " " + x.state); });
+  CHECK(states.has("t gone"));
+  base.run(rest);
+  CHECK(states.has("t running", at_once));
+  CHECK(member.state("t").state == "running");
+  member.stop("t");
+  CHECK(states.has("t terminating", at_once));
+  CHECK(base.state("t").state == "gone");
 }
 
 TEST_CASE("a plain call that is refused throws with the code of the refusal") {

@@ -75,16 +75,17 @@ void try_messages(std::vector<trial>& result) {
 std::vector<trial> message_trials() {
   std::vector<trial> result;
   try_messages<cell_query, cell_list_query, topic_query, task_request,
-               task_plan_query, task_query, task_history_query,
-               task_placement_query, request_trace_query, actor_query,
-               fresh_cell_query, task_termination, task_restart, instance_query,
-               log_query, kept_logs_query, node_query, hello_query,
-               skill_query>(result);
+               task_plan_query, task_query, task_change_query,
+               task_history_query, task_placement_query, request_trace_query,
+               actor_query, fresh_cell_query, task_termination, task_restart,
+               instance_query, log_query, kept_logs_query, node_query,
+               hello_query, skill_query>(result);
   try_messages<cell_description, cell_list, topic_list, task_accepted,
-               task_plan, task_description, task_history, task_placement,
-               request_traces, actor_inspection, task_terminated,
-               task_restarted, instance_description, log_excerpt, kept_logs,
-               node_description, node_hello, skill_list, event>(result);
+               task_plan, task_description, task_change, task_history,
+               task_placement, request_traces, actor_inspection,
+               task_terminated, task_restarted, instance_description,
+               log_excerpt, kept_logs, node_description, node_hello, skill_list,
+               event>(result);
   try_messages<session_request, session_reply, session_notice,
                node_registration, node_registered, node_departure,
                node_departed, resource_query, resource_report, figures_query,

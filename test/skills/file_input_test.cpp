@@ -119,7 +119,7 @@ TEST_CASE("an empty folder is waited for, once it is known to be one") {
   std::promise<std::string> said;
   running_input input{make_file_input(
       {{"file", folder / "in", "text/plain"},
-       parameters::object(),
+       parameters::parse("{}"),
        [&said](const std::string& text) { said.set_value(text); }})};
   auto waiting = said.get_future();
   REQUIRE(waiting.wait_for(patience) == std::future_status::ready);

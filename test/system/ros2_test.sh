@@ -56,6 +56,26 @@ test_doctor_tells_of_topics_whose_ends_are_alone_or_do_not_match() {
   await_finding broken "^/b: .* wants reliable, but .* offers best_effort"
 }
 
+test_a_camera_may_send_yuv_or_bayer_and_what_nobody_can_use_is_told_before() {
+  local sends
+  start_scene
+  for sends in yuv422_yuy2 bayer_grbg16 nv12; do
+    start_guest "$sends" 2
+    poses_come
+    stop_guest
+  done
+  sends=jpeg_of_mine
+  start_guest strange 2
+  await head '.event == "instance_changed" and .data.step == "poses"
+    and (.data.reason // "" | test("jpeg_of_mine"))' > /dev/null
+  to head doctor --only cameras > "$scratch/found" 2>&1
+  has_line jpeg_of_mine "$scratch/found" || fail "$(cat "$scratch/found")"
+  stop_guest
+  sends=rgb8
+  start_guest again 2
+  poses_come
+}
+
 test_a_stock_program_runs_as_a_step_and_is_told_to_end_as_ros_2_does() {
   make_workspace
   mkdir "$skills/relay"

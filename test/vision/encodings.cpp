@@ -127,7 +127,7 @@ std::string sent_as(const sent_image_form& form,
                     const vision::picture& picture) {
   const auto encoding = ros2::find_encoding(form.encoding).value();
   ros2::image_view image;
-  image.header = {{12, 34}, "eye"};
+  image.header = form.header;
   image.width = picture.width;
   image.height = picture.height;
   image.encoding = form.encoding;
@@ -146,6 +146,22 @@ std::string sent_as(const sent_image_form& form,
     append_chroma(data, image, encoding.chroma);
   image.data = data.data();
   return ros2::serialize(image);
+}
+
+std::string sent_anew(std::string_view mono8, const std::string& encoding) {
+  auto image = ros2::view_image(mono8);
+  if (!ros2::find_encoding(encoding)) {
+    image.encoding = encoding;
+    return ros2::serialize(image);
+  }
+  vision::picture picture;
+  picture.width = image.width;
+  picture.height = image.height;
+  picture.pixels.assign(image.data, image.data + image.size);
+  sent_image_form form;
+  form.encoding = encoding;
+  form.header = image.header;
+  return sent_as(form, picture);
 }
 
 } // namespace roscell::test

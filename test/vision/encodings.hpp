@@ -1,9 +1,11 @@
 #pragma once
 
+#include "roscell/ros2/std_msgs.hpp"
 #include "skills/vision/image_codec.hpp"
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 /// Images as cameras send them.
@@ -23,6 +25,7 @@ struct sent_image_form {
   std::string encoding;
   bool big_endian = false;
   std::uint32_t gap = 0; ///< Bytes behind each row.
+  ros2::std_msgs::header header{{12, 34}, "eye"};
 };
 
 /// A gray picture as sensor_msgs/msg/Image, serialized: 10 used bits where
@@ -30,5 +33,9 @@ struct sent_image_form {
 /// Bayer mosaic differ.
 std::string sent_as(const sent_image_form& form,
                     const vision::picture& picture);
+
+/// An image of encoding mono8 in another one, with the same header. An encoding
+/// that is in no table is the image's in name only.
+std::string sent_anew(std::string_view mono8, const std::string& encoding);
 
 } // namespace roscell::test

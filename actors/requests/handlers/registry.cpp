@@ -7,6 +7,7 @@
 #include "actors/requests/handlers/forwarding.hpp"
 #include "actors/requests/handlers/insight.hpp"
 #include "actors/requests/handlers/local_skills.hpp"
+#include "actors/requests/handlers/task_change_waiting.hpp"
 #include "actors/requests/handlers/task_pipeline.hpp"
 
 namespace roscell {
@@ -55,6 +56,7 @@ void add_cell_queries(request_registry& registry) {
   registry.add(forward_within<cell_list_query, cell_list>(soon, whom));
   registry.add(forward_within<topic_query, topic_list>(soon, whom));
   registry.add(forward_within<task_query, task_description>(soon, whom));
+  registry.add(await_task_change);
   registry.add(forward_within<task_history_query, task_history>(soon, whom));
   registry.add(start_with("read_resources", read_resources)
                    .then("tell_cell", tell_cell));

@@ -1,5 +1,6 @@
 #include "skills/ros2/names.hpp"
 #include "skills/ros2/serialized_type.hpp"
+#include "test/vision/encodings.hpp"
 
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
@@ -20,11 +21,14 @@
 #include <iostream>
 #include <map>
 #include <string>
+#include <utility>
 
 /// A program as rclcpp on rmw_fastrtps_cpp would make it: participant,
 /// endpoints and QoS are set up in the same way, by the environment alone, and
 /// it takes `--ros-args`. It passes messages of any type from the topic `in` on
 /// to the topic `out`, best effort to reliable, until SIGINT.
+/// With the parameter `encoding` it is the driver of a camera, which sends what
+/// comes, images of encoding mono8, in that one.
 /// Usage: stock_program TYPE [--ros-args -r in:=/a -r out:=/b --enclave E
 /// -p qos_overrides./a.subscription.reliability:=reliable ...]
 namespace {
@@ -84,13 +88,16 @@ Qos qos_of(bool reliable) {
 
 class relay : public fdds::DataReaderListener {
 public:
-  explicit relay(fdds::DataWriter* to) : to_(to) {}
+  relay(fdds::DataWriter* to, std::string encoding)
+      : to_(to), encoding_(std::move(encoding)) {}
 
   void on_data_available(fdds::DataReader* reader) override {
     std::string message;
     fdds::SampleInfo info;
     while (reader->take_next_sample(&message, &info)
            == ReturnCode_t::RETCODE_OK) {
+      if (!encoding_.empty())
+        message = roscell::test::sent_anew(message, encoding_);
       to_->write(&message, eprosima::fastrtps::rtps::c_InstanceHandle_Unknown);
       std::cout << "relayed " << ++count_ << std::endl;
     }
@@ -98,6 +105,7 @@ public:
 
 private:
   fdds::DataWriter* const to_;
+  const std::string encoding_;
   int count_ = 0;
 };
 
@@ -119,7 +127,7 @@ int main(int argc, char** argv) {
   ::sigaddset(&ends, SIGINT);
   ::sigaddset(&ends, SIGTERM);
   ::sigprocmask(SIG_BLOCK, &ends, nullptr);
-  const auto args = read_arguments(argc, argv);
+  auto args = read_arguments(argc, argv);
   fdds::DomainParticipantQos qos;
   qos.name(args.enclave);
   const auto data = "enclave=" + args.enclave + ";";
@@ -140,7 +148,8 @@ int main(int argc, char** argv) {
   relay passes{participant->create_publisher(fdds::PUBLISHER_QOS_DEFAULT)
                    ->create_datawriter(
                        topic("out"),
-                       qos_of<fdds::DataWriterQos>(is_reliable(args, "out")))};
+                       qos_of<fdds::DataWriterQos>(is_reliable(args, "out"))),
+               args.parameters["encoding"]};
   participant->create_subscriber(fdds::SUBSCRIBER_QOS_DEFAULT)
       ->create_datareader(topic("in"),
                           qos_of<fdds::DataReaderQos>(is_reliable(args, "in")),

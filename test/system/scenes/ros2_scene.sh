@@ -58,7 +58,7 @@ poses_come() {
 
 # start_guest NAME HOST_NUMBER [COMMAND...]: the stock program on that host, or
 # where there is but one on this, as a person would start it, behind a command
-# such as setpriv.
+# such as setpriv. It sends images in the encoding $sends, if that is set.
 start_guest() {
   local name=$1 node=head there=()
   [[ $2 -eq 1 ]] || node=arm
@@ -68,7 +68,7 @@ start_guest() {
     eval "$(to "$node" env)"
     exec "${there[@]}" "$@" "$ROSCELL_BUILD/bin/stock_program" \
       sensor_msgs/msg/Image --ros-args -r in:=/scene/image \
-      -r out:=/scene/passed_on
+      -r out:=/scene/passed_on ${sends:+-p encoding:="$sends"}
   ) > "$scratch/$name.guest" 2>&1 &
   guest=$!
   echo "$guest" >> "$scratch/pids"
