@@ -143,9 +143,10 @@ TEST_CASE("a program runs, asks, watches and stops a task by plain calls") {
 
 TEST_CASE("a program at a member hears of each change elsewhere at once") {
   scratch_folder folder;
-  std::filesystem::create_directory(folder.path / "arm");
   embedded_node base{setup_with_skill(folder.path)};
-  auto setup = setup_in(folder.path / "arm");
+  // Both are of one user, who has one site token.
+  auto setup = setup_in(folder.path);
+  setup.node.data_dir = folder.path / "arm";
   setup.node.name = "arm";
   setup.node.coordinator = false;
   setup.node.join = base.facts().discovery_server;

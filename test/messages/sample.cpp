@@ -11,6 +11,7 @@ constexpr std::pair<std::string_view, std::string_view> forms[] = {
     {"cell_uuid", "00000000-0000-4000-8000-00000000000N"},
     {"address", "10.0.0.7:N"},
     {"on_boot", "stay"},
+    {"log_excerpt.bytes", "bytesN"},
     {"discovery_server", "10.0.0.8:N"},
     {"node_description.coordinator", "10.0.0.9:N"},
     {"node_hello.coordinator", "10.0.0.9:N"},

@@ -62,7 +62,8 @@ TEST_CASE("what is waited for is named, and what there is instead", "[tools]") {
   CHECK(lacks("eht0", false) == "'eht0' is not there");
   CHECK(describe_links(all, links)
         == "eth0 10.0.0.5, lo 127.0.0.1, eth1 (no IPv4 address), wlan0 (down)");
-  CHECK(lacks("eth1", false) == "interface 'eth1' has no IPv4 address");
+  CHECK(lacks("eth1", false)
+        == "interface 'eth1' has no IPv4 address, and IPv6 is not used");
   CHECK(lacks("wlan0", false) == "interface 'wlan0' is down");
   for (const char* wanted : {"eth0", "10.0.0.5"})
     CHECK(lacks(wanted, true)

@@ -85,7 +85,7 @@ TEST_CASE("what is missing is told when its object has ended", "[shell]") {
   const auto said =
       said_after(request, {"{\"type\": \"task_request\", \"task\": \"t\",",
                            "\"pipeline\": [", "{\"input\": {}}"});
-  CHECK(has(said, "request.json:3:1: \"id\": expected a name"));
+  CHECK(has(said, "request.json:3:1: expected \"id\", a name"));
   CHECK(has(said, "but it is missing"));
 }
 
