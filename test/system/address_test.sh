@@ -174,7 +174,7 @@ waits_for() {
 test_a_node_waits_for_its_interface_and_says_what_there_is() {
   bridge_hosts 1
   make_site_token
-  local nothing="interface 'eth0' has no IPv4 address; this host has: lo 127.0.0.1, eth0 (no"
+  local nothing="interface 'eth0' has no IPv4 address, and IPv6 is not used; this host has: lo 127.0.0.1, eth0 (no"
   has_address 1
   start_waiting
   said head "$nothing"

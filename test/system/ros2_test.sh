@@ -67,8 +67,12 @@ test_a_camera_may_send_yuv_or_bayer_and_what_nobody_can_use_is_told_before() {
   sends=jpeg_of_mine
   start_guest strange 2
   await head '.event == "instance_changed" and .data.step == "poses"
-    and (.data.reason // "" | test("jpeg_of_mine"))' > /dev/null
-  to head doctor --only cameras > "$scratch/found" 2>&1
+    and .data.exit_code == 3' > /dev/null
+  to head logs scene > "$scratch/said"
+  has_line "brings images in encoding 'jpeg_of_mine'" "$scratch/said" \
+    || fail "$(cat "$scratch/said")"
+  ip netns exec "${hosts[0]}" "$ROSCELL" doctor --only cameras \
+    --to "$scratch/head/node.sock" > "$scratch/found" 2>&1
   has_line jpeg_of_mine "$scratch/found" || fail "$(cat "$scratch/found")"
   stop_guest
   sends=rgb8

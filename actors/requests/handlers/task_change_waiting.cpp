@@ -98,6 +98,14 @@ void on_alarm(waiter_pointer self) {
   ask_for_task(self);
 }
 
+/// The coordinator has ended. Nobody else would answer: to end is no answer.
+void give_up(waiter_pointer self) {
+  auto& promise = self->state.promise;
+  if (promise.pending())
+    promise.deliver(caf::make_error(caf::sec::request_receiver_down));
+  self->quit();
+}
+
 task_change_waiter_actor::behavior_type
 task_change_waiter(waiter_pointer self, const event_log_actor& events,
                    const cell_coordinator_actor& coordinator,
@@ -105,8 +113,7 @@ task_change_waiter(waiter_pointer self, const event_log_actor& events,
   self->state.coordinator = coordinator;
   self->state.place = place;
   watch_until_own_end(self, coordinator);
-  self->set_down_handler(
-      [self](const caf::down_msg& down) { self->quit(down.reason); });
+  self->set_down_handler([self](const caf::down_msg&) { give_up(self); });
   return {
       [self](const state_query&) {
         return state_of({{"task", self->state.query.task}});

@@ -51,16 +51,6 @@ bool is_certain(const std::string& pointer, const json& document,
   return !may_go_on;
 }
 
-/// The errors as one refusal. Where nothing stands, its name is told, too: the
-/// mark is under what should have it.
-failure refusal_of_request(std::vector<schema_error> errors,
-                           const json& document) {
-  for (auto& x : errors)
-    if (const json::json_pointer at{x.pointer}; !document.contains(at))
-      x.expected = "\"" + at.back() + "\": " + x.expected;
-  return to_failure(errors);
-}
-
 /// What is wrong with the part of a request of a known type that has come.
 std::vector<schema_error> certain_errors(const json& document,
                                          const std::string& reading) {
@@ -170,9 +160,7 @@ std::string json_collector::new_errors() {
                                 return !told_.insert(x.pointer).second;
                               }),
                errors.end());
-  return errors.empty()
-             ? ""
-             : told_failure(closed, refusal_of_request(errors, document));
+  return errors.empty() ? "" : told_failure(closed, to_failure(errors));
 }
 
 std::string json_collector::one_line() const {
@@ -190,9 +178,7 @@ std::string json_collector::errors() const {
     return told_failure(text_, *why);
   const auto errors = document_errors(document.value("type", ""), document,
                                       unknown_members::refused);
-  return errors.empty()
-             ? ""
-             : told_failure(text_, refusal_of_request(errors, document));
+  return errors.empty() ? "" : told_failure(text_, to_failure(errors));
 }
 
 } // namespace roscell::cli
