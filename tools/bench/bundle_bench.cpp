@@ -23,12 +23,14 @@ constexpr auto apart_m = 0.3; ///< From middle to middle of two tags.
 
 pose::bundle board() {
   pose::bundle result{"board", {}};
-  for (auto id = 0; id < 4; ++id)
+  for (auto id = 0; id < 4; ++id) {
+    const auto row = id / 2;
     result.tags.push_back(
         {id,
          size_m,
          {Eigen::Matrix3d::Identity(),
-          {(id % 2 - 0.5) * apart_m, (id / 2 - 0.5) * apart_m, 0}}});
+          {(id % 2 - 0.5) * apart_m, (row - 0.5) * apart_m, 0}}});
+  }
   return result;
 }
 

@@ -41,8 +41,8 @@ void draw_tag(cv::Mat& target, const tag_sheet& sheet) {
       target.at<cv::Vec3b>(sheet_at.y + y, sheet_at.x + x) =
           shade == 0 ? cv::Vec3b{0, 0, 0} : cv::Vec3b{255, 255, 255};
     }
-  const auto margin = static_cast<int>((sheet_px - pixels_of_size) / 2 + 0.5);
-  const auto side = static_cast<int>(pixels_of_size + 0.5);
+  const auto margin = cvRound((sheet_px - pixels_of_size) / 2);
+  const auto side = cvRound(pixels_of_size);
   const cv::Rect square{sheet_at.x + margin, sheet_at.y + margin, side, side};
   cv::rectangle(target, square, magenta, 2);
   // What is measured, below the tag.
