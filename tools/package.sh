@@ -46,7 +46,7 @@ fi
 # In a copy, so that what debhelper leaves is not in the tree.
 pack() {
   mkdir "$work/tree" "$work/packages"
-  cp -r --parents -t "$work/tree" debian docs/examples CHANGELOG.md
+  cp -r --parents -t "$work/tree" debian docs/examples
   (cd "$work/tree" \
     && BUILD=$build PACKAGES=$work/packages debian/rules binary) \
     > "$output/packing.log" 2>&1 \
