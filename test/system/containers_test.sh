@@ -71,7 +71,7 @@ SCRIPT
 
 test_the_example_for_containers_prints_in_one_what_its_page_shows() {
   start_alone
-  mkdir "$scratch/data"
+  mkdir -p "$scratch/data"
   echo one > "$scratch/data/words"
   sed "s#/tmp/ladder#$scratch/data#" docs/examples/08_containers.yaml \
     > "$scratch/task.yaml"
