@@ -153,6 +153,7 @@ if wants lint; then
   check lint format check_format
   check lint law tools/check_law.sh
   check lint rules tools/check_rules.py
+  check lint docs tools/check_docs.py
   check lint reference tools/generate_reference.py --check
 fi
 if [[ $part != --fuzz ]]; then

@@ -69,6 +69,20 @@ SCRIPT
   chmod +x "$skills/echo/bin/echo"
 }
 
+test_the_example_for_containers_prints_in_one_what_its_page_shows() {
+  start_alone
+  mkdir -p "$scratch/data"
+  echo one > "$scratch/data/words"
+  sed "s#/tmp/ladder#$scratch/data#" docs/examples/08_containers.yaml \
+    > "$scratch/task.yaml"
+  to head run --wait-finished "$scratch/task.yaml" > "$scratch/said" 2>&1 \
+    || fail "$(cat "$scratch/said")"
+  expect "its output" "$(cat "$scratch/data/contained")" \
+    "$(grep '^from a container' docs/examples/README.md)"
+  [[ -n $(get head /v1/instances | jq -r '.instances[0].container // ""') ]] \
+    || fail "it was no container"
+}
+
 test_the_log_of_a_stopped_task_is_there() {
   local text
   use_engine

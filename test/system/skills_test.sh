@@ -115,8 +115,8 @@ bent_scene() {
     --height 480 --focal 500 --farthest 1.5 "$scratch/bent" \
     --distortion -0.25 0.08 0.001 -0.0005 0 > "$scratch/rendered"
   mkdir "$scratch/poses"
-  jq "$1" docs/examples/rectify.json \
-    | sed "s#/tmp/roscell-bent#$scratch/bent#; s#/tmp/roscell-poses#$scratch/poses#" \
+  jq "$1" docs/examples/07_rectify.json \
+    | sed "s#/tmp/ladder#$scratch#" \
     > "$scratch/task.json"
 }
 
@@ -147,6 +147,41 @@ test_a_camera_may_send_its_pictures_compressed() {
           data_type: "sensor_msgs/msg/CompressedImage"}
     | .pipeline[1].parameters.rectified = false'
   run_bent_scene
+}
+
+# run_strategy NUMBER HOSTS: that request of the examples on so many hosts, until the
+# tags of all four scenes are where they were rendered.
+run_strategy() {
+  local name=strategy_$1 n pairs=()
+  mkdir -p "$scratch/poses/$name"
+  sed "s#/tmp/roscell-#$scratch/#" "docs/examples/strategies/$name.json" \
+    | to head request > "$scratch/reply.json" \
+    || fail "refused: $(cat "$scratch/reply.json")"
+  expect "hosts of $name" "$2" \
+    "$(jq '[.allocations[].node] | unique | length' "$scratch/reply.json")"
+  for n in 1 2 3 4; do
+    pairs+=("$scratch/scenes/scene_$n" "$scratch/poses/$name/scene_$n.jsonl")
+  done
+  "$ROSCELL_BUILD/bin/compare_poses" --wait "$deadline_s" --summary "${pairs[@]}" \
+    > "$scratch/compared" 2>&1 || fail "$name: $(cat "$scratch/compared")"
+  to head stop "$name" > /dev/null
+}
+
+test_each_strategy_of_the_examples_finds_the_tags_of_its_four_scenes() {
+  local name
+  rm -r "$skills"
+  use_skills image_source pose_estimation
+  "$ROSCELL_BUILD/bin/render_scenes" --tags 1 1 1 1 --frames 2 --width 320 \
+    --height 240 --focal 266 --farthest 1.2 "$scratch/scenes" > "$scratch/rendered"
+  start_node head --coordinator --cell line --interface lo
+  for name in one two three four; do
+    start_node "$name" --interface lo --join "$(discovery_of head)" \
+      --label "host=$name"
+    await_joined head "$name"
+  done
+  run_strategy 1 1
+  run_strategy 2 1
+  run_strategy 3 4
 }
 
 # camera_task PARAMETERS: a camera that shows photos without a calibration file.

@@ -22,6 +22,11 @@ own_tree() {
   export CCACHE_BASEDIR=$tree
 }
 
+# own_examples: the tasks of docs/examples have this test's paths in that copy.
+own_examples() {
+  sed -i "s|/tmp/|$scratch/|g" "$tree"/docs/examples/*.{json,yaml}
+}
+
 # play PAGE [OPTION...]: does what the page says. In a PID namespace, with which
 # everything goes that it has started; the shell buries the orphans in it.
 play() {
@@ -53,8 +58,21 @@ test_a_cell_in_five_lines_runs_a_task() {
   own_network
   own_tree
   ln -s "$skills" "$tree/build/release/skills"
-  sed -i "s|/tmp/|$scratch/|g" "$tree/docs/examples/hello.json"
+  own_examples
   play README.md --section "A cell in five lines"
+}
+
+test_each_rung_of_the_ladder_of_examples_prints_what_its_page_shows() {
+  own_network
+  own_tree
+  rm -r "$skills"
+  use_skills echo image_source rectify pose_estimation
+  ln -s "$skills" "$tree/build/release/skills"
+  own_examples
+  # A machine that is busy is warned of.
+  play docs/examples/README.md --section "The ladder" --alike head,arm \
+    --replace "roscell run docs/=roscell run 2>> $scratch/busy docs/" \
+    --instead "cmake --preset release && ninja -C build/release roscell instance_shim skills/all render_scenes compare_poses=true"
 }
 
 test_a_skill_of_your_own_takes_five_commands() {

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Measures the three deployment strategies of docs/examples on a coordinator and
-# four hosts: the time of a frame in each scene, with and without its waiting,
-# the rate that is kept up, and the time from a request until all of it runs.
+# Measures the three deployment strategies of docs/examples/strategies on a
+# coordinator and four hosts: the time of a frame in each scene, with and without
+# its waiting, the rate that is kept up, and the time from a request until all of it runs.
 # Each host has its own, equal share of this machine's CPU, so that strategy 3
 # has four times what the others have, as it would on machines of its own. The
 # strategies take turns, so that all meet the same state of the machine. One
@@ -39,7 +39,7 @@ request_of() {
   jq --arg scratch "$scratch" --argjson rate_hz "$rate_hz" '
     (.. | .endpoint? // empty) |= sub("^/tmp/roscell-"; $scratch + "/")
     | (.pipeline[].parameters | select(has("rate_hz")).rate_hz)
-      |= ($rate_hz // .)' "docs/examples/$1.json"
+      |= ($rate_hz // .)' "docs/examples/strategies/$1.json"
 }
 
 # await_frame FILE: waits until the estimator has written about a frame.
