@@ -1,11 +1,21 @@
 #include "skills/pose_estimation/frame_keeper.hpp"
 
+#include <algorithm>
+#include <iterator>
+
 namespace roscell::pose {
+
+namespace {
+
+constexpr std::chrono::seconds out_of_view{1};
+
+} // namespace
 
 bool frame_keeper::may_send(std::size_t tree, const std::string& frame,
                             std::size_t source, const std::string& camera,
                             clock::time_point now) {
-  constexpr std::chrono::seconds out_of_view{1};
+  if (owners_.size() >= forget_at_)
+    forget_out_of_view(now);
   auto& last = owners_[{tree, frame}];
   if (last.camera.empty() || last.source == source
       || now - last.seen > out_of_view) {
@@ -16,6 +26,13 @@ bool frame_keeper::may_send(std::size_t tree, const std::string& frame,
            + "'; TF gets it of the one that saw it first: give each camera a "
              "prefix of its own by the parameter 'tag_prefixes'");
   return false;
+}
+
+void frame_keeper::forget_out_of_view(clock::time_point now) {
+  for (auto i = owners_.begin(); i != owners_.end();)
+    i = now - i->second.seen > out_of_view ? owners_.erase(i) : std::next(i);
+  // With so many in view it need not be looked at again soon.
+  forget_at_ = std::max(most_frames, 2 * owners_.size());
 }
 
 void frame_keeper::refuse_twins(const std::string& frame,

@@ -26,6 +26,14 @@ public:
   bool may_send(std::size_t tree, const std::string& frame, std::size_t source,
                 const std::string& camera, clock::time_point now);
 
+  /// Of more only twice those in view are remembered.
+  static constexpr std::size_t most_frames = 1000;
+
+  /// How many are remembered.
+  std::size_t count() const noexcept {
+    return owners_.size();
+  }
+
   /// `frame` is twice in an image of `camera`.
   void refuse_twins(const std::string& frame, const std::string& camera);
 
@@ -36,10 +44,14 @@ private:
     clock::time_point seen;
   };
 
+  /// What nobody sees any more belongs to nobody: noise may look like each of
+  /// tens of thousands of tags once.
+  void forget_out_of_view(clock::time_point now);
   void say_once(const std::string& line);
 
   const engine::say_function say_;
   std::map<std::pair<std::size_t, std::string>, owner> owners_;
+  std::size_t forget_at_ = most_frames;
   std::set<std::string> said_;
 };
 

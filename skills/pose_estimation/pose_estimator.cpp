@@ -56,7 +56,8 @@ pose_estimator::pose_estimator(const engine::environment& env)
 
 pose_estimator::pose_estimator(const engine::environment& env,
                                engine::say_function say)
-    : say_(std::move(say)), rectified_(env.parameters.flag("rectified", false)),
+    : paired_executor(env.inputs), say_(std::move(say)),
+      rectified_(env.parameters.flag("rectified", false)),
       frame_id_(env.parameters.text("frame_id", "camera")),
       picture_rate_hz_(
           env.parameters.number("picture_rate_hz", 1, 0, 1'000'000)),
@@ -67,22 +68,15 @@ pose_estimator::pose_estimator(const engine::environment& env,
 }
 
 void pose_estimator::add_sources(const engine::environment& env) {
-  source_of_port_.resize(env.inputs.size());
-  std::size_t images = 0;
-  std::size_t infos = 0;
-  for (std::size_t i = 0; i < env.inputs.size(); ++i)
-    source_of_port_[i] = is_camera_info(env.inputs[i]) ? infos++ : images++;
+  const auto images = image_ports().size();
+  const auto infos = info_ports().size();
   if (images == 0 || infos > images)
     throw start_error("the step has " + std::to_string(images) + " image and "
                       + std::to_string(infos)
                       + " CameraInfo inputs; give each image input at most one "
                         "CameraInfo");
-  for (std::size_t i = 0; i < env.inputs.size(); ++i)
-    if (!is_camera_info(env.inputs[i]))
-      add_source(env, i, source_of_port_[i] < infos);
-  const auto image =
-      std::find_if_not(env.inputs.begin(), env.inputs.end(), is_camera_info);
-  set_main_input(static_cast<std::size_t>(image - env.inputs.begin()));
+  for (std::size_t k = 0; k < images; ++k)
+    add_source(env, image_ports()[k], k < infos);
   auto count = sources_.size();
   typed_outputs transforms{env.outputs, ros2::tf2_msgs::tf_message::type_name,
                            count};
@@ -124,49 +118,26 @@ void pose_estimator::add_source(const engine::environment& env,
     sources_.back().camera.calibrate({}, *known);
 }
 
-void pose_estimator::process(const engine::frame& input,
-                             engine::emitter& output) {
-  if (input.data_type == camera_info::type_name)
-    process_info(input, output);
-  else
-    take_image(input, output);
+void pose_estimator::calibrate(std::size_t camera, const engine::frame& info) {
+  if (!given_)
+    sources_.at(camera).camera.calibrate(
+        info.time, ros2::deserialize<camera_info>(info.payload));
 }
 
-void pose_estimator::process_info(const engine::frame& input,
-                                  engine::emitter& output) {
-  if (given_)
-    return;
-  auto& from = sources_.at(source_of_port_.at(input.port));
-  from.camera.calibrate(input.time,
-                        ros2::deserialize<camera_info>(input.payload));
-  if (!from.waiting || from.waiting->time != input.time)
-    return;
-  const auto image = *std::exchange(from.waiting, std::nullopt);
-  set_worked_on(image.port);
-  process_any(image, output);
+bool pose_estimator::should_wait(std::size_t camera,
+                                 const engine::frame& image) {
+  return sources_.at(camera).camera.should_wait(image.time);
 }
 
-void pose_estimator::take_image(const engine::frame& input,
-                                engine::emitter& output) {
-  auto& from = sources_.at(source_of_port_.at(input.port));
-  // What still waits has no CameraInfo of its own.
-  if (const auto before = std::exchange(from.waiting, std::nullopt))
-    process_any(*before, output);
-  if (!from.camera.should_wait(input.time))
-    return process_any(input, output);
-  from.waiting = input;
-  set_kept();
-}
-
-void pose_estimator::process_any(const engine::frame& input,
-                                 engine::emitter& output) {
+void pose_estimator::process_image(const engine::frame& input,
+                                   engine::emitter& output) {
   if (input.data_type == compressed_image::type_name)
     return process_compressed(input, output);
   if (input.data_type != image::type_name)
     return process_file(input, output);
   const auto sent = ros2::view_image(input.payload);
   accepted_.check(sent.encoding);
-  process_image(sent, input, output);
+  find_and_emit(sent, input, output);
 }
 
 void pose_estimator::release() {
@@ -175,7 +146,7 @@ void pose_estimator::release() {
 
 void pose_estimator::process_file(const engine::frame& input,
                                   engine::emitter& output) {
-  const auto& source = sources_.at(source_of_port_.at(input.port));
+  const auto& source = sources_.at(camera_of(input.port));
   vision::picture picture;
   try {
     picture = vision::decode_picture(input.payload, format_for(source));
@@ -183,16 +154,16 @@ void pose_estimator::process_file(const engine::frame& input,
     broken_files_.skip(input.name, e.what());
     return output.give_nothing("'" + input.name + "': " + e.what());
   }
-  process_image(view(picture, {ros2::to_time(input.time), frame_id_}), input,
+  find_and_emit(view(picture, {ros2::to_time(input.time), frame_id_}), input,
                 output);
 }
 
 void pose_estimator::process_compressed(const engine::frame& input,
                                         engine::emitter& output) {
   auto message = ros2::deserialize<compressed_image>(input.payload);
-  const auto& source = sources_.at(source_of_port_.at(input.port));
+  const auto& source = sources_.at(camera_of(input.port));
   auto picture = vision::decompress(message, format_for(source));
-  process_image(view(picture, message.header), input, output);
+  find_and_emit(view(picture, message.header), input, output);
 }
 
 /// Colours are of use where pictures are drawn only.
@@ -201,10 +172,10 @@ vision::pixel_format pose_estimator::format_for(const source& from) {
                                               : vision::pixel_format::bgr8;
 }
 
-void pose_estimator::process_image(const ros2::image_view& image,
+void pose_estimator::find_and_emit(const ros2::image_view& image,
                                    const engine::frame& input,
                                    engine::emitter& output) {
-  auto number = source_of_port_.at(input.port);
+  auto number = camera_of(input.port);
   auto& source = sources_.at(number);
   auto camera = source.camera.model_for(input.time, image.width, image.height);
   auto result = find_tags(image, number, camera);

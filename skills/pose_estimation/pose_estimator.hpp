@@ -1,6 +1,5 @@
 #pragma once
 
-#include "roscell/skill/executor.hpp"
 #include "roscell/skill/handlers.hpp"
 #include "roscell/skill/log_line.hpp"
 #include "roscell/skill/pacer.hpp"
@@ -11,6 +10,7 @@
 #include "skills/vision/accepted_encodings.hpp"
 #include "skills/vision/broken_files.hpp"
 #include "skills/vision/image_codec.hpp"
+#include "skills/vision/paired_executor.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -49,14 +49,12 @@ namespace roscell::pose {
 ///
 /// A file that is no image is said once and skipped. An image whose message is
 /// broken fails. One in an encoding that cannot be used ends the skill.
-class pose_estimator : public engine::executor {
+class pose_estimator : public vision::paired_executor {
 public:
   explicit pose_estimator(const engine::environment& env);
 
   /// `say` gets the lines for people.
   pose_estimator(const engine::environment& env, engine::say_function say);
-
-  void process(const engine::frame& input, engine::emitter& output) override;
 
   void release() override;
 
@@ -74,19 +72,19 @@ private:
     std::size_t poses = engine::typed_outputs::none;
     std::size_t lines = engine::typed_outputs::none;
     std::size_t pictures = engine::typed_outputs::none;
-    std::optional<engine::frame> waiting; ///< An image, for its CameraInfo.
   };
 
   void add_sources(const engine::environment& env);
   void add_source(const engine::environment& env, std::size_t port,
                   bool expects_info);
   static vision::pixel_format format_for(const source& from);
-  void process_info(const engine::frame& input, engine::emitter& output);
-  void take_image(const engine::frame& input, engine::emitter& output);
-  void process_any(const engine::frame& input, engine::emitter& output);
+  void calibrate(std::size_t camera, const engine::frame& info) override;
+  bool should_wait(std::size_t camera, const engine::frame& image) override;
+  void process_image(const engine::frame& input,
+                     engine::emitter& output) override;
   void process_file(const engine::frame& input, engine::emitter& output);
   void process_compressed(const engine::frame& input, engine::emitter& output);
-  void process_image(const ros2::image_view& image, const engine::frame& input,
+  void find_and_emit(const ros2::image_view& image, const engine::frame& input,
                      engine::emitter& output);
   void emit_picture(source& from, const frame_result& result,
                     const ros2::image_view& image,
@@ -107,8 +105,6 @@ private:
   const vision::accepted_encodings accepted_;
   tag_finder finder_;
   std::vector<source> sources_;
-  /// By input port: the number of its source.
-  std::vector<std::size_t> source_of_port_;
   std::vector<std::uint8_t> gray_buffer_;
   vision::broken_files broken_files_;
 };

@@ -49,11 +49,12 @@ rectifier::rectifier(const engine::environment& env)
 }
 
 rectifier::rectifier(const engine::environment& env,
-                     const engine::say_function& say) {
+                     const engine::say_function& say)
+    : paired_executor(env.inputs) {
   check_types(env.inputs, "takes");
   check_types(env.outputs, "gives");
-  auto images = engine::ports_of_type(env.inputs, image::type_name);
-  auto infos = engine::ports_of_type(env.inputs, camera_info::type_name);
+  const auto& images = image_ports();
+  const auto& infos = info_ports();
   if (images.empty() || images.size() != infos.size())
     throw start_error("the step has " + std::to_string(images.size())
                       + " image and " + std::to_string(infos.size())
@@ -61,52 +62,27 @@ rectifier::rectifier(const engine::environment& env,
                         "CameraInfo");
   typed_outputs to_images{env.outputs, image::type_name, images.size()};
   typed_outputs to_infos{env.outputs, camera_info::type_name, images.size()};
-  set_main_input(images.front());
-  source_of_port_.resize(env.inputs.size());
-  for (std::size_t k = 0; k < images.size(); ++k) {
-    source_of_port_[images[k]] = k;
-    source_of_port_[infos[k]] = k;
+  for (std::size_t k = 0; k < images.size(); ++k)
     sources_.push_back({raw_camera{env.inputs[images[k]].endpoint, say},
                         to_images.of_source(k), to_infos.of_source(k)});
-  }
 }
 
-void rectifier::process(const engine::frame& input, engine::emitter& output) {
-  auto& from = sources_.at(source_of_port_.at(input.port));
-  if (input.data_type == camera_info::type_name)
-    process_info(input, from, output);
-  else
-    take_image(input, from, output);
+void rectifier::calibrate(std::size_t camera, const engine::frame& info) {
+  sources_.at(camera).camera.calibrate(
+      info.time, ros2::deserialize<camera_info>(info.payload));
 }
 
-void rectifier::process_info(const engine::frame& input, source& from,
-                             engine::emitter& output) {
-  from.camera.calibrate(input.time,
-                        ros2::deserialize<camera_info>(input.payload));
-  if (!from.waiting || from.waiting->time != input.time)
-    return;
-  const auto image = *std::exchange(from.waiting, std::nullopt);
-  set_worked_on(image.port);
-  process_image(image, from, output);
-}
-
-void rectifier::take_image(const engine::frame& input, source& from,
-                           engine::emitter& output) {
-  // What still waits has no CameraInfo of its own.
-  if (const auto before = std::exchange(from.waiting, std::nullopt))
-    process_image(*before, from, output);
-  if (!from.camera.should_wait(input.time))
-    return process_image(input, from, output);
-  from.waiting = input;
-  set_kept();
+bool rectifier::should_wait(std::size_t camera, const engine::frame& image) {
+  return sources_.at(camera).camera.should_wait(image.time);
 }
 
 void rectifier::release() {
   // Everything is given back by destructors.
 }
 
-void rectifier::process_image(const engine::frame& input, source& from,
+void rectifier::process_image(const engine::frame& input,
                               engine::emitter& output) {
+  auto& from = sources_.at(camera_of(input.port));
   auto raw = ros2::view_image(input.payload);
   if (!from.camera.is_ready_for(input.time, raw.width, raw.height))
     return output.give_nothing(from.camera.problem());

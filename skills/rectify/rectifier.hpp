@@ -1,11 +1,10 @@
 #pragma once
 
-#include "roscell/skill/executor.hpp"
 #include "roscell/skill/typed_ports.hpp"
 #include "skills/rectify/raw_camera.hpp"
+#include "skills/vision/paired_executor.hpp"
 
 #include <cstddef>
-#include <optional>
 #include <vector>
 
 namespace roscell::rectify {
@@ -23,14 +22,12 @@ namespace roscell::rectify {
 /// a camera is not calibrated, or for another size, its images are left out,
 /// and the log says so once. Bayer and YUV become bgr8 or bgr16, all other
 /// encodings stay. An unknown encoding ends the skill.
-class rectifier : public engine::executor {
+class rectifier : public vision::paired_executor {
 public:
   explicit rectifier(const engine::environment& env);
 
   /// `say` gets the lines for people.
   rectifier(const engine::environment& env, const engine::say_function& say);
-
-  void process(const engine::frame& input, engine::emitter& output) override;
 
   void release() override;
 
@@ -40,19 +37,14 @@ private:
     raw_camera camera;
     std::size_t images = engine::typed_outputs::none;
     std::size_t infos = engine::typed_outputs::none;
-    std::optional<engine::frame> waiting; ///< An image, for its CameraInfo.
   };
 
-  void process_info(const engine::frame& input, source& from,
-                    engine::emitter& output);
-  void take_image(const engine::frame& input, source& from,
-                  engine::emitter& output);
-  static void process_image(const engine::frame& input, source& from,
-                            engine::emitter& output);
+  void calibrate(std::size_t camera, const engine::frame& info) override;
+  bool should_wait(std::size_t camera, const engine::frame& image) override;
+  void process_image(const engine::frame& input,
+                     engine::emitter& output) override;
 
   std::vector<source> sources_;
-  /// By input port: the number of its source.
-  std::vector<std::size_t> source_of_port_;
 };
 
 } // namespace roscell::rectify

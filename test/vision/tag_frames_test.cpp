@@ -122,6 +122,19 @@ TEST_CASE("a tag moves on to another camera once the first has lost it",
                               start + std::chrono::milliseconds{1200}));
 }
 
+TEST_CASE("frames that are out of view are forgotten", "[frames]") {
+  using pose::frame_keeper;
+  said_lines said;
+  frame_keeper keeper{said.function()};
+  auto now = frame_keeper::clock::now();
+  for (auto i = 0; i < 20'000; ++i) {
+    now += std::chrono::milliseconds{2};
+    CHECK(keeper.may_send(0, "tag" + std::to_string(i), 0, "eye", now));
+  }
+  CHECK(keeper.count() <= frame_keeper::most_frames);
+  CHECK_FALSE(keeper.may_send(0, "tag19999", 1, "other", now));
+}
+
 TEST_CASE("cameras whose transforms go to topics of their own may see the same",
           "[frames]") {
   using pose::frame_keeper;
