@@ -465,9 +465,10 @@ constexpr size_t histories = 128;
 constexpr size_t fact_text_bytes = 512;
 
 /// The longest that a query may wait for a change of a task
-/// (messages/task.hpp), and how many wait at a time.
+/// (messages/task.hpp), and how many wait at a time: half of the clients that
+/// an HTTP server works for at once.
 constexpr milliseconds change_wait{20'000};
-constexpr size_t change_waiters = 64;
+constexpr size_t change_waiters = 32;
 
 /// A termination whose record cannot be removed for so long is answered with
 /// the trouble; the removal goes on.

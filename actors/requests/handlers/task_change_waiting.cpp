@@ -71,10 +71,11 @@ void ask_for_task(waiter_pointer self) {
 
 /// A node that is lost or back changes the tasks that it has steps of.
 bool may_change(const event& e, const std::string& task) {
-  if (e.passing)
-    return false;
   if (e.subject == task || e.what.compare(0, 5, "node_") == 0)
     return true;
+  // Most events are about others, and many may wait.
+  if (e.data.find(task) == std::string::npos)
+    return false;
   const auto data = json::parse(e.data, nullptr, false);
   return data.is_object() && data.value("task", json{}) == task;
 }

@@ -1,7 +1,6 @@
 #include "actors/house/limits.hpp"
-#include "actors/requests/handler_pipeline.hpp"
 #include "actors/requests/handlers/actor_inspecting.hpp"
-#include "test/fixture.hpp"
+#include "test/actors/requests/processing.hpp"
 
 namespace roscell::test {
 
@@ -45,17 +44,8 @@ struct inspection_fixture {
   }
 
   caf::expected<request_processed> inspect(const std::string& actor) {
-    request_registry registry;
-    registry.add(inspect_actors);
-    const json request{{"type", "actor_query"}, {"actor", actor}};
-    auto reply = time.ask<request_processed>(
-        spawn(time.system, services->context, handler_pipeline,
-              *registry.find("actor_query"),
-              std::shared_ptr<const node_services>(services),
-              std::make_shared<const json>(request),
-              request_history::ticket{0}),
-        process_request{});
-    time.settle();
+    const auto reply = process(time, services, inspect_actors,
+                               {{"type", "actor_query"}, {"actor", actor}});
     time.pass(limits::local::answer);
     REQUIRE(*reply);
     return **reply;

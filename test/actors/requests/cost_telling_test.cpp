@@ -2,8 +2,7 @@
 
 #include "actors/house/limits.hpp"
 #include "actors/house/relayed_requests.hpp"
-#include "actors/requests/handler_pipeline.hpp"
-#include "test/fixture.hpp"
+#include "test/actors/requests/processing.hpp"
 
 #include <functional>
 #include <map>
@@ -72,16 +71,7 @@ struct cost_fixture {
   }
 
   std::vector<node_cost> ask(const cost_query& query) {
-    request_registry registry;
-    registry.add(tell_cost);
-    auto reply = time.ask<request_processed>(
-        spawn(time.system, services->context, handler_pipeline,
-              *registry.find(cost_query::type),
-              std::shared_ptr<const node_services>(services),
-              std::make_shared<const json>(message_json(query)),
-              request_history::ticket{0}),
-        process_request{});
-    time.settle();
+    const auto reply = process(time, services, tell_cost, message_json(query));
     time.pass(limits::local::answer + relay_margin);
     REQUIRE(*reply);
     REQUIRE(**reply);
