@@ -807,6 +807,9 @@ constexpr seconds lease{600};
 constexpr seconds announcement_period{200};
 /// For the coordinators of the site to be seen at the start.
 constexpr milliseconds survey{60};
+/// The same where somebody has claimed a name that is not his: its owner may be
+/// slower, on a busy host or a long way.
+constexpr milliseconds second_survey{500};
 /// The most bytes of USER_DATA that we send or look at: enough for the longest
 /// names that a session takes, all of whose bytes are escaped.
 constexpr size_t announcement_bytes = 1024;

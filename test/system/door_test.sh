@@ -117,7 +117,7 @@ test_a_data_directory_of_somebody_else_is_not_taken() {
   as_stranger mkdir -m 755 "$scratch/trap" "$scratch/trap/skills"
   as_stranger ln -s "$scratch/precious" "$scratch/trap/lock"
   echo precious > "$scratch/precious"
-  "$ROSCELL" node --data-dir "$scratch/trap" --interface lo --port 0 \
+  timeout "$deadline_s" "$ROSCELL" node --data-dir "$scratch/trap" --interface lo --port 0 \
     2> "$scratch/stderr"
   expect "exit code" $? 1
   grep -q "the data directory '$scratch/trap' is not taken: it belongs to user" \
@@ -143,9 +143,27 @@ test_a_stranger_with_the_cells_name_keeps_no_coordinator_from_starting() {
   start_head
   await head '.event == "claim_ignored" and .subject == "den"' > /dev/null
   # Whoever proves that he has the name keeps it.
-  "$ROSCELL" node --coordinator --cell line --name second --interface lo \
+  timeout "$deadline_s" "$ROSCELL" node --coordinator --cell line --name second --interface lo \
     --data-dir "$scratch/second" --port 0 --discovery-port 0 \
     --public-domain "$public_domain" 2> "$scratch/stderr"
+  expect "exit code" $? 1
+  grep -q "the cell name 'line' is in use: node 'head'" "$scratch/stderr" \
+    || fail "$(cat "$scratch/stderr")"
+}
+
+# A stranger is nearer than the coordinator that has the name.
+test_who_has_the_name_of_a_cell_keeps_it_though_a_stranger_is_heard_first() {
+  bridge_hosts 2
+  make_site_token
+  start_on 2 head --coordinator --cell line
+  delay_packets 50
+  cp "$scratch/site.token" "$scratch/ours"
+  make_site_token
+  start_on 1 den --coordinator --cell line
+  timeout "$deadline_s" ip netns exec "${hosts[0]}" "$ROSCELL" node --coordinator \
+    --cell line --name second --interface 10.231.7.1 --data-dir "$scratch/second" \
+    --port 0 --discovery-port 0 --public-domain "$public_domain" \
+    --site-token "$scratch/ours" 2> "$scratch/stderr"
   expect "exit code" $? 1
   grep -q "the cell name 'line' is in use: node 'head'" "$scratch/stderr" \
     || fail "$(cat "$scratch/stderr")"
@@ -201,7 +219,7 @@ test_a_copied_site_token_lets_a_node_of_another_host_in() {
 test_a_coordinator_without_a_place_for_a_site_token_says_so() {
   let_in_strangers
   as_stranger mkdir "$scratch/theirs/data"
-  HOME=/nonexistent XDG_CONFIG_HOME= env -u ROSCELL_SITE_TOKEN \
+  HOME=/nonexistent XDG_CONFIG_HOME= timeout "$deadline_s" env -u ROSCELL_SITE_TOKEN \
     setpriv --reuid "$stranger" --regid "$stranger" --clear-groups \
     "$ROSCELL" node --coordinator --interface lo --port 0 --discovery-port 0 \
     --data-dir "$scratch/theirs/data" 2> "$scratch/stderr"

@@ -68,14 +68,14 @@ private:
   std::vector<bool> proven_;
 };
 
-/// No more than are asked at once, and nobody twice.
-std::vector<announcement>
-without_repetitions(std::vector<announcement> claims) {
-  std::set<std::string> addresses;
+/// No more than are asked in all, and nobody twice.
+/// @param asked those who have been asked, with those that are returned.
+std::vector<announcement> without_repetitions(std::vector<announcement> claims,
+                                              std::set<std::string>& asked) {
   std::vector<announcement> result;
   for (auto& x : claims)
-    if (result.size() < limits::token::claims
-        && addresses.insert(x.session + " " + x.uuid).second)
+    if (asked.size() < limits::token::claims
+        && asked.insert(x.session + " " + x.uuid).second)
       result.push_back(std::move(x));
   return result;
 }
@@ -104,7 +104,7 @@ std::vector<bool> ask_for_proofs(const std::vector<announcement>& claims,
 }
 
 caf::expected<std::vector<announcement>>
-look_around(const node_config& config) {
+look_around(const node_config& config, std::chrono::milliseconds span) {
   presence_options options;
   options.address = config.address;
   options.domain_id = config.public_domain_id;
@@ -112,7 +112,7 @@ look_around(const node_config& config) {
   // itself, which tells of them.
   options.peers =
       await_hosts(config.peers, limits::discovery::peer_names).addresses;
-  auto seen = survey_site(options, limits::discovery::survey, {});
+  auto seen = survey_site(options, span, {});
   if (auto* why = std::get_if<edge_error>(&seen))
     return to_caf(*why);
   return std::get<std::vector<announcement>>(std::move(seen));
@@ -131,21 +131,24 @@ uint8_t free_server_id(const std::vector<announcement>& seen,
   return result;
 }
 
-} // namespace
-
-caf::expected<uint8_t> claim_cell(const node_config& config,
-                                  const node_data& data, node_edges& edges,
-                                  const house& context) {
-  const auto seen = look_around(config);
-  if (!seen)
-    return seen.error();
-  const auto& own = data.identity.uuid;
-  std::vector<announcement> claims;
-  for (const auto& x : *seen)
+/// Others that claim the name of the cell, or to be this coordinator.
+std::vector<announcement> claims_among(const std::vector<announcement>& seen,
+                                       const node_config& config,
+                                       const std::string& own,
+                                       const node_edges& edges) {
+  std::vector<announcement> result;
+  for (const auto& x : seen)
     if (x.role == "coordinator" && x.cell == config.cell
         && x.session != edges.http_address && (x.uuid == own || !config.force))
-      claims.push_back(x);
-  claims = without_repetitions(std::move(claims));
+      result.push_back(x);
+  return result;
+}
+
+/// The refusal where one of them proves its claim; the others are told of.
+caf::error refuse_owner(const std::vector<announcement>& claims,
+                        const node_config& config, const node_data& data,
+                        node_edges& edges, const house& context) {
+  const auto& own = data.identity.uuid;
   const auto proven = ask_for_proofs(claims, config, data, edges);
   for (size_t i = 0; i < claims.size(); ++i) {
     if (proven[i])
@@ -156,7 +159,34 @@ caf::expected<uint8_t> claim_cell(const node_config& config,
       context.tell("claim_ignored", claims[i].node,
                    {{"cell", claims[i].cell}, {"address", claims[i].session}});
   }
-  return config.server_id.value_or(free_server_id(*seen, own));
+  return caf::none;
+}
+
+} // namespace
+
+caf::expected<uint8_t> claim_cell(const node_config& config,
+                                  const node_data& data, node_edges& edges,
+                                  const house& context) {
+  using namespace limits::discovery;
+  const auto& own = data.identity.uuid;
+  std::set<std::string> asked;
+  std::vector<announcement> seen;
+  // Who is heard first may claim what it cannot prove, where the owner of the
+  // name, who is slower, can. More than two looks would let strangers hold up
+  // the start for ever.
+  for (const auto span : {survey, second_survey}) {
+    auto around = look_around(config, span);
+    if (!around)
+      return around.error();
+    seen = std::move(*around);
+    const auto claims =
+        without_repetitions(claims_among(seen, config, own, edges), asked);
+    if (claims.empty())
+      break;
+    if (auto refusal = refuse_owner(claims, config, data, edges, context))
+      return refusal;
+  }
+  return config.server_id.value_or(free_server_id(seen, own));
 }
 
 } // namespace roscell

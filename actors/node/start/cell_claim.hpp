@@ -15,8 +15,9 @@ namespace roscell {
 /// server of a new one. What is announced is a hint until it is proven: whoever
 /// claims the cell's name, or this node's UUID, is asked for a proof of the
 /// site token, all of them at once, and one that has none is told of as
-/// `claim_ignored`. Blocks for `limits::discovery::survey`, and for
-/// `limits::token::claim_proof` if there are any.
+/// `claim_ignored`, and looks once more for the one that has. Blocks for
+/// `limits::discovery::survey`; if there are any, also for `second_survey` and
+/// twice `limits::token::claim_proof` at most.
 ///
 /// Errors: conflict (somebody who proves it coordinates that cell).
 caf::expected<uint8_t> claim_cell(const node_config& config,
