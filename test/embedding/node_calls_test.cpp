@@ -168,6 +168,49 @@ TEST_CASE("a program at a member hears of each change elsewhere at once") {
   CHECK(base.state("t").state == "gone");
 }
 
+TEST_CASE("a watch at a member goes on when its coordinator is back") {
+  scratch_folder folder;
+  heard_words states;
+  auto coordinator = setup_with_skill(folder.path);
+  auto base = std::make_unique<embedded_node>(coordinator);
+  const auto server = base->facts().discovery_server;
+  auto setup = setup_in(folder.path);
+  setup.node.data_dir = folder.path / "arm";
+  setup.node.name = "arm";
+  setup.node.coordinator = false;
+  setup.node.join = server;
+  embedded_node member{setup};
+  // It may be in no cell yet, which a watch waits for, too.
+  const auto watch = member.watch(
+      "t", [&](const task_status& x) { states.add(x.task + " " + x.state); });
+  CHECK(states.has("t gone"));
+  base.reset();
+  coordinator.node.discovery_port =
+      static_cast<uint16_t>(std::stoi(server.substr(server.rfind(':') + 1)));
+  base = std::make_unique<embedded_node>(coordinator);
+  base->run(rest);
+  CHECK(states.has("t running"));
+}
+
+TEST_CASE("a program hears that its node lacks the site token") {
+  scratch_folder folder;
+  embedded_node base{setup_in(folder.path)};
+  heard_words problems;
+  const auto other = folder.path / "other";
+  std::filesystem::create_directory(other);
+  auto setup = setup_in(other);
+  setup.node.name = "arm";
+  setup.node.coordinator = false;
+  setup.node.join = base.facts().discovery_server;
+  setup.calls.on_join_problem = [&](const join_problem& x) {
+    problems.add((x.reason + x.hint).find("site token") != std::string::npos
+                     ? "no token"
+                     : x.reason);
+  };
+  embedded_node member{setup};
+  CHECK(problems.has("no token"));
+}
+
 TEST_CASE("a plain call that is refused throws with the code of the refusal") {
   scratch_folder folder;
   embedded_node node{setup_in(folder.path)};
