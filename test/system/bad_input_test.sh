@@ -223,11 +223,11 @@ PY
 
 test_a_port_or_a_data_directory_in_use_is_named() {
   start_alone
-  "$ROSCELL" node --name other --data-dir "$scratch/other" --interface lo \
+  timeout "$deadline_s" "$ROSCELL" node --name other --data-dir "$scratch/other" --interface lo \
     --port "${address#*:}" 2> "$scratch/stderr"
   expect "exit code" $? 1
   grep -q "${address#*:}" "$scratch/stderr" || fail "$(cat "$scratch/stderr")"
-  "$ROSCELL" node --name again --data-dir "$scratch/head" --interface lo \
+  timeout "$deadline_s" "$ROSCELL" node --name again --data-dir "$scratch/head" --interface lo \
     --port 0 2> "$scratch/stderr"
   expect "exit code" $? 1
   grep -q "$scratch/head" "$scratch/stderr" || fail "$(cat "$scratch/stderr")"

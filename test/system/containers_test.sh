@@ -420,7 +420,7 @@ test_a_user_without_permission_on_the_socket_is_told_what_to_do() {
   mkdir "$scratch/nobody"
   chown 65533 "$scratch" "$scratch/nobody"
   chmod a+rx "$suite" "$engine_dir"
-  setpriv --reuid 65533 --regid 65533 --clear-groups "$ROSCELL" node \
+  timeout "$deadline_s" setpriv --reuid 65533 --regid 65533 --clear-groups "$ROSCELL" node \
     --name other --data-dir "$scratch/nobody" --interface lo --port 0 \
     --runtime "$runtime" 2> "$scratch/stderr"
   expect "exit code" $? 1
@@ -431,7 +431,7 @@ test_a_user_without_permission_on_the_socket_is_told_what_to_do() {
 }
 
 test_an_engine_that_is_not_there_is_told_what_to_do() {
-  "$ROSCELL" node --name other --data-dir "$scratch/other" --interface lo \
+  timeout "$deadline_s" "$ROSCELL" node --name other --data-dir "$scratch/other" --interface lo \
     --port 0 --runtime "$engine_name:$scratch/none.sock" 2> "$scratch/stderr"
   expect "exit code" $? 3
   grep -q "$scratch/none.sock" "$scratch/stderr" || fail "$(cat "$scratch/stderr")"

@@ -137,7 +137,7 @@ test_a_name_that_is_taken_is_told_by_the_coordinator_and_twins_are_not_formed() 
   start_named arm twin 18470 --join "$(discovery_of head)"
   await head '.event == "node_refused" and .subject == "arm"' > "$scratch/told"
   shows "$(jq -r .data.reason "$scratch/told")" "the name 'arm' belongs to"
-  "$ROSCELL" node --name '' --interface lo --data-dir "$scratch/none" \
+  timeout "$deadline_s" "$ROSCELL" node --name '' --interface lo --data-dir "$scratch/none" \
     2> "$scratch/refused" && fail "a name that says nothing is taken"
   shows "$(cat "$scratch/refused")" "the name is empty"
   for port in 18471 18472; do

@@ -89,7 +89,7 @@ test_a_grant_that_cannot_be_meant_is_told_with_its_line() {
   local grant
   for grant in echo=user:nobody-of-that-name echo=capability:FLY echo=scheduling:fifo:100; do
     printf 'interface = lo\ngrant = %s\n' "$grant" > "$scratch/node.conf"
-    "$ROSCELL" node --config "$scratch/node.conf" --data-dir "$scratch/x" \
+    timeout "$deadline_s" "$ROSCELL" node --config "$scratch/node.conf" --data-dir "$scratch/x" \
       2> "$scratch/said" && fail "it runs with $grant"
     grep -q "$scratch/node.conf:2: --grant: " "$scratch/said" \
       || fail "$(cat "$scratch/said")"

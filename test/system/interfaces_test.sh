@@ -133,7 +133,7 @@ test_a_node_does_not_choose_between_interfaces_itself() {
   local code
   bridge_hosts 3
   second_interface 10.231.8.3/24
-  ip netns exec "${hosts[2]}" "$ROSCELL" node --name arm --data-dir "$scratch/arm" \
+  timeout "$deadline_s" ip netns exec "${hosts[2]}" "$ROSCELL" node --name arm --data-dir "$scratch/arm" \
     --runtime process 2> "$scratch/stderr" < /dev/null
   expect "exit code" $? 2
   has_line "eth0 10.231.7.3, eth1 10.231.8.3" "$scratch/stderr" \

@@ -143,6 +143,15 @@ table inet cut {
 RULES
 }
 
+# comes_back_idle NAME: a node that was lost is a member again, and runs nothing.
+comes_back_idle() {
+  await_joined head "$1" \
+    "$(await head ".event == \"node_lost\" and .subject == \"$1\"" \
+      | jq .sequence)"
+  expect "what $1 runs" "$(get "$1" /v1/node \
+    | jq '[.instances[] | select(.state != "stopped")] | length')" 0
+}
+
 test_a_lost_step_has_ended_before_it_starts_elsewhere() {
   local n ended started
   bridge_hosts 6
@@ -186,11 +195,7 @@ test_a_lost_step_has_ended_before_it_starts_elsewhere() {
   ip netns exec "${hosts[3]}" nft delete table inet cut
   ip netns exec "${hosts[4]}" nft delete table inet cut
   for n in 3 4 5; do
-    await_joined head "node$n" \
-      "$(await head ".event == \"node_lost\" and .subject == \"node$n\"" \
-        | jq .sequence)"
-    expect "what node$n runs" "$(get "node$n" /v1/node \
-      | jq '[.instances[] | select(.state != "stopped")] | length')" 0
+    comes_back_idle "node$n"
   done
 }
 
@@ -228,11 +233,7 @@ test_a_step_whose_new_node_is_lost_too_has_ended_before_it_starts_again() {
   expect "starts" "$(wc -l < "$scratch/orders/starts")" 3
   for n in 2 3; do
     ip netns exec "${hosts[$((n - 1))]}" nft delete table inet cut
-    await_joined head "node$n" \
-      "$(await head ".event == \"node_lost\" and .subject == \"node$n\"" \
-        | jq .sequence)"
-    expect "what node$n runs" "$(get "node$n" /v1/node \
-      | jq '[.instances[] | select(.state != "stopped")] | length')" 0
+    comes_back_idle "node$n"
   done
   expect "starts in the end" "$(wc -l < "$scratch/orders/starts")" 3
 }

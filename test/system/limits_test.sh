@@ -181,6 +181,6 @@ test_a_folder_that_is_no_cgroup_is_none_and_that_is_said() {
   get head /v1/node | jq -r .limits | has_line "^none: .*cannot be used" \
     || fail "$(get head /v1/node | jq -r .limits)"
   run_limited t
-  "$ROSCELL" node --data-dir "$scratch/x" --cgroup relative 2> "$scratch/said"
+  timeout "$deadline_s" "$ROSCELL" node --data-dir "$scratch/x" --cgroup relative 2> "$scratch/said"
   expect "exit code" $? 2
 }
