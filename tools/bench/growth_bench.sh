@@ -8,7 +8,7 @@
 #
 #   --percent N  so much of what is measured, for a short look (100)
 #   KIND         only these: hello strangers instances tasks_list cells post metrics
-#                events passed_on tasks restarts drains dashboards sessions transfers
+#                events passed_on changes tasks restarts drains dashboards sessions transfers
 set -uo pipefail
 cd "$(dirname "$0")/../.."
 usage="usage: tools/bench/growth_bench.sh BUILD_DIR [--percent N] [KIND...]"
@@ -40,8 +40,8 @@ declare -A first=([tasks]=1000 [restarts]=1100 [drains]=5000 [dashboards]=10 [se
 # Of a dashboard the bound is that of all its questions, and a stream.
 declare -A most_kib=([tasks]=0.3 [restarts]=0.3 [drains]=0.3 [dashboards]=1 [sessions]=0.3
   [transfers]=0.3)
-all=(hello strangers instances tasks_list cells post metrics events passed_on tasks
-  restarts drains dashboards sessions transfers)
+all=(hello strangers instances tasks_list cells post metrics events passed_on changes
+  tasks restarts drains dashboards sessions transfers)
 [[ ${#kinds[@]} -gt 0 ]] || kinds=("${all[@]}")
 for kind in "${kinds[@]}"; do
   [[ " ${all[*]} " == *" $kind "* ]] || { echo "$usage" >&2; exit 2; }

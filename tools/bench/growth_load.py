@@ -113,6 +113,14 @@ class Load:
         """Asked of the member, who passes it on."""
         self.repeat("/v1/tasks", "arm", count)
 
+    def changes(self, count):
+        """Waits at the coordinator for what does not happen, asked of the member."""
+        node = self.node("arm")
+        query = {"type": "task_change_query", "task": "nobody"}
+        known = node.post(query)["mark"]
+        for _ in range(count):
+            node.post({**query, "known": known, "wait_ms": 1})
+
     def post(self, count):
         node = self.node("head")
         for _ in range(count):
