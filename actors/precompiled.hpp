@@ -1,8 +1,8 @@
 #pragma once
 
 /// What nearly every file of actors needs, compiled once: CAF, JSON, all
-/// messages and the house. A file still includes what it uses.
-#include "actors/house/house.hpp"
+/// messages and the core. A file still includes what it uses.
+#include "actors/core/actor_context.hpp"
 #include "messages/codec/caf_messages.hpp"
 #include "messages/failure.hpp"
 

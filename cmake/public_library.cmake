@@ -27,7 +27,7 @@ function(roscell_public target name)
 endfunction()
 
 # roscell_install_whole(TARGET): with its objects, where the build has a thin
-# archive (house.cmake).
+# archive (targets.cmake).
 function(roscell_install_whole target)
   install(CODE "
     execute_process(COMMAND \"${CMAKE_AR}\" t \"$<TARGET_FILE:${target}>\"

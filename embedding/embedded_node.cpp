@@ -1,6 +1,6 @@
 #include "roscell/node.hpp"
 
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 #include "actors/instances/skill_descriptor_file.hpp"
 #include "actors/node/spawn_node.hpp"
 #include "embedding/node_door.hpp"
@@ -153,9 +153,10 @@ private:
       throw to_node_error(node.error());
     node_ = std::move(*node);
     door_ = spawn<caf::detached>(
-        *system, house{node_.actors, node_.events}, embedding::node_door,
+        *system, actor_context{node_.actors, node_.events},
+        embedding::node_door,
         embedding::node_door_config{node_.actor, node_.router, node_.events});
-    const house context{node_.actors, node_.events};
+    const actor_context context{node_.actors, node_.events};
     tasks_ = {system, node_.router, context};
     if (embedding::wants_to_hear(setup.calls)) {
       const auto listener = spawn<caf::detached>(
@@ -177,7 +178,7 @@ private:
     config.factories = factories_of(setup.skills);
     config.log_bytes = setup.node.log_bytes;
     result.make_actor_runtime =
-        [&system, config](const house& context,
+        [&system, config](const actor_context& context,
                           const container_listener_actor& listener) {
           auto with = config;
           with.context = context;

@@ -1,8 +1,8 @@
 #include "embedding/node_door.hpp"
 
-#include "actors/house/limits.hpp"
-#include "actors/house/told_times.hpp"
-#include "actors/house/watching.hpp"
+#include "actors/core/limits.hpp"
+#include "actors/core/shifted_times.hpp"
+#include "actors/core/watching.hpp"
 #include "schemas/schema_error.hpp"
 
 #include <caf/result.hpp>
@@ -39,7 +39,7 @@ caf::result<node_reply> ask(self_pointer self, const node_request& x) {
   return promise;
 }
 
-/// Passes facts on to one watcher, and ends with it.
+/// Passes events on to one watcher, and ends with it.
 struct event_passer_state {
   static constexpr const char* name = "event-passer";
 };

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "actors/house/house.hpp"
+#include "actors/core/actor_context.hpp"
 #include "messages/messages.hpp"
 #include "roscell/node_actors.hpp"
 

@@ -1,7 +1,7 @@
 #include "embedding/program_callbacks.hpp"
 
-#include "actors/house/told_times.hpp"
-#include "actors/house/watching.hpp"
+#include "actors/core/shifted_times.hpp"
+#include "actors/core/watching.hpp"
 #include "actors/node/event_loudness.hpp"
 #include "messages/codec/json_codec.hpp"
 #include "messages/messages.hpp"
@@ -42,7 +42,7 @@ std::optional<join_problem> problem_in(const event& e) {
                       data.value("reason", ""), data.value("hint", "")};
 }
 
-void tell_program(const node_callbacks& calls, const event& e) {
+void notify_program(const node_callbacks& calls, const event& e) {
   if (calls.on_event)
     calls.on_event({e.sequence, to_wall_clock()(e.time_unix_ms), e.what,
                     e.subject, e.data});
@@ -80,7 +80,7 @@ event_listener_actor::behavior_type program_callbacks(
   return {
       [calls](const event& e) {
         try {
-          tell_program(*calls, e);
+          notify_program(*calls, e);
         } catch (...) {
           // It is the program's own, which must not end the node's telling.
         }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "actors/house/house.hpp"
+#include "actors/core/actor_context.hpp"
 #include "messages/codec/json_codec.hpp"
 #include "messages/messages.hpp"
 #include "roscell/node.hpp"
@@ -20,7 +20,7 @@ namespace roscell::embedding {
 struct task_door {
   caf::actor_system* system = nullptr;
   request_router_actor router;
-  house context;
+  actor_context context;
 };
 
 /// The document that answers a request; a refusal is thrown.

@@ -1,5 +1,5 @@
-#include "actors/house/alarm.hpp"
-#include "actors/house/limits.hpp"
+#include "actors/core/alarm.hpp"
+#include "actors/core/limits.hpp"
 #include "embedding/task_calls.hpp"
 
 #include <caf/send.hpp>
@@ -17,7 +17,7 @@ public:
       : on_change_(std::move(on_change)) {}
 
   /// Tells of a status unless it is the last one.
-  void tell(const task_status& now) {
+  void notify(const task_status& now) {
     const std::lock_guard<std::recursive_mutex> lock{mutex_};
     if (!on_change_ || (last_.state == now.state && last_ == now))
       return;
@@ -107,7 +107,7 @@ void on_answer(watcher_pointer self, const json& answer) {
   auto change = answer.get<task_change>();
   st.pause = first_pause;
   st.query.known = std::move(change.mark);
-  watch->tell(status_of(change.tasks, st.query.task));
+  watch->notify(status_of(change.tasks, st.query.task));
   ask_for_change(self);
 }
 

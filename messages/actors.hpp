@@ -14,12 +14,12 @@ namespace roscell {
 using introspected_actor =
     caf::typed_actor<caf::replies_to<state_query>::with<actor_state>>;
 
-/// Gets facts as they happen, in the order of their sequence numbers.
+/// Gets events as they happen, in the order of their sequence numbers.
 using event_listener_actor = caf::typed_actor<caf::reacts_to<event>>;
 
-/// The EVENT LOG: the node's one stream of facts.
+/// The EVENT LOG: the node's one stream of events.
 using event_log_actor = introspected_actor::extend<
-    // Gives the fact the next sequence number and tells the listeners.
+    // Gives the event the next sequence number and tells the listeners.
     caf::reacts_to<record_event>,
     // Adds a listener until it ends.
     caf::reacts_to<subscribe_events>,
@@ -47,7 +47,7 @@ using node_history_actor = introspected_actor::extend<
 using container_listener_actor =
     caf::typed_actor<caf::reacts_to<container_exited>,
                      caf::reacts_to<instance_notified>,
-                     caf::reacts_to<runtime_troubled>>;
+                     caf::reacts_to<runtime_problem_changed>>;
 
 /// The RUNTIME: the only actor that starts and stops programs.
 using runtime_actor = introspected_actor::extend<
@@ -124,9 +124,8 @@ using container_supervisor_actor = introspected_actor::extend<
     // node is full, the instance is being removed), schema_violation (the id
     // cannot be a file name).
     caf::replies_to<instance_deployment>::with<instance_deployed>,
-    // Replies once they are gone, but for those that are not safe yet; none is
-    // no error.
-    // Errors: engine_failed (one cannot be removed).
+    // Replies once they are gone, but for those that are not stop-safe yet;
+    // none is no error. Errors: engine_failed (one cannot be removed).
     caf::replies_to<instance_removal>::with<instances_removed>,
     // Errors: unknown_task (no such instance).
     caf::replies_to<instance_query>::with<instance_description>,
@@ -136,7 +135,7 @@ using container_supervisor_actor = introspected_actor::extend<
     caf::reacts_to<listen_to_instances>, caf::reacts_to<ends_acknowledged>,
     caf::reacts_to<use_environment>, caf::reacts_to<contact_proven>,
     caf::reacts_to<contact_lost>, caf::reacts_to<container_exited>,
-    caf::reacts_to<instance_notified>, caf::reacts_to<runtime_troubled>,
+    caf::reacts_to<instance_notified>, caf::reacts_to<runtime_problem_changed>,
     // INTERNAL: from a skill instance.
     caf::reacts_to<instance_changed>>;
 
@@ -160,7 +159,7 @@ using node_agent_actor = introspected_actor::extend<
     // Replies once the instance runs. Errors: as the CONTAINER SUPERVISOR's.
     caf::replies_to<instance_deployment>::with<instance_deployed>,
     // Replies once the named instances are gone from the node, but for those
-    // that are not safe yet.
+    // that are not stop-safe yet.
     caf::replies_to<instance_removal>::with<instances_removed>,
     // Errors: timeout, unreachable.
     caf::replies_to<figures_query>::with<figures_report>,
@@ -179,16 +178,16 @@ using resource_probe_actor = introspected_actor::extend<
 /// come from the session itself, so that an owner of several in a row can tell
 /// them apart by their sender.
 using session_owner_actor = caf::typed_actor<caf::reacts_to<frame_received>,
-                                             caf::reacts_to<beat_received>,
+                                             caf::reacts_to<heartbeat_received>,
                                              caf::reacts_to<session_closed>>;
 
 /// The SESSION: one connection. It ends after `session_closed`.
 using session_actor = introspected_actor::extend<
     // Whom to tell; what came before is kept for the owner.
     caf::reacts_to<own_session>, caf::reacts_to<send_frame>,
-    caf::reacts_to<send_beat>, caf::reacts_to<close_session>,
+    caf::reacts_to<send_heartbeat>, caf::reacts_to<close_session>,
     // INTERNAL: from the wire.
-    caf::reacts_to<frame_received>, caf::reacts_to<beat_received>,
+    caf::reacts_to<frame_received>, caf::reacts_to<heartbeat_received>,
     caf::reacts_to<session_closed>>;
 
 /// The SESSION CONNECTOR. Errors: unreachable, unauthorized, timeout, conflict.
@@ -220,12 +219,12 @@ using discovery_actor = introspected_actor::extend<
     caf::reacts_to<caf::tick_atom, uint64_t>>;
 
 /// The JOIN SCOUT: finds out why a cell cannot be joined at an address.
-using join_scout_actor = introspected_actor::extend<
+using join_diagnoser_actor = introspected_actor::extend<
     // Errors: unreachable (the name does not resolve), timeout.
     caf::replies_to<resolve_host>::with<host_resolved>,
     // No errors: whatever the ports say is an answer.
-    caf::replies_to<scout_address>::with<address_scouted>,
-    caf::reacts_to<scout_settled>>;
+    caf::replies_to<probe_server>::with<server_probed>,
+    caf::reacts_to<diagnosis_settled>>;
 
 /// The REACH PROBER: tries which packets reach other nodes and come back.
 using reach_prober_actor = introspected_actor::extend<
@@ -261,7 +260,7 @@ using membership_actor = introspected_actor::extend<
     caf::reacts_to<serve_members>, caf::reacts_to<coordinator_found>,
     caf::reacts_to<presence_seen>, caf::reacts_to<presence_gone>,
     caf::reacts_to<instance_changed>, caf::reacts_to<frame_received>,
-    caf::reacts_to<beat_received>, caf::reacts_to<session_closed>,
+    caf::reacts_to<heartbeat_received>, caf::reacts_to<session_closed>,
     // INTERNAL: a timer of attempt or lease number N.
     caf::reacts_to<caf::tick_atom, uint64_t>>;
 
@@ -274,7 +273,7 @@ using member_actor = node_agent_actor::extend<
     // A request that the node answers itself. Errors: unreachable, timeout, and
     // those of the node.
     caf::replies_to<route_request>::with<request_routed>,
-    caf::reacts_to<frame_received>, caf::reacts_to<beat_received>,
+    caf::reacts_to<frame_received>, caf::reacts_to<heartbeat_received>,
     caf::reacts_to<session_closed>,
     // Ends the session, telling the node why.
     caf::reacts_to<close_session>,
@@ -291,9 +290,9 @@ using peer_actor = introspected_actor::extend<
     caf::replies_to<member_surrender>::with<members_surrendered>,
     caf::replies_to<node_transfer>::with<node_transferred>,
     caf::replies_to<node_release>::with<node_released>,
-    // To be told to the other coordinator; the standing comes first.
+    // To be told to the other coordinator; the status comes first.
     caf::reacts_to<cell_standing>, caf::reacts_to<cell_changed>,
-    caf::reacts_to<frame_received>, caf::reacts_to<beat_received>,
+    caf::reacts_to<frame_received>, caf::reacts_to<heartbeat_received>,
     caf::reacts_to<session_closed>,
     // Ends the session, telling the other coordinator why.
     caf::reacts_to<close_session>,
@@ -305,7 +304,7 @@ using peer_actor = introspected_actor::extend<
 using registration_client_actor = introspected_actor::extend<
     caf::replies_to<switch_node>::with<switch_accepted>,
     // Errors: unauthorized too, where there is no proof.
-    caf::replies_to<prove_standing>::with<standing_proved>,
+    caf::replies_to<prove_status>::with<status_proved>,
     caf::reacts_to<node_answered>>;
 
 /// The SCHEDULER. Errors: no_feasible_allocation, conflict (a node has left in
@@ -340,14 +339,14 @@ using cell_coordinator_actor = introspected_actor::extend<
     caf::replies_to<claim_task>::with<task_claimed>,
     caf::replies_to<collect_resources>::with<cell_resources>,
     // Replies once each node has told, or is not waited for any longer.
-    caf::replies_to<collect_figures>::with<figures_collected>,
+    caf::replies_to<collect_metrics>::with<metrics_collected>,
     caf::replies_to<measure_cell>::with<cell_measured>,
     // Replies once the store has kept it. Errors: conflict (a member has gone
     // meanwhile), internal (the store cannot keep it).
     caf::replies_to<record_intent>::with<intent_recorded>,
     // Replies once what stood in the task's way is gone. Errors: unknown_task
     // (it was terminated meanwhile).
-    caf::replies_to<make_way>::with<way_made>,
+    caf::replies_to<preempt_instances>::with<instances_preempted>,
     // Replies once the store has kept it; what it cannot keep is rolled back.
     caf::replies_to<record_running>::with<task_accepted>,
     // Replies once what was started is gone.
@@ -360,12 +359,13 @@ using cell_coordinator_actor = introspected_actor::extend<
     caf::replies_to<task_restart>::with<task_restarted>,
     caf::reacts_to<presence_seen>, caf::reacts_to<presence_gone>,
     caf::reacts_to<peer_opened>, caf::reacts_to<peer_lost>,
-    caf::reacts_to<peer_told>, caf::reacts_to<peer_changed>,
+    caf::reacts_to<peer_status_reported>, caf::reacts_to<peer_changed>,
     // Errors: unreachable (the coordinator that hands out places is silent).
     caf::replies_to<place_request>::with<place_granted>,
     // Errors: conflict (the name belongs to another node).
     caf::replies_to<place_reservation>::with<place_reserved>,
-    // Errors: unknown_cell, conflict (this cell is not to be evened out).
+    // Errors: unknown_cell, conflict (this cell does not take part in
+    // balancing).
     caf::replies_to<member_surrender>::with<members_surrendered>,
     // One outcome a name; no errors.
     caf::replies_to<cell_formation>::with<cell_formed>,
@@ -411,7 +411,7 @@ using task_change_waiter_actor = introspected_actor::extend<
 /// The NODE: root of everything that runs on one machine.
 using node_actor = introspected_actor::extend<
     caf::replies_to<node_query>::with<node_description>,
-    // What strangers may know.
+    // What unauthenticated peers may know.
     caf::replies_to<hello_query>::with<node_hello>, caf::reacts_to<stop_node>>;
 
 } // namespace roscell

@@ -233,7 +233,7 @@ struct task_accepted {
   std::vector<std::string> warnings; ///< What may not be meant so.
   /// Steps that had ended and were started again by this request.
   std::vector<std::string> healed;
-  std::vector<preempted_instance> preempted; ///< What has made way for it.
+  std::vector<preempted_instance> preempted; ///< What it has preempted.
   task_found found = task_found::started;
   std::vector<awaited_step> waits; ///< Of a task that is `degraded`.
   int64_t run = 1; ///< How often it has been started as a whole.

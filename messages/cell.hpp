@@ -44,7 +44,7 @@ struct registry_row {
 };
 
 /// A node that announces itself because it is in no cell.
-struct free_node {
+struct unassigned_node {
   std::string name;
   std::string uuid;
   std::string address; ///< Of its HTTP port.
@@ -54,13 +54,13 @@ struct free_node {
   int64_t silent_since_unix_ms = 0;
 
   static constexpr auto fields() {
-    return field_list{
-        required("name", &free_node::name),
-        required("uuid", &free_node::uuid),
-        required("address", &free_node::address),
-        required("state", &free_node::state),
-        optional("cell", &free_node::cell),
-        optional("silent_since_unix_ms", &free_node::silent_since_unix_ms)};
+    return field_list{required("name", &unassigned_node::name),
+                      required("uuid", &unassigned_node::uuid),
+                      required("address", &unassigned_node::address),
+                      required("state", &unassigned_node::state),
+                      optional("cell", &unassigned_node::cell),
+                      optional("silent_since_unix_ms",
+                               &unassigned_node::silent_since_unix_ms)};
   }
 };
 
@@ -81,7 +81,7 @@ struct cell_description {
   int64_t incarnation = 0;      ///< Raised at every start of the coordinator.
   std::vector<registry_row> nodes;
   std::vector<task_row> tasks;
-  std::vector<free_node> free; ///< Visible nodes that are in no cell.
+  std::vector<unassigned_node> free; ///< Visible nodes that are in no cell.
   /// What a ROS 2 program in this cell needs of its environment.
   std::map<std::string, std::string> environment;
 
@@ -115,7 +115,7 @@ struct cell_row {
   std::string discovery_server;
   int64_t size = 0; ///< Active rows, the coordinator included.
   /// Why the coordinator that is asked does not know more of this cell.
-  std::string trouble;
+  std::string problem;
   /// The cell's ROS_DISCOVERY_SERVER and ROS_DOMAIN_ID; empty: not known.
   std::map<std::string, std::string> environment;
 
@@ -125,7 +125,7 @@ struct cell_row {
                       required("address", &cell_row::address),
                       required("discovery_server", &cell_row::discovery_server),
                       required("size", &cell_row::size),
-                      optional("trouble", &cell_row::trouble),
+                      optional("trouble", &cell_row::problem),
                       optional("environment", &cell_row::environment)};
   }
 };

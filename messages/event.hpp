@@ -8,7 +8,7 @@
 
 namespace roscell {
 
-/// A fact that has happened on this node. `type` is one of the words that
+/// An event that has happened on this node. `type` is one of the words that
 /// docs/protocols.md lists: "node_joined", "instance_changed", ...
 struct event {
   static constexpr const char* type = "event";
@@ -16,7 +16,7 @@ struct event {
   /// passing event: that of the last one that is kept.
   uint64_t sequence = 0;
   int64_t time_unix_ms = 0;
-  std::string what;    ///< The fact, a past participle: "node_joined".
+  std::string what;    ///< The event, a past participle: "node_joined".
   std::string subject; ///< Whom it concerns: a node, task or instance.
   std::string data;    ///< JSON object with the particulars, may be empty.
   /// One of a series that repeats itself: who listens gets it, but it is not

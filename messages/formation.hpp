@@ -142,7 +142,7 @@ struct node_transferred {
 
 /// Where a transfer or a release stands; the diagram is in docs/protocols.md.
 enum class transfer_state {
-  preparing, ///< The row is `departing`; instances go, a place is reserved.
+  preparing, ///< The row is `departing`; instances go, a slot is reserved.
   switching, ///< The node has been told.
   done,
   returned,   ///< The node is back; nothing has changed.
@@ -195,11 +195,11 @@ struct transfer_description {
 };
 
 /// Moves every instance away from a node, which takes no new one from now on.
-/// Answered at once; what still leaves is told by facts.
+/// Answered at once; what still leaves is told by events.
 struct node_drain {
   static constexpr const char* type = "node_drain";
   std::string node;
-  bool force = false; ///< Nothing is waited for to be safe.
+  bool force = false; ///< Nothing is waited for to be stop-safe.
 
   static constexpr auto fields() {
     return field_list{required("node", &node_drain::node),
@@ -212,12 +212,12 @@ struct node_drained {
   static constexpr const char* type = "node_drained";
   std::string node;
   std::vector<std::string> left; ///< Instances that are still there.
-  std::string trouble; ///< Why they cannot go; empty: they are on their way.
+  std::string problem; ///< Why they cannot go; empty: they are on their way.
 
   static constexpr auto fields() {
     return field_list{required("node", &node_drained::node),
                       required("left", &node_drained::left),
-                      optional("trouble", &node_drained::trouble)};
+                      optional("trouble", &node_drained::problem)};
   }
 };
 

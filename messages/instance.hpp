@@ -106,7 +106,7 @@ constexpr std::array<double, 10> latency_bounds_ms{1,  2,   5,   10,  20,
 /// What has gone through one end of a data stream of an instance since it was
 /// started, as its skill has counted it. Negative: not known.
 struct stream_count {
-  std::string end;        ///< As in `stream_figure`.
+  std::string end;        ///< As in `stream_metrics`.
   int64_t frames = 0;     ///< That have come in, or gone out.
   int64_t processed = -1; ///< Of an input: those, without what failed.
   int64_t failed = 0;     ///< Of an input.
@@ -155,7 +155,7 @@ struct instance_use {
 /// What an instance has done, as its skill tells in its status. Negative: not
 /// known. Where a skill has several inputs, frames and their times are those of
 /// the input that it works on.
-struct instance_figures {
+struct instance_metrics {
   int64_t frames = -1;    ///< Processed since it was started.
   double rate_hz = -1;    ///< Frames a second between its last two words.
   int64_t dropped = -1;   ///< Frames that came too fast for it.
@@ -173,16 +173,16 @@ struct instance_figures {
 
   static constexpr auto fields() {
     return field_list{
-        optional("frames", &instance_figures::frames),
-        optional("rate_hz", &instance_figures::rate_hz),
-        optional("dropped", &instance_figures::dropped),
-        optional("latency_ms", &instance_figures::latency_ms),
-        optional("latency_counts", &instance_figures::latency_counts),
-        optional("latency_sum_ms", &instance_figures::latency_sum_ms),
-        optional("age_ms", &instance_figures::age_ms),
-        optional("streams", &instance_figures::streams),
-        optional("remark", &instance_figures::remark),
-        optional("use", &instance_figures::use)};
+        optional("frames", &instance_metrics::frames),
+        optional("rate_hz", &instance_metrics::rate_hz),
+        optional("dropped", &instance_metrics::dropped),
+        optional("latency_ms", &instance_metrics::latency_ms),
+        optional("latency_counts", &instance_metrics::latency_counts),
+        optional("latency_sum_ms", &instance_metrics::latency_sum_ms),
+        optional("age_ms", &instance_metrics::age_ms),
+        optional("streams", &instance_metrics::streams),
+        optional("remark", &instance_metrics::remark),
+        optional("use", &instance_metrics::use)};
   }
 };
 
@@ -195,17 +195,17 @@ struct instance_row {
   /// The skill's own last STATUS line; while `building`, the step of the build.
   std::string status;
   /// Why the engine under it cannot be asked at present; empty: it can.
-  std::string trouble;
+  std::string problem;
   std::string container; ///< The runtime's id of it.
   std::string image;
   /// Exit code of an ended instance; 128 + n after signal n; negative: none.
   int exit_code = -1;
   std::string reason;   ///< Why it failed or stopped, one sentence.
   std::string log_tail; ///< Last lines of the log of a failed instance.
-  /// Since when nobody knows whether `state` still holds, because the node is
+  /// Since when it is unknown whether `state` still holds, because the node is
   /// away; 0: it is known.
   int64_t unknown_since_unix_ms = 0;
-  instance_figures figures; ///< As of when its node was asked last.
+  instance_metrics metrics; ///< As of when its node was asked last.
   int64_t restarts = 0;     ///< How often its node has started it again,
   int64_t attempts = 0;     ///< and that without running for long.
   /// When it is started again while it is `backing_off`; 0: once its node is
@@ -213,9 +213,9 @@ struct instance_row {
   int64_t next_start_unix_ms = 0;
   std::vector<ended_run> ends; ///< The last ones, the newest first.
   instance_health health = instance_health::good;
-  std::string health_reason; ///< The figure and what should feed it.
+  std::string health_reason; ///< The value and what should feed it.
   safe_word safe = safe_word::untold;
-  /// Since when it is to end and is waited for to be safe; 0: it is not.
+  /// Since when it is to end and is waited for to be stop-safe; 0: it is not.
   int64_t unsafe_since_unix_ms = 0;
   int64_t unsafe_until_unix_ms = 0; ///< It is ended then; 0: never.
   std::string waits; ///< For what it waits, one sentence; empty: for nothing.
@@ -231,14 +231,14 @@ struct instance_row {
         required("state", &instance_row::state),
         required("since_unix_ms", &instance_row::since_unix_ms),
         optional("status", &instance_row::status),
-        optional("trouble", &instance_row::trouble),
+        optional("trouble", &instance_row::problem),
         optional("container", &instance_row::container),
         optional("image", &instance_row::image),
         nullable("exit_code", &instance_row::exit_code),
         optional("reason", &instance_row::reason),
         optional("log_tail", &instance_row::log_tail),
         optional("unknown_since_unix_ms", &instance_row::unknown_since_unix_ms),
-        optional("figures", &instance_row::figures),
+        optional("figures", &instance_row::metrics),
         optional("restarts", &instance_row::restarts),
         optional("attempts", &instance_row::attempts),
         optional("next_start_unix_ms", &instance_row::next_start_unix_ms),

@@ -128,15 +128,15 @@ constexpr boot_action boot_action_of(const life_policy& x) {
 }
 
 /// What one data stream of an instance does, as its skill has measured it.
-struct stream_figure {
+struct stream_metrics {
   std::string end;    ///< "input:0", "output:1".
-  double rate_hz = 0; ///< Frames a second since the figure before.
+  double rate_hz = 0; ///< Frames a second since the value before.
   double age_s = -1;  ///< Since the last frame; negative: there was none.
 
   static constexpr auto fields() {
-    return field_list{required("end", &stream_figure::end),
-                      required("rate_hz", &stream_figure::rate_hz),
-                      optional("age_s", &stream_figure::age_s)};
+    return field_list{required("end", &stream_metrics::end),
+                      required("rate_hz", &stream_metrics::rate_hz),
+                      optional("age_s", &stream_metrics::age_s)};
   }
 };
 
@@ -173,7 +173,7 @@ struct ended_run {
   }
 };
 
-/// An instance that is to end and is not safe yet.
+/// An instance that is to end and is not stop-safe yet.
 struct safety_wait {
   std::string instance;
   std::string task;

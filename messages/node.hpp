@@ -55,7 +55,7 @@ struct discovery_place {
   }
 };
 
-/// Counters of one actor, as the house function keeps them.
+/// Counters of one actor, as the spawn function keeps them.
 struct actor_row {
   std::string name;
   uint64_t id = 0;
@@ -89,21 +89,21 @@ struct node_query {
 };
 
 /// An attempt to come into a cell that has not succeeded yet.
-struct join_trouble {
+struct join_problem {
   /// The discovery server that is tried, as "host:port"; empty: any cell that
   /// is visible will do.
   std::string address;
-  std::string trouble;  ///< What is wrong there; empty: nothing is known yet.
+  std::string problem;  ///< What is wrong there; empty: nothing is known yet.
   std::string hint;     ///< What to do about it; may be empty.
   int64_t attempts = 0; ///< Since the node was in a cell, or was started.
   int64_t tried_unix_ms = 0; ///< When the last one began.
 
   static constexpr auto fields() {
-    return field_list{optional("address", &join_trouble::address),
-                      optional("trouble", &join_trouble::trouble),
-                      optional("hint", &join_trouble::hint),
-                      required("attempts", &join_trouble::attempts),
-                      required("tried_unix_ms", &join_trouble::tried_unix_ms)};
+    return field_list{optional("address", &join_problem::address),
+                      optional("trouble", &join_problem::problem),
+                      optional("hint", &join_problem::hint),
+                      required("attempts", &join_problem::attempts),
+                      required("tried_unix_ms", &join_problem::tried_unix_ms)};
   }
 };
 
@@ -123,7 +123,7 @@ struct node_description {
   std::vector<actor_row> actors;
   int64_t stored_bytes = 0; ///< Written to the database since the start.
   std::vector<skill_problem> refused_skills; ///< The first of them.
-  std::vector<join_trouble> joining; ///< At most one; empty: it does not try.
+  std::vector<join_problem> joining; ///< At most one; empty: it does not try.
   /// What a ROS 2 program on this node needs to be in its cell; empty: it is in
   /// none.
   std::map<std::string, std::string> environment;
@@ -161,8 +161,8 @@ struct hello_query {
   }
 };
 
-/// What a node says of itself to strangers: who wants to join a cell and was
-/// given a wrong address learns from it which one is right.
+/// What a node says of itself to unauthenticated peers: who wants to join a
+/// cell and was given a wrong address learns from it which one is right.
 struct node_hello {
   static constexpr const char* type = "node_hello";
   std::string node; ///< Its name.

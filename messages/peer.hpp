@@ -15,7 +15,7 @@ namespace roscell {
 /// How a node came to its cell.
 enum class join_origin {
   given,      ///< It was started with the address of the discovery server.
-  discovered, ///< It asked for a place; it may be moved to even cells out.
+  discovered, ///< It asked for a slot; it may be moved to balance cells.
   chosen,     ///< An operator brought it in.
 };
 
@@ -96,7 +96,7 @@ struct cell_changed {
   }
 };
 
-/// A node asks for a place in the smallest cell. Asked of any coordinator; the
+/// A node asks for a slot in the smallest cell. Asked of any coordinator; the
 /// one with the lowest UUID answers.
 struct place_request {
   static constexpr const char* type = "place_request";
@@ -247,26 +247,26 @@ struct switch_node {
 };
 
 /// Asks a node at its REST API to prove that it is the one that it announces.
-struct prove_standing {
+struct prove_status {
   std::string address; ///< "ip:port"
   std::string node;
   std::string uuid;
 
   static constexpr auto fields() {
-    return field_list{required("address", &prove_standing::address),
-                      required("node", &prove_standing::node),
-                      required("uuid", &prove_standing::uuid)};
+    return field_list{required("address", &prove_status::address),
+                      required("node", &prove_status::node),
+                      required("uuid", &prove_status::uuid)};
   }
 };
 
 /// It has, with the site token.
-struct standing_proved {
+struct status_proved {
   node_identity identity;
   node_state state = node_state::independent;
 
   static constexpr auto fields() {
-    return field_list{required("identity", &standing_proved::identity),
-                      required("state", &standing_proved::state)};
+    return field_list{required("identity", &status_proved::identity),
+                      required("state", &status_proved::state)};
   }
 };
 

@@ -13,14 +13,14 @@
 namespace roscell {
 
 /// Plans moves of the cell's running steps, and makes them one after the other.
-/// Answered at once; how it goes on is told by facts. While one goes on, the
+/// Answered at once; how it goes on is told by events. While one goes on, the
 /// same request is answered with how far it is.
 struct cell_rebalance {
   static constexpr const char* type = "cell_rebalance";
   bool dry_run = false;    ///< The moves are only shown.
   double min_gain = 0.01;  ///< No move gains a smaller part of the total.
   int64_t most_moves = 32; ///< 1 to 256.
-  bool force = false;      ///< Nothing is waited for to be safe.
+  bool force = false;      ///< Nothing is waited for to be stop-safe.
   bool stop = false;       ///< The move that goes on is the last one.
 
   static constexpr auto fields() {
@@ -77,7 +77,7 @@ struct cell_rebalanced {
   double lower_bound = 0;            ///< No placement has a lower total.
   bool optimal = false;              ///< None has a lower one than `after`.
   std::vector<rebalance_move> moves; ///< In their order.
-  std::string trouble;               ///< Why it has ended before the last one.
+  std::string problem;               ///< Why it has ended before the last one.
 
   static constexpr auto fields() {
     return field_list{required("cell", &cell_rebalanced::cell),
@@ -87,7 +87,7 @@ struct cell_rebalanced {
                       required("lower_bound", &cell_rebalanced::lower_bound),
                       required("optimal", &cell_rebalanced::optimal),
                       required("moves", &cell_rebalanced::moves),
-                      optional("trouble", &cell_rebalanced::trouble)};
+                      optional("trouble", &cell_rebalanced::problem)};
   }
 };
 

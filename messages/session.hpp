@@ -177,21 +177,21 @@ struct figures_query {
 };
 
 /// What the skill of one instance has last said.
-struct instance_word {
+struct instance_status_text {
   std::string instance;
   std::string status;
-  instance_figures figures;
+  instance_metrics metrics;
 
   static constexpr auto fields() {
-    return field_list{required("instance", &instance_word::instance),
-                      optional("status", &instance_word::status),
-                      optional("figures", &instance_word::figures)};
+    return field_list{required("instance", &instance_status_text::instance),
+                      optional("status", &instance_status_text::status),
+                      optional("figures", &instance_status_text::metrics)};
   }
 };
 
 struct figures_report {
   static constexpr const char* type = "figures_report";
-  std::vector<instance_word> instances;
+  std::vector<instance_status_text> instances;
 
   static constexpr auto fields() {
     return field_list{required("instances", &figures_report::instances)};
@@ -223,7 +223,7 @@ struct instance_removal {
   static constexpr const char* type = "instance_removal";
   std::string task;
   std::string instance; ///< Empty: all of the task.
-  bool force = false;   ///< Nothing is waited for to be safe.
+  bool force = false;   ///< Nothing is waited for to be stop-safe.
 
   static constexpr auto fields() {
     return field_list{required("task", &instance_removal::task),
@@ -232,8 +232,9 @@ struct instance_removal {
   }
 };
 
-/// Reply to `instance_removal`: they are gone, but for those that are not safe
-/// yet. These end by themselves, and asking again tells when they are gone.
+/// Reply to `instance_removal`: they are gone, but for those that are not
+/// stop-safe yet. These end by themselves, and asking again tells when they are
+/// gone.
 struct instances_removed {
   static constexpr const char* type = "instances_removed";
   std::vector<std::string> instances;

@@ -21,15 +21,15 @@ struct port_description {
 };
 
 /// How the kernel is to treat a program among others.
-struct scheduling_wish {
+struct scheduling_request {
   std::string policy; ///< "other", "batch", "idle", "fifo", "rr"; empty: other.
   int64_t priority = 0; ///< 1 to 99 of the last two, else 0.
   int64_t nice = 0;     ///< -20 to 19 of the others.
 
   static constexpr auto fields() {
-    return field_list{optional("policy", &scheduling_wish::policy),
-                      optional("priority", &scheduling_wish::priority),
-                      optional("nice", &scheduling_wish::nice)};
+    return field_list{optional("policy", &scheduling_request::policy),
+                      optional("priority", &scheduling_request::priority),
+                      optional("nice", &scheduling_request::nice)};
   }
 };
 
@@ -46,8 +46,8 @@ struct deployment_option {
   /// What of root's power it needs, "NET_RAW"; given where the node's
   /// configuration grants it to the skill, else the node is no place for it.
   std::vector<std::string> capabilities;
-  bool read_only = false;     ///< It writes nothing of its container but /tmp.
-  scheduling_wish scheduling; ///< Granted as `capabilities` are.
+  bool read_only = false; ///< It writes nothing of its container but /tmp.
+  scheduling_request scheduling; ///< Granted as `capabilities` are.
   /// JSON objects: what a step of it does unless the request says otherwise.
   std::string restart;
   std::string on_node_loss;

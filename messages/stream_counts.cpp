@@ -10,7 +10,7 @@ namespace {
 const stream_count* count_at(const instance_row& row, const char* direction,
                              std::size_t number) {
   const auto end = direction + std::to_string(number);
-  const auto& all = row.figures.streams;
+  const auto& all = row.metrics.streams;
   const auto i = std::find_if(all.begin(), all.end(),
                               [&](const auto& x) { return x.end == end; });
   return i == all.end() ? nullptr : &*i;

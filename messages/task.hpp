@@ -61,7 +61,7 @@ struct task_step {
 enum class preemption {
   none, ///< They stay.
   show, ///< They stay, and the refusal names those that would have to go.
-  yes,  ///< They make way.
+  yes,  ///< They are preempted.
 };
 
 constexpr auto enum_words(preemption) {
@@ -77,7 +77,7 @@ struct task_request {
   std::string task;
   std::vector<task_step> pipeline;
   preemption preempt = preemption::none;
-  bool force = false; ///< What makes way is not waited for to be safe.
+  bool force = false; ///< What is preempted is not waited for to be stop-safe.
   /// Under one id a task runs once. Empty: it has none.
   std::string request_id;
 
@@ -125,7 +125,7 @@ struct placed_instance {
   }
 };
 
-/// An instance that makes way for a task of higher priority.
+/// An instance that is preempted for a task of higher priority.
 struct preempted_instance {
   std::string instance;
   std::string task;
@@ -146,7 +146,7 @@ struct preempted_instance {
 struct task_termination {
   static constexpr const char* type = "task_termination";
   std::string task;
-  bool force = false; ///< Nothing is waited for to be safe.
+  bool force = false; ///< Nothing is waited for to be stop-safe.
 
   static constexpr auto fields() {
     return field_list{required("task", &task_termination::task),
@@ -154,8 +154,8 @@ struct task_termination {
   }
 };
 
-/// Reply to `task_termination`. It does not wait for what is not safe yet: that
-/// is named, ends by itself, and the fact `task_terminated` follows.
+/// Reply to `task_termination`. It does not wait for what is not stop-safe yet:
+/// that is named, ends by itself, and the event `task_terminated` follows.
 struct task_terminated {
   static constexpr const char* type = "task_terminated";
   std::string task;
@@ -179,7 +179,7 @@ struct task_restart {
   static constexpr const char* type = "task_restart";
   std::string task;
   std::string instance; ///< Empty: all of the task.
-  bool force = false;   ///< Nothing is waited for to be safe.
+  bool force = false;   ///< Nothing is waited for to be stop-safe.
 
   static constexpr auto fields() {
     return field_list{required("task", &task_restart::task),
@@ -243,13 +243,13 @@ struct task_history_query {
   }
 };
 
-/// What has happened to a task, in order: the first and the newest facts, of
+/// What has happened to a task, in order: the first and the newest events, of
 /// all nodes, across restarts of the coordinator.
 struct task_history {
   static constexpr const char* type = "task_history";
   std::string task;
   std::vector<event> events;
-  int64_t dropped = 0; ///< Facts between the first and the newest ones.
+  int64_t dropped = 0; ///< Events between the first and the newest ones.
 
   static constexpr auto fields() {
     return field_list{required("task", &task_history::task),

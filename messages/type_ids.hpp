@@ -65,8 +65,8 @@
   X(registration_query)                                                        \
   X(registration_challenge)                                                    \
   X(switch_node)                                                               \
-  X(prove_standing)                                                            \
-  X(standing_proved)                                                           \
+  X(prove_status)                                                              \
+  X(status_proved)                                                             \
   X(node_answered)                                                             \
   X(node_registered)                                                           \
   X(node_departed)                                                             \
@@ -111,7 +111,7 @@
   X(instance_notified)                                                         \
   X(program_ended)                                                             \
   X(log_grown)                                                                 \
-  X(runtime_troubled)                                                          \
+  X(runtime_problem_changed)                                                   \
   X(engine_answered)                                                           \
   X(engine_streamed)                                                           \
   X(engine_log_read)                                                           \
@@ -139,8 +139,8 @@
   X(mark_sample)                                                               \
   X(send_frame)                                                                \
   X(frame_received)                                                            \
-  X(send_beat)                                                                 \
-  X(beat_received)                                                             \
+  X(send_heartbeat)                                                            \
+  X(heartbeat_received)                                                        \
   X(close_session)                                                             \
   X(session_closed)                                                            \
   X(own_session)                                                               \
@@ -157,9 +157,9 @@
   X(presence_gone)                                                             \
   X(resolve_host)                                                              \
   X(host_resolved)                                                             \
-  X(scout_address)                                                             \
-  X(address_scouted)                                                           \
-  X(scout_settled)                                                             \
+  X(probe_server)                                                              \
+  X(server_probed)                                                             \
+  X(diagnosis_settled)                                                         \
   X(membership_query)                                                          \
   X(membership_state)                                                          \
   X(join_cell)                                                                 \
@@ -170,19 +170,19 @@
   X(member_lost)                                                               \
   X(peer_opened)                                                               \
   X(peer_lost)                                                                 \
-  X(peer_told)                                                                 \
+  X(peer_status_reported)                                                      \
   X(peer_changed)                                                              \
   X(collect_resources)                                                         \
   X(cell_resources)                                                            \
-  X(collect_figures)                                                           \
-  X(figures_collected)                                                         \
+  X(collect_metrics)                                                           \
+  X(metrics_collected)                                                         \
   X(measure_cell)                                                              \
   X(cell_measured)                                                             \
   X(allocate_task)                                                             \
   X(plan_moves)                                                                \
   X(moves_planned)                                                             \
-  X(make_way)                                                                  \
-  X(way_made)                                                                  \
+  X(preempt_instances)                                                         \
+  X(instances_preempted)                                                       \
   X(record_intent)                                                             \
   X(intent_recorded)                                                           \
   X(record_running)                                                            \

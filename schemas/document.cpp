@@ -14,7 +14,7 @@ namespace roscell {
 namespace {
 
 /// "line 3, column 7" of the byte at `offset`, both counted from 1.
-std::string position_words(std::string_view text, size_t offset) {
+std::string position_text(std::string_view text, size_t offset) {
   auto before = text.substr(0, std::min(offset, text.size()));
   auto lines = std::count(before.begin(), before.end(), '\n');
   auto line_start = before.rfind('\n');
@@ -66,7 +66,7 @@ std::variant<json, failure> parse_document(std::string_view text,
     return std::move(builder.document());
   const auto& problem = builder.problem();
   return malformed(format,
-                   position_words(text, problem.offset) + ": " + problem.words,
+                   position_text(text, problem.offset) + ": " + problem.words,
                    builder.where());
 }
 

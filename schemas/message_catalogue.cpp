@@ -76,10 +76,10 @@ failure untyped(const json& message) {
   std::string expected = "expected a string that names the message type, ";
   if (!message.is_object())
     return to_failure({{"", "expected an object with a \"type\", got "
-                                + value_words(message)}});
+                                + shown_value(message)}});
   auto type = message.find("type");
   expected +=
-      type == message.end() ? "but it is missing" : "got " + value_words(*type);
+      type == message.end() ? "but it is missing" : "got " + shown_value(*type);
   return to_failure({{"/type", std::move(expected)}});
 }
 

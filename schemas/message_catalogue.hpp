@@ -36,7 +36,7 @@ struct message_type {
   std::string_view reply; ///< The type that answers it; empty: none.
 };
 
-/// Every schema of the house, sorted by name.
+/// Every schema of the project, sorted by name.
 const std::vector<message_type>& message_types();
 
 /// The type of that name, or null.

@@ -44,12 +44,12 @@ std::string in_quotes(std::string_view text, size_t max_characters) {
   return result;
 }
 
-std::string absence_words(std::string_view name, const std::string& expected) {
+std::string absence_text(std::string_view name, const std::string& expected) {
   return "expected " + in_quotes(name) + ", " + expected
          + ", but it is missing";
 }
 
-std::string range_words(double minimum, double maximum) {
+std::string bounds_text(double minimum, double maximum) {
   const bool low = std::isfinite(minimum);
   const bool high = std::isfinite(maximum);
   if (low && high)
@@ -59,7 +59,7 @@ std::string range_words(double minimum, double maximum) {
   return high ? " of at most " + plain(maximum) : "";
 }
 
-std::string value_words(const json& value) {
+std::string shown_value(const json& value) {
   switch (value.type()) {
   case json::value_t::object:
     return counted("an object", value.size(), "member");

@@ -19,13 +19,13 @@ std::string in_quotes(std::string_view text, size_t max_characters = 40);
 
 /// What is left of a range's ends that are infinite: ` from 0 to 100`, ` of at
 /// least 1`, or nothing.
-std::string range_words(double minimum, double maximum);
+std::string bounds_text(double minimum, double maximum);
 
 /// What is said of a member that has to be there and is not: `expected "id", a
 /// name, but it is missing`.
-std::string absence_words(std::string_view name, const std::string& expected);
+std::string absence_text(std::string_view name, const std::string& expected);
 
 /// What a value is: `the number 7`, `"a b"`, `an array of 3 items`.
-std::string value_words(const json& value);
+std::string shown_value(const json& value);
 
 } // namespace roscell

@@ -1,6 +1,6 @@
 #include "schemas/validator.hpp"
 
-#include "schemas/rules/member_words.hpp"
+#include "schemas/rules/member_text.hpp"
 #include "schemas/rules/schema_reader.hpp"
 #include "schemas/text_excerpt.hpp"
 
@@ -88,7 +88,7 @@ public:
     if (!rule.choices.empty())
       visit_choice(rule, x);
     else if (!allows(rule, x))
-      refuse(rule, "got " + value_words(x));
+      refuse(rule, "got " + shown_value(x));
     else if (x.is_object())
       visit_members(rule, x);
     else if (x.is_array() && rule.items != nullptr)
@@ -98,14 +98,14 @@ public:
 private:
   void refuse(const schema_rule& rule, const std::string& finding) {
     errors.push_back(
-        {here_.to_string(), "expected " + rule_words(rule) + ", " + finding});
+        {here_.to_string(), "expected " + rule_text(rule) + ", " + finding});
   }
 
   void visit_choice(const schema_rule& rule, const json& x) {
     for (auto choice : rule.choices)
       if (allows_kind(*choice, x))
         return visit(*choice, x);
-    refuse(rule, "got " + value_words(x));
+    refuse(rule, "got " + shown_value(x));
   }
 
   void visit_items(const schema_rule& rule, const json& x) {
@@ -131,7 +131,7 @@ private:
 
   void refuse_absence(const std::string& name, const schema_rule& rule) {
     errors.push_back(
-        {(here_ / name).to_string(), absence_words(name, rule_words(rule))});
+        {(here_ / name).to_string(), absence_text(name, rule_text(rule))});
   }
 
   void visit_names(const schema_rule& rule, const json& x) {
@@ -152,7 +152,7 @@ private:
         return;
       if (rule.find_member(name) == nullptr)
         errors.push_back(
-            {(here_ / name).to_string(), unknown_member_words(rule, name)});
+            {(here_ / name).to_string(), unknown_member_text(rule, name)});
     }
   }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "actors/house/house.hpp"
+#include "actors/core/actor_context.hpp"
 #include "messages/messages.hpp"
 
 #include <caf/actor_system.hpp>
@@ -34,7 +34,7 @@ struct virtual_time {
   caf::actor_system system{config};
   caf::scheduler::test_coordinator& scheduler =
       dynamic_cast<caf::scheduler::test_coordinator&>(system.scheduler());
-  house context{std::make_shared<actor_directory>(), {}, boot_now_ms};
+  actor_context context{std::make_shared<actor_directory>(), {}, boot_now_ms};
 
   /// This host was booted a million seconds before the test began.
   static constexpr int64_t boot_ms_at_start = 1'000'000'000;

@@ -16,11 +16,11 @@
 /// are the two ends of one wire. Everything random comes from one seed.
 namespace roscell::test {
 
-/// What a wire does to what passes. Probabilities are per frame or beat.
+/// What a wire does to what passes. Probabilities are per frame or heartbeat.
 struct wire_faults {
-  double lose_beat = 0;
-  double repeat_beat = 0;
-  double lose_frame = 0; ///< TCP never does; whoever survives it is robust.
+  double drop_heartbeat = 0;
+  double repeat_heartbeat = 0;
+  double drop_frame = 0; ///< TCP never does; whoever survives it is robust.
   double repeat_frame = 0;
   double cut = 0;       ///< The frame is lost and the connection with it.
   bool reorder = false; ///< Frames may overtake each other.
@@ -50,7 +50,7 @@ struct wire {
   /// Frames that wait for the end of the silence, with their receivers.
   std::vector<std::pair<size_t, std::string>> held;
   size_t frames = 0;
-  size_t beats = 0;
+  size_t heartbeats = 0;
 
   wire(std::mt19937& randomness, const wire_faults& what)
       : random(randomness), faults(what) {}
@@ -84,8 +84,8 @@ struct wire_end_state {
   session_owner_actor owner;
   std::vector<std::string> kept;    ///< Frames from before there was an owner.
   std::string end_reason;           ///< Set when it ended before it had one.
-  uint32_t number = 0;              ///< Of the last beat.
-  std::map<uint32_t, int64_t> sent; ///< When beats were sent.
+  uint32_t number = 0;              ///< Of the last heartbeat.
+  std::map<uint32_t, int64_t> sent; ///< When heartbeats were sent.
 };
 
 namespace wire_steps {
@@ -145,7 +145,7 @@ inline void send_out(self_pointer self, const std::string& text) {
   }
   const auto fate =
       link.judge ? link.judge(self->state.index) : frame_fate::passed;
-  if (fate == frame_fate::lost || link.happens(link.faults.lose_frame)) {
+  if (fate == frame_fate::lost || link.happens(link.faults.drop_frame)) {
     link.lossy = true;
     return;
   }
@@ -156,20 +156,21 @@ inline void send_out(self_pointer self, const std::string& text) {
     pass(self, text);
 }
 
-inline void send_out(self_pointer self, const send_beat& beat) {
+inline void send_out(self_pointer self, const send_heartbeat& heartbeat) {
   auto& link = *self->state.link;
   auto& sent = self->state.sent;
-  const auto number = beat.answers != 0 ? beat.answers : ++self->state.number;
-  if (beat.kind == beat_kind::beat)
+  const auto number =
+      heartbeat.answers != 0 ? heartbeat.answers : ++self->state.number;
+  if (heartbeat.kind == heartbeat_kind::heartbeat)
     sent[number] = virtual_time::boot_now_ms(self->system());
-  ++link.beats;
+  ++link.heartbeats;
   if (!link.open || link.holds(self->state.index)
-      || link.happens(link.faults.lose_beat))
+      || link.happens(link.faults.drop_heartbeat))
     return;
-  const auto times = link.happens(link.faults.repeat_beat) ? 2 : 1;
+  const auto times = link.happens(link.faults.repeat_heartbeat) ? 2 : 1;
   for (auto i = 0; i < times; ++i)
     self->delayed_send(link.ends[1 - self->state.index], link.delay(),
-                       beat_received{beat.kind, number, 0});
+                       heartbeat_received{heartbeat.kind, number, 0});
 }
 
 inline void take_owner(self_pointer self, const session_owner_actor& owner) {
@@ -209,16 +210,16 @@ inline session_actor::behavior_type wire_end(wire_steps::self_pointer self,
       },
       [self](const own_session& x) { take_owner(self, x.owner); },
       [self](const send_frame& x) { send_out(self, x.text); },
-      [self](const send_beat& x) { send_out(self, x); },
+      [self](const send_heartbeat& x) { send_out(self, x); },
       [self](const close_session& x) {
         end_other(self, x.reason);
         self->quit();
       },
       [self](const frame_received& x) { come_in(self, x); },
-      [self](beat_received x) {
+      [self](heartbeat_received x) {
         const auto& sent = self->state.sent;
         const auto i = sent.find(x.sequence);
-        if (x.kind == beat_kind::ack && i != sent.end())
+        if (x.kind == heartbeat_kind::ack && i != sent.end())
           x.sent_boot_ms = i->second;
         if (self->state.owner)
           self->send(self->state.owner, x);
@@ -228,8 +229,9 @@ inline session_actor::behavior_type wire_end(wire_steps::self_pointer self,
 }
 
 /// Makes a wire and its two ends.
-inline wire_ptr make_wire(caf::actor_system& system, const house& context,
-                          std::mt19937& random, const wire_faults& faults) {
+inline wire_ptr make_wire(caf::actor_system& system,
+                          const actor_context& context, std::mt19937& random,
+                          const wire_faults& faults) {
   auto result = std::make_shared<wire>(random, faults);
   for (size_t i = 0; i < 2; ++i)
     result->ends[i] = roscell::spawn(system, context, wire_end, result, i);

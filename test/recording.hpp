@@ -35,7 +35,7 @@ struct recorded_session {
   }
 };
 
-struct recorded_beat {
+struct recorded_heartbeat {
   std::string from; ///< "ip"
   std::string bytes;
 };
@@ -43,7 +43,7 @@ struct recorded_beat {
 struct recording {
   std::string site_token;
   std::vector<recorded_session> sessions; ///< In the order of their hellos.
-  std::vector<recorded_beat> beats;
+  std::vector<recorded_heartbeat> heartbeats;
 };
 
 inline constexpr size_t handshake_frames = 4;
@@ -65,13 +65,13 @@ inline void add_frame(recording& to, const nlohmann::json& line) {
       {session.joiner == from, line.at("text").get<std::string>()});
 }
 
-inline void add_beat(recording& to, const nlohmann::json& line) {
+inline void add_heartbeat(recording& to, const nlohmann::json& line) {
   const auto from = line.at("from").get<std::string>();
   const auto digits = line.at("beat").get<std::string>();
-  recorded_beat result{from.substr(0, from.find(':')), {}};
+  recorded_heartbeat result{from.substr(0, from.find(':')), {}};
   for (size_t i = 0; i + 1 < digits.size(); i += 2)
     result.bytes += static_cast<char>(std::stoi(digits.substr(i, 2), {}, 16));
-  to.beats.push_back(std::move(result));
+  to.heartbeats.push_back(std::move(result));
 }
 
 } // namespace recording_steps
@@ -85,7 +85,7 @@ inline recording read_recording() {
     if (line.contains("site_token"))
       result.site_token = line["site_token"];
     else if (line.contains("beat"))
-      recording_steps::add_beat(result, line);
+      recording_steps::add_heartbeat(result, line);
     else
       recording_steps::add_frame(result, line);
   }

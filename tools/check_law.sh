@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # The dependency law: messages <- actors <- tools; dds is shared by actors and
 # skills, which depend on nothing else of ours but the public headers in
-# include, which depend on nothing of ours; inside actors edge <- house <- session, instances, placement <-
+# include, which depend on nothing of ours; inside actors edge <- core <- session, instances, placement <-
 # cell, membership <- requests <- node. Checked in the sources and in what the
 # programs load; and that no folder is crowded.
 # Usage: tools/check_law.sh [BUILD_DIR]
@@ -29,17 +29,17 @@ refuse schemas 'actors/|skills/|tools/|test/'
 refuse actors 'skills/|roscell/(skill|ros2)|tools/|test/'
 # The edge knows no actor. It reads the one table of limits, which includes
 # nothing of ours.
-rooms='session|instances|placement|cell|membership|requests|node'
-refuse actors/edge "caf/|actors/($rooms)/|actors/house/[a-km-z]|actors/precompiled"
-refuse actors/house "actors/($rooms)/"
+packages='session|instances|placement|cell|membership|requests|node'
+refuse actors/edge "caf/|actors/($packages)/|actors/core/[a-km-z]|actors/precompiled"
+refuse actors/core "actors/($packages)/"
 refuse actors/session 'actors/(instances|placement|cell|membership|requests|node)/'
 refuse actors/instances 'actors/(session|placement|cell|membership|requests|node)/'
 refuse actors/placement 'actors/(session|instances|cell|membership|requests|node)/'
 refuse actors/cell 'actors/(instances|membership|requests|node)/'
 refuse actors/membership 'actors/(instances|placement|cell|requests|node)/'
 refuse actors/requests 'actors/(session|instances|cell|membership|node)/'
-refuse actors/cell/books 'actors/(session|placement|edge)/|caf/(all|.*actor_system)'
-refuse actors/placement/search 'messages/|schemas/|caf/|nlohmann/|actors/(house|edge|session|instances|cell|membership|requests|node)/|actors/placement/[a-z_]+\.hpp'
+refuse actors/cell/tables 'actors/(session|placement|edge)/|caf/(all|.*actor_system)'
+refuse actors/placement/search 'messages/|schemas/|caf/|nlohmann/|actors/(core|edge|session|instances|cell|membership|requests|node)/|actors/placement/[a-z_]+\.hpp'
 refuse skills 'messages/|schemas/|actors/|tools/|test/|caf/'
 refuse embedding 'client/|tools/|test/'
 refuse client 'embedding/|skills/|tools/|test/|actors/[a-df-z]'
@@ -95,16 +95,16 @@ fi
 
 # What watches an actor stays in that one's memory until it is taken back.
 if grep -rnE '(->|\.)monitor\(' --include='*.?pp' actors embedding skills tools \
-     | grep -v '^actors/house/watching.hpp:'; then
-  echo "law: actors are watched by actors/house/watching.hpp, which says until when"
+     | grep -v '^actors/core/watching.hpp:'; then
+  echo "law: actors are watched by actors/core/watching.hpp, which says until when"
   broken=1
 fi
 
 # A delayed message keeps its receiver, and cannot be taken back.
 if grep -rnE 'delayed_(anon_)?send|schedule_message' --include='*.?pp' \
-     actors embedding skills tools | grep -v '^actors/house/delay.hpp:'; then
-  echo "law: an actor has actors/house/alarm.hpp, which ends with it; what lives as" \
-    "long as its node is told later by actors/house/delay.hpp"
+     actors embedding skills tools | grep -v '^actors/core/delay.hpp:'; then
+  echo "law: an actor has actors/core/alarm.hpp, which ends with it; what lives as" \
+    "long as its node is told later by actors/core/delay.hpp"
   broken=1
 fi
 

@@ -70,7 +70,7 @@ done
 [[ ${#missing[@]} -eq 0 ]] && exit 0
 
 as_root=()
-remedy='mend that and run it again'
+remedy='fix that and run it again'
 if [[ $(id -u) -ne 0 ]]; then
   root_runs="let root run: $(realpath "$0")${1:+ $1}"
   remedy+=", or $root_runs"

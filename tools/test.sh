@@ -28,9 +28,9 @@ begin=$EPOCHSECONDS
 cache=${XDG_CACHE_HOME:-${HOME:-$PWD/build}/.cache}/roscell
 . tools/building.sh
 . tools/testing/results.sh
-. tools/testing/room.sh
+. tools/testing/workspace.sh
 may_build || exit 1
-make_room || exit 1
+make_workspace || exit 1
 
 wants() {
   [[ $part == all || $part == "--$1" ]]
@@ -72,7 +72,7 @@ finish() {
 end_all() {
   trap '' INT TERM HUP
   [[ -z $begun ]] || kill -- "-$begun" 2> /dev/null
-  give_room_back
+  give_workspace_back
 }
 trap end_all EXIT
 trap 'exit 130' INT
@@ -153,6 +153,7 @@ if wants lint; then
   check lint format check_format
   check lint law tools/check_law.sh
   check lint rules tools/check_rules.py
+  check lint words tools/check_words.py
   check lint docs tools/check_docs.py
   check lint reference tools/generate_reference.py --check
 fi

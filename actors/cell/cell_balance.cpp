@@ -1,10 +1,10 @@
 #include "actors/cell/cell_balance.hpp"
 
-#include "actors/cell/cell_places.hpp"
+#include "actors/cell/cell_slots.hpp"
 #include "actors/cell/state/coordinator_timer.hpp"
 #include "actors/cell/tasks/cell_instances.hpp"
 #include "actors/cell/transfers/transfer_start.hpp"
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 #include "messages/failure.hpp"
 
 #include <algorithm>
@@ -21,12 +21,11 @@ std::vector<cell_size> sizes_of(const cell_coordinator_state& st) {
   std::vector<cell_size> result;
   result.push_back({st.setup.self.uuid, st.setup.cell,
                     static_cast<int64_t>(st.registry.size())});
-  st.peers.for_each_session(
-      [&](const std::string& uuid, const peer_entry& peer) {
-        if (peer.told && peer.standing.rebalance)
-          result.push_back(
-              {uuid, peer.standing.place.cell, size_of(st, uuid, peer)});
-      });
+  st.peers.for_each_session([&](const std::string& uuid,
+                                const peer_entry& peer) {
+    if (peer.reported && peer.status.rebalance)
+      result.push_back({uuid, peer.status.place.cell, size_of(st, uuid, peer)});
+  });
   return result;
 }
 
@@ -41,7 +40,7 @@ std::string cell_of(const std::vector<cell_size>& cells,
 /// One cell has done what it could. Once all have, it is looked at again as
 /// long as something moves. What cannot be moved is not tried again soon, if
 /// something else wants the sizes looked at: it costs the member its session.
-void on_surrendered(coordinator_pointer self, bool moved) {
+void on_handed_over(coordinator_pointer self, bool moved) {
   auto& st = self->state;
   --st.balancing;
   if (moved)
@@ -56,12 +55,13 @@ void order_move(coordinator_pointer self, const cell_move& move,
                 const std::string& target) {
   auto& st = self->state;
   ++st.balancing;
-  st.context.tell("cells_rebalanced", target, {{"members", move.count}});
+  st.context.publish_event("cells_rebalanced", target,
+                           {{"members", move.count}});
   const member_surrender request{target, move.count};
   auto done = [self](const members_surrendered& x) {
-    on_surrendered(self, !x.nodes.empty());
+    on_handed_over(self, !x.nodes.empty());
   };
-  auto failed = [self](const caf::error&) { on_surrendered(self, false); };
+  auto failed = [self](const caf::error&) { on_handed_over(self, false); };
   if (move.from == st.setup.self.uuid)
     self->request(cell_coordinator_actor{self}, limits::transfer::forwarded,
                   request)
@@ -123,7 +123,7 @@ void balance_if_due(coordinator_pointer self) {
   if (self->clock().now() < st.balance_due || st.balancing > 0)
     return;
   st.balance_due = time_point::max();
-  if (!gives_places(st))
+  if (!is_slot_arbiter(st))
     return;
   const auto cells = sizes_of(st);
   for (const auto& move : plan_moves(cells))
@@ -131,11 +131,11 @@ void balance_if_due(coordinator_pointer self) {
 }
 
 caf::result<members_surrendered>
-surrender_members(coordinator_pointer self, const member_surrender& request) {
+hand_over_members(coordinator_pointer self, const member_surrender& request) {
   auto& st = self->state;
   if (!st.setup.rebalance)
     return fail(error_code::conflict,
-                "cell '" + st.setup.cell + "' is not to be evened out");
+                "cell '" + st.setup.cell + "' does not take part in balancing");
   struct tally {
     size_t open = 1;
     members_surrendered result;
@@ -148,11 +148,11 @@ surrender_members(coordinator_pointer self, const member_surrender& request) {
   };
   for (const auto& name : movable(self, static_cast<size_t>(request.count))) {
     ++state->open;
-    transfer_wish wish;
-    wish.node = name;
-    wish.target = request.target;
-    wish.origin = join_origin::discovered;
-    start_transfer(self, wish,
+    transfer_order order;
+    order.node = name;
+    order.target = request.target;
+    order.origin = join_origin::discovered;
+    start_transfer(self, order,
                    [state, finish_one, name](const cell_transfer&,
                                              const failure* why) mutable {
                      if (!why)

@@ -32,6 +32,6 @@ std::vector<cell_move> plan_moves(std::vector<cell_size> cells);
 void balance_if_due(coordinator_pointer self);
 
 caf::result<members_surrendered>
-surrender_members(coordinator_pointer self, const member_surrender& request);
+hand_over_members(coordinator_pointer self, const member_surrender& request);
 
 } // namespace roscell

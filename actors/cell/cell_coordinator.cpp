@@ -2,16 +2,16 @@
 
 #include "actors/cell/cell_balance.hpp"
 #include "actors/cell/cell_drains.hpp"
-#include "actors/cell/cell_figures.hpp"
 #include "actors/cell/cell_formation.hpp"
 #include "actors/cell/cell_logs.hpp"
 #include "actors/cell/cell_members.hpp"
+#include "actors/cell/cell_metrics.hpp"
 #include "actors/cell/cell_peers.hpp"
-#include "actors/cell/cell_places.hpp"
 #include "actors/cell/cell_presences.hpp"
+#include "actors/cell/cell_slots.hpp"
 #include "actors/cell/cell_topics.hpp"
 #include "actors/cell/cell_transfers.hpp"
-#include "actors/cell/moves/lost_steps.hpp"
+#include "actors/cell/moves/abandoned_steps.hpp"
 #include "actors/cell/moves/rebalancing.hpp"
 #include "actors/cell/state/arrivals.hpp"
 #include "actors/cell/state/coordinator_timer.hpp"
@@ -28,7 +28,7 @@
 #include "actors/cell/tasks/task_removals.hpp"
 #include "actors/cell/tasks/task_restart.hpp"
 #include "actors/cell/tasks/task_views.hpp"
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 #include "messages/failure.hpp"
 
 #include <utility>
@@ -42,7 +42,7 @@ cell_description describe(coordinator_pointer self) {
   return {st.setup.cell,          st.setup.self.name,
           st.setup.self.address,  st.setup.discovery_server,
           st.setup.incarnation,   describe_nodes(st),
-          describe_all_tasks(st), list_free_nodes(st),
+          describe_all_tasks(st), list_unassigned_nodes(st),
           st.setup.environment};
 }
 
@@ -62,9 +62,10 @@ skill_list list_skills(const cell_coordinator_state& st,
   return {st.registry.skills(query.operation), st.registry.refused_skills()};
 }
 
-void on_standing_told(coordinator_pointer self, const peer_told& fact) {
-  on_peer_told(self, fact);
-  grant_awaited_places(self);
+void on_status_reported(coordinator_pointer self,
+                        const peer_status_reported& event) {
+  on_peer_status_reported(self, event);
+  grant_awaited_slots(self);
 }
 
 /// Whoever it was that has ended.
@@ -103,32 +104,32 @@ json summary(coordinator_pointer self) {
           {"incarnation", st.setup.incarnation},
           {"nodes", describe_nodes(st)},
           {"tasks", describe_all_tasks(st)},
-          {"turn", st.desk.turn},
-          {"waiting", st.desk.waiting.size()},
+          {"turn", st.pending.placement_lock},
+          {"waiting", st.pending.waiting.size()},
           {"cells", list_cells(st)},
-          {"free", list_free_nodes(st)},
-          {"places", st.places.size()},
+          {"free", list_unassigned_nodes(st)},
+          {"places", st.slots.size()},
           {"transfers", st.transfers.size()},
           {"balancing", st.balancing},
           {"moves", st.moves.size()},
           {"orders", st.orders.size()},
-          {"unsafe", st.desk.unsafe.size()},
+          {"unsafe", st.pending.not_stop_safe.size()},
           {"may_run", st.failures.count(self->clock().now())},
-          {"remains", st.desk.remains.size()}};
+          {"remains", st.pending.remains.size()}};
 }
 
 void on_session_admitted(coordinator_pointer self,
-                         const session_admitted& fact) {
-  if (fact.role == node_role::coordinator)
-    on_peer_admitted(self, fact);
+                         const session_admitted& event) {
+  if (event.role == node_role::coordinator)
+    on_peer_admitted(self, event);
   else
-    on_member_admitted(self, fact);
+    on_member_admitted(self, event);
 }
 
 void on_tick(coordinator_pointer self, uint64_t number) {
   if (number != at_once && !self->state.timer.rings(number))
     return;
-  settle_overdue_places(self);
+  settle_overdue_slots(self);
   settle_overdue_transfers(self);
   settle_overdue_arrivals(self);
   open_due_peers(self);
@@ -138,11 +139,11 @@ void on_tick(coordinator_pointer self, uint64_t number) {
   give_up_late_waits(self);
   start_due_again(self);
   forget_past_remains(self);
-  move_lost_steps(self);
+  move_abandoned_steps(self);
   go_on_draining(self);
   settle_due_move(self);
   balance_if_due(self);
-  write_due_facts(self);
+  write_due_events(self);
   set_timer(self);
 }
 
@@ -156,7 +157,7 @@ void begin(coordinator_pointer self) {
   restore_orders(self);
   self->state.history.restore(self->state.setup.history);
   restore_drains(self);
-  lose_steps_of_all(self);
+  abandon_steps_of_all(self);
   drop_unfinished_tasks(self);
   reconcile_own_node(self);
   measure_own_node(self);
@@ -166,11 +167,11 @@ void begin(coordinator_pointer self) {
 } // namespace
 
 cell_coordinator_actor::behavior_type
-cell_coordinator(coordinator_pointer self, const house& context,
+cell_coordinator(coordinator_pointer self, const actor_context& context,
                  const coordinator_setup& setup) {
   self->state.context = context;
   self->state.setup = setup;
-  self->state.peers = peer_book{setup.self.uuid};
+  self->state.peers = peer_table{setup.self.uuid};
   begin(self);
   self->set_down_handler(
       [self](const caf::down_msg& down) { on_down(self, down.source); });
@@ -185,7 +186,7 @@ cell_coordinator(coordinator_pointer self, const house& context,
       [self](const cell_list_query&) { return cells_seen(self->state); },
       [self](const topic_query& x) { return list_topics(self, x); },
       [self](const task_history_query& x) {
-        return tell_history(self->state, x);
+        return report_history(self->state, x);
       },
       [self](const task_query& x) { return describe_tasks(self->state, x); },
       [self](const instance_query& x) {
@@ -194,12 +195,12 @@ cell_coordinator(coordinator_pointer self, const house& context,
       [self](const log_query& x) { return fetch_log(self, x); },
       [self](const kept_logs_query& x) { return collect_kept_logs(self, x); },
       [self](const skill_query& x) { return list_skills(self->state, x); },
-      [self](const claim_task& x) { return claim_task_turn(self, x); },
+      [self](const claim_task& x) { return claim_placement_lock(self, x); },
       [self](const collect_resources&) { return answer_resources(self); },
-      [self](const collect_figures&) { return collect_all_figures(self); },
+      [self](const collect_metrics&) { return collect_all_metrics(self); },
       [self](const measure_cell&) { return measured(self->state); },
       [self](const record_intent& x) { return hold_placement(self, x); },
-      [self](const make_way& x) { return clear_way(self, x); },
+      [self](const preempt_instances& x) { return preempt_for_task(self, x); },
       [self](const record_running& x) { return accept_task(self, x); },
       [self](const record_failure& x) { return undo_deployment(self, x); },
       [self](const task_termination& x) { return terminate_task(self, x); },
@@ -208,11 +209,11 @@ cell_coordinator(coordinator_pointer self, const house& context,
       [self](const presence_gone& x) { on_presence_gone(self, x.who); },
       [self](const peer_opened& x) { on_peer_opened(self, x); },
       [self](const peer_lost& x) { on_peer_lost(self, x); },
-      [self](const peer_told& x) { on_standing_told(self, x); },
+      [self](const peer_status_reported& x) { on_status_reported(self, x); },
       [self](const peer_changed& x) { on_peer_changed(self, x); },
-      [self](const place_request& x) { return grant_place(self, x); },
-      [self](const place_reservation& x) { return reserve_place(self, x); },
-      [self](const member_surrender& x) { return surrender_members(self, x); },
+      [self](const place_request& x) { return grant_slot(self, x); },
+      [self](const place_reservation& x) { return reserve_slot(self, x); },
+      [self](const member_surrender& x) { return hand_over_members(self, x); },
       [self](const cell_formation& x) { return form_cell(self, x); },
       [self](const node_transfer& x) { return transfer_node(self, x); },
       [self](const node_release& x) { return release_node(self, x); },

@@ -5,8 +5,8 @@
 #include "actors/cell/state/coordinator_timer.hpp"
 #include "actors/cell/tasks/task_endings.hpp"
 #include "actors/cell/tasks/task_removals.hpp"
-#include "actors/house/limits.hpp"
-#include "actors/house/wall_clock.hpp"
+#include "actors/core/limits.hpp"
+#include "actors/core/wall_clock.hpp"
 #include "messages/failure.hpp"
 
 #include <algorithm>
@@ -71,9 +71,10 @@ void forget_oldest(cell_coordinator_state& st,
   for (const auto& x : st.drains.all())
     if (is_gone(st, x)) {
       records.push_back({"drains", x.uuid, ""});
-      st.context.tell("node_undrained", x.node,
-                      {{"reason", "it has been gone for long, and others are "
-                                  "drained now"}});
+      st.context.publish_event(
+          "node_undrained", x.node,
+          {{"reason", "it has been gone for long, and others are "
+                      "drained now"}});
       return st.drains.forget(x.uuid);
     }
 }
@@ -89,7 +90,7 @@ std::vector<std::string> left_on(const cell_coordinator_state& st,
 node_drained progress_of(const cell_coordinator_state& st,
                          const drained_node& x) {
   const auto node = name_of(st, x.record);
-  return {node, left_on(st, node), x.trouble};
+  return {node, left_on(st, node), x.problem};
 }
 
 void on_moved(coordinator_pointer self, const drain_record& drain,
@@ -100,18 +101,18 @@ void on_moved(coordinator_pointer self, const drain_record& drain,
     return;
   const auto node = name_of(st, drain);
   const auto left = left_on(st, node);
-  if (why && known->trouble != why->message)
-    st.context.tell("node_drain_stuck", node,
-                    {{"reason", why->message}, {"left", left}});
+  if (why && known->problem != why->message)
+    st.context.publish_event("node_drain_stuck", node,
+                             {{"reason", why->message}, {"left", left}});
   if (left.empty())
-    st.context.tell("node_drained", node);
+    st.context.publish_event("node_drained", node);
   st.drains.end(drain.uuid, why ? why->message : "", left.empty(),
                 self->clock().now());
   set_timer(self);
 }
 
-/// What a node that is away runs may not be started elsewhere: nobody knows
-/// whether it runs on.
+/// What a node that is away runs may not be started elsewhere: it is
+/// unknown whether it runs on.
 bool is_there(const cell_coordinator_state& st, const std::string& uuid) {
   const auto* entry = st.registry.find_uuid(uuid);
   return entry && entry->agent;
@@ -166,8 +167,8 @@ caf::result<node_drained> drain_node(coordinator_pointer self,
       [self, record, promise]() mutable {
         auto& state = self->state;
         if (state.drains.add(record, self->clock().now()))
-          state.context.tell("node_draining", record.node,
-                             {{"left", left_on(state, record.node)}});
+          state.context.publish_event("node_draining", record.node,
+                                      {{"left", left_on(state, record.node)}});
         go_on_draining(self);
         promise.deliver(progress_of(state, *state.drains.find(record.uuid)));
       },
@@ -195,7 +196,7 @@ caf::result<node_undrained> undrain_node(coordinator_pointer self,
       [self, drains, node = request.node, promise]() mutable {
         for (const auto& x : drains)
           self->state.drains.forget(x.uuid);
-        self->state.context.tell("node_undrained", node);
+        self->state.context.publish_event("node_undrained", node);
         promise.deliver(node_undrained{node});
       },
       [promise](const failure& why) mutable {

@@ -1,10 +1,10 @@
 #include "actors/cell/cell_formation.hpp"
 
-#include "actors/cell/cell_places.hpp"
+#include "actors/cell/cell_slots.hpp"
 #include "actors/cell/state/arrivals.hpp"
 #include "actors/cell/state/coordinator_publish.hpp"
 #include "actors/cell/transfers/named_node.hpp"
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 #include "messages/failure.hpp"
 
 #include <algorithm>
@@ -47,8 +47,8 @@ void answer_on_arrival(coordinator_pointer self, const std::string& uuid,
 }
 
 /// Brings in a node that is in no cell, by its REST API.
-void bring_in_free(coordinator_pointer self, const node_presence& who,
-                   const outcome_done& done) {
+void bring_in_unassigned(coordinator_pointer self, const node_presence& who,
+                         const outcome_done& done) {
   auto& st = self->state;
   auto kept = reserve_here(
       self, {who.name, who.uuid, who.epoch,
@@ -73,7 +73,7 @@ void bring_in_free(coordinator_pointer self, const node_presence& who,
               const auto why = to_failure(err);
               // What it announced may be long out of date.
               if (why.code == error_code::unreachable)
-                state.free_nodes.forget(who.uuid);
+                state.unassigned_nodes.forget(who.uuid);
               settle_arrivals(self, who.uuid, &why);
             });
 }
@@ -156,7 +156,7 @@ failure is_ambiguous(const node_presence& who, const named_node& found) {
 std::vector<std::string> free_addresses(const cell_coordinator_state& st,
                                         const std::string& node) {
   std::vector<std::string> result;
-  for (const auto& x : st.free_nodes.rows())
+  for (const auto& x : st.unassigned_nodes.rows())
     if (x.name == node && x.silent_since_unix_ms == 0)
       result.push_back(x.address);
   return result;
@@ -174,11 +174,12 @@ failure are_twins(const std::string& node,
 }
 
 /// Brings in a node that has no row here.
-void bring_in_stranger(coordinator_pointer self, const std::string& node,
-                       instance_policy policy, const outcome_done& done) {
+void bring_in_unauthenticated(coordinator_pointer self, const std::string& node,
+                              instance_policy policy,
+                              const outcome_done& done) {
   const auto& st = self->state;
   const auto found = find_elsewhere(st, node);
-  const auto* who = st.free_nodes.find_name(node);
+  const auto* who = st.unassigned_nodes.find_name(node);
   if (!found.why.message.empty())
     return done(failed(node, found.why));
   if (!found.holder && !who)
@@ -186,13 +187,13 @@ void bring_in_stranger(coordinator_pointer self, const std::string& node,
   if (const auto twins = free_addresses(st, node); twins.size() > 1)
     return done(failed(node, are_twins(node, twins)));
   if (!found.holder)
-    return bring_in_free(self, node_presence{*who}, done);
+    return bring_in_unassigned(self, node_presence{*who}, done);
   if (who && who->uuid != found.claim.uuid)
     return done(failed(node, is_ambiguous(*who, found)));
   // A node that says itself that it is in no cell knows best, unless a cell has
   // news that are newer.
   if (who && who->epoch >= found.claim.epoch)
-    return bring_in_free(self, node_presence{*who}, done);
+    return bring_in_unassigned(self, node_presence{*who}, done);
   bring_over(self, found.holder, node, policy, done);
 }
 
@@ -205,10 +206,10 @@ void bring_in(coordinator_pointer self, const std::string& node,
     return done(failed(node, coordinates(node)));
   const auto* entry = st.registry.find_name(node);
   if (!entry)
-    return bring_in_stranger(self, node, policy, done);
-  const auto* who = st.free_nodes.find(entry->row.identity.uuid);
+    return bring_in_unauthenticated(self, node, policy, done);
+  const auto* who = st.unassigned_nodes.find(entry->row.identity.uuid);
   if (who)
-    bring_in_free(self, node_presence{*who}, done);
+    bring_in_unassigned(self, node_presence{*who}, done);
   else
     done(failed(node, is_away(entry->row)));
 }

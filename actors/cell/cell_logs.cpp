@@ -2,7 +2,7 @@
 
 #include "actors/cell/state/open_questions.hpp"
 #include "actors/cell/tasks/task_views.hpp"
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 #include "messages/failure.hpp"
 
 #include <caf/typed_response_promise.hpp>
@@ -32,8 +32,8 @@ void put_in_order(kept_logs& found) {
                    [](const kept_log& x, const kept_log& y) {
                      return y.ended_unix_ms < x.ended_unix_ms;
                    });
-  if (logs.size() > limits::history::told_logs)
-    logs.resize(limits::history::told_logs);
+  if (logs.size() > limits::history::listed_logs)
+    logs.resize(limits::history::listed_logs);
 }
 
 void ask_for_logs(coordinator_pointer self, const std::string& node,
@@ -94,18 +94,19 @@ void ask_node_for_log(coordinator_pointer self, const std::string& node,
 void fetch_kept_log(coordinator_pointer self, const log_query& query,
                     log_promise promise) {
   constexpr auto limit = limits::history::member_list;
-  auto wish = query;
-  wish.previous = true;
-  wish.wait_ms = 0;
-  const auto node = std::exchange(wish.node, {});
+  auto request = query;
+  request.previous = true;
+  request.wait_ms = 0;
+  const auto node = std::exchange(request.node, {});
   if (!node.empty())
-    return ask_node_for_log(self, node, wish, limit, promise);
+    return ask_node_for_log(self, node, request, limit, promise);
   ask_all_for_logs(
       self, {query.instance, {}}, [=](const kept_logs& known) mutable {
         if (known.logs.empty())
           promise.deliver(unknown_thing("instance", query.instance));
         else
-          ask_node_for_log(self, known.logs.front().node, wish, limit, promise);
+          ask_node_for_log(self, known.logs.front().node, request, limit,
+                           promise);
       });
 }
 

@@ -1,7 +1,7 @@
 #include "actors/cell/cell_members.hpp"
 
 #include "actors/cell/member_proof.hpp"
-#include "actors/cell/moves/lost_steps.hpp"
+#include "actors/cell/moves/abandoned_steps.hpp"
 #include "actors/cell/state/arrivals.hpp"
 #include "actors/cell/state/coordinator_publish.hpp"
 #include "actors/cell/state/coordinator_store.hpp"
@@ -12,8 +12,8 @@
 #include "actors/cell/tasks/cell_instances.hpp"
 #include "actors/cell/tasks/node_names.hpp"
 #include "actors/cell/tasks/task_removals.hpp"
-#include "actors/house/limits.hpp"
-#include "actors/house/watching.hpp"
+#include "actors/core/limits.hpp"
+#include "actors/core/watching.hpp"
 #include "actors/session/member/member.hpp"
 #include "messages/failure.hpp"
 
@@ -65,13 +65,14 @@ std::vector<discovery_place> place_of(const cell_coordinator_state& st,
 /// Two members at one address: two hosts that have the same one, of which
 /// others reach now one and now the other, or a host whose address another one
 /// has got before it was missed.
-void tell_shared_address(coordinator_pointer self, const node_identity& who) {
+void publish_shared_address(coordinator_pointer self,
+                            const node_identity& who) {
   if (who.address.empty())
     return;
   self->state.registry.for_each_active([&](const registry_entry& x) {
     const auto& other = x.row.identity;
     if (other.uuid != who.uuid && other.address == who.address)
-      self->state.context.tell(
+      self->state.context.publish_event(
           "address_shared", who.name,
           {{"address", who.address},
            {"with", other.name},
@@ -80,9 +81,9 @@ void tell_shared_address(coordinator_pointer self, const node_identity& who) {
 }
 
 /// The row may be shown now.
-void on_registration_kept(coordinator_pointer self,
-                          const register_node& request,
-                          registration_promise promise) {
+void on_registration_persisted(coordinator_pointer self,
+                               const register_node& request,
+                               registration_promise promise) {
   auto& st = self->state;
   const auto& node = request.registration;
   const auto& who = node.identity;
@@ -101,17 +102,17 @@ void on_registration_kept(coordinator_pointer self,
   }
   if (former && former != request.member)
     self->send(former, close_session{"the node has registered anew"});
-  st.places.forget(who.uuid);
-  st.free_nodes.registered(who);
+  st.slots.forget(who.uuid);
+  st.unassigned_nodes.registered(who);
   if (former_name != who.name)
     rename_node(self, former_name, who.name);
   publish(self, {who.uuid});
-  st.context.tell("node_joined", who.name,
-                  {{"uuid", who.uuid},
-                   {"epoch", who.epoch},
-                   {"address", who.address},
-                   {"size", st.registry.active_count()}});
-  tell_shared_address(self, who);
+  st.context.publish_event("node_joined", who.name,
+                           {{"uuid", who.uuid},
+                            {"epoch", who.epoch},
+                            {"address", who.address},
+                            {"size", st.registry.active_count()}});
+  publish_shared_address(self, who);
   promise.deliver(
       node_registered{st.setup.cell, st.setup.self.name, st.setup.incarnation,
                       take_up_instances(self, node), st.setup.cell_uuid,
@@ -127,19 +128,20 @@ void admit(coordinator_pointer self, const register_node& request,
   auto& st = self->state;
   const auto& who = request.registration.identity;
   if (auto why = st.registry.refusal(who, now_of(self), gone)) {
-    st.context.tell("node_refused", who.name,
-                    {{"uuid", who.uuid},
-                     {"address", who.address},
-                     {"reason", why->message},
-                     {"hint", why->hint}});
+    st.context.publish_event("node_refused", who.name,
+                             {{"uuid", who.uuid},
+                              {"address", who.address},
+                              {"reason", why->message},
+                              {"hint", why->hint}});
     promise.deliver(to_error(*why));
     return;
   }
   auto entry = entry_of(st, request);
   const bool known = st.registry.is_known(who, entry.origin, entry.server_id);
   const auto go_on = [=, server_id = entry.server_id] {
-    meet_member_server(self, server_id, request.registration.tells_anew,
-                       [=] { on_registration_kept(self, request, promise); });
+    meet_member_server(self, server_id, request.registration.tells_anew, [=] {
+      on_registration_persisted(self, request, promise);
+    });
   };
   watch_until_its_end(self, request.member);
   keep_records(self, st.registry.propose(std::move(entry)), go_on,
@@ -158,18 +160,18 @@ void admit(coordinator_pointer self, const register_node& request,
 }
 
 /// Nothing is heard of a node any more, and was not for some time.
-void lose_node(coordinator_pointer self, const registry_entry& entry,
+void fail_node(coordinator_pointer self, const registry_entry& entry,
                std::chrono::milliseconds silence) {
   const auto who = entry.row.identity;
   give_up_waits_on(self, who.name);
-  lose_steps_of(self, who.name, who.uuid, self->clock().now() - silence);
+  abandon_steps_of(self, who.name, who.uuid, self->clock().now() - silence);
   for (const auto& spec : self->state.deployments.bound_to(who.name))
-    tell_of_task(self, "instance_out_of_reach", spec.task, spec.instance,
-                 {{"task", spec.task},
-                  {"step", spec.step},
-                  {"node", who.name},
-                  {"reason", entry.row.reason},
-                  {"on_node_loss", spec.life.on_node_loss}});
+    publish_task_event(self, "instance_out_of_reach", spec.task, spec.instance,
+                       {{"task", spec.task},
+                        {"step", spec.step},
+                        {"node", who.name},
+                        {"reason", entry.row.reason},
+                        {"on_node_loss", spec.life.on_node_loss}});
 }
 
 } // namespace
@@ -206,15 +208,15 @@ void measure_own_node(coordinator_pointer self) {
             own->row.resources = std::move(x.resources);
           },
           [self](const caf::error& why) {
-            self->state.context.tell("measurement_failed",
-                                     self->state.setup.self.name,
-                                     {{"reason", to_failure(why).message}});
+            self->state.context.publish_event(
+                "measurement_failed", self->state.setup.self.name,
+                {{"reason", to_failure(why).message}});
           });
 }
 
 void on_member_admitted(coordinator_pointer self,
-                        const session_admitted& fact) {
-  spawn(self->system(), self->state.context, member, fact,
+                        const session_admitted& event) {
+  spawn(self->system(), self->state.context, member, event,
         cell_coordinator_actor{self});
 }
 
@@ -266,37 +268,37 @@ caf::result<node_departed> depart_member(coordinator_pointer self,
     st.registry.deactivate(*entry, row_state::expected, request.reason,
                            now_of(self));
     follow_member_server(self, *entry, server_contact::lost);
-    lose_node(self, *entry, std::chrono::milliseconds{0});
+    fail_node(self, *entry, std::chrono::milliseconds{0});
     publish(self, {request.uuid});
   }
   stop_searches_on(st, name);
-  st.context.tell(
+  st.context.publish_event(
       "node_left", name,
       {{"reason", request.reason}, {"size", st.registry.active_count()}});
   return node_departed{};
 }
 
-void on_member_lost(coordinator_pointer self, const member_lost& fact) {
+void on_member_lost(coordinator_pointer self, const member_lost& event) {
   auto& st = self->state;
-  auto* entry = st.registry.find_member(fact.uuid, fact.member);
+  auto* entry = st.registry.find_member(event.uuid, event.member);
   if (!entry)
     return;
   follow_member_server(self, *entry, server_contact::lost);
-  if (std::chrono::milliseconds{fact.silent_ms} >= limits::lease::span)
+  if (std::chrono::milliseconds{event.silent_ms} >= limits::lease::span)
     doubt_silent_host(self, *entry);
   const auto name = entry->row.identity.name;
   const bool departing = entry->row.state == row_state::departing;
-  if (departing && !lose_departing_node(self, *entry, fact.reason)) {
+  if (departing && !fail_departing_node(self, *entry, event.reason)) {
     give_up_waits_on(self, name);
-    lose_steps_of(self, name, fact.uuid, self->clock().now());
+    abandon_steps_of(self, name, event.uuid, self->clock().now());
     return set_timer(self);
   }
   if (!departing)
-    st.registry.deactivate(*entry, row_state::lost, fact.reason, now_of(self));
-  lose_node(self, *entry, std::chrono::milliseconds{fact.silent_ms});
-  publish(self, {fact.uuid});
+    st.registry.deactivate(*entry, row_state::lost, event.reason, now_of(self));
+  fail_node(self, *entry, std::chrono::milliseconds{event.silent_ms});
+  publish(self, {event.uuid});
   stop_searches_on(st, name);
-  tell_node_lost(self, *entry);
+  publish_node_lost(self, *entry);
   // It may have said publicly that it is in no cell before that was known.
   set_timer(self);
 }

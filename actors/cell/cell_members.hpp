@@ -12,12 +12,13 @@ void add_own_row(coordinator_pointer self);
 void measure_own_node(coordinator_pointer self);
 
 /// A node has opened a session and may register over it.
-void on_member_admitted(coordinator_pointer self, const session_admitted& fact);
+void on_member_admitted(coordinator_pointer self,
+                        const session_admitted& event);
 caf::result<node_registered> register_member(coordinator_pointer self,
                                              const register_node& request);
 caf::result<node_departed> depart_member(coordinator_pointer self,
                                          const depart_node& request);
-void on_member_lost(coordinator_pointer self, const member_lost& fact);
+void on_member_lost(coordinator_pointer self, const member_lost& event);
 
 /// Rows that an earlier run of the coordinator had, as `expected`.
 void restore_members(coordinator_pointer self);

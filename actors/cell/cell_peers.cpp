@@ -3,8 +3,8 @@
 #include "actors/cell/state/coordinator_publish.hpp"
 #include "actors/cell/state/coordinator_timer.hpp"
 #include "actors/cell/state/node_whereabouts.hpp"
-#include "actors/house/limits.hpp"
-#include "actors/house/watching.hpp"
+#include "actors/core/limits.hpp"
+#include "actors/core/watching.hpp"
 #include "actors/session/peer.hpp"
 #include "messages/failure.hpp"
 
@@ -14,7 +14,7 @@ namespace roscell {
 
 namespace {
 
-cell_standing standing_of(const cell_coordinator_state& st) {
+cell_standing own_cell_status(const cell_coordinator_state& st) {
   cell_standing result;
   result.place = own_address(st.setup);
   result.uuid = st.setup.self.uuid;
@@ -39,7 +39,7 @@ void on_attempt_failed(coordinator_pointer self, const std::string& uuid,
   auto& st = self->state;
   const auto cell = st.peers.attempt_failed(uuid, reason, self->clock().now());
   if (cell)
-    st.context.tell("peer_unreachable", *cell, {{"reason", reason}});
+    st.context.publish_event("peer_unreachable", *cell, {{"reason", reason}});
   set_timer(self);
 }
 
@@ -68,7 +68,7 @@ void open_peer(coordinator_pointer self, const node_presence& who) {
 }
 
 /// The node stays, or has gone, elsewhere.
-void give_up_place(coordinator_pointer self, const std::string& uuid) {
+void release_slot(coordinator_pointer self, const std::string& uuid) {
   drop_row(self, uuid);
   arm_balance(self);
 }
@@ -79,15 +79,15 @@ void weigh(coordinator_pointer self, const peer_entry& from,
   auto& st = self->state;
   // Its place has been taken, there or elsewhere.
   if (claim.active)
-    st.places.forget(claim.uuid);
+    st.slots.forget(claim.uuid);
   auto* entry = st.registry.find_uuid(claim.uuid);
   if (!entry || !claim.active || claim.uuid == st.setup.self.uuid)
     return;
   const auto& row = entry->row;
   if (row.state == row_state::reserved && row.identity.epoch <= claim.epoch)
-    return give_up_place(self, claim.uuid);
+    return release_slot(self, claim.uuid);
   if (row.identity.epoch < claim.epoch)
-    on_node_elsewhere(self, claim.uuid, claim.epoch, from.standing.place.cell);
+    on_node_elsewhere(self, claim.uuid, claim.epoch, from.status.place.cell);
   else if (row.state == row_state::active && from.actor)
     self->send(from.actor,
                cell_changed{static_cast<int64_t>(st.registry.size()),
@@ -105,26 +105,26 @@ void open_due_peers(coordinator_pointer self) {
     open_peer(self, who);
 }
 
-void on_peer_admitted(coordinator_pointer self, const session_admitted& fact) {
-  spawn_peer(self, fact.session, fact.peer.uuid, false);
+void on_peer_admitted(coordinator_pointer self, const session_admitted& event) {
+  spawn_peer(self, event.session, event.peer.uuid, false);
 }
 
-void on_peer_opened(coordinator_pointer self, const peer_opened& fact) {
-  if (const auto former = self->state.peers.open(fact.uuid, fact.peer))
+void on_peer_opened(coordinator_pointer self, const peer_opened& event) {
+  if (const auto former = self->state.peers.open(event.uuid, event.peer))
     self->send(former, close_session{"a newer session has been opened"});
-  watch_until_its_end(self, fact.peer);
-  self->send(fact.peer, standing_of(self->state));
+  watch_until_its_end(self, event.peer);
+  self->send(event.peer, own_cell_status(self->state));
 }
 
-void on_peer_lost(coordinator_pointer self, const peer_lost& fact) {
+void on_peer_lost(coordinator_pointer self, const peer_lost& event) {
   auto& st = self->state;
   const auto lost =
-      st.peers.close(fact.uuid, fact.peer, fact.reason, self->clock().now());
+      st.peers.close(event.uuid, event.peer, event.reason, self->clock().now());
   if (!lost)
     return;
-  if (lost->told)
-    st.context.tell("peer_lost", lost->standing.place.cell,
-                    {{"reason", fact.reason}});
+  if (lost->reported)
+    st.context.publish_event("peer_lost", lost->status.place.cell,
+                             {{"reason", event.reason}});
   arm_balance(self);
   set_timer(self);
 }
@@ -136,33 +136,34 @@ void on_peer_down(coordinator_pointer self, const caf::actor_addr& gone) {
         self, {entry->actor, uuid, "the part that spoke with it has failed"});
 }
 
-void on_peer_told(coordinator_pointer self, const peer_told& fact) {
+void on_peer_status_reported(coordinator_pointer self,
+                             const peer_status_reported& event) {
   auto& st = self->state;
-  const auto* entry = st.peers.tell(fact.peer, fact.standing);
+  const auto* entry = st.peers.note_status(event.peer, event.status);
   if (!entry)
     return;
-  st.context.tell("peer_joined", fact.standing.place.cell,
-                  {{"coordinator", fact.standing.place.coordinator},
-                   {"address", fact.standing.place.address},
-                   {"size", fact.standing.size}});
-  for (const auto& claim : fact.standing.members)
+  st.context.publish_event("peer_joined", event.status.place.cell,
+                           {{"coordinator", event.status.place.coordinator},
+                            {"address", event.status.place.address},
+                            {"size", event.status.size}});
+  for (const auto& claim : event.status.members)
     weigh(self, *entry, claim);
   arm_balance(self);
 }
 
-void on_peer_changed(coordinator_pointer self, const peer_changed& fact) {
+void on_peer_changed(coordinator_pointer self, const peer_changed& event) {
   auto& st = self->state;
-  const auto* known = std::as_const(st.peers).find_session(fact.peer);
-  const auto before = known ? known->standing.size : 0;
-  const auto* entry = st.peers.tell(fact.peer, fact.change);
+  const auto* known = std::as_const(st.peers).find_session(event.peer);
+  const auto before = known ? known->status.size : 0;
+  const auto* entry = st.peers.note_status(event.peer, event.change);
   if (!entry)
     return;
-  if (before != fact.change.size)
-    st.context.tell("peer_changed", entry->standing.place.cell,
-                    {{"size", fact.change.size}});
-  for (const auto& uuid : fact.change.gone)
-    st.places.forget(uuid, entry->standing.uuid);
-  for (const auto& claim : fact.change.changed)
+  if (before != event.change.size)
+    st.context.publish_event("peer_changed", entry->status.place.cell,
+                             {{"size", event.change.size}});
+  for (const auto& uuid : event.change.gone)
+    st.slots.forget(uuid, entry->status.uuid);
+  for (const auto& claim : event.change.changed)
     weigh(self, *entry, claim);
 }
 

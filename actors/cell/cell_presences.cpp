@@ -4,8 +4,8 @@
 #include "actors/cell/state/coordinator_timer.hpp"
 #include "actors/cell/state/doubts.hpp"
 #include "actors/cell/state/node_whereabouts.hpp"
-#include "actors/house/limits.hpp"
-#include "actors/house/wall_clock.hpp"
+#include "actors/core/limits.hpp"
+#include "actors/core/wall_clock.hpp"
 #include "messages/failure.hpp"
 
 #include <algorithm>
@@ -19,54 +19,58 @@ bool is_coordinator(const node_presence& who) {
   return who.role == "coordinator";
 }
 
-void tell_name_conflict(coordinator_pointer self, const node_presence& who) {
+void publish_name_conflict(coordinator_pointer self, const node_presence& who) {
   const auto& setup = self->state.setup;
   if (who.cell == setup.cell)
-    self->state.context.tell("cell_name_conflict", who.cell,
-                             {{"coordinator", who.name},
-                              {"address", who.address},
-                              {"discovery_server", who.discovery_server}});
+    self->state.context.publish_event(
+        "cell_name_conflict", who.cell,
+        {{"coordinator", who.name},
+         {"address", who.address},
+         {"discovery_server", who.discovery_server}});
 }
 
 void on_coordinator_seen(coordinator_pointer self, const node_presence& who) {
   const auto what = self->state.peers.see(who, self->clock().now());
-  if (what == peer_book::sighting::appeared)
-    tell_name_conflict(self, who);
+  if (what == peer_table::sighting::appeared)
+    publish_name_conflict(self, who);
   open_due_peers(self);
   set_timer(self);
 }
 
-void on_free_node_seen(coordinator_pointer self, const node_presence& who) {
+void on_unassigned_node_seen(coordinator_pointer self,
+                             const node_presence& who) {
   auto& st = self->state;
-  const auto what = st.free_nodes.see(who, self->clock().now());
-  if (what == free_node_book::sighting::appeared)
-    st.context.tell("node_appeared", who.name,
-                    {{"role", who.role}, {"address", who.address}});
+  const auto what = st.unassigned_nodes.see(who, self->clock().now());
+  if (what == unassigned_node_table::sighting::appeared)
+    st.context.publish_event("node_appeared", who.name,
+                             {{"role", who.role}, {"address", who.address}});
   ask_due_proofs(self);
   set_timer(self);
 }
 
 /// The node is in no cell, and has proved it.
 void on_proof(coordinator_pointer self, const std::string& uuid,
-              const standing_proved& proof) {
+              const status_proved& proof) {
   auto& st = self->state;
-  const auto* who = st.free_nodes.find(uuid);
-  if (!st.free_nodes.question_answered(uuid) || !who || !is_in_doubt(st, *who))
+  const auto* who = st.unassigned_nodes.find(uuid);
+  if (!st.unassigned_nodes.question_answered(uuid) || !who
+      || !is_in_doubt(st, *who))
     return;
   if (proof.state == node_state::independent)
     return on_node_elsewhere(self, uuid, proof.identity.epoch, "");
-  st.free_nodes.question_failed(uuid, "it is in a cell, or on its way",
-                                self->clock().now());
+  st.unassigned_nodes.question_failed(uuid, "it is in a cell, or on its way",
+                                      self->clock().now());
   set_timer(self);
 }
 
 void ask_for_proof(coordinator_pointer self, const node_presence& who) {
-  self->request(self->state.setup.registration, limits::strangers::proof,
-                prove_standing{who.address, who.name, who.uuid})
+  self->request(self->state.setup.registration,
+                limits::unauthenticated_peers::proof,
+                prove_status{who.address, who.name, who.uuid})
       .then([self, uuid = who.uuid](
-                const standing_proved& proof) { on_proof(self, uuid, proof); },
+                const status_proved& proof) { on_proof(self, uuid, proof); },
             [self, uuid = who.uuid](const caf::error& why) {
-              self->state.free_nodes.question_failed(
+              self->state.unassigned_nodes.question_failed(
                   uuid, to_failure(why).message, self->clock().now());
               set_timer(self);
             });
@@ -97,16 +101,16 @@ void on_presence_seen(coordinator_pointer self, const node_presence& who) {
   if (is_coordinator(who))
     on_coordinator_seen(self, who);
   else
-    on_free_node_seen(self, who);
+    on_unassigned_node_seen(self, who);
 }
 
 void on_presence_gone(coordinator_pointer self, const node_presence& who) {
   auto& st = self->state;
   if (is_coordinator(who)) {
     if (st.peers.vanish(who))
-      st.context.tell("peer_vanished", who.cell);
-  } else if (st.free_nodes.vanish(who, unix_now_ms())) {
-    st.context.tell("node_vanished", who.name);
+      st.context.publish_event("peer_vanished", who.cell);
+  } else if (st.unassigned_nodes.vanish(who, unix_now_ms())) {
+    st.context.publish_event("node_vanished", who.name);
   }
 }
 
@@ -114,14 +118,15 @@ void ask_due_proofs(coordinator_pointer self) {
   auto& st = self->state;
   if (!st.setup.registration)
     return;
-  const auto due = st.free_nodes.begin_questions(
+  const auto due = st.unassigned_nodes.begin_questions(
       [&](const node_presence& who) { return is_in_doubt(st, who); },
       self->clock().now());
   for (const auto& who : due)
     ask_for_proof(self, who);
 }
 
-std::vector<free_node> list_free_nodes(const cell_coordinator_state& st) {
+std::vector<unassigned_node>
+list_unassigned_nodes(const cell_coordinator_state& st) {
   const auto is_in_a_cell = [&](const std::string& uuid) {
     bool found = st.registry.find_uuid(uuid) != nullptr;
     st.peers.for_each_session([&](const auto&, const peer_entry& peer) {
@@ -129,9 +134,9 @@ std::vector<free_node> list_free_nodes(const cell_coordinator_state& st) {
     });
     return found;
   };
-  auto result = st.free_nodes.rows();
-  const auto end =
-      std::remove_if(result.begin(), result.end(), [&](const free_node& x) {
+  auto result = st.unassigned_nodes.rows();
+  const auto end = std::remove_if(
+      result.begin(), result.end(), [&](const unassigned_node& x) {
         return x.silent_since_unix_ms != 0 && is_in_a_cell(x.uuid);
       });
   result.erase(end, result.end());

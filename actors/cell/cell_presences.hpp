@@ -19,7 +19,8 @@ void ask_due_proofs(coordinator_pointer self);
 
 /// The nodes that are in no cell, as far as is known here. Of those that have
 /// fallen silent only the ones that no cell has a row for.
-std::vector<free_node> list_free_nodes(const cell_coordinator_state& st);
+std::vector<unassigned_node>
+list_unassigned_nodes(const cell_coordinator_state& st);
 
 /// Every cell that is known, the own one first.
 std::vector<cell_row> list_cells(const cell_coordinator_state& st);

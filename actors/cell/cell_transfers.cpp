@@ -7,7 +7,7 @@
 #include "actors/cell/state/transfer_end.hpp"
 #include "actors/cell/transfers/named_node.hpp"
 #include "actors/cell/transfers/transfer_start.hpp"
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 #include "messages/failure.hpp"
 
 namespace roscell {
@@ -23,11 +23,11 @@ node_released reply_of(const node_release&, const cell_transfer& x) {
   return {x.row.node, x.row.from, x.row.transfer, x.terminated, x.rescheduled};
 }
 
-transfer_wish wish_of(const node_transfer& x) {
+transfer_order transfer_order_of(const node_transfer& x) {
   return {x.node, x.target, x.instances};
 }
 
-transfer_wish wish_of(const node_release& x) {
+transfer_order transfer_order_of(const node_release& x) {
   return {x.node, "", x.instances};
 }
 
@@ -57,7 +57,7 @@ caf::result<Reply> let_go(coordinator_pointer self, const Request& request) {
   }
   auto promise = self->make_response_promise<Reply>();
   start_transfer(
-      self, wish_of(request),
+      self, transfer_order_of(request),
       [promise, request](const cell_transfer& x, const failure* why) mutable {
         if (why)
           promise.deliver(to_error(*why));
@@ -69,7 +69,7 @@ caf::result<Reply> let_go(coordinator_pointer self, const Request& request) {
 
 /// A node that was told to go and is not in this cell's reach any more is lost,
 /// so that its name is free after a lease and its row can be released.
-void lose_departed(coordinator_pointer self, const transfer_row& row) {
+void fail_departed_node(coordinator_pointer self, const transfer_row& row) {
   auto& registry = self->state.registry;
   auto* entry = registry.find_uuid(row.uuid);
   if (!entry || entry->member || entry->row.state != row_state::departing)
@@ -81,15 +81,15 @@ void lose_departed(coordinator_pointer self, const transfer_row& row) {
           + " and has not been heard of since",
       now_of(self));
   publish(self, {row.uuid});
-  tell_node_lost(self, *entry);
+  publish_node_lost(self, *entry);
   arm_balance(self);
 }
 
 /// For what a transfer waits that has not begun to switch its node.
 std::string wait_of(const cell_coordinator_state& st, const std::string& node) {
-  for (const auto& x : st.desk.unsafe)
+  for (const auto& x : st.pending.not_stop_safe)
     if (x.wait.node == node)
-      return "'" + x.wait.task + "/" + x.wait.step + "' to be safe";
+      return "'" + x.wait.task + "/" + x.wait.step + "' to be stop-safe";
   const auto waits = st.moves.waits_on(node);
   return waits.empty() ? "what runs there" : waits;
 }
@@ -106,17 +106,17 @@ void settle_overdue(coordinator_pointer self, cell_transfer& x) {
   const auto waiting = self->state.transfers.set_unresolved(
       x, "neither the node nor the other cell has said how it ended",
       now_of(self).unix_ms);
-  const auto told = x;
-  record_fact(self, record_of(told.row));
-  lose_departed(self, told.row);
+  const auto reported = x;
+  persist_record(self, record_of(reported.row));
+  fail_departed_node(self, reported.row);
   const failure why{error_code::unresolved,
-                    "the transfer '" + told.row.transfer + "' of node '"
-                        + told.row.node + "' is not settled yet",
+                    "the transfer '" + reported.row.transfer + "' of node '"
+                        + reported.row.node + "' is not settled yet",
                     "/node",
                     "`roscell transfers` shows how it stands; it resolves "
                     "itself when the parties meet again"};
   for (const auto& done : waiting)
-    done(told, &why);
+    done(reported, &why);
 }
 
 } // namespace
@@ -143,7 +143,7 @@ describe_transfers(coordinator_pointer self, const transfer_query& query) {
 
 void restore_transfers(coordinator_pointer self) {
   auto& st = self->state;
-  st.transfers = transfer_book{st.setup.cell, st.setup.incarnation};
+  st.transfers = transfer_table{st.setup.cell, st.setup.incarnation};
   for (const auto& row : st.setup.transfers) {
     st.transfers.restore(row);
     auto* x = st.transfers.find_open(row.transfer);
@@ -159,9 +159,9 @@ void restore_transfers(coordinator_pointer self) {
 }
 
 void settle_overdue_transfers(coordinator_pointer self) {
-  auto& book = self->state.transfers;
-  for (const auto& id : book.overdue(self->clock().now()))
-    if (auto* x = book.find_open(id))
+  auto& table = self->state.transfers;
+  for (const auto& id : table.overdue(self->clock().now()))
+    if (auto* x = table.find_open(id))
       settle_overdue(self, *x);
 }
 

@@ -1,6 +1,6 @@
 #include "actors/cell/member_proof.hpp"
 
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 #include "messages/failure.hpp"
 
 namespace roscell {
@@ -14,7 +14,7 @@ constexpr std::chrono::seconds member_proof{1};
 static_assert(member_proof < limits::membership::registration);
 
 /// Whoever refuses to answer is there.
-bool tells_of_absence(const caf::error& why) {
+bool shows_absence(const caf::error& why) {
   const auto code = to_failure(why).code;
   return code == error_code::timeout || code == error_code::unreachable;
 }
@@ -25,7 +25,7 @@ void prove_member(coordinator_pointer self, const member_actor& member,
                   const std::function<void(bool is_there)>& then) {
   self->request(member, member_proof, resource_query{})
       .then([then](const resource_report&) { then(true); },
-            [then](const caf::error& why) { then(!tells_of_absence(why)); });
+            [then](const caf::error& why) { then(!shows_absence(why)); });
 }
 
 } // namespace roscell

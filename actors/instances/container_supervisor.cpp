@@ -1,7 +1,7 @@
 #include "actors/instances/container_supervisor.hpp"
 
-#include "actors/house/limits.hpp"
-#include "actors/house/wall_clock.hpp"
+#include "actors/core/limits.hpp"
+#include "actors/core/wall_clock.hpp"
 #include "actors/instances/instance_id.hpp"
 #include "actors/instances/instance_removal.hpp"
 #include "actors/instances/instance_upkeep.hpp"
@@ -68,7 +68,7 @@ caf::result<instance_deployed> begin(container_supervisor_self self,
   x = supervised_instance{};
   x.row.spec = spec;
   x.row.node = self->state.config.node;
-  x.row.trouble = self->state.trouble;
+  x.row.problem = self->state.problem;
   x.started_in = self->state.config.boot;
   x.began_unix_ms = unix_now_ms();
   x.confirmed = true;
@@ -129,7 +129,7 @@ json summary(const container_supervisor_state& st) {
           {"deployments_waiting", deployers},
           {"removals_waiting", st.removals.size()},
           {"runtime_deaths", st.runtime_deaths},
-          {"runtime_trouble", st.trouble}};
+          {"runtime_trouble", st.problem}};
 }
 
 void on_changed(container_supervisor_self self, const instance_row& row) {
@@ -141,8 +141,8 @@ void on_changed(container_supervisor_self self, const instance_row& row) {
       row.state != x->row.state || row.since_unix_ms != x->row.since_unix_ms;
   const auto before = std::exchange(x->row, row);
   // These are heard here. A step of the build is no word of the skill.
-  x->row.trouble = before.trouble;
-  x->row.figures = before.figures;
+  x->row.problem = before.problem;
+  x->row.metrics = before.metrics;
   if (before.state != instance_state::building
       || row.state == instance_state::building)
     x->row.status = before.status;
@@ -155,7 +155,7 @@ void on_changed(container_supervisor_self self, const instance_row& row) {
     on_removal_waits(self, x->row);
   if (row.state == instance_state::running) {
     if (before.state != instance_state::running)
-      x->figures.begin_run();
+      x->metrics.begin_run();
     x->deaths = 0;
     for (auto& promise : std::exchange(x->deployers, {}))
       promise.deliver(instance_deployed{x->row});
@@ -166,42 +166,43 @@ void on_changed(container_supervisor_self self, const instance_row& row) {
 
 /// What its skill says, and what the cell has to know of it unasked.
 void hear_status(container_supervisor_self self, supervised_instance& x,
-                 const instance_notified& fact) {
+                 const instance_notified& event) {
   const auto now = self->clock().now();
-  x.row.status = fact.status;
-  x.figures.hear(fact.status, now, fact.frames, fact.remark);
-  x.row.figures = x.figures.known();
+  x.row.status = event.status;
+  x.metrics.hear(event.status, now, event.frames, event.remark);
+  x.row.metrics = x.metrics.known();
   if (x.row.state == instance_state::running && x.quiet.hear(x.row, now)
       && self->state.listener)
     self->send(self->state.listener, instance_changed{x.row});
 }
 
 void on_notified(container_supervisor_self self,
-                 const instance_notified& fact) {
-  auto* x = find_instance(self, fact.instance);
+                 const instance_notified& event) {
+  auto* x = find_instance(self, event.instance);
   if (x == nullptr || !x->actor)
     return;
-  if (!fact.status.empty())
-    hear_status(self, *x, fact);
-  if (fact.safe != safe_word::untold)
-    x->row.safe = fact.safe;
-  self->send(x->actor, fact);
+  if (!event.status.empty())
+    hear_status(self, *x, event);
+  if (event.safe != safe_word::untold)
+    x->row.safe = event.safe;
+  self->send(x->actor, event);
 }
 
-void on_exited(container_supervisor_self self, const container_exited& fact) {
-  if (auto* x = find_instance(self, fact.instance); x != nullptr && x->actor)
-    self->send(x->actor, fact);
+void on_exited(container_supervisor_self self, const container_exited& event) {
+  if (auto* x = find_instance(self, event.instance); x != nullptr && x->actor)
+    self->send(x->actor, event);
 }
 
-void on_troubled(container_supervisor_self self, const std::string& trouble) {
+void on_runtime_problem(container_supervisor_self self,
+                        const std::string& problem) {
   auto& st = self->state;
-  if (st.trouble == trouble)
+  if (st.problem == problem)
     return;
-  st.trouble = trouble;
+  st.problem = problem;
   for (auto& [instance, x] : st.instances) {
-    if (!is_live(x.row.state) && x.row.trouble.empty())
+    if (!is_live(x.row.state) && x.row.problem.empty())
       continue;
-    x.row.trouble = is_live(x.row.state) ? trouble : std::string{};
+    x.row.problem = is_live(x.row.state) ? problem : std::string{};
     if (st.listener)
       self->send(st.listener, instance_changed{x.row});
   }
@@ -238,7 +239,9 @@ container_supervisor(container_supervisor_self self,
       },
       [self](const container_exited& x) { on_exited(self, x); },
       [self](const instance_notified& x) { on_notified(self, x); },
-      [self](const runtime_troubled& x) { on_troubled(self, x.message); },
+      [self](const runtime_problem_changed& x) {
+        on_runtime_problem(self, x.message);
+      },
       [self](const instance_changed& x) { on_changed(self, x.instance); },
   };
 }

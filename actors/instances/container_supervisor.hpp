@@ -1,11 +1,11 @@
 #pragma once
 
+#include "actors/core/actor_context.hpp"
 #include "actors/edge/process/environment_file.hpp"
 #include "actors/edge/process/skill_grants.hpp"
-#include "actors/house/house.hpp"
 #include "actors/instances/life/quiet_notice.hpp"
 #include "actors/instances/skill_catalogue.hpp"
-#include "actors/instances/status_figures.hpp"
+#include "actors/instances/skill_metrics.hpp"
 #include "messages/messages.hpp"
 
 #include <caf/error.hpp>
@@ -20,7 +20,7 @@
 namespace roscell {
 
 struct container_supervisor_config {
-  house context;
+  actor_context context;
   std::string node;    ///< The node's name, for rows.
   std::string address; ///< Where it is, without a port.
   shared_skill_catalogue skills;
@@ -45,21 +45,22 @@ struct container_supervisor_config {
   /// one on. A member is told it later, by `use_environment`, which may be
   /// empty.
   std::map<std::string, std::string> environment;
-  bool learns_place = false;           ///< It is such a member.
-  environment_teller tell_environment; ///< Empty: no instance can be told.
-  shared_skill_grants grants; ///< Null: nothing is granted to any skill.
+  bool learns_place = false; ///< It is such a member.
+  environment_writer
+      write_environment_update; ///< Empty: no instance can be told.
+  shared_skill_grants grants;   ///< Null: nothing is granted to any skill.
 };
 
 /// An instance as the supervisor sees it.
 struct supervised_instance {
   instance_row row;
-  figures_book figures;       ///< What its skill has told.
-  quiet_notice quiet;         ///< What of it the cell has been told.
-  skill_instance_actor actor; ///< Null once the instance has ended.
+  skill_metrics_table metrics; ///< What its skill has told.
+  quiet_notice quiet;          ///< What of it the cell has been told.
+  skill_instance_actor actor;  ///< Null once the instance has ended.
   std::vector<caf::typed_response_promise<instance_deployed>> deployers;
   bool removing = false;
   bool confirmed = false;    ///< The coordinator in contact wants it.
-  bool forced = false;       ///< Without waiting until it is safe.
+  bool forced = false;       ///< Without waiting until it is stop-safe.
   bool cleaning = false;     ///< What it left is being removed.
   bool acknowledged = false; ///< The coordinator keeps that it has ended.
   bool log_dropped = false;  ///< What it left is gone, or is going.
@@ -84,7 +85,7 @@ struct container_supervisor_state {
   container_supervisor_config config;
   runtime_actor runtime;
   int runtime_deaths = 0;
-  std::string trouble; ///< Of the engine under the runtime; empty: none.
+  std::string problem; ///< Of the engine under the runtime; empty: none.
   instance_listener_actor listener;
   bool out_of_contact = true;  ///< And the next word tells what is wanted.
   int64_t contact_boot_ms = 0; ///< Of the last word that reached the cell.

@@ -6,13 +6,13 @@
 
 namespace roscell {
 
-void keep_fence(const house& context, const std::filesystem::path& file,
-                const fence_container& wish, bool& fails) {
-  const auto why = move_fence(file, wish.fence_boot_ms);
+void keep_fence(const actor_context& context, const std::filesystem::path& file,
+                const fence_container& request, bool& fails) {
+  const auto why = move_fence(file, request.fence_boot_ms);
   const auto failed_before = std::exchange(fails, why.has_value());
   if (why && !failed_before)
-    context.tell("fence_failed", wish.instance,
-                 {{"reason", why->message}, {"hint", why->hint}});
+    context.publish_event("fence_failed", request.instance,
+                          {{"reason", why->message}, {"hint", why->hint}});
 }
 
 } // namespace roscell

@@ -1,7 +1,7 @@
 #include "actors/instances/instance_environment.hpp"
 
-#include "actors/house/limits.hpp"
-#include "actors/instances/life/health_book.hpp"
+#include "actors/core/limits.hpp"
+#include "actors/instances/life/health_table.hpp"
 #include "messages/codec/json_codec.hpp"
 
 namespace roscell {
@@ -35,7 +35,8 @@ instance_environment(const instance_spec& spec,
       {"ROSCELL_OUTPUTS", text_of(spec.output)},
       {"ROSCELL_PARAMETERS", spec.parameters.empty() ? "{}" : spec.parameters},
       {"WATCHDOG_USEC",
-       std::to_string(microseconds{limits::instance::told_watchdog}.count())},
+       std::to_string(
+           microseconds{limits::instance::announced_watchdog}.count())},
   };
   for (const auto& [name, value] : contract)
     result[name] = value;

@@ -1,6 +1,6 @@
 #include "actors/instances/instance_removal.hpp"
 
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 #include "actors/instances/logs/supervised_logs.hpp"
 
 #include <caf/result.hpp>
@@ -169,12 +169,12 @@ void acknowledge_ends(container_supervisor_pointer self,
 
 caf::result<instances_removed>
 remove_instances(container_supervisor_pointer self,
-                 const instance_removal& wish) {
+                 const instance_removal& request) {
   auto& st = self->state;
   pending_removal removal;
   for (const auto& [instance, x] : st.instances)
-    if (x.row.spec.task == wish.task
-        && (wish.instance.empty() || wish.instance == instance))
+    if (x.row.spec.task == request.task
+        && (request.instance.empty() || request.instance == instance))
       removal.left.insert(instance);
   if (removal.left.empty())
     return instances_removed{};
@@ -185,13 +185,13 @@ remove_instances(container_supervisor_pointer self,
   for (const auto& instance : wanted) {
     auto& x = st.instances.at(instance);
     x.removing = true;
-    x.forced = x.forced || wish.force;
+    x.forced = x.forced || request.force;
     if (x.actor)
       caf::anon_send(x.actor, stop_instance{"removed", x.forced});
     else
       clean_instance(self, instance);
     // It was asked before. One that is gone by now is no loss.
-    if (!wish.force && x.row.unsafe_since_unix_ms > 0)
+    if (!request.force && x.row.unsafe_since_unix_ms > 0)
       on_removal_waits(self, instance_row{x.row});
   }
   return promise;

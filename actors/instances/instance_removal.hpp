@@ -29,14 +29,15 @@ void trim_ended(container_supervisor_pointer self);
 void acknowledge_ends(container_supervisor_pointer self,
                       const std::vector<std::string>& instances);
 
-/// An instance that is to go is not safe yet: whoever wants it gone hears that.
+/// An instance that is to go is not stop-safe yet: whoever wants it gone hears
+/// that.
 void on_removal_waits(container_supervisor_pointer self,
                       const instance_row& row);
 
 /// Ends one instance or all of a task, and replies when they are gone or wait
-/// to be safe.
+/// to be stop-safe.
 caf::result<instances_removed>
 remove_instances(container_supervisor_pointer self,
-                 const instance_removal& wish);
+                 const instance_removal& request);
 
 } // namespace roscell

@@ -1,10 +1,10 @@
 #include "actors/instances/instance_upkeep.hpp"
 
-#include "actors/house/limits.hpp"
-#include "actors/house/wall_clock.hpp"
-#include "actors/house/watching.hpp"
+#include "actors/core/limits.hpp"
+#include "actors/core/wall_clock.hpp"
+#include "actors/core/watching.hpp"
 #include "actors/instances/instance_id.hpp"
-#include "actors/instances/instance_words.hpp"
+#include "actors/instances/instance_text.hpp"
 #include "actors/instances/life/skill_instance.hpp"
 #include "messages/failure.hpp"
 
@@ -79,7 +79,7 @@ void spawn_actor(container_supervisor_pointer self, supervised_instance& x,
       st.config.boot,
       adopt ? x.started_in : "",
       renewal,
-      st.config.tell_environment,
+      st.config.write_environment_update,
       st.config.grants,
       st.config.node};
   if (!renewal.empty())
@@ -103,8 +103,8 @@ namespace {
 void on_instance_died(container_supervisor_pointer self,
                       const std::string& instance, supervised_instance& x) {
   auto& st = self->state;
-  st.config.context.tell("skill_instance_died", instance,
-                         {{"deaths", x.deaths + 1}});
+  st.config.context.publish_event("skill_instance_died", instance,
+                                  {{"deaths", x.deaths + 1}});
   if (++x.deaths <= limits::instance::most_deaths)
     return spawn_actor(self, x, true);
   x.row.state = instance_state::failed;
@@ -130,8 +130,8 @@ void on_runtime_died(container_supervisor_pointer self,
   auto& st = self->state;
   if (++st.runtime_deaths > limits::instance::most_deaths)
     return self->quit(reason);
-  st.config.context.tell("runtime_died", st.config.node,
-                         {{"deaths", st.runtime_deaths}});
+  st.config.context.publish_event("runtime_died", st.config.node,
+                                  {{"deaths", st.runtime_deaths}});
   start_runtime(self);
   for (auto& [instance, x] : st.instances)
     if (x.actor)
@@ -181,19 +181,20 @@ void take_place(container_supervisor_pointer self,
   }
 }
 
-void on_contact(container_supervisor_pointer self, const contact_proven& fact) {
+void on_contact(container_supervisor_pointer self,
+                const contact_proven& event) {
   auto& known = self->state.contact_boot_ms;
-  known = std::max(known, fact.boot_ms);
+  known = std::max(known, event.boot_ms);
   if (std::exchange(self->state.out_of_contact, false))
     for (auto& [instance, x] : self->state.instances)
       x.confirmed = false;
-  for (const auto& instance : fact.kept)
+  for (const auto& instance : event.kept)
     if (auto* x = find_instance(self, instance))
       x->confirmed = true;
   for (const auto& [instance, x] : self->state.instances) {
-    if (!heeds_contact(x, !fact.kept.empty()))
+    if (!heeds_contact(x, !event.kept.empty()))
       continue;
-    contact_proven own{fact.boot_ms, {}};
+    contact_proven own{event.boot_ms, {}};
     if (x.confirmed)
       own.kept.push_back(instance);
     self->send(x.actor, std::move(own));
@@ -218,7 +219,7 @@ void restore(container_supervisor_pointer self) {
     x.started_in = word_of(st.config.started_in, x.row.spec.instance);
     // Nobody knows what it has done meanwhile.
     if (is_live(x.row.state))
-      x.row.figures = {};
+      x.row.metrics = {};
     if (is_live(x.row.state))
       spawn_actor(self, x, true,
                   st.environment.empty() ? std::string{}
@@ -242,11 +243,11 @@ void end_strays(container_supervisor_pointer self) {
                   remove_container{instance, {}, false, {about}})
         .then(
             [=](const container_removed&) {
-              context.tell("stray_ended", instance);
+              context.publish_event("stray_ended", instance);
             },
             [=](const caf::error& why) {
-              context.tell("stray_removal_failed", instance,
-                           {{"reason", to_failure(why).message}});
+              context.publish_event("stray_removal_failed", instance,
+                                    {{"reason", to_failure(why).message}});
             });
   }
 }

@@ -34,7 +34,7 @@ void start_runtime(container_supervisor_pointer self);
 void on_down(container_supervisor_pointer self, const caf::down_msg& down);
 
 /// A word of this node has reached its coordinator.
-void on_contact(container_supervisor_pointer self, const contact_proven& fact);
+void on_contact(container_supervisor_pointer self, const contact_proven& event);
 void on_contact_lost(container_supervisor_pointer self);
 
 /// Takes up what the store knew when the node started.

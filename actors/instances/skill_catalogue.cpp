@@ -1,9 +1,9 @@
 #include "actors/instances/skill_catalogue.hpp"
 
+#include "actors/core/limits.hpp"
 #include "actors/edge/disk/folder_hash.hpp"
 #include "actors/edge/disk/small_file.hpp"
 #include "actors/edge/io/crypto.hpp"
-#include "actors/house/limits.hpp"
 #include "actors/instances/skill_descriptor_file.hpp"
 #include "schemas/utf8.hpp"
 
@@ -28,12 +28,12 @@ constexpr const char* actor_engine = "actor";
 /// Marks the hash as that of an actor's descriptor.
 constexpr std::string_view actor_key = "roscell actor skill";
 
-std::string problem_words(const edge_error& why) {
+std::string skill_problem_text(const edge_error& why) {
   return why.hint.empty() ? why.message : why.message + " (" + why.hint + ")";
 }
 
 /// Which of them is meant cannot be known.
-std::string several_words(const std::vector<fs::path>& files) {
+std::string several_files_text(const std::vector<fs::path>& files) {
   std::string names;
   for (const auto& x : files)
     names += (names.empty() ? "" : " and ") + x.filename().string();
@@ -108,7 +108,7 @@ void skill_catalogue::add_folder(const fs::path& folder) {
     return blame(path, "has too long a path");
   const auto files = descriptor_files(path);
   if (files.size() > 1)
-    return blame(path, several_words(files));
+    return blame(path, several_files_text(files));
   if (files.empty())
     return blame(path, "holds no skill.json, skill.yaml or skill.yml");
   const auto& file = files.front();
@@ -150,7 +150,7 @@ skill_catalogue::add_actor_skill(const std::string& text) {
 bool skill_catalogue::blame_program(const fs::path& path,
                                     const checked_program& program) {
   for (const auto& why : program.problems)
-    blame(descriptor_of(path), problem_words(why), "/entry_point/0");
+    blame(descriptor_of(path), skill_problem_text(why), "/entry_point/0");
   return !program.problems.empty();
 }
 
@@ -177,7 +177,7 @@ void skill_catalogue::add_build(const fs::path& path,
 
 void skill_catalogue::add_content(const fs::path& path, installed_skill skill) {
   // Looked at first: what is edited while it is hashed looks otherwise later.
-  const auto look = look_at_folder(path);
+  const auto look = read_folder(path);
   const auto hash = hash_folder(path);
   for (const auto* why :
        {std::get_if<edge_error>(&look), std::get_if<edge_error>(&hash)})
@@ -185,10 +185,11 @@ void skill_catalogue::add_content(const fs::path& path, installed_skill skill) {
       return blame(path, why->message);
   skill.hash = std::get<std::string>(hash);
   skill.version = version_of(path, skill);
-  skill.added_unix_ms = std::get<folder_look>(look).changed_unix_ms;
+  skill.added_unix_ms = std::get<folder_fingerprint>(look).changed_unix_ms;
   // Of two equal folders the first is as good as the other.
-  skills_.emplace(skill.hash,
-                  skill_folder{path, std::get<folder_look>(look).state, skill});
+  skills_.emplace(
+      skill.hash,
+      skill_folder{path, std::get<folder_fingerprint>(look).state, skill});
 }
 
 void skill_catalogue::blame(const fs::path& path, const std::string& message,
@@ -210,22 +211,22 @@ std::vector<installed_skill> skill_catalogue::skills() const {
   return result;
 }
 
-std::vector<skill_problem> skill_catalogue::told_problems() const {
+std::vector<skill_problem> skill_catalogue::published_problems() const {
   std::vector<skill_problem> result;
   for (size_t i = 0;
-       i < std::min(problems_.size(), limits::skill::told_problems); ++i) {
+       i < std::min(problems_.size(), limits::skill::published_problems); ++i) {
     auto x = problems_[i];
     for (auto* text : {&x.path, &x.where, &x.message})
-      *text = valid_utf8(text->substr(0, limits::skill::told_text_bytes));
+      *text = valid_utf8(text->substr(0, limits::skill::reported_text_bytes));
     result.push_back(std::move(x));
   }
   return result;
 }
 
-void skill_catalogue::tell_problems(const house& context) const {
+void skill_catalogue::publish_problems(const actor_context& context) const {
   for (const auto& x : problems_)
-    context.tell("skill_refused", x.path,
-                 {{"where", x.where}, {"message", x.message}});
+    context.publish_event("skill_refused", x.path,
+                          {{"where", x.where}, {"message", x.message}});
 }
 
 } // namespace roscell

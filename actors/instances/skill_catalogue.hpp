@@ -1,6 +1,6 @@
 #pragma once
 
-#include "actors/house/house.hpp"
+#include "actors/core/actor_context.hpp"
 #include "actors/instances/skill_program.hpp"
 #include "messages/skill.hpp"
 #include "schemas/schema_error.hpp"
@@ -16,7 +16,7 @@ namespace roscell {
 /// A skill that this node can run.
 struct skill_folder {
   std::filesystem::path path; ///< Absolute, without links.
-  std::string look;           ///< When it was hashed: see folder_look.
+  std::string look;           ///< When it was hashed: see folder_fingerprint.
   installed_skill skill;
   /// Its instances are actors of this process; there is no folder.
   bool in_process = false;
@@ -52,10 +52,10 @@ public:
   }
 
   /// The first of them, short enough for a message.
-  std::vector<skill_problem> told_problems() const;
+  std::vector<skill_problem> published_problems() const;
 
-  /// Records a fact for every problem.
-  void tell_problems(const house& context) const;
+  /// Records an event for every problem.
+  void publish_problems(const actor_context& context) const;
 
 private:
   void scan_directory(const std::filesystem::path& directory);

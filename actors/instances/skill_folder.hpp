@@ -7,10 +7,11 @@
 /// build than the one that was chosen.
 namespace roscell {
 
-/// Whether the folder still holds the build that `wish` names. Reads its files
-/// only where it looks different than when it was hashed. Blocks on the disk.
+/// Whether the folder still holds the build that `request` names. Reads its
+/// files only where it looks different than when it was hashed. Blocks on the
+/// disk.
 ///
 /// Errors: engine_failed (it was edited; it cannot be read).
-edge_result<bool> check_build(const prepare_image& wish);
+edge_result<bool> check_build(const prepare_image& request);
 
 } // namespace roscell

@@ -2,7 +2,7 @@
 
 #include "actors/edge/engine/program_libraries.hpp"
 #include "actors/edge/host/host_probe.hpp"
-#include "actors/edge/program/elf_facts.hpp"
+#include "actors/edge/program/elf_properties.hpp"
 #include "actors/instances/skill_descriptor_file.hpp"
 
 #include <sys/utsname.h>
@@ -95,9 +95,9 @@ std::string interpreter_of_script(const fs::path& program) {
 }
 
 /// Why what starts a program keeps it from running, if it does.
-std::optional<edge_error> interpreter_problem(const fs::path& program,
-                                              const elf_facts& facts) {
-  auto interpreter = facts.interpreter;
+std::optional<edge_error>
+interpreter_problem(const fs::path& program, const elf_properties& properties) {
+  auto interpreter = properties.interpreter;
   if (interpreter.empty())
     interpreter = interpreter_of_script(program);
   if (interpreter.empty() || ::access(interpreter.c_str(), X_OK) == 0)
@@ -145,8 +145,8 @@ checked_program check_program(const fs::path& skill_dir,
     return result;
   }
   const auto& path = std::get<fs::path>(program);
-  const auto facts = read_elf(path).value_or(elf_facts{});
-  result.made_for = facts.architecture;
+  const auto properties = read_elf(path).value_or(elf_properties{});
+  result.made_for = properties.architecture;
   const auto deployed = deployed_on(models);
   if (!runs_on(result.made_for, host.architecture))
     result.problems.push_back({error_code::engine_failed,
@@ -166,7 +166,7 @@ checked_program check_program(const fs::path& skill_dir,
   if (!result.problems.empty() || host.architecture != own_architecture())
     return result;
   if (host.runs_processes)
-    if (auto why = interpreter_problem(path, facts))
+    if (auto why = interpreter_problem(path, properties))
       result.problems.push_back(std::move(*why));
   if (!has_own_libraries(models))
     if (auto why = library_problem(path, host.runs_processes))

@@ -1,6 +1,6 @@
 #include "actors/membership/coordinators_seen.hpp"
 
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 
 namespace roscell {
 
@@ -14,7 +14,7 @@ bool coordinators_seen::see(const node_presence& who) {
     known->second = who;
     return true;
   }
-  if (by_uuid_.size() >= limits::strangers::place_givers) {
+  if (by_uuid_.size() >= limits::unauthenticated_peers::slot_arbiters) {
     if (silent_.empty())
       return false;
     vanish(std::string{*silent_.rbegin()});
@@ -33,7 +33,7 @@ void coordinators_seen::clear() {
   silent_.clear();
 }
 
-void coordinators_seen::mark_silent(const std::string& uuid) {
+void coordinators_seen::mark_unresponsive(const std::string& uuid) {
   if (by_uuid_.count(uuid) > 0)
     silent_.insert(uuid);
 }
@@ -42,7 +42,7 @@ void coordinators_seen::forgive() {
   silent_.clear();
 }
 
-const node_presence* coordinators_seen::place_giver() const {
+const node_presence* coordinators_seen::slot_arbiter() const {
   for (const auto& [uuid, who] : by_uuid_)
     if (silent_.count(uuid) == 0)
       return &who;

@@ -21,14 +21,14 @@ public:
   void clear();
 
   /// It did not answer: the others are asked first.
-  void mark_silent(const std::string& uuid);
+  void mark_unresponsive(const std::string& uuid);
 
   /// All are worth a try again.
   void forgive();
 
   /// The one that hands out places: the lowest UUID, as every node computes it,
   /// of those that are not silent. Null if there is none.
-  const node_presence* place_giver() const;
+  const node_presence* slot_arbiter() const;
 
   size_t size() const {
     return by_uuid_.size();

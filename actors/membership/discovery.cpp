@@ -1,11 +1,11 @@
 #include "actors/membership/discovery.hpp"
 
+#include "actors/core/edge_failure.hpp"
+#include "actors/core/limits.hpp"
 #include "actors/edge/dds/announcement.hpp"
 #include "actors/edge/io/name_lookup.hpp"
 #include "actors/edge/io/plain_text.hpp"
 #include "actors/edge/io/socket_address.hpp"
-#include "actors/house/edge_failure.hpp"
-#include "actors/house/limits.hpp"
 #include "actors/membership/program_servers.hpp"
 #include "messages/failure.hpp"
 
@@ -19,18 +19,18 @@ namespace {
 
 /// Whether this version can talk to who announces this. Coordinators of
 /// another version are told of as an event.
-bool speaks_with(const house& context, const announcement& said) {
+bool speaks_with(const actor_context& context, const announcement& said) {
   if (said.protocol_version.substr(0, 2) == "1.")
     return true;
   if (said.role == "coordinator")
-    context.tell("coordinator_ignored", said.node,
-                 {{"protocol_version", said.protocol_version},
-                  {"reason", "this node speaks version 1.0"}});
+    context.publish_event("coordinator_ignored", said.node,
+                          {{"protocol_version", said.protocol_version},
+                           {"reason", "this node speaks version 1.0"}});
   return false;
 }
 
-/// Whether a stranger's words can be what they claim to be: they end up in
-/// replies, which have schemas.
+/// Whether an unauthenticated peer's words can be what they claim to be: they
+/// end up in replies, which have schemas.
 bool is_sound(const announcement& said) {
   const bool coordinates = said.role == "coordinator";
   const bool free = said.role == "independent" || said.role == "orphaned";
@@ -45,7 +45,8 @@ bool is_sound(const announcement& said) {
 }
 
 /// On the thread of the inquiry: tells of the coordinator behind a server.
-void on_server(const house& context, const discovery_listener_actor& listener,
+void on_server(const actor_context& context,
+               const discovery_listener_actor& listener,
                const server_sighting& sighting) {
   const auto said = decode(sighting.announcement);
   if (!said || said->role != "coordinator" || !speaks_with(context, *said))
@@ -55,15 +56,15 @@ void on_server(const house& context, const discovery_listener_actor& listener,
 }
 
 caf::result<caf::ok_atom> find(discovery_self self,
-                               const find_coordinator& wish) {
+                               const find_coordinator& request) {
   auto& st = self->state;
-  const auto server = parse_socket_address(wish.address);
+  const auto server = parse_socket_address(request.address);
   if (!server)
-    return fail(error_code::unreachable, "'" + wish.address
+    return fail(error_code::unreachable, "'" + request.address
                                              + "' is not an address like "
                                                "10.0.0.1:11811");
   st.inquiry.reset();
-  st.looking_for = wish.address;
+  st.looking_for = request.address;
   server_inquiry_options options;
   options.server_address = server->address;
   options.server_port = server->port;
@@ -111,15 +112,15 @@ announcement to_announcement(const node_presence& x) {
 std::vector<std::string> find_peers(discovery_self self) {
   auto& st = self->state;
   auto found = await_hosts(st.config.peers, limits::discovery::peer_names);
-  if (found.trouble.empty()) {
+  if (found.problem.empty()) {
     st.pause.reset();
   } else {
-    if (st.unresolved != found.trouble)
-      st.context.tell("edge_trouble", st.config.node,
-                      {{"message", "--peer: " + found.trouble}});
+    if (st.unresolved != found.problem)
+      st.context.publish_event("edge_trouble", st.config.node,
+                               {{"message", "--peer: " + found.problem}});
     st.timer.set(self, self->clock().now() + st.pause.next());
   }
-  st.unresolved = std::move(found.trouble);
+  st.unresolved = std::move(found.problem);
   return std::move(found.addresses);
 }
 
@@ -144,14 +145,14 @@ void appear(discovery_self self, std::vector<std::string> peers) {
   };
   auto opened = public_presence::open(options, std::move(events));
   if (auto* why = std::get_if<edge_error>(&opened))
-    return st.context.tell("edge_trouble", st.config.node,
-                           {{"message", why->message}});
+    return st.context.publish_event("edge_trouble", st.config.node,
+                                    {{"message", why->message}});
   st.presence = std::get<std::unique_ptr<public_presence>>(std::move(opened));
 }
 
-void announce(discovery_self self, const announce_presence& wish) {
+void announce(discovery_self self, const announce_presence& request) {
   auto& st = self->state;
-  st.announced = encode(to_announcement(wish.self));
+  st.announced = encode(to_announcement(request.self));
   if (st.presence) {
     st.presence->update(st.announced);
   } else {
@@ -182,7 +183,7 @@ void withdraw(discovery_self self) {
 } // namespace
 
 discovery_actor::behavior_type discovery(discovery_self self,
-                                         const house& context,
+                                         const actor_context& context,
                                          const discovery_config& config) {
   self->state.context = context;
   self->state.config = config;
@@ -192,17 +193,17 @@ discovery_actor::behavior_type discovery(discovery_self self,
                          {"serves", self->state.server != nullptr},
                          {"announced", self->state.announced}});
       },
-      [self](const find_coordinator& wish) { return find(self, wish); },
+      [self](const find_coordinator& request) { return find(self, request); },
       [self](const forget_coordinator&) { forget(self); },
-      [self](const serve_programs& wish) {
-        return serve_programs_of_node(self, wish);
+      [self](const serve_programs& request) {
+        return serve_programs_of_node(self, request);
       },
       [self](const stop_serving&) { self->state.server.reset(); },
-      [self](const follow_server& wish) {
-        follow_another_server(self, wish);
+      [self](const follow_server& request) {
+        follow_another_server(self, request);
         return caf::ok_atom_v;
       },
-      [self](const announce_presence& wish) { announce(self, wish); },
+      [self](const announce_presence& request) { announce(self, request); },
       [self](const withdraw_presence&) { withdraw(self); },
       [self](caf::tick_atom, uint64_t number) { on_tick(self, number); },
   };

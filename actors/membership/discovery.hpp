@@ -1,11 +1,11 @@
 #pragma once
 
+#include "actors/core/actor_context.hpp"
+#include "actors/core/alarm.hpp"
+#include "actors/core/backoff.hpp"
 #include "actors/edge/dds/discovery_server.hpp"
 #include "actors/edge/dds/public_presence.hpp"
 #include "actors/edge/dds/server_inquiry.hpp"
-#include "actors/house/alarm.hpp"
-#include "actors/house/backoff.hpp"
-#include "actors/house/house.hpp"
 #include "messages/messages.hpp"
 
 #include <chrono>
@@ -37,7 +37,7 @@ struct discovery_config {
 struct discovery_state {
   static constexpr const char* name = "discovery";
 
-  house context;
+  actor_context context;
   discovery_config config;
   std::string looking_for;
   std::unique_ptr<server_inquiry> inquiry;
@@ -60,6 +60,6 @@ struct discovery_state {
 /// coordinator_ignored.
 discovery_actor::behavior_type
 discovery(discovery_actor::stateful_pointer<discovery_state> self,
-          const house& context, const discovery_config& config);
+          const actor_context& context, const discovery_config& config);
 
 } // namespace roscell

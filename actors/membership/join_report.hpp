@@ -1,6 +1,6 @@
 #pragma once
 
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 #include "messages/node.hpp"
 
 #include <chrono>
@@ -21,7 +21,7 @@ public:
 
   /// What is wrong. True if it is to be told now: it is news, or what was told
   /// last is some time ago, ever longer.
-  bool note(const std::string& trouble, const std::string& hint,
+  bool note(const std::string& problem, const std::string& hint,
             time_point now);
 
   /// When what has been told is worth telling again.
@@ -33,13 +33,13 @@ public:
   void clear();
 
   /// At most one: none if no attempt has begun.
-  const std::vector<join_trouble>& rows() const {
+  const std::vector<join_problem>& rows() const {
     return rows_;
   }
 
 private:
-  std::vector<join_trouble> rows_;
-  std::set<std::string> told_;
+  std::vector<join_problem> rows_;
+  std::set<std::string> reported_;
   std::chrono::milliseconds pause_ = limits::membership::complaint_pause;
   time_point next_; ///< When what was told before is told again.
 };

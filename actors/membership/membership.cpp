@@ -1,6 +1,6 @@
 #include "actors/membership/membership.hpp"
 
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 #include "actors/membership/membership_steps.hpp"
 
 #include <algorithm>
@@ -24,9 +24,9 @@ void set_timer(self_pointer self) {
     st.timer.set(self, when);
 }
 
-void tell(self_pointer self, const char* what, json data) {
+void publish_event(self_pointer self, const char* what, json data) {
   const auto& st = self->state;
-  st.context.tell(what, st.config.identity.name, data);
+  st.context.publish_event(what, st.config.identity.name, data);
 }
 
 void finish_leaving(self_pointer self) {
@@ -35,16 +35,16 @@ void finish_leaving(self_pointer self) {
   st.phase = phase::resting;
   drop_session(self, "it leaves the cell");
   self->send(st.parts.discovery, forget_coordinator{});
-  st.standing = node_state::independent;
+  st.state = node_state::independent;
   st.switching.reset();
   if (auto cell = std::exchange(st.cell, {}); !cell.empty())
-    tell(self, "cell_left", {{"cell", cell}});
+    publish_event(self, "cell_left", {{"cell", cell}});
   stop_programs(self);
   st.cell_uuid.clear();
   st.coordinator.clear();
   st.address.clear();
   st.incarnation = 0;
-  st.trouble.clear();
+  st.problem.clear();
   st.report.clear();
   st.pause.reset();
   for (auto& leaver : std::exchange(st.leavers, {}))
@@ -84,19 +84,20 @@ void leave(self_pointer self, const std::string& reason) {
   set_timer(self);
 }
 
-caf::result<node_departed> on_leave(self_pointer self, const leave_cell& wish) {
+caf::result<node_departed> on_leave(self_pointer self,
+                                    const leave_cell& request) {
   auto promise = self->make_response_promise<node_departed>();
   self->state.leavers.push_back(promise);
   self->state.wanted.clear();
   self->state.seeking = false;
-  leave(self, wish.reason);
+  leave(self, request.reason);
   return promise;
 }
 
-void on_join(self_pointer self, const join_cell& wish) {
+void on_join(self_pointer self, const join_cell& request) {
   auto& st = self->state;
-  const bool same = st.wanted == wish.discovery_server;
-  st.wanted = wish.discovery_server;
+  const bool same = st.wanted == request.discovery_server;
+  st.wanted = request.discovery_server;
   if (!same)
     st.origin = join_origin::given;
   if (st.phase == phase::leaving)
@@ -113,7 +114,7 @@ void on_seek(self_pointer self) {
   auto& st = self->state;
   st.seeking = true;
   if (st.phase == phase::resting)
-    seek_place(self);
+    seek_slot(self);
 }
 
 /// Takes up what an earlier run has stored, if the node is started as then.
@@ -134,18 +135,18 @@ void resume(self_pointer self) {
   st.origin = st.stored->origin;
   st.cell = st.stored->cell;
   st.cell_uuid = st.stored->cell_uuid;
-  st.standing = node_state::orphaned;
+  st.state = node_state::orphaned;
   resume_programs(self);
   begin_attempt(self);
 }
 
-void on_instance_changed(self_pointer self, const instance_changed& fact) {
+void on_instance_changed(self_pointer self, const instance_changed& event) {
   auto& st = self->state;
   // A registration carries all that was before it.
   if (st.phase == phase::joined || st.phase == phase::leaving)
-    notify(self, fact);
+    notify(self, event);
   else if (st.phase == phase::registering && st.instances)
-    st.unsent[fact.instance.spec.instance] = fact;
+    st.unsent[event.instance.spec.instance] = event;
 }
 
 void on_tick(self_pointer self, uint64_t number) {
@@ -158,16 +159,16 @@ void on_tick(self_pointer self, uint64_t number) {
   else if (st.phase == phase::searching && now >= st.deadline)
     on_search_over(self);
   else if (is_looking(st) && now >= st.look_due)
-    look_around(self);
+    seek_coordinators(self);
   st.frames.calls().expire(now);
   if (!keep_lease(self))
-    on_session_lost(self, silence_of_a_lease());
-  look_for_coordinator(self);
+    on_session_lost(self, missed_heartbeats_text());
+  seek_coordinator(self);
   set_timer(self);
 }
 
 actor_state describe(const membership_status& st) {
-  return state_of({{"standing", st.standing},
+  return state_of({{"standing", st.state},
                    {"phase", st.phase},
                    {"wanted", st.wanted},
                    {"origin", st.origin},
@@ -179,18 +180,18 @@ actor_state describe(const membership_status& st) {
                    {"incarnation", st.incarnation},
                    {"epoch", st.config.identity.epoch},
                    {"attempt", st.attempt},
-                   {"trouble", st.trouble},
+                   {"trouble", st.problem},
                    {"pending_calls", st.frames.calls().pending()}});
 }
 
 membership_state answer(const membership_status& st) {
-  const bool member = st.standing == node_state::member;
+  const bool member = st.state == node_state::member;
   return {st.config.identity,
-          st.standing,
+          st.state,
           st.cell,
           st.address,
           st.wanted,
-          member ? std::vector<join_trouble>{} : st.report.rows(),
+          member ? std::vector<join_problem>{} : st.report.rows(),
           program_environment(st)};
 }
 
@@ -200,7 +201,8 @@ bool takes_up_earlier_cell(const membership_config& config) {
   return config.restored && config.restored->configured == config.configured;
 }
 
-membership_actor::behavior_type membership(self_pointer self, house context,
+membership_actor::behavior_type membership(self_pointer self,
+                                           actor_context context,
                                            membership_parts parts,
                                            membership_config config) {
   auto& st = self->state;
@@ -217,7 +219,7 @@ membership_actor::behavior_type membership(self_pointer self, house context,
   return {
       [self](const state_query&) { return describe(self->state); },
       [self](const membership_query&) { return answer(self->state); },
-      [self](const join_cell& wish) { on_join(self, wish); },
+      [self](const join_cell& request) { on_join(self, request); },
       [self](const seek_cell&) { on_seek(self); },
       [self](const registration_query& x) { return make_challenge(self, x); },
       [self](const registration_switch& order) {
@@ -231,24 +233,26 @@ membership_actor::behavior_type membership(self_pointer self, house context,
                          });
         return promise;
       },
-      [self](const leave_cell& wish) { return on_leave(self, wish); },
+      [self](const leave_cell& request) { return on_leave(self, request); },
       [self](const route_request& x) { return pass_on(self, x); },
       [self](const serve_members& x) { self->state.router = x.router; },
       [self](const coordinator_found& found) { on_found(self, found); },
       [self](const presence_seen& x) { on_presence_seen(self, x.who); },
       [self](const presence_gone& x) { on_presence_gone(self, x.who); },
-      [self](const instance_changed& fact) { on_instance_changed(self, fact); },
+      [self](const instance_changed& event) {
+        on_instance_changed(self, event);
+      },
       [self](const frame_received& frame) {
         if (is_from_session(self))
           on_frame(self, frame);
       },
-      [self](const beat_received& beat) {
+      [self](const heartbeat_received& heartbeat) {
         if (is_from_session(self))
-          on_beat(self, beat);
+          on_heartbeat(self, heartbeat);
       },
-      [self](const session_closed& fact) {
+      [self](const session_closed& event) {
         if (is_from_session(self))
-          on_session_lost(self, fact.reason);
+          on_session_lost(self, event.reason);
       },
       [self](caf::tick_atom, uint64_t number) { on_tick(self, number); },
   };

@@ -1,10 +1,10 @@
 #pragma once
 
+#include "actors/core/actor_context.hpp"
+#include "actors/core/alarm.hpp"
+#include "actors/core/backoff.hpp"
 #include "actors/edge/session/registration_proof.hpp"
 #include "actors/edge/site/site_secret.hpp"
-#include "actors/house/alarm.hpp"
-#include "actors/house/backoff.hpp"
-#include "actors/house/house.hpp"
 #include "actors/membership/coordinators_seen.hpp"
 #include "actors/membership/join_report.hpp"
 #include "actors/session/held_session.hpp"
@@ -30,7 +30,7 @@ struct membership_parts {
   node_agent_actor agent; ///< Does what the coordinator asks for.
   container_supervisor_actor supervisor;
   state_store_actor store;
-  join_scout_actor scout;
+  join_diagnoser_actor diagnoser;
 };
 
 /// What a membership is told at its start.
@@ -74,7 +74,7 @@ constexpr auto enum_words(membership_phase) {
 /// A switch to another cell, and what the node goes back to if it fails.
 struct switch_attempt {
   registration_switch order;
-  node_state standing = node_state::independent;
+  node_state state = node_state::independent;
   /// `resting` or `joined`; any other was an attempt, which is over.
   membership_phase phase = membership_phase::resting;
   std::string wanted;
@@ -95,11 +95,11 @@ struct membership_status : held_session {
 
   using time_point = std::chrono::steady_clock::time_point;
 
-  house context;
+  actor_context context;
   membership_parts parts;
   membership_config config;
 
-  node_state standing = node_state::independent;
+  node_state state = node_state::independent;
   membership_phase phase = membership_phase::resting;
   /// Discovery server, as "host:port"; empty: none.
   std::string wanted;
@@ -112,7 +112,7 @@ struct membership_status : held_session {
   /// tried in turn with where it was. Empty: nobody announces another place.
   std::string announced_place;
   bool owes_former = false; ///< The next attempt is where the cell was.
-  std::string asked;        ///< The one that is asked for a place.
+  std::string asked;        ///< The one that is asked for a slot.
   std::optional<node_presence> shown; ///< What the node announces.
 
   registration_challenges challenges;
@@ -135,7 +135,7 @@ struct membership_status : held_session {
   uint64_t attempt = 0;
   time_point deadline; ///< Of `waiting` and `searching`.
   backoff pause;
-  std::string trouble; ///< Why the last attempt failed.
+  std::string problem; ///< Why the last attempt failed.
 
   join_report report; ///< How the attempts go, for people.
   /// When the wanted address is looked at; max(): never.
@@ -167,6 +167,7 @@ struct membership_status : held_session {
 /// "membership" when it changes.
 membership_actor::behavior_type
 membership(membership_actor::stateful_pointer<membership_status> self,
-           house context, membership_parts parts, membership_config config);
+           actor_context context, membership_parts parts,
+           membership_config config);
 
 } // namespace roscell

@@ -1,6 +1,6 @@
-#include "actors/house/limits.hpp"
-#include "actors/house/wall_clock.hpp"
-#include "actors/membership/join_words.hpp"
+#include "actors/core/limits.hpp"
+#include "actors/core/wall_clock.hpp"
+#include "actors/membership/join_text.hpp"
 #include "actors/membership/membership_steps.hpp"
 
 #include <utility>
@@ -33,22 +33,22 @@ auto give_up(self_pointer self) {
 /// need not be told again.
 void acknowledge_ends(self_pointer self) {
   const auto& st = self->state;
-  ends_acknowledged fact;
+  ends_acknowledged event;
   for (const auto& row : *st.instances)
     if (!is_live(row.state))
-      fact.instances.push_back(row.spec.instance);
-  if (!fact.instances.empty())
-    self->send(st.parts.supervisor, std::move(fact));
+      event.instances.push_back(row.spec.instance);
+  if (!event.instances.empty())
+    self->send(st.parts.supervisor, std::move(event));
 }
 
 /// What the coordinator wants to go on may do so for as long as it would be
 /// missed from here.
 void prove_contact(self_pointer self, const node_registered& reply) {
-  contact_proven fact{self->state.registered_boot_ms, {}};
+  contact_proven event{self->state.registered_boot_ms, {}};
   for (const auto& x : reply.verdicts)
     if (x.what != verdict::stop)
-      fact.kept.push_back(x.instance);
-  self->send(self->state.parts.supervisor, std::move(fact));
+      event.kept.push_back(x.instance);
+  self->send(self->state.parts.supervisor, std::move(event));
 }
 
 void on_registered(self_pointer self, const node_registered& reply) {
@@ -56,31 +56,31 @@ void on_registered(self_pointer self, const node_registered& reply) {
   if (reply.incarnation != st.opened->incarnation)
     return attempt_failed(self, "the coordinator has started again meanwhile");
   st.phase = phase::joined;
-  st.standing = node_state::member;
+  st.state = node_state::member;
   st.cell = reply.cell;
   st.cell_uuid = reply.cell_uuid;
   st.coordinator = reply.coordinator;
   st.incarnation = reply.incarnation;
   st.address = st.found_address;
   st.joined_at = self->clock().now();
-  st.trouble.clear();
+  st.problem.clear();
   st.report.clear();
   st.switching.reset();
   st.announced_place.clear();
   st.owes_former = false;
   withdraw_presence_now(self);
   store_membership(self);
-  tell(self, "cell_joined",
-       {{"cell", st.cell},
-        {"coordinator", st.coordinator},
-        {"incarnation", st.incarnation},
-        {"epoch", st.config.identity.epoch}});
+  publish_event(self, "cell_joined",
+                {{"cell", st.cell},
+                 {"coordinator", st.coordinator},
+                 {"incarnation", st.incarnation},
+                 {"epoch", st.config.identity.epoch}});
   acknowledge_ends(self);
   serve_programs_of(self, reply);
   prove_contact(self, reply);
   apply(self, reply.verdicts);
-  for (const auto& [instance, fact] : std::exchange(st.unsent, {}))
-    notify(self, fact);
+  for (const auto& [instance, event] : std::exchange(st.unsent, {}))
+    notify(self, event);
 }
 
 node_registration registration_of(const membership_status& st) {
@@ -100,7 +100,7 @@ node_registration registration_of(const membership_status& st) {
   result.tells_anew = true;
   if (st.switching)
     result.transfer = st.switching->order.transfer;
-  else if (st.standing == node_state::orphaned)
+  else if (st.state == node_state::orphaned)
     result.cell_uuid = st.cell_uuid;
   for (auto& row : result.instances) {
     row.node = st.config.identity.name;
@@ -137,7 +137,7 @@ std::string expected_cell(const membership_status& st) {
   if (st.switching)
     return st.switching->order.target.front().cell;
   // The coordinator compares the UUID itself; a cell may have a new name.
-  return st.standing == node_state::orphaned && st.cell_uuid.empty()
+  return st.state == node_state::orphaned && st.cell_uuid.empty()
              ? st.cell
              : std::string{};
 }
@@ -218,9 +218,8 @@ bool is_older(const membership_status& st, const coordinator_found& found) {
 std::chrono::milliseconds pause_before_next(membership_status& st) {
   constexpr std::chrono::milliseconds longest_of_orphan{1500};
   const auto pause = st.pause.next();
-  return st.standing == node_state::orphaned
-             ? std::min(pause, longest_of_orphan)
-             : pause;
+  return st.state == node_state::orphaned ? std::min(pause, longest_of_orphan)
+                                          : pause;
 }
 
 } // namespace
@@ -248,7 +247,7 @@ void retreat(self_pointer self, const std::string& reason,
   ++st.attempt;
   st.phase = phase::waiting;
   st.deadline = self->clock().now() + pause;
-  st.trouble = reason;
+  st.problem = reason;
   drop_session(self, reason);
   self->send(st.parts.discovery, forget_coordinator{});
   show_presence(self);
@@ -264,13 +263,13 @@ void on_error(self_pointer self, const caf::error& err) {
       why.code == error_code::unreachable || why.code == error_code::timeout;
   if (st.phase != phase::opening || !no_way)
     return attempt_failed(self, why.message, why.hint);
-  const auto told = diagnose_session(st.found_address, why.message);
-  attempt_failed(self, told.trouble, told.hint);
+  const auto reported = diagnose_session(st.found_address, why.message);
+  attempt_failed(self, reported.problem, reported.hint);
 }
 
 void try_again(self_pointer self) {
   if (self->state.wanted.empty())
-    seek_place(self);
+    seek_slot(self);
   else
     begin_attempt(self);
 }
@@ -280,10 +279,10 @@ void begin_attempt(self_pointer self) {
   ++st.attempt;
   st.phase = phase::searching;
   st.deadline = self->clock().now() + limits::membership::search;
-  if (st.standing == node_state::independent)
-    st.standing = node_state::joining;
+  if (st.state == node_state::independent)
+    st.state = node_state::joining;
   // Another host may have taken the address, which is why contact was lost.
-  if (st.standing == node_state::orphaned && st.config.claim_address)
+  if (st.state == node_state::orphaned && st.config.claim_address)
     st.config.claim_address();
   st.older.reset();
   st.opened.reset();
@@ -353,13 +352,13 @@ void attempt_refused(self_pointer self, const std::string& reason,
   auto& st = self->state;
   if (give_up_switch(self, reason))
     return;
-  if (st.standing == node_state::joining)
-    st.standing = node_state::independent;
+  if (st.state == node_state::joining)
+    st.state = node_state::independent;
   if (st.report.note(reason, hint, self->clock().now())) {
     json data{{"reason", reason}, {"discovery_server", st.wanted}};
     if (!hint.empty())
       data["hint"] = hint;
-    tell(self, "join_refused", std::move(data));
+    publish_event(self, "join_refused", std::move(data));
   }
   const bool elsewhere = turn_elsewhere(self, true);
   const bool asked = st.phase == phase::asking;
@@ -368,7 +367,7 @@ void attempt_refused(self_pointer self, const std::string& reason,
   // another site, keeps nobody from asking the next one.
   if (elsewhere)
     retreat(self, reason, pause_before_next(st));
-  else if (asked && st.coordinators.place_giver() != nullptr)
+  else if (asked && st.coordinators.slot_arbiter() != nullptr)
     retreat(self, reason, limits::membership::gathering);
   else
     retreat(self, reason, limits::membership::refusal_pause);

@@ -1,4 +1,4 @@
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 #include "actors/membership/membership_steps.hpp"
 #include "actors/session/forwarded_requests.hpp"
 #include "schemas/document.hpp"
@@ -22,12 +22,12 @@ failure no_coordinator(const membership_status& st, const std::string& type) {
   failure why{error_code::unreachable,
               "a coordinator answers '" + type + "', and node '" + me
                   + "' is in no cell now",
-              "", "`roscell status` tells why"};
-  if (st.standing == node_state::orphaned)
+              "", "`roscell status` shows why"};
+  if (st.state == node_state::orphaned)
     why.message = "the coordinator of cell '" + st.cell + "', which answers '"
                   + type + "', is away";
-  if (!rows.empty() && !rows.front().trouble.empty())
-    why.message += ": " + rows.front().trouble;
+  if (!rows.empty() && !rows.front().problem.empty())
+    why.message += ": " + rows.front().problem;
   return why;
 }
 
@@ -47,7 +47,7 @@ failure coordinator_gone(const membership_status& st,
               + " has not answered: " + reason,
           "",
           "is its host up, and its process not stopped (`ps -C roscell -o "
-          "pid,stat,args` shows a T then)? `roscell status` tells when it is "
+          "pid,stat,args` shows a T then)? `roscell status` shows when it is "
           "back; ask again then"};
 }
 

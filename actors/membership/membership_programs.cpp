@@ -1,5 +1,5 @@
+#include "actors/core/limits.hpp"
 #include "actors/edge/io/socket_address.hpp"
-#include "actors/house/limits.hpp"
 #include "actors/membership/membership_steps.hpp"
 #include "dds/server_ids.hpp"
 #include "messages/failure.hpp"
@@ -17,16 +17,16 @@ void on_served(self_pointer self, const discovery_place& place,
     return;
   st.programs->address = reply.address;
   publish_environment(self);
-  if (st.standing == node_state::member)
+  if (st.state == node_state::member)
     store_membership(self);
 }
 
 /// Without it programs use the coordinator's server: slower to find each other
 /// when the coordinator is away, but no reason to leave the cell.
 void on_unserved(self_pointer self, const caf::error& why) {
-  tell(self, "edge_trouble",
-       {{"message",
-         "this node's own discovery server: " + to_failure(why).message}});
+  publish_event(self, "edge_trouble",
+                {{"message", "this node's own discovery server: "
+                                 + to_failure(why).message}});
   publish_environment(self);
 }
 

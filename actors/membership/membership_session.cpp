@@ -1,5 +1,5 @@
-#include "actors/house/limits.hpp"
-#include "actors/house/relayed_requests.hpp"
+#include "actors/core/limits.hpp"
+#include "actors/core/relayed_requests.hpp"
 #include "actors/membership/membership_steps.hpp"
 #include "actors/session/session_envelope.hpp"
 
@@ -91,7 +91,7 @@ void on_request(self_pointer self, const session_inquiry& x) {
         self, x, limits::session::resource_query);
   else if (type == figures_query::type)
     decode_and_forward<figures_report, figures_query>(self, x,
-                                                      limits::session::figures);
+                                                      limits::session::metrics);
   else if (type == instance_reservation::type)
     decode_and_forward<instances_reserved, instance_reservation>(
         self, x, limits::session::resource_query);
@@ -115,7 +115,7 @@ void on_request(self_pointer self, const session_inquiry& x) {
 }
 
 /// The coordinator is there after all.
-void look_around_no_more(self_pointer self) {
+void stop_seeking_coordinators(self_pointer self) {
   if (self->state.phase == phase::joined)
     withdraw_presence_now(self);
 }
@@ -142,7 +142,7 @@ void drop_session(self_pointer self, const std::string& reason) {
 
 void on_frame(self_pointer self, const frame_received& frame) {
   const auto x = hear_frame(self, frame);
-  look_around_no_more(self);
+  stop_seeking_coordinators(self);
   // A notice of the coordinator has no meaning yet; a later version's may.
   if (x && x->id)
     on_request(self, *x);
@@ -151,12 +151,12 @@ void on_frame(self_pointer self, const frame_received& frame) {
   set_timer(self);
 }
 
-void on_beat(self_pointer self, const beat_received& beat) {
-  hear_beat(self, beat);
-  look_around_no_more(self);
+void on_heartbeat(self_pointer self, const heartbeat_received& heartbeat) {
+  hear_heartbeat(self, heartbeat);
+  stop_seeking_coordinators(self);
   const auto& st = self->state;
-  if (beat.sent_boot_ms > 0 && st.phase == phase::joined)
-    self->send(st.parts.supervisor, contact_proven{beat.sent_boot_ms, {}});
+  if (heartbeat.sent_boot_ms > 0 && st.phase == phase::joined)
+    self->send(st.parts.supervisor, contact_proven{heartbeat.sent_boot_ms, {}});
 }
 
 void on_session_lost(self_pointer self, const std::string& reason) {
@@ -174,8 +174,9 @@ void on_session_lost(self_pointer self, const std::string& reason) {
   default:
     return;
   }
-  st.standing = node_state::orphaned;
-  tell(self, "coordinator_lost", {{"cell", st.cell}, {"reason", reason}});
+  st.state = node_state::orphaned;
+  publish_event(self, "coordinator_lost",
+                {{"cell", st.cell}, {"reason", reason}});
   let_remote_rest(self);
   // One that lasted ends the series of attempts before it.
   if (self->clock().now() - st.joined_at >= limits::lease::span) {
@@ -185,19 +186,19 @@ void on_session_lost(self_pointer self, const std::string& reason) {
   attempt_failed(self, reason);
 }
 
-void notify(self_pointer self, const instance_changed& fact) {
+void notify(self_pointer self, const instance_changed& event) {
   auto& frames = self->state.frames;
-  auto x = fact;
+  auto x = event;
   x.instance.node = self->state.config.identity.name;
   if (frames.notify(message_json(x)))
     return;
   // The coordinator must hear how it is; the rest it knows.
   shorten(x.instance);
   if (!frames.notify(message_json(x)))
-    tell(self, "fact_too_large",
-         {{"fact", "instance_changed"},
-          {"instance", x.instance.spec.instance},
-          {"state", to_word(x.instance.state)}});
+    publish_event(self, "fact_too_large",
+                  {{"fact", "instance_changed"},
+                   {"instance", x.instance.spec.instance},
+                   {"state", to_word(x.instance.state)}});
 }
 
 } // namespace roscell::membership_steps

@@ -18,8 +18,8 @@ using self_pointer = membership_actor::stateful_pointer<membership_status>;
 /// Sets the timer to whatever is due first.
 void set_timer(self_pointer self);
 
-/// Tells a fact about this node, with where it concerns.
-void tell(self_pointer self, const char* what, json data);
+/// Tells an event about this node, with where it concerns.
+void publish_event(self_pointer self, const char* what, json data);
 
 // -- membership_attempt.cpp: from nothing to joined ---------------------------
 
@@ -45,16 +45,17 @@ bool is_current(self_pointer self, uint64_t attempt, membership_phase where);
 /// rest; hundreds of whole rows would not fit into one frame.
 void shorten(instance_row& row);
 
-// -- membership_scouting.cpp: why nobody answers ------------------------------
+// -- membership_diagnosis.cpp: why nobody answers
+// ------------------------------
 
 /// Has the discovery server looked for whose address, or name, is wanted.
 void find_server(self_pointer self);
 /// Whether what is tried is to be looked at when there has been no answer.
 bool is_looking(const membership_status& st);
 /// There has been no answer for some time: finds out why, and tells it.
-void look_around(self_pointer self);
+void seek_coordinators(self_pointer self);
 /// Tells why the node is in no cell, unless that has just been told.
-void complain(self_pointer self, const std::string& trouble,
+void complain(self_pointer self, const std::string& problem,
               const std::string& hint);
 
 // -- membership_forwarding.cpp: what only a coordinator can answer ------------
@@ -63,18 +64,18 @@ void complain(self_pointer self, const std::string& trouble,
 caf::result<request_routed> pass_on(self_pointer self,
                                     const route_request& request);
 
-// -- membership_places.cpp: being seen, seeing others, asking for a place -----
+// -- membership_slots.cpp: being seen, seeing others, asking for a slot -----
 
 /// Announces the node as independent or orphaned.
 void show_presence(self_pointer self);
 void withdraw_presence_now(self_pointer self);
 /// Looks around for a later life of a coordinator that has been silent for
-/// longer than lost beats explain.
-void look_for_coordinator(self_pointer self);
+/// longer than lost heartbeats explain.
+void seek_coordinator(self_pointer self);
 void on_presence_seen(self_pointer self, const node_presence& who);
 void on_presence_gone(self_pointer self, const node_presence& who);
 /// Looks for a place, or waits until a coordinator appears.
-void seek_place(self_pointer self);
+void seek_slot(self_pointer self);
 /// The place that the node asked for came to nothing.
 void forget_place(self_pointer self);
 /// An attempt of an orphan came to nothing: where it is announced and where it
@@ -107,10 +108,10 @@ void take_session(self_pointer self, const session_actor& session);
 /// Closes the session if there is one; its pending calls fail.
 void drop_session(self_pointer self, const std::string& reason);
 void on_frame(self_pointer self, const frame_received& frame);
-void on_beat(self_pointer self, const beat_received& beat);
+void on_heartbeat(self_pointer self, const heartbeat_received& heartbeat);
 void on_session_lost(self_pointer self, const std::string& reason);
 /// Tells the coordinator, less of it where the whole does not fit into a frame.
-void notify(self_pointer self, const instance_changed& fact);
+void notify(self_pointer self, const instance_changed& event);
 
 // -- membership_programs.cpp: the node's own discovery server -----------------
 

@@ -1,4 +1,4 @@
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 #include "actors/membership/membership_steps.hpp"
 #include "actors/session/registration/registration_order.hpp"
 
@@ -21,7 +21,7 @@ std::optional<caf::error> refusal(const membership_status& st,
   if (st.switching || st.phase == phase::accepting
       || st.phase == phase::leaving)
     return fail(error_code::conflict,
-                "node '" + me.name + "' is " + std::string{to_word(st.standing)}
+                "node '" + me.name + "' is " + std::string{to_word(st.state)}
                     + " already",
                 "", "ask again when it has come to rest");
   if (order.epoch != me.epoch)
@@ -75,11 +75,12 @@ void end_instances(self_pointer self) {
 void depart(self_pointer self) {
   auto& st = self->state;
   const auto& order = st.switching->order;
-  tell(self, "switch_accepted",
-       {{"transfer", order.transfer},
-        {"cell", order.target.empty() ? "" : order.target.front().cell},
-        {"epoch", st.config.identity.epoch}});
-  if (st.switching->standing == node_state::orphaned)
+  publish_event(
+      self, "switch_accepted",
+      {{"transfer", order.transfer},
+       {"cell", order.target.empty() ? "" : order.target.front().cell},
+       {"epoch", st.config.identity.epoch}});
+  if (st.switching->state == node_state::orphaned)
     end_instances(self);
   if (order.target.empty())
     go_independent(self);
@@ -92,18 +93,18 @@ void depart(self_pointer self) {
 void stay(self_pointer self) {
   auto& st = self->state;
   const auto before = *std::exchange(st.switching, std::nullopt);
-  st.standing = before.standing;
+  st.state = before.state;
   if (before.phase == phase::joined && st.session) {
     st.phase = phase::joined;
   } else if (before.phase == phase::resting) {
     st.phase = phase::resting;
     // A coordinator may have appeared meanwhile.
     if (st.seeking)
-      return seek_place(self);
+      return seek_slot(self);
   } else {
     // Its session was lost meanwhile.
-    if (before.standing == node_state::member)
-      st.standing = node_state::orphaned;
+    if (before.state == node_state::member)
+      st.state = node_state::orphaned;
     st.phase = phase::waiting;
     st.deadline = self->clock().now();
   }
@@ -113,7 +114,7 @@ void stay(self_pointer self) {
 membership_record record_of(const membership_status& st) {
   membership_record result;
   result.configured = st.config.configured;
-  if (st.standing == node_state::member) {
+  if (st.state == node_state::member) {
     result.discovery_server = st.wanted;
     result.cell = st.cell;
     result.cell_uuid = st.cell_uuid;
@@ -191,15 +192,14 @@ void accept(self_pointer self, const registration_switch& order,
   if (st.phase != phase::joined) {
     // An attempt that is under way ends here.
     ++st.attempt;
-    drop_session(self, "it has been told to go elsewhere");
+    drop_session(self, "it has been sent elsewhere");
     self->send(st.parts.discovery, forget_coordinator{});
   }
-  const auto before = st.standing == node_state::joining
-                          ? node_state::independent
-                          : st.standing;
+  const auto before =
+      st.state == node_state::joining ? node_state::independent : st.state;
   st.switching = switch_attempt{order, before, st.phase, st.wanted, st.origin};
   st.last_switch = order.transfer;
-  st.standing = node_state::switching;
+  st.state = node_state::switching;
   st.phase = phase::accepting;
   write_down(self, reply);
 }
@@ -217,7 +217,7 @@ caf::result<registration_challenge>
 make_challenge(self_pointer self, const registration_query& query) {
   auto& st = self->state;
   const auto token = st.config.site.text();
-  if (!proves(standing_question{query.nonce}, token, query.proof))
+  if (!proves(status_question{query.nonce}, token, query.proof))
     return fail(error_code::unauthorized,
                 "who asks where this node stands proves that he has its site "
                 "token",
@@ -227,11 +227,11 @@ make_challenge(self_pointer self, const registration_query& query) {
   result.node = me.name;
   result.uuid = me.uuid;
   result.epoch = me.epoch;
-  result.state = to_word(st.standing);
+  result.state = to_word(st.state);
   result.nonce = st.challenges.issue(self->clock().now());
-  result.proof = prove(
-      standing_claim{query.nonce, me.name, me.uuid, me.epoch, result.state},
-      token);
+  result.proof =
+      prove(status_claim{query.nonce, me.name, me.uuid, me.epoch, result.state},
+            token);
   return result;
 }
 
@@ -250,7 +250,7 @@ void on_proven_switch(self_pointer self, const registration_switch& order,
     return reply(switch_accepted{st.config.identity.epoch});
   if (auto why = refusal(st, order))
     return reply(std::move(*why));
-  if (st.standing == node_state::member)
+  if (st.state == node_state::member)
     return reply(fail(error_code::unauthorized,
                       "node '" + order.node + "' is a member of cell '"
                           + st.cell + "': only its coordinator can switch it",
@@ -275,15 +275,15 @@ bool give_up_switch(self_pointer self, const std::string& reason) {
   if (!st.switching)
     return false;
   const auto before = *std::exchange(st.switching, std::nullopt);
-  tell(self, "switch_failed",
-       {{"transfer", before.order.transfer},
-        {"cell", before.order.target.front().cell},
-        {"reason", reason}});
+  publish_event(self, "switch_failed",
+                {{"transfer", before.order.transfer},
+                 {"cell", before.order.target.front().cell},
+                 {"reason", reason}});
   st.wanted = before.wanted;
   st.origin = before.origin;
   // It has no session with its old coordinator any more, but goes back there.
-  st.standing = before.standing == node_state::member ? node_state::orphaned
-                                                      : before.standing;
+  st.state =
+      before.state == node_state::member ? node_state::orphaned : before.state;
   st.pause.reset();
   retreat(self, reason, std::chrono::milliseconds{0});
   return true;

@@ -1,5 +1,5 @@
-#include "actors/house/limits.hpp"
-#include "actors/house/wall_clock.hpp"
+#include "actors/core/limits.hpp"
+#include "actors/core/wall_clock.hpp"
 #include "actors/membership/membership_steps.hpp"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ void stop(self_pointer self, const std::string& instance) {
                 instance_removal{row->spec.task, instance})
       .then([](const instances_removed&) {},
             [self](const caf::error& why) {
-              self->state.trouble = to_failure(why).message;
+              self->state.problem = to_failure(why).message;
             });
 }
 
@@ -29,13 +29,13 @@ void stop(self_pointer self, const std::string& instance) {
 void on_start_failed(self_pointer self, const instance_spec& spec,
                      const caf::error& why) {
   auto& st = self->state;
-  instance_changed fact;
-  fact.instance.spec = spec;
-  fact.instance.state = instance_state::failed;
-  fact.instance.since_unix_ms = unix_now_ms();
-  fact.instance.reason = to_failure(why).message;
+  instance_changed event;
+  event.instance.spec = spec;
+  event.instance.state = instance_state::failed;
+  event.instance.since_unix_ms = unix_now_ms();
+  event.instance.reason = to_failure(why).message;
   if (st.phase == membership_phase::joined)
-    notify(self, fact);
+    notify(self, event);
 }
 
 void start(self_pointer self, const instance_spec& spec) {

@@ -1,8 +1,8 @@
 #include "actors/membership/program_servers.hpp"
 
+#include "actors/core/delay.hpp"
+#include "actors/core/edge_failure.hpp"
 #include "actors/edge/io/socket_address.hpp"
-#include "actors/house/delay.hpp"
-#include "actors/house/edge_failure.hpp"
 
 #include <utility>
 
@@ -50,25 +50,26 @@ edge_result<std::unique_ptr<cell_server>> open_server(discovery_self self,
 /// server tells of them at once: who is not told of by now is not there.
 constexpr std::chrono::seconds doubt{10};
 
-void begin_doubt(discovery_self self, const follow_server& wish) {
+void begin_doubt(discovery_self self, const follow_server& request) {
   auto& st = self->state;
-  st.met[static_cast<uint8_t>(wish.server_id)] = ++st.meetings;
-  if (wish.tells_anew)
+  st.met[static_cast<uint8_t>(request.server_id)] = ++st.meetings;
+  if (request.tells_anew)
     send_lasting_actor_later(discovery_actor{self}, doubt,
-                             follow_server{wish.server_id,
+                             follow_server{request.server_id,
                                            server_contact::settled, false,
                                            st.meetings});
 }
 
 /// Another meeting may have begun since the one that this is about. Without a
 /// meeting it is about a server that has been lost for long.
-void settle(discovery_self self, cell_server& own, const follow_server& wish) {
-  const auto id = static_cast<uint8_t>(wish.server_id);
+void settle(discovery_self self, cell_server& own,
+            const follow_server& request) {
+  const auto id = static_cast<uint8_t>(request.server_id);
   const auto x = self->state.met.find(id);
   if (x == self->state.met.end()) {
-    if (wish.meeting == 0)
+    if (request.meeting == 0)
       own.forget(id);
-  } else if (x->second == wish.meeting) {
+  } else if (x->second == request.meeting) {
     own.end_doubt(id);
   }
 }
@@ -87,18 +88,18 @@ void point_to_remote(discovery_self self) {
 
 } // namespace
 
-void follow_another_server(discovery_self self, const follow_server& wish) {
+void follow_another_server(discovery_self self, const follow_server& request) {
   auto& st = self->state;
   auto* const own = st.config.cell ? st.config.cell : st.server.get();
-  if (own == nullptr || wish.server_id < 0 || wish.server_id > UINT8_MAX)
+  if (own == nullptr || request.server_id < 0 || request.server_id > UINT8_MAX)
     return;
-  const auto id = static_cast<uint8_t>(wish.server_id);
-  switch (wish.contact) {
+  const auto id = static_cast<uint8_t>(request.server_id);
+  switch (request.contact) {
   case server_contact::met:
     own->meet(id);
-    return begin_doubt(self, wish);
+    return begin_doubt(self, request);
   case server_contact::settled:
-    return settle(self, *own, wish);
+    return settle(self, *own, request);
   case server_contact::lost:
     st.met.erase(id);
     return own->lose(id);
@@ -109,23 +110,23 @@ void follow_another_server(discovery_self self, const follow_server& wish) {
 }
 
 caf::result<programs_served>
-serve_programs_of_node(discovery_self self, const serve_programs& wish) {
+serve_programs_of_node(discovery_self self, const serve_programs& request) {
   auto& st = self->state;
-  const bool is_same = st.server && is_same_server(st.served, wish.place);
-  st.served = wish.place;
+  const bool is_same = st.server && is_same_server(st.served, request.place);
+  st.served = request.place;
   if (is_same) {
     point_to_remote(self);
   } else {
     st.server.reset();
-    auto opened = open_server(self, wish.port);
+    auto opened = open_server(self, request.port);
     if (auto* why = std::get_if<edge_error>(&opened))
       return to_caf(*why);
     st.server = std::get<std::unique_ptr<cell_server>>(std::move(opened));
   }
-  follow_another_server(
-      self, {wish.place.remote_id,
-             wish.remote_is_there ? server_contact::met : server_contact::lost,
-             wish.tells_anew});
+  follow_another_server(self, {request.place.remote_id,
+                               request.remote_is_there ? server_contact::met
+                                                       : server_contact::lost,
+                               request.tells_anew});
   return programs_served{address_of(self)};
 }
 

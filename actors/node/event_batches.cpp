@@ -1,6 +1,6 @@
 #include "actors/node/event_batches.hpp"
 
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 #include "messages/failure.hpp"
 
 #include <algorithm>
@@ -34,7 +34,7 @@ void quit_log(event_log_pointer self) {
 
 void on_batch_written(event_log_pointer self) {
   auto& st = self->state;
-  st.writing = st.troubled = false;
+  st.writing = st.has_problem = false;
   if (st.ending && st.unwritten.empty())
     return quit_log(self);
   if (st.ending || st.unwritten.size() >= limits::history::batch)
@@ -55,7 +55,7 @@ void on_batch_refused(event_log_pointer self, std::vector<event> events,
   if (st.ending)
     return quit_log(self);
   expect_batch(self);
-  if (std::exchange(st.troubled, true))
+  if (std::exchange(st.has_problem, true))
     return;
   const auto why = to_failure(error);
   const json data{{"message", why.message}, {"hint", why.hint}};
@@ -81,7 +81,7 @@ void add_to_batch(event_log_pointer self, const event& x) {
     return;
   st.unwritten.push_back(x);
   drop_too_many(st);
-  if (st.troubled || st.unwritten.size() < limits::history::batch)
+  if (st.has_problem || st.unwritten.size() < limits::history::batch)
     return expect_batch(self);
   write_batch(self);
 }

@@ -1,8 +1,8 @@
 #include "actors/node/event_log.hpp"
 
-#include "actors/house/limits.hpp"
-#include "actors/house/wall_clock.hpp"
-#include "actors/house/watching.hpp"
+#include "actors/core/limits.hpp"
+#include "actors/core/wall_clock.hpp"
+#include "actors/core/watching.hpp"
 #include "actors/node/event_batches.hpp"
 #include "messages/failure.hpp"
 
@@ -42,11 +42,12 @@ void pass_event(event_log_self self, const event& x) {
     self->send(listener, x);
 }
 
-void record(event_log_self self, const record_event& fact) {
+void record(event_log_self self, const record_event& recorded) {
   auto& st = self->state;
   const auto now = self->clock().now();
-  event x{st.last_sequence, unix_now_ms(), fact.what, fact.subject, fact.data};
-  if (st.gate.lets_through(fact.what, fact.subject, now)) {
+  event x{st.last_sequence, unix_now_ms(), recorded.what, recorded.subject,
+          recorded.data};
+  if (st.gate.lets_through(recorded.what, recorded.subject, now)) {
     x.passing = true;
     if (st.series.keeps(x, now)) {
       x.passing = false;
@@ -58,7 +59,7 @@ void record(event_log_self self, const record_event& fact) {
   set_timer(self);
 }
 
-/// The last fact that was not kept, and how many were before it.
+/// The last event that was not kept, and how many were before it.
 event counted_event(event_series::count x) {
   auto data =
       json::parse(x.last.data.empty() ? "{}" : x.last.data, nullptr, false);
@@ -79,7 +80,7 @@ void keep_refusals(event_log_self self) {
   for (const auto& x : self->state.gate.take_due(self->clock().now())) {
     const json data{{"more", x.more},
                     {"message", "and " + std::to_string(x.more)
-                                    + " more, not told one by one"}};
+                                    + " more, not published one by one"}};
     keep_event(self, {0, unix_now_ms(), x.what, x.subject, data.dump()});
   }
 }
@@ -106,11 +107,11 @@ std::vector<event> events_after(const event_log_state& st, uint64_t number) {
   return result;
 }
 
-void subscribe(event_log_self self, const subscribe_events& wish) {
-  for (auto& x : events_after(self->state, wish.since))
-    self->send(wish.listener, std::move(x));
-  watch_until_its_end(self, wish.listener);
-  self->state.listeners.push_back(wish.listener);
+void subscribe(event_log_self self, const subscribe_events& request) {
+  for (auto& x : events_after(self->state, request.since))
+    self->send(request.listener, std::move(x));
+  watch_until_its_end(self, request.listener);
+  self->state.listeners.push_back(request.listener);
 }
 
 caf::result<kept_events> read_past(event_log_self self,
@@ -160,12 +161,12 @@ event_log_actor::behavior_type event_log(event_log_self self,
                          {"unwritten", st.unwritten.size()},
                          {"listeners", st.listeners.size()}});
       },
-      [self](const record_event& fact) { record(self, fact); },
+      [self](const record_event& recorded) { record(self, recorded); },
       [self](caf::tick_atom, uint64_t number) {
         if (self->state.timer.rings(number))
           on_alarm(self);
       },
-      [self](const subscribe_events& wish) { subscribe(self, wish); },
+      [self](const subscribe_events& request) { subscribe(self, request); },
       [self](const kept_events_query& x) {
         return kept_events{events_after(self->state, x.since)};
       },

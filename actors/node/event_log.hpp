@@ -1,7 +1,7 @@
 #pragma once
 
-#include "actors/house/alarm.hpp"
-#include "actors/house/house.hpp"
+#include "actors/core/actor_context.hpp"
+#include "actors/core/alarm.hpp"
 #include "actors/node/event_series.hpp"
 #include "actors/node/refusal_gate.hpp"
 #include "messages/messages.hpp"
@@ -12,15 +12,15 @@
 
 namespace roscell {
 
-/// Where the facts of this node are kept beyond its end.
+/// Where the events of this node are kept beyond its end.
 struct event_log_setup {
   node_history_actor history; ///< None in tests that do not care.
   uint64_t first_number = 0;  ///< Numbers begin above it.
 };
 
-/// Owns the node's facts: it numbers them, keeps the newest, hands them on, and
-/// has them written in batches. Those that repeat themselves without end are
-/// counted.
+/// Owns the node's events: it numbers them, keeps the newest, hands them on,
+/// and has them written in batches. Those that repeat themselves without end
+/// are counted.
 struct event_log_state {
   static constexpr const char* name = "event-log";
 
@@ -32,7 +32,7 @@ struct event_log_state {
   event_series series;
   std::deque<event> unwritten; ///< Of those that are kept.
   bool writing = false;        ///< A batch is under way.
-  bool troubled = false;       ///< The last batch could not be written.
+  bool has_problem = false;    ///< The last batch could not be written.
   bool ending = false;         ///< The node ends: what is left is written.
   std::optional<alarm::time_point> batch_due;
   alarm timer;

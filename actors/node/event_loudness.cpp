@@ -13,7 +13,7 @@ bool ends_with(std::string_view text, std::string_view end) {
          && text.substr(text.size() - end.size()) == end;
 }
 
-bool tells_of_failure(const event& e) {
+bool is_failure_event(const event& e) {
   const auto data = json::parse(e.data, nullptr, false);
   return data.is_object() && data.value("state", json{}) == "failed";
 }
@@ -26,7 +26,7 @@ loudness loudness_of(const event& e) {
       return loudness::warning;
   if (e.what != "instance_changed")
     return loudness::info;
-  return tells_of_failure(e) ? loudness::warning : loudness::debug;
+  return is_failure_event(e) ? loudness::warning : loudness::debug;
 }
 
 } // namespace roscell

@@ -1,6 +1,6 @@
 #include "actors/node/event_series.hpp"
 
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -15,7 +15,7 @@ namespace limit = limits::event;
 constexpr size_t many_series = 64;
 
 /// What people ask for is told each time, whoever asks.
-bool is_wish(const std::string& what) {
+bool is_request(const std::string& what) {
   return what == "request_received";
 }
 
@@ -29,7 +29,7 @@ void event_series::forget_quiet(time_point now) {
 }
 
 bool event_series::keeps(const event& x, time_point now) {
-  if (is_wish(x.what))
+  if (is_request(x.what))
     return true;
   const auto kind = std::pair{x.what, x.subject};
   auto i = spans_.find(kind);

@@ -1,9 +1,9 @@
 #include "actors/node/node.hpp"
 
-#include "actors/house/limits.hpp"
-#include "actors/house/program_version.hpp"
-#include "actors/house/wall_clock.hpp"
-#include "actors/house/watching.hpp"
+#include "actors/core/limits.hpp"
+#include "actors/core/program_version.hpp"
+#include "actors/core/wall_clock.hpp"
+#include "actors/core/watching.hpp"
 #include "messages/failure.hpp"
 
 #include <caf/typed_response_promise.hpp>
@@ -153,7 +153,7 @@ bool begin_to_stop(node_pointer self) {
   auto& st = self->state;
   if (std::exchange(st.stopping, true))
     return false;
-  st.parts.context.tell("node_stopping", st.parts.identity.name);
+  st.parts.context.publish_event("node_stopping", st.parts.identity.name);
   st.parts.edges->sockets.http->stop([] {});
   self->send_exit(st.parts.router, caf::exit_reason::user_shutdown);
   return true;
@@ -200,7 +200,7 @@ node_actor::behavior_type node(node_pointer self, const node_parts& parts) {
   self->set_down_handler(
       [self](const caf::down_msg& down) { on_child_down(self, down); });
   self->set_exit_handler([self](const caf::exit_msg&) { halt(self); });
-  parts.context.tell(
+  parts.context.publish_event(
       "node_started", parts.identity.name,
       {{"address", parts.identity.address}, {"runtime", parts.config.runtime}});
   return {

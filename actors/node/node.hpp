@@ -14,7 +14,7 @@ namespace roscell {
 
 /// What the node actor holds.
 struct node_parts {
-  house context;
+  actor_context context;
   node_config config;
   std::shared_ptr<node_edges> edges;
   std::shared_ptr<directory_lock> lock;

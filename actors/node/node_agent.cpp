@@ -1,7 +1,7 @@
 #include "actors/node/node_agent.hpp"
 
-#include "actors/house/limits.hpp"
-#include "actors/node/node_figures.hpp"
+#include "actors/core/limits.hpp"
+#include "actors/node/node_metrics.hpp"
 #include "actors/placement/reservation.hpp"
 #include "actors/placement/search/report/text.hpp"
 
@@ -48,9 +48,9 @@ std::optional<int64_t> session_of(const instance_row& instance) {
 }
 
 /// An instance that the supervisor knows counts as such, whatever its state.
-void add_kept_rooms(node_agent_self self,
-                    const std::vector<instance_row>& instances,
-                    resource_report& to) {
+void add_reservations(node_agent_self self,
+                      const std::vector<instance_row>& instances,
+                      resource_report& to) {
   std::set<std::string> known;
   for (const auto& x : instances)
     known.insert(x.spec.instance);
@@ -78,7 +78,7 @@ resource_report complete(node_agent_self self, node_resources resources,
     if (is_live(x.state))
       reserve(resources, x.spec.resources, x.spec.gpu);
   resource_report result{std::move(resources), {}};
-  add_kept_rooms(self, instances, result);
+  add_reservations(self, instances, result);
   return result;
 }
 
@@ -87,17 +87,17 @@ void measure(node_agent_self self,
              const std::function<void(caf::expected<resource_report>)>& done) {
   auto on_error = [done](const caf::error& why) { done(why); };
   auto on_known = [self, done, on_error](instance_description& known) {
-    measure_host wish;
+    measure_host request;
     for (const auto& x : known.instances) {
       if (!is_live(x.state))
         continue;
       if (const auto session = session_of(x))
-        wish.sessions.push_back(*session);
+        request.sessions.push_back(*session);
       else if (!x.container.empty())
-        wish.containers.push_back(x.container);
+        request.containers.push_back(x.container);
     }
     self->request(self->state.config.probe, limits::local::part,
-                  std::move(wish))
+                  std::move(request))
         .then(
             [self, done, known](host_measured& host) {
               done(complete(self, std::move(host.resources), known.instances));
@@ -135,8 +135,8 @@ std::optional<std::string> keep_room(node_agent_self self, node_resources& node,
 
 /// What a task had before is given up, so that a repeated one counts once.
 caf::result<instances_reserved> keep(node_agent_self self,
-                                     const instance_reservation& wish) {
-  self->state.kept.give_up(wish.task, "");
+                                     const instance_reservation& request) {
+  self->state.kept.give_up(request.task, "");
   auto promise = self->make_response_promise<instances_reserved>();
   measure(self, [=](caf::expected<resource_report> now) mutable {
     if (!now) {
@@ -144,9 +144,9 @@ caf::result<instances_reserved> keep(node_agent_self self,
       return;
     }
     instances_reserved reply;
-    if (wish.cpu_floor)
+    if (request.cpu_floor)
       read_with_cpu_floor(now->resources);
-    for (const auto& spec : wish.specs)
+    for (const auto& spec : request.specs)
       if (auto why = keep_room(self, now->resources, spec))
         reply.refused.push_back({spec.instance, *why});
     promise.deliver(std::move(reply));
@@ -157,16 +157,16 @@ caf::result<instances_reserved> keep(node_agent_self self,
 /// Room is kept until the instance runs or has failed: from the supervisor's
 /// first word of it on, it counts there.
 caf::result<instance_deployed> deploy(node_agent_self self,
-                                      const instance_deployment& wish) {
+                                      const instance_deployment& request) {
   auto promise = self->make_response_promise<instance_deployed>();
   self->request(self->state.config.supervisor, limits::task::agent_deployment,
-                wish)
+                request)
       .then(
           [promise](instance_deployed& x) mutable {
             promise.deliver(std::move(x));
           },
-          [self, promise, wish](caf::error& why) mutable {
-            self->state.kept.give_up(wish.spec.task, wish.spec.instance);
+          [self, promise, request](caf::error& why) mutable {
+            self->state.kept.give_up(request.spec.task, request.spec.instance);
             promise.deliver(std::move(why));
           });
   return promise;
@@ -186,7 +186,7 @@ node_agent_actor::behavior_type node_agent(node_agent_self self,
               self->state.kept.open(self->clock().now(), {}).size()}});
       },
       [self](const resource_query&) { return report(self); },
-      [self](const figures_query&) { return report_figures(self); },
+      [self](const figures_query&) { return report_metrics(self); },
       [self](const instance_reservation& x) { return keep(self, x); },
       [self](const instance_deployment& x) { return deploy(self, x); },
       [self](const instance_removal& x) {

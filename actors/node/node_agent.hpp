@@ -1,7 +1,7 @@
 #pragma once
 
-#include "actors/house/house.hpp"
-#include "actors/node/kept_rooms.hpp"
+#include "actors/core/actor_context.hpp"
+#include "actors/node/reservation_table.hpp"
 #include "messages/messages.hpp"
 
 #include <map>
@@ -26,7 +26,7 @@ struct node_agent_state {
   static constexpr const char* name = "node-agent";
 
   node_agent_config config;
-  kept_rooms kept;
+  reservation_table kept;
   uint64_t reports = 0;
 };
 

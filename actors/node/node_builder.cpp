@@ -7,7 +7,7 @@
 #include "actors/instances/container_supervisor.hpp"
 #include "actors/instances/ros2/graph_watch.hpp"
 #include "actors/membership/discovery.hpp"
-#include "actors/membership/join_scout.hpp"
+#include "actors/membership/join_diagnoser.hpp"
 #include "actors/membership/membership.hpp"
 #include "actors/node/node.hpp"
 #include "actors/node/node_agent.hpp"
@@ -20,7 +20,7 @@
 #include "actors/placement/scheduler.hpp"
 #include "actors/placement/searcher.hpp"
 #include "actors/requests/cost/cost_sampler.hpp"
-#include "actors/requests/handlers/examining.hpp"
+#include "actors/requests/handlers/host_checking.hpp"
 #include "actors/requests/handlers/registry.hpp"
 #include "actors/requests/request_router.hpp"
 #include "actors/requests/rest.hpp"
@@ -33,7 +33,7 @@
 namespace roscell {
 
 node_builder::node_builder(caf::actor_system& system, node_config config,
-                           node_data data, house context,
+                           node_data data, actor_context context,
                            node_history_actor history,
                            std::shared_ptr<node_edges> edges,
                            capacity_bound bound, chosen_runtime runtime,
@@ -51,7 +51,7 @@ node_builder::node_builder(caf::actor_system& system, node_config config,
   parts_.services->context = parts_.context;
   parts_.services->name = parts_.config.name;
   parts_.services->graph = parts_.edges->graph;
-  parts_.services->examine_host = one_at_a_time(additions_.examine_host);
+  parts_.services->check_host = one_at_a_time(additions_.check_host);
   parts_.identity = data_.identity;
   parts_.limits = runtime_.limits;
   parts_.identity.name = parts_.config.name;
@@ -74,9 +74,9 @@ void node_builder::build(running_node& result) {
 }
 
 void node_builder::read_skills() {
-  catalogue_->tell_problems(parts_.context);
+  catalogue_->publish_problems(parts_.context);
   parts_.skills = catalogue_->skills();
-  parts_.refused_skills = catalogue_->told_problems();
+  parts_.refused_skills = catalogue_->published_problems();
 }
 
 std::function<runtime_actor(container_listener_actor)>
@@ -103,7 +103,8 @@ void node_builder::start_supervision() {
   supervision.skills = catalogue_;
   supervision.make_runtime = make_runtime();
   supervision.builds_images = !runtime_.socket.empty();
-  supervision.tell_environment = make_environment_teller(config, runtime_);
+  supervision.write_environment_update =
+      make_environment_writer(config, runtime_);
   supervision.store = store_;
   supervision.history = history_;
   supervision.graph = start(graph_watch, parts_.edges->graph);
@@ -122,7 +123,7 @@ void node_builder::start_supervision() {
   probing.host.data_dir = config.data_dir.string();
   probing.bound = bound_;
   const auto probe = start_blocking(resource_probe, probing);
-  mark_samples_at_beats(*parts_.edges, probe);
+  mark_samples_at_heartbeats(*parts_.edges, probe);
   parts_.agent = start(
       node_agent, node_agent_config{config.name, config.labels, config.devices,
                                     parts_.services->supervisor, probe,
@@ -191,7 +192,8 @@ discovery_actor node_builder::start_discovery() {
 session_connector_actor node_builder::start_connector() {
   return start(session_connector, parts_.context,
                connector_parts{parts_.edges->io.get(),
-                               parts_.edges->sockets.beat.get(), data_.site});
+                               parts_.edges->sockets.heartbeat.get(),
+                               data_.site});
 }
 
 membership_config node_builder::membership_setup() const {
@@ -216,8 +218,9 @@ void node_builder::start_membership() {
   with.agent = parts_.agent;
   with.supervisor = parts_.services->supervisor;
   with.store = store_;
-  with.scout = start(join_scout,
-                     join_scout_config{parts_.edges->io.get(), config.address});
+  with.diagnoser =
+      start(join_diagnoser,
+            join_diagnoser_config{parts_.edges->io.get(), config.address});
   const auto how = membership_setup();
   auto member = start(membership, parts_.context, with, how);
   parts_.services->membership = member;
@@ -233,7 +236,7 @@ void node_builder::start_membership() {
 void node_builder::start_measuring() {
   auto& costs = parts_.services->costs;
   costs = std::make_shared<cost_meter>(
-      [book = parts_.context.metrics] { return read_cost(book); });
+      [table = parts_.context.metrics] { return read_cost(table); });
   start(cost_sampler, costs);
 }
 

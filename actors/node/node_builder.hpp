@@ -1,7 +1,7 @@
 #pragma once
 
+#include "actors/core/actor_context.hpp"
 #include "actors/edge/host/host_probe_capacity.hpp"
-#include "actors/house/house.hpp"
 #include "actors/instances/skill_catalogue.hpp"
 #include "actors/membership/membership.hpp"
 #include "actors/node/node.hpp"
@@ -24,7 +24,7 @@ namespace roscell {
 class node_builder {
 public:
   node_builder(caf::actor_system& system, node_config config, node_data data,
-               house context, node_history_actor history,
+               actor_context context, node_history_actor history,
                std::shared_ptr<node_edges> edges, capacity_bound bound,
                chosen_runtime runtime, shared_skill_catalogue catalogue,
                node_additions additions);

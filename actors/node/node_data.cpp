@@ -1,9 +1,9 @@
 #include "actors/node/node_data.hpp"
 
+#include "actors/core/edge_failure.hpp"
+#include "actors/core/limits.hpp"
 #include "actors/edge/disk/put_aside.hpp"
 #include "actors/edge/io/crypto.hpp"
-#include "actors/house/edge_failure.hpp"
-#include "actors/house/limits.hpp"
 #include "actors/node/node_tokens.hpp"
 #include "messages/failure.hpp"
 #include "schemas/decode.hpp"

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "actors/cell/books/cell_registry.hpp"
-#include "actors/cell/books/drain_book.hpp"
-#include "actors/cell/books/history_book.hpp"
-#include "actors/cell/books/task_book.hpp"
+#include "actors/cell/tables/cell_registry.hpp"
+#include "actors/cell/tables/drain_table.hpp"
+#include "actors/cell/tables/history_table.hpp"
+#include "actors/cell/tables/task_table.hpp"
 #include "actors/edge/disk/directory_lock.hpp"
 #include "actors/edge/disk/sqlite_store.hpp"
 #include "actors/edge/history/history_folder.hpp"

@@ -1,9 +1,9 @@
 #include "actors/node/node_edges.hpp"
 
+#include "actors/core/edge_failure.hpp"
+#include "actors/core/limits.hpp"
 #include "actors/edge/dds/announcement.hpp"
 #include "actors/edge/http/http_paths.hpp"
-#include "actors/house/edge_failure.hpp"
-#include "actors/house/limits.hpp"
 #include "actors/node/start/cell_claim.hpp"
 #include "actors/session/wire_session.hpp"
 #include "dds/server_ids.hpp"
@@ -35,10 +35,10 @@ caf::error open_http(const node_config& config, const node_data& data,
                                               const responder& answer) {
     (*handler)(std::move(request), answer);
   };
-  beat_socket_options beats;
-  beats.site = data.site;
+  heartbeat_socket_options heartbeats;
+  heartbeats.site = data.site;
   auto opened =
-      open_node_sockets(*edges.io, std::move(options), std::move(beats));
+      open_node_sockets(*edges.io, std::move(options), std::move(heartbeats));
   if (auto* why = std::get_if<edge_error>(&opened))
     return to_caf(*why);
   edges.sockets = std::get<node_sockets>(std::move(opened));
@@ -97,17 +97,17 @@ void late_handler::operator()(http_request request,
     answer.error(503, error_code::conflict, "the node is still starting");
 }
 
-caf::expected<std::shared_ptr<node_edges>> open_edges(const node_config& config,
-                                                      const node_data& data,
-                                                      const house& context) {
+caf::expected<std::shared_ptr<node_edges>>
+open_edges(const node_config& config, const node_data& data,
+           const actor_context& context) {
   auto edges = std::make_shared<node_edges>();
   edges->io = std::make_unique<io_thread>([context](const std::string& text) {
-    context.tell("edge_trouble", "", {{"message", text}});
+    context.publish_event("edge_trouble", "", {{"message", text}});
   });
   edges->numbers = std::make_shared<number_reserve>(
       config.data_dir / "discovery_numbers",
       [context](const std::string& why) {
-        context.tell("edge_trouble", "", {{"message", why}});
+        context.publish_event("edge_trouble", "", {{"message", why}});
       },
       data.is_new ? number_reserve::former_lives::few
                   : number_reserve::former_lives::many);
@@ -124,14 +124,15 @@ caf::expected<std::shared_ptr<node_edges>> open_edges(const node_config& config,
   return edges;
 }
 
-void admit_sessions(caf::actor_system& system, const house& context,
+void admit_sessions(caf::actor_system& system, const actor_context& context,
                     node_edges& edges, const acceptor_identity& identity,
                     const site_secret& site,
                     const cell_coordinator_actor& coordinator) {
   session_acceptor acceptor;
   acceptor.identity = identity;
   acceptor.site = site;
-  acceptor.on_session = [&system, context, beats = edges.sockets.beat.get(),
+  acceptor.on_session = [&system, context,
+                         heartbeats = edges.sockets.heartbeat.get(),
                          coordinator](established_session session) {
     node_identity peer;
     peer.name = session.peer.node;
@@ -141,21 +142,22 @@ void admit_sessions(caf::actor_system& system, const house& context,
     const auto role = session.peer.role == to_word(node_role::coordinator)
                           ? node_role::coordinator
                           : node_role::primary;
-    auto actor = spawn_session(system, context, *beats, std::move(session), 0);
+    auto actor =
+        spawn_session(system, context, *heartbeats, std::move(session), 0);
     caf::anon_send(coordinator, session_admitted{actor, std::move(peer), role});
   };
   acceptor.on_refused = [context](const std::string& address,
                                   const edge_error& why) {
-    context.tell("session_refused", address,
-                 {{"code", why.code}, {"message", why.message}});
+    context.publish_event("session_refused", address,
+                          {{"code", why.code}, {"message", why.message}});
   };
   edges.sockets.http->accept_sessions(std::move(acceptor));
 }
 
-void mark_samples_at_beats(node_edges& edges,
-                           const resource_probe_actor& probe) {
+void mark_samples_at_heartbeats(node_edges& edges,
+                                const resource_probe_actor& probe) {
   using clock = std::chrono::steady_clock;
-  edges.sockets.beat->watch([probe, last = clock::time_point{}]() mutable {
+  edges.sockets.heartbeat->watch([probe, last = clock::time_point{}]() mutable {
     const auto now = clock::now();
     if (now - last < limits::resource::mark_distance)
       return;

@@ -1,9 +1,9 @@
 #pragma once
 
+#include "actors/core/actor_context.hpp"
 #include "actors/edge/dds/discovery_server.hpp"
 #include "actors/edge/http/node_sockets.hpp"
 #include "actors/edge/io/io_thread.hpp"
-#include "actors/house/house.hpp"
 #include "actors/node/node_data.hpp"
 #include "messages/messages.hpp"
 
@@ -59,19 +59,19 @@ struct node_edges {
 
 /// Opens the ports of a node. Errors: conflict (a port is in use), unreachable
 /// (the address is not of this host), schema_violation (a path is too long).
-caf::expected<std::shared_ptr<node_edges>> open_edges(const node_config& config,
-                                                      const node_data& data,
-                                                      const house& context);
+caf::expected<std::shared_ptr<node_edges>>
+open_edges(const node_config& config, const node_data& data,
+           const actor_context& context);
 
 /// Takes sessions for a coordinator from now on.
-void admit_sessions(caf::actor_system& system, const house& context,
+void admit_sessions(caf::actor_system& system, const actor_context& context,
                     node_edges& edges, const acceptor_identity& identity,
                     const site_secret& site,
                     const cell_coordinator_actor& coordinator);
 
-/// Lets the beats of all sessions keep a CPU sample fresh: the node is awake
-/// for them anyway.
-void mark_samples_at_beats(node_edges& edges,
-                           const resource_probe_actor& probe);
+/// Lets the heartbeats of all sessions keep a CPU sample fresh: the node is
+/// awake for them anyway.
+void mark_samples_at_heartbeats(node_edges& edges,
+                                const resource_probe_actor& probe);
 
 } // namespace roscell

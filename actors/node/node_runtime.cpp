@@ -1,9 +1,9 @@
 #include "actors/node/node_runtime.hpp"
 
+#include "actors/core/edge_failure.hpp"
 #include "actors/edge/engine/engine_search.hpp"
 #include "actors/edge/host/installed_files.hpp"
 #include "actors/edge/process/notify_socket.hpp"
-#include "actors/house/edge_failure.hpp"
 #include "actors/instances/engine/engine_runtime.hpp"
 #include "actors/instances/process/process_runtime.hpp"
 #include "messages/failure.hpp"
@@ -53,7 +53,7 @@ fs::path kept_logs_dir(const node_config& config) {
 }
 
 std::function<runtime_actor(container_listener_actor)>
-process_factory(caf::actor_system& system, const house& context,
+process_factory(caf::actor_system& system, const actor_context& context,
                 const node_config& config, const chosen_runtime& chosen,
                 const io_thread& io, const node_history_actor& history) {
   process_runtime_config setup;
@@ -107,7 +107,7 @@ void find_limits(const node_config& config, const std::string& node_uuid,
 }
 
 std::function<runtime_actor(container_listener_actor)>
-runtime_factory(caf::actor_system& system, const house& context,
+runtime_factory(caf::actor_system& system, const actor_context& context,
                 const node_config& config, const chosen_runtime& chosen,
                 const std::string& node_uuid, const io_thread& io,
                 const node_history_actor& history) {
@@ -128,14 +128,14 @@ runtime_factory(caf::actor_system& system, const house& context,
   };
 }
 
-environment_teller make_environment_teller(const node_config& config,
+environment_writer make_environment_writer(const node_config& config,
                                            const chosen_runtime& chosen) {
   return [data_dir = config.data_dir, in_engine = !chosen.socket.empty()](
              const std::string& instance, const auto& variables) {
     const auto socket = in_engine
                             ? container_notify_path(data_dir, instance)
                             : notify_path(data_dir / "instances" / instance);
-    return tell_environment(environment_file_of(socket), variables);
+    return write_environment_update(environment_file_of(socket), variables);
   };
 }
 

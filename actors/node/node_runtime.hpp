@@ -1,9 +1,9 @@
 #pragma once
 
+#include "actors/core/actor_context.hpp"
 #include "actors/edge/cgroup/cgroup_place.hpp"
 #include "actors/edge/io/io_thread.hpp"
 #include "actors/edge/process/environment_file.hpp"
-#include "actors/house/house.hpp"
 #include "messages/messages.hpp"
 #include "roscell/node_config.hpp"
 
@@ -40,14 +40,14 @@ void find_limits(const node_config& config, const std::string& node_uuid,
 
 /// Spawns the runtime that was chosen.
 std::function<runtime_actor(container_listener_actor)>
-runtime_factory(caf::actor_system& system, const house& context,
+runtime_factory(caf::actor_system& system, const actor_context& context,
                 const node_config& config, const chosen_runtime& chosen,
                 const std::string& node_uuid, const io_thread& io,
                 const node_history_actor& history);
 
 /// Tells instances of that runtime, while they run, of other values of
 /// variables.
-environment_teller make_environment_teller(const node_config& config,
+environment_writer make_environment_writer(const node_config& config,
                                            const chosen_runtime& chosen);
 
 } // namespace roscell

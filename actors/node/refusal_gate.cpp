@@ -1,6 +1,6 @@
 #include "actors/node/refusal_gate.hpp"
 
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 
 #include <string_view>
 
@@ -8,7 +8,7 @@ namespace roscell {
 
 namespace {
 
-/// Whether strangers can provoke it without end.
+/// Whether unauthenticated peers can provoke it without end.
 bool is_refusal(std::string_view what) {
   constexpr std::string_view ignored = "_ignored";
   return what == "session_refused" || what == "request_refused"
@@ -29,8 +29,8 @@ bool refusal_gate::lets_through(const std::string& what,
   if (i == spans_.end() || (i->second.end <= now && i->second.held == 0))
     i = spans_.insert_or_assign(kind, span{now + limits::event::refusal_window})
             .first;
-  if (i->second.told < limits::event::refusals) {
-    ++i->second.told;
+  if (i->second.reported < limits::event::refusals) {
+    ++i->second.reported;
     return true;
   }
   ++i->second.held;

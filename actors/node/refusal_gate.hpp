@@ -10,9 +10,9 @@
 
 namespace roscell {
 
-/// Which refusals are told one by one. Strangers can provoke a thousand a
-/// second, which would push every other fact out of the log. Pure, told the
-/// time.
+/// Which refusals are told one by one. Unauthenticated peers can provoke a
+/// thousand a second, which would push every other event out of the log. Pure,
+/// told the time.
 class refusal_gate {
 public:
   using time_point = std::chrono::steady_clock::time_point;
@@ -24,7 +24,7 @@ public:
     uint64_t more = 0;
   };
 
-  /// Whether a fact is to be told now. What is no refusal always is; of
+  /// Whether an event is to be told now. What is no refusal always is; of
   /// refusals of one kind some in each span of time are, the others are
   /// counted.
   bool lets_through(const std::string& what, const std::string& subject,
@@ -39,11 +39,12 @@ public:
 private:
   struct span {
     time_point end;
-    uint64_t told = 0;
+    uint64_t reported = 0;
     uint64_t held = 0;
   };
 
-  /// By name and, for requests, by type. We make up both, strangers cannot.
+  /// By name and, for requests, by type. We make up both, unauthenticated peers
+  /// cannot.
   std::map<std::pair<std::string, std::string>, span> spans_;
 };
 

@@ -1,7 +1,7 @@
 #include "actors/node/resource_probe.hpp"
 
+#include "actors/core/limits.hpp"
 #include "actors/edge/host/instance_use.hpp"
-#include "actors/house/limits.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -68,11 +68,11 @@ host_measured measure(resource_probe_self self, clock::time_point now) {
   return {convert(apply_bound(std::move(host), st.config.bound))};
 }
 
-host_measured answer(resource_probe_self self, const measure_host& wish) {
+host_measured answer(resource_probe_self self, const measure_host& request) {
   const auto now = self->clock().now();
   auto& own = self->state.own;
-  own.sessions = {wish.sessions.begin(), wish.sessions.end()};
-  own.containers = {wish.containers.begin(), wish.containers.end()};
+  own.sessions = {request.sessions.begin(), request.sessions.end()};
+  own.containers = {request.containers.begin(), request.containers.end()};
   auto result = measure(self, now);
   mark(self, now);
   return result;
@@ -95,11 +95,11 @@ double cores_of(resource_probe_state& st, const std::string& instance,
   return cpu;
 }
 
-use_measured answer_use(resource_probe_self self, const measure_use& wish) {
+use_measured answer_use(resource_probe_self self, const measure_use& request) {
   auto& st = self->state;
   const auto now = self->clock().now();
   use_measured result;
-  result.instances = uses_of(wish.instances, st.config.host.root);
+  result.instances = uses_of(request.instances, st.config.host.root);
   std::map<std::string, use_sample> known;
   for (auto& x : result.instances) {
     if (x.use.cpu_s >= 0)
@@ -122,8 +122,8 @@ resource_probe(resource_probe_self self, const resource_probe_config& config) {
         return state_of({{"measurements", self->state.measurements},
                          {"estimates", self->state.estimates}});
       },
-      [self](const measure_host& wish) { return answer(self, wish); },
-      [self](const measure_use& wish) { return answer_use(self, wish); },
+      [self](const measure_host& request) { return answer(self, request); },
+      [self](const measure_use& request) { return answer_use(self, request); },
       [self](const mark_sample&) { mark(self, self->clock().now()); },
   };
 }

@@ -1,9 +1,9 @@
 #pragma once
 
+#include "actors/core/actor_context.hpp"
 #include "actors/edge/host/host_probe.hpp"
 #include "actors/edge/host/host_probe_capacity.hpp"
 #include "actors/edge/host/host_probe_processes.hpp"
-#include "actors/house/house.hpp"
 #include "messages/messages.hpp"
 
 #include <chrono>
@@ -47,7 +47,8 @@ struct resource_probe_state {
 };
 
 /// The RESOURCE PROBE. Messages: messages/inside/agent.hpp. It always answers
-/// at once; beats and earlier measurements leave the CPU samples that it needs.
+/// at once; heartbeats and earlier measurements leave the CPU samples that it
+/// needs.
 resource_probe_actor::behavior_type resource_probe(
     resource_probe_actor::stateful_pointer<resource_probe_state> self,
     const resource_probe_config& config);

@@ -1,6 +1,6 @@
 #include "actors/node/spawn_node.hpp"
 
-#include "actors/house/edge_failure.hpp"
+#include "actors/core/edge_failure.hpp"
 #include "actors/node/event_log.hpp"
 #include "actors/node/history/node_history.hpp"
 #include "actors/node/node_builder.hpp"
@@ -23,20 +23,20 @@ bool knows_our_types(const caf::actor_system& system) {
 }
 
 /// What an operator should know of the data directory.
-void tell_of_data(const house& context, const node_data& data) {
+void publish_data_state(const actor_context& context, const node_data& data) {
   if (!data.put_aside.empty())
-    context.tell("identity_renewed", data.identity.uuid,
-                 {{"put_aside", data.put_aside.filename().string()}});
+    context.publish_event("identity_renewed", data.identity.uuid,
+                          {{"put_aside", data.put_aside.filename().string()}});
   for (const auto& x : data.unread)
-    context.tell("record_ignored", x.key,
-                 {{"table", x.table}, {"reason", x.why}});
+    context.publish_event("record_ignored", x.key,
+                          {{"table", x.table}, {"reason", x.why}});
 }
 
 /// A step that says "node" by a label means a node's name, mostly.
-void tell_of_label(const house& context, const node_config& config) {
+void publish_label(const actor_context& context, const node_config& config) {
   const auto own = config.labels.find("node");
   if (own != config.labels.end() && own->second != config.name)
-    context.tell(
+    context.publish_event(
         "name_label_ignored", config.name,
         {{"label", "node=" + own->second},
          {"reason", "the node has a label 'node' of its own, so that a step "
@@ -44,8 +44,9 @@ void tell_of_label(const house& context, const node_config& config) {
                         + config.name + " does not find it"}});
 }
 
-running_node first_facts(const node_config& config, const house& context,
-                         const node_edges& edges) {
+running_node first_events(const node_config& config,
+                          const actor_context& context,
+                          const node_edges& edges) {
   running_node result;
   result.events = context.events;
   result.actors = context.directory;
@@ -84,8 +85,8 @@ caf::expected<running_node> spawn_node(caf::actor_system& system,
   auto data = open_node_data(config);
   if (!data)
     return data.error();
-  house context{std::make_shared<actor_directory>(), {}};
-  context.metrics = std::make_shared<metric_book>();
+  actor_context context{std::make_shared<actor_directory>(), {}};
+  context.metrics = std::make_shared<metric_table>();
   context.blocking = std::make_shared<blocking_threads>(system);
   const auto past = spawn_blocking(system, context, node_history, data->past);
   context.events = spawn(system, context, event_log,
@@ -95,9 +96,9 @@ caf::expected<running_node> spawn_node(caf::actor_system& system,
     caf::anon_send_exit(context.events, caf::exit_reason::user_shutdown);
     return edges.error();
   }
-  tell_of_data(context, *data);
-  tell_of_label(context, config);
-  auto result = first_facts(config, context, **edges);
+  publish_data_state(context, *data);
+  publish_label(context, config);
+  auto result = first_events(config, context, **edges);
   result.token_file = data->token_file;
   result.site_token_file = data->site.file().string();
   result.runtime = runtime->name;

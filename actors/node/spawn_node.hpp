@@ -1,6 +1,6 @@
 #pragma once
 
-#include "actors/house/house.hpp"
+#include "actors/core/actor_context.hpp"
 #include "messages/failure.hpp"
 #include "messages/messages.hpp"
 #include "roscell/node_config.hpp"
@@ -19,7 +19,7 @@ namespace roscell {
 /// A node that runs: its root actor and where it can be reached.
 struct running_node : node_facts {
   node_actor actor;            ///< `stop_node` ends it in order.
-  event_log_actor events;      ///< The node's facts, for whoever embeds it.
+  event_log_actor events;      ///< The node's events, for whoever embeds it.
   request_router_actor router; ///< Takes requests as they come from outside.
   /// Who of the node's actors lives, also after `actor` has ended.
   std::shared_ptr<actor_directory> actors;
@@ -30,11 +30,12 @@ struct node_additions {
   /// Descriptors of the skills whose instances are actors of this process.
   std::vector<std::string> actor_skills;
   /// Spawns what runs them; called again when it has died.
-  std::function<runtime_actor(const house&, const container_listener_actor&)>
+  std::function<runtime_actor(const actor_context&,
+                              const container_listener_actor&)>
       make_actor_runtime;
   /// Looks at the node's host, on a thread of its own; null: it cannot be
   /// looked at from elsewhere.
-  std::function<findings()> examine_host;
+  std::function<findings()> check_host;
 };
 
 /// Starts a node inside `system`, which the caller owns and has configured with

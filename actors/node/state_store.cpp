@@ -1,8 +1,8 @@
 #include "actors/node/state_store.hpp"
 
-#include "actors/house/edge_failure.hpp"
-#include "actors/house/limits.hpp"
-#include "actors/house/told_times.hpp"
+#include "actors/core/edge_failure.hpp"
+#include "actors/core/limits.hpp"
+#include "actors/core/shifted_times.hpp"
 #include "messages/failure.hpp"
 
 #include <caf/result.hpp>
@@ -46,7 +46,8 @@ void on_caught_up(state_store_self self) {
   auto& st = self->state;
   if (st.waiting.empty())
     return;
-  st.context.tell("store_caught_up", "", {{"records", st.waiting.size()}});
+  st.context.publish_event("store_caught_up", "",
+                           {{"records", st.waiting.size()}});
   st.written += st.waiting.size();
   st.waiting.clear();
   st.pause.reset();
@@ -82,10 +83,11 @@ void keep_waiting(state_store_self self,
                   const edge_error& why) {
   auto& st = self->state;
   if (st.waiting.empty()) {
-    st.context.tell("store_failed", "",
-                    {{"message", why.message},
-                     {"hint", why.hint},
-                     {"until_then", "what must not be lost is in memory"}});
+    st.context.publish_event(
+        "store_failed", "",
+        {{"message", why.message},
+         {"hint", why.hint},
+         {"until_then", "what must not be lost is in memory"}});
     st.timer.set(self, self->clock().now() + st.pause.next());
   }
   for (const auto& x : records)
@@ -126,7 +128,7 @@ void on_alarm(state_store_self self) {
 } // namespace
 
 state_store_actor::behavior_type
-state_store(state_store_self self, const house& context,
+state_store(state_store_self self, const actor_context& context,
             std::shared_ptr<sqlite_store> database) {
   self->state.context = context;
   self->state.database = std::move(database);

@@ -1,9 +1,9 @@
 #pragma once
 
+#include "actors/core/actor_context.hpp"
+#include "actors/core/alarm.hpp"
+#include "actors/core/backoff.hpp"
 #include "actors/edge/disk/sqlite_store.hpp"
-#include "actors/house/alarm.hpp"
-#include "actors/house/backoff.hpp"
-#include "actors/house/house.hpp"
 #include "messages/messages.hpp"
 
 #include <map>
@@ -17,7 +17,7 @@ namespace roscell {
 struct state_store_state {
   static constexpr const char* name = "state-store";
 
-  house context;
+  actor_context context;
   std::shared_ptr<sqlite_store> database;
   /// What could not be written yet, by table and key; empty removes.
   std::map<std::pair<std::string, std::string>, std::string> waiting;
@@ -31,6 +31,7 @@ struct state_store_state {
 /// messages/inside/storage.hpp.
 state_store_actor::behavior_type
 state_store(state_store_actor::stateful_pointer<state_store_state> self,
-            const house& context, std::shared_ptr<sqlite_store> database);
+            const actor_context& context,
+            std::shared_ptr<sqlite_store> database);
 
 } // namespace roscell

@@ -1,7 +1,7 @@
 #include "actors/placement/instance_specs.hpp"
 
-#include "actors/placement/feeders.hpp"
 #include "actors/placement/life_resolution.hpp"
+#include "actors/placement/upstream_steps.hpp"
 #include "schemas/parameters/declared_parameter.hpp"
 
 #include <algorithm>
@@ -65,7 +65,7 @@ std::vector<instance_spec> make_specs(const allocated_task& task) {
     spec.life = life_of(x.step, option, build.safe_state);
     result.push_back(std::move(spec));
   }
-  name_feeders(result);
+  name_upstream_steps(result);
   return result;
 }
 

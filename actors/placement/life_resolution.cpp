@@ -1,6 +1,6 @@
 #include "actors/placement/life_resolution.hpp"
 
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 #include "schemas/decode.hpp"
 
 #include <chrono>
@@ -60,16 +60,16 @@ std::optional<failure> check_move(const life_policy& x,
   const auto longest = x.on_node_loss.after_s - leases.count();
   if (!x.safe_state || (x.safe_timeout_s > 0 && x.safe_timeout_s <= longest))
     return std::nullopt;
-  return refuse("/safe_timeout_s",
-                "a step that becomes safe before it ends may only move when "
-                "its node is lost if it has a time for that",
-                longest > 0
-                    ? "say \"safe_timeout_s\" of at most " + seconds(longest)
-                          + ", or a longer " + "\"after_s\" than "
-                          + seconds(x.on_node_loss.after_s)
-                    : "say a longer \"after_s\" than "
-                          + seconds(x.on_node_loss.after_s)
-                          + ", and \"safe_timeout_s\"");
+  return refuse(
+      "/safe_timeout_s",
+      "a step that becomes stop-safe before it ends may only move when "
+      "its node is lost if it has a time for that",
+      longest > 0
+          ? "say \"safe_timeout_s\" of at most " + seconds(longest)
+                + ", or a longer " + "\"after_s\" than "
+                + seconds(x.on_node_loss.after_s)
+          : "say a longer \"after_s\" than " + seconds(x.on_node_loss.after_s)
+                + ", and \"safe_timeout_s\"");
 }
 
 std::optional<failure> check_boot(const life_policy& x,
@@ -82,11 +82,12 @@ std::optional<failure> check_boot(const life_policy& x,
                   "by the time its node is back",
                   R"(say "rejoin", or "on_node_loss": {"policy": "wait"})");
   if (x.safe_state && !descriptor.may_start_alone)
-    return refuse("/on_boot",
-                  "a step that has to be safe before it ends does not start "
-                  "without its coordinator",
-                  R"(say "rejoin", or in its skill.json "may_start_alone": )"
-                  "true");
+    return refuse(
+        "/on_boot",
+        "a step that has to be stop-safe before it ends does not start "
+        "without its coordinator",
+        R"(say "rejoin", or in its skill.json "may_start_alone": )"
+        "true");
   return std::nullopt;
 }
 

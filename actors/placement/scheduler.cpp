@@ -1,5 +1,5 @@
 #include "actors/placement/scheduler.hpp"
-#include "actors/house/watching.hpp"
+#include "actors/core/watching.hpp"
 
 #include <caf/actor_cast.hpp>
 #include <caf/result.hpp>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "actors/house/house.hpp"
+#include "actors/core/actor_context.hpp"
 #include "actors/placement/search_guard.hpp"
 #include "messages/messages.hpp"
 
@@ -20,7 +20,7 @@ struct scheduler_config {
 };
 
 /// Hands each question to one of two searchers, so that plan queries, which
-/// change nothing, never hold up a task that has its turn.
+/// change nothing, never hold up a task that has the placement lock.
 struct scheduler_state {
   static constexpr const char* name = "scheduler";
 

@@ -1,7 +1,7 @@
 #include "actors/placement/searcher.hpp"
 
-#include "actors/house/limits.hpp"
-#include "actors/house/watching.hpp"
+#include "actors/core/limits.hpp"
+#include "actors/core/watching.hpp"
 #include "actors/placement/questions/move_planning.hpp"
 #include "actors/placement/questions/task_allocation.hpp"
 #include "messages/failure.hpp"
@@ -68,7 +68,7 @@ caf::result<moves_planned> search_moves(searcher_self self,
 } // namespace
 
 scheduler_actor::behavior_type searcher(searcher_self self,
-                                        const house& context,
+                                        const actor_context& context,
                                         std::shared_ptr<search_guard> guard,
                                         const scheduler_actor& owner) {
   self->state.context = context;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "actors/house/house.hpp"
+#include "actors/core/actor_context.hpp"
 #include "actors/placement/search_guard.hpp"
 #include "messages/messages.hpp"
 
@@ -13,7 +13,7 @@ namespace roscell {
 struct searcher_state {
   static constexpr const char* name = "searcher";
 
-  house context;
+  actor_context context;
   std::shared_ptr<search_guard> guard;
   uint64_t plans = 0;
   uint64_t move_plans = 0;
@@ -26,7 +26,7 @@ struct searcher_state {
 /// with its owner.
 scheduler_actor::behavior_type
 searcher(scheduler_actor::stateful_pointer<searcher_state> self,
-         const house& context, std::shared_ptr<search_guard> guard,
+         const actor_context& context, std::shared_ptr<search_guard> guard,
          const scheduler_actor& owner);
 
 } // namespace roscell

@@ -1,19 +1,19 @@
 #include "actors/requests/answer_memory.hpp"
 
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 
 #include <algorithm>
 
 namespace roscell {
 
-answer_memory::standing answer_memory::look(const std::string& id,
-                                            const std::string& body) const {
+answer_memory::status answer_memory::look(const std::string& id,
+                                          const std::string& body) const {
   const auto known = requests_.find(id);
   if (known == requests_.end())
-    return standing::unknown;
+    return status::unknown;
   if (known->second.body != body)
-    return standing::taken;
-  return known->second.answer.empty() ? standing::begun : standing::answered;
+    return status::taken;
+  return known->second.answer.empty() ? status::begun : status::answered;
 }
 
 const std::string& answer_memory::answer(const std::string& id) const {

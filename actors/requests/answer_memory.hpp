@@ -12,14 +12,14 @@ namespace roscell {
 /// still worked on.
 class answer_memory {
 public:
-  enum class standing {
+  enum class status {
     unknown,  ///< To be worked on.
     begun,    ///< The same request is worked on.
     answered, ///< The same request has its answer.
     taken,    ///< Another request has this id.
   };
 
-  standing look(const std::string& id, const std::string& body) const;
+  status look(const std::string& id, const std::string& body) const;
 
   /// Of an id that is `answered`.
   const std::string& answer(const std::string& id) const;

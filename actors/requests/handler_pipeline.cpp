@@ -1,7 +1,7 @@
 #include "actors/requests/handler_pipeline.hpp"
 
-#include "actors/house/limits.hpp"
-#include "actors/house/watching.hpp"
+#include "actors/core/limits.hpp"
+#include "actors/core/watching.hpp"
 
 #include <caf/typed_response_promise.hpp>
 
@@ -14,9 +14,9 @@ namespace {
 
 /// Who hears that his task was refused finds none of that name: the coordinator
 /// has forgotten it before.
-void give_turn_back(pipeline_pointer self, const node_services& services,
-                    const failure& why,
-                    std::function<void(const failure&)> done) {
+void return_placement_lock(pipeline_pointer self, const node_services& services,
+                           const failure& why,
+                           std::function<void(const failure&)> done) {
   const auto task = std::exchange(self->state.claimed, {});
   if (task.empty())
     return done(why);
@@ -41,15 +41,15 @@ process(pipeline_pointer self, const request_runner& run,
       promise.deliver(request_processed{std::get<json>(result).dump()});
       return self->quit();
     }
-    services->context.tell("request_refused", self->state.request,
-                           {{"handler", self->state.handler},
-                            {"code", why->code},
-                            {"message", why->message}});
-    give_turn_back(self, *services, *why,
-                   [self, promise](const failure& x) mutable {
-                     promise.deliver(to_error(x));
-                     self->quit();
-                   });
+    services->context.publish_event("request_refused", self->state.request,
+                                    {{"handler", self->state.handler},
+                                     {"code", why->code},
+                                     {"message", why->message}});
+    return_placement_lock(self, *services, *why,
+                          [self, promise](const failure& x) mutable {
+                            promise.deliver(to_error(x));
+                            self->quit();
+                          });
   };
   run({self, services}, document, std::move(finish));
   return promise;

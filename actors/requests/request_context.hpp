@@ -1,7 +1,7 @@
 #pragma once
 
+#include "actors/core/actor_context.hpp"
 #include "actors/edge/dds/ros_graph.hpp"
-#include "actors/house/house.hpp"
 #include "actors/requests/cost/cost_meter.hpp"
 #include "actors/requests/history/request_history.hpp"
 #include "messages/failure.hpp"
@@ -21,7 +21,7 @@ namespace roscell {
 /// The actors that handlers may ask. On a primary node there is neither a
 /// coordinator nor a scheduler, and no handler that needs one.
 struct node_services {
-  house context;
+  actor_context context;
   std::string name; ///< Of the node.
   cell_coordinator_actor coordinator;
   scheduler_actor scheduler;
@@ -33,7 +33,7 @@ struct node_services {
   std::shared_ptr<ros_graph> graph;
   /// Looks at the node's host, for as long as it takes; null: this program
   /// cannot.
-  std::function<findings()> examine_host;
+  std::function<findings()> check_host;
   /// What was asked of this node, and what was decided.
   std::shared_ptr<request_history> history =
       std::make_shared<request_history>();
@@ -63,7 +63,7 @@ struct request_context {
   pipeline_pointer self;
   std::shared_ptr<const node_services> services;
 
-  const house& home() const {
+  const actor_context& home() const {
     return services->context;
   }
 

@@ -1,9 +1,9 @@
 #include "actors/requests/request_router.hpp"
 
-#include "actors/house/limits.hpp"
-#include "actors/house/relayed_requests.hpp"
-#include "actors/house/wall_clock.hpp"
-#include "actors/house/watching.hpp"
+#include "actors/core/limits.hpp"
+#include "actors/core/relayed_requests.hpp"
+#include "actors/core/wall_clock.hpp"
+#include "actors/core/watching.hpp"
 #include "actors/requests/handler_pipeline.hpp"
 #include "schemas/document.hpp"
 #include "schemas/message_catalogue.hpp"
@@ -88,8 +88,8 @@ void note_begin(request_router_self self, const route_request& request,
     data["from"] = request.from;
   if (const auto id = document.value("request_id", ""); !id.empty())
     data["request_id"] = id;
-  self->state.services->context.tell("request_received", subject_of(document),
-                                     data);
+  self->state.services->context.publish_event("request_received",
+                                              subject_of(document), data);
 }
 
 void note_end(request_router_self self, const running_request& request,
@@ -161,7 +161,7 @@ void dispatch(request_router_self self, const request_runner& run,
 
 /// Whether its first answer may have become wrong: a task that ran then may not
 /// run now. The coordinator keeps itself that it does nothing twice.
-bool is_looked_at_anew(const std::string& type) {
+bool is_checked_again(const std::string& type) {
   return type == task_request::type;
 }
 
@@ -169,21 +169,21 @@ bool is_looked_at_anew(const std::string& type) {
 bool recall(request_router_self self, const std::string& type,
             const std::string& id, const std::string& body,
             promise_type& promise) {
-  using standing = answer_memory::standing;
+  using status = answer_memory::status;
   auto& st = self->state;
   switch (st.memory.look(id, body)) {
-  case standing::unknown:
+  case status::unknown:
     st.memory.begin(id, body);
     return false;
-  case standing::begun:
+  case status::begun:
     st.waiting[id].push_back(promise);
     return true;
-  case standing::answered:
-    if (is_looked_at_anew(type))
+  case status::answered:
+    if (is_checked_again(type))
       return false;
     promise.deliver(request_routed{st.memory.answer(id), ""});
     return true;
-  case standing::taken:
+  case status::taken:
     break;
   }
   promise.deliver(
@@ -249,7 +249,8 @@ caf::result<request_routed> route(request_router_self self,
   if (auto* why = std::get_if<failure>(&parsed))
     return refuse_early(self, *why);
   auto& document = std::get<json>(parsed);
-  // What is taken from strangers comes from coordinators, maybe newer ones.
+  // What is taken from unauthenticated peers comes from coordinators, maybe
+  // newer ones.
   if (auto why = request.only.empty()
                      ? validate_request(document)
                      : validate_message(document, {message_kind::request}))

@@ -1,8 +1,8 @@
 #include "actors/requests/rest.hpp"
 
-#include "actors/house/limits.hpp"
-#include "actors/house/told_times.hpp"
-#include "actors/house/watching.hpp"
+#include "actors/core/limits.hpp"
+#include "actors/core/shifted_times.hpp"
+#include "actors/core/watching.hpp"
 #include "actors/requests/metrics/scrape.hpp"
 #include "actors/requests/rest_routes.hpp"
 #include "actors/requests/rest_streams.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "actors/core/actor_context.hpp"
 #include "actors/edge/http/http_types.hpp"
-#include "actors/house/house.hpp"
 #include "actors/requests/request_context.hpp"
 #include "messages/messages.hpp"
 #include "roscell/web_page.hpp"
@@ -12,7 +12,7 @@ namespace roscell {
 
 /// Whom HTTP requests go to.
 struct rest_services {
-  house context;
+  actor_context context;
   request_router_actor router;
   std::shared_ptr<const node_services> services =
       nullptr; ///< May be null in tests.

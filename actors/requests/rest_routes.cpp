@@ -177,7 +177,7 @@ rest_route route_of(const http_request& request) {
   if (request.method == "POST") {
     if (request.path == "/v1/requests")
       return json_request{request.body, "", request.from};
-    // Open to strangers: what it takes is proven in itself.
+    // Open to unauthenticated peers: what it takes is proven in itself.
     if (request.path == registration_path)
       return json_request{request.body, "registration_switch", request.from};
     return not_found(request);

@@ -1,8 +1,8 @@
 #include "actors/requests/rest_streams.hpp"
 
-#include "actors/house/limits.hpp"
-#include "actors/house/told_times.hpp"
-#include "actors/house/watching.hpp"
+#include "actors/core/limits.hpp"
+#include "actors/core/shifted_times.hpp"
+#include "actors/core/watching.hpp"
 #include "schemas/decode.hpp"
 
 #include <chrono>
@@ -54,7 +54,7 @@ struct event_reader_state {
   static constexpr const char* name = "event-reader";
 };
 
-/// Asks for the facts once and ends.
+/// Asks for the events once and ends.
 introspected_actor::behavior_type
 event_reader(introspected_actor::stateful_pointer<event_reader_state> self,
              const event_log_actor& events, const responder& answer,
@@ -93,7 +93,7 @@ void finish_log_stream(log_pointer self) {
 
 void on_excerpt(log_pointer self, const log_excerpt& excerpt) {
   auto& st = self->state;
-  const bool more = st.wish.follow && !excerpt.ended;
+  const bool more = st.request.follow && !excerpt.ended;
   const auto text = st.timed.add(excerpt);
   if (!st.stream && !more) {
     st.answer->reply(200, text_content, text);
@@ -109,8 +109,8 @@ void on_excerpt(log_pointer self, const log_excerpt& excerpt) {
     return finish_log_stream(self);
   if (!more)
     return finish_log_stream(self);
-  st.wish.query.offset = excerpt.next_offset;
-  st.wish.query.wait_ms = limits::log::wait.count();
+  st.request.query.offset = excerpt.next_offset;
+  st.request.query.wait_ms = limits::log::wait.count();
   ask_for_more(self);
 }
 
@@ -133,14 +133,14 @@ void on_reply(log_pointer self, const request_routed& reply) {
 void ask_for_more(log_pointer self) {
   auto& st = self->state;
   self->request(st.router, limits::log::stream,
-                route_request{message_json(st.wish.query).dump()})
+                route_request{message_json(st.request.query).dump()})
       .then([self](const request_routed& reply) { on_reply(self, reply); },
             [self](const caf::error&) { finish_log_stream(self); });
 }
 
 } // namespace
 
-void start_event_stream(caf::actor_system& system, const house& context,
+void start_event_stream(caf::actor_system& system, const actor_context& context,
                         const std::shared_ptr<http_stream>& stream,
                         uint64_t since) {
   // A first comment makes the client see at once that it is connected.
@@ -152,17 +152,17 @@ void start_event_stream(caf::actor_system& system, const house& context,
   });
 }
 
-void send_kept_events(caf::actor_system& system, const house& context,
+void send_kept_events(caf::actor_system& system, const actor_context& context,
                       const responder& answer, const event_question& which) {
   spawn(system, context, event_reader, context.events, answer, which);
 }
 
 introspected_actor::behavior_type log_stream(log_pointer self,
                                              const request_router_actor& router,
-                                             const log_stream_request& wish,
+                                             const log_stream_request& request,
                                              const responder& answer) {
   self->state.router = router;
-  self->state.wish = wish;
+  self->state.request = request;
   self->state.answer = answer;
   watch_until_own_end(self, router);
   self->set_down_handler(
@@ -170,8 +170,8 @@ introspected_actor::behavior_type log_stream(log_pointer self,
   ask_for_more(self);
   return {
       [self](const state_query&) {
-        return state_of({{"instance", self->state.wish.query.instance},
-                         {"offset", self->state.wish.query.offset}});
+        return state_of({{"instance", self->state.request.query.instance},
+                         {"offset", self->state.request.query.offset}});
       },
   };
 }

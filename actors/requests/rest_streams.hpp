@@ -1,7 +1,7 @@
 #pragma once
 
+#include "actors/core/actor_context.hpp"
 #include "actors/edge/http/http_types.hpp"
-#include "actors/house/house.hpp"
 #include "actors/requests/rest_routes.hpp"
 #include "actors/requests/timed_log.hpp"
 #include "messages/messages.hpp"
@@ -13,27 +13,27 @@
 /// Answers without an end: the event stream, and logs that are followed.
 namespace roscell {
 
-/// An EVENT STREAM writes each fact as one server-sent event.
+/// An EVENT STREAM writes each event as one server-sent event.
 using event_stream_actor = introspected_actor::extend<caf::reacts_to<event>>;
 
 /// Starts one that ends when its client goes.
-void start_event_stream(caf::actor_system& system, const house& context,
+void start_event_stream(caf::actor_system& system, const actor_context& context,
                         const std::shared_ptr<http_stream>& stream,
                         uint64_t since);
 
-/// Which of the facts that have been are wanted: those in memory, or a part of
+/// Which of the events that have been are wanted: those in memory, or a part of
 /// those on the disk.
 using event_question = std::variant<kept_events_query, past_events_query>;
 
 /// Answers with these, in the same form, and with no others.
-void send_kept_events(caf::actor_system& system, const house& context,
+void send_kept_events(caf::actor_system& system, const actor_context& context,
                       const responder& answer, const event_question& which);
 
 struct log_stream_state {
   static constexpr const char* name = "log-stream";
 
   request_router_actor router;
-  log_stream_request wish;
+  log_stream_request request;
   timed_log timed;
   std::optional<responder> answer;     ///< Set before anything else happens.
   std::shared_ptr<http_stream> stream; ///< Made with the first excerpt.
@@ -44,7 +44,7 @@ struct log_stream_state {
 /// like any other client.
 introspected_actor::behavior_type
 log_stream(introspected_actor::stateful_pointer<log_stream_state> self,
-           const request_router_actor& router, const log_stream_request& wish,
-           const responder& answer);
+           const request_router_actor& router,
+           const log_stream_request& request, const responder& answer);
 
 } // namespace roscell

@@ -1,7 +1,7 @@
 #include "actors/session/forwarded_requests.hpp"
 
-#include "actors/house/limits.hpp"
-#include "actors/house/relayed_requests.hpp"
+#include "actors/core/limits.hpp"
+#include "actors/core/relayed_requests.hpp"
 #include "messages/allocation_report.hpp"
 #include "messages/cell.hpp"
 #include "messages/formation.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "actors/house/watching.hpp"
+#include "actors/core/watching.hpp"
 #include "actors/session/lease.hpp"
 #include "actors/session/session_exchange.hpp"
 #include "messages/actors.hpp"
@@ -66,10 +66,11 @@ std::optional<session_inquiry> hear_frame(Self self,
 }
 
 template <class Self>
-void hear_beat(Self self, const beat_received& beat) {
+void hear_heartbeat(Self self, const heartbeat_received& heartbeat) {
   auto& st = self->state;
-  if (auto answer = st.life.heard_beat(beat.kind, self->clock().now()))
-    self->send(st.session, send_beat{*answer, beat.sequence});
+  if (auto answer =
+          st.life.heard_heartbeat(heartbeat.kind, self->clock().now()))
+    self->send(st.session, send_heartbeat{*answer, heartbeat.sequence});
 }
 
 /// Does what is due for the lease. False if the other side is lost by it.
@@ -81,7 +82,7 @@ bool keep_lease(Self self) {
     return true;
   const auto next = st.life.due(now);
   if (next.send)
-    self->send(st.session, send_beat{*next.send, 0});
+    self->send(st.session, send_heartbeat{*next.send, 0});
   return !next.over;
 }
 

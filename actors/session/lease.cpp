@@ -1,14 +1,14 @@
 #include "actors/session/lease.hpp"
 
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 
 #include <algorithm>
 
 namespace roscell {
 
 lease::lease(lease_side side, time_point now)
-    : side_(side), heard_(now), next_(now + limits::lease::beat_period),
-      next_beat_(now + limits::lease::beat_period) {
+    : side_(side), heard_(now), next_(now + limits::lease::heartbeat_period),
+      next_heartbeat_(now + limits::lease::heartbeat_period) {
   if (side == lease_side::coordinator)
     next_ += limits::lease::probe_interval;
 }
@@ -18,14 +18,15 @@ void lease::heard(time_point now) {
   unanswered_ = false;
 }
 
-std::optional<beat_kind> lease::heard_beat(beat_kind kind, time_point now) {
+std::optional<heartbeat_kind> lease::heard_heartbeat(heartbeat_kind kind,
+                                                     time_point now) {
   heard(now);
   switch (kind) {
-  case beat_kind::beat:
-    return beat_kind::ack;
-  case beat_kind::probe:
-    return beat_kind::beat;
-  case beat_kind::ack:
+  case heartbeat_kind::heartbeat:
+    return heartbeat_kind::ack;
+  case heartbeat_kind::probe:
+    return heartbeat_kind::heartbeat;
+  case heartbeat_kind::ack:
     break;
   }
   return std::nullopt;
@@ -41,27 +42,27 @@ lease::step lease::due(time_point now) {
 }
 
 lease::step lease::member_due(time_point now) {
-  if (!unanswered_ && now < next_beat_) {
-    next_ = next_beat_;
+  if (!unanswered_ && now < next_heartbeat_) {
+    next_ = next_heartbeat_;
     return {};
   }
   if (!unanswered_) {
     unanswered_ = true;
-    next_beat_ = now + limits::lease::beat_period;
+    next_heartbeat_ = now + limits::lease::heartbeat_period;
   }
   next_ = repeat_at(now);
-  return {false, beat_kind::beat};
+  return {false, heartbeat_kind::heartbeat};
 }
 
 lease::step lease::coordinator_due(time_point now) {
   const auto missed_at =
-      heard_ + limits::lease::beat_period + limits::lease::probe_interval;
+      heard_ + limits::lease::heartbeat_period + limits::lease::probe_interval;
   if (now < missed_at) {
     next_ = missed_at;
     return {};
   }
   next_ = repeat_at(now);
-  return {false, beat_kind::probe};
+  return {false, heartbeat_kind::probe};
 }
 
 lease::time_point lease::repeat_at(time_point now) const {
@@ -71,11 +72,11 @@ lease::time_point lease::repeat_at(time_point now) const {
                    : limits::lease::probe_interval);
 }
 
-std::string silence_of_a_lease() {
+std::string missed_heartbeats_text() {
   using seconds = std::chrono::seconds;
   constexpr auto span =
       std::chrono::duration_cast<seconds>(limits::lease::span);
-  return "silent for " + std::to_string(span.count()) + " s";
+  return "no heartbeat for " + std::to_string(span.count()) + " s";
 }
 
 } // namespace roscell

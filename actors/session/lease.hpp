@@ -1,6 +1,6 @@
 #pragma once
 
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 #include "messages/inside/link.hpp"
 
 #include <chrono>
@@ -9,8 +9,8 @@
 
 namespace roscell {
 
-/// A member beats and waits for each ack; a coordinator answers, and asks by
-/// itself only when a beat is missing.
+/// A member sends heartbeats and waits for each ack; a coordinator answers, and
+/// asks by itself only when a heartbeat is missing.
 enum class lease_side { member, coordinator };
 
 /// One side's belief that the other one lives: pure, told the time. Whoever
@@ -23,7 +23,7 @@ public:
   /// What there is to do now.
   struct step {
     bool over = false; ///< The peer is lost; the lease must not be asked again.
-    std::optional<beat_kind> send;
+    std::optional<heartbeat_kind> send;
   };
 
   lease() = default;
@@ -31,11 +31,12 @@ public:
   /// Begins when both sides have just heard each other: the handshake.
   lease(lease_side side, time_point now);
 
-  /// The peer has shown that it lives, by a frame or a beat.
+  /// The peer has shown that it lives, by a frame or a heartbeat.
   void heard(time_point now);
 
   /// As `heard`, and gives what the peer expects in return.
-  std::optional<beat_kind> heard_beat(beat_kind kind, time_point now);
+  std::optional<heartbeat_kind> heard_heartbeat(heartbeat_kind kind,
+                                                time_point now);
 
   step due(time_point now);
 
@@ -61,11 +62,11 @@ private:
   lease_side side_ = lease_side::member;
   time_point heard_;
   time_point next_;
-  time_point next_beat_;
-  bool unanswered_ = false; ///< A beat was sent and nothing heard since.
+  time_point next_heartbeat_;
+  bool unanswered_ = false; ///< A heartbeat was sent and nothing heard since.
 };
 
 /// Why a peer was given up, in words.
-std::string silence_of_a_lease();
+std::string missed_heartbeats_text();
 
 } // namespace roscell

@@ -1,7 +1,7 @@
 #include "actors/session/peer.hpp"
 
-#include "actors/house/limits.hpp"
-#include "actors/house/watching.hpp"
+#include "actors/core/limits.hpp"
+#include "actors/core/watching.hpp"
 
 #include <utility>
 
@@ -75,16 +75,16 @@ void on_notice(peer_self self, const json& body) {
   auto& st = self->state;
   const auto type = body.value("type", "");
   if (type == cell_standing::type) {
-    auto told = decode<cell_standing>(body);
-    auto* standing = std::get_if<cell_standing>(&told);
-    if (!standing || standing->uuid != st.setup.uuid)
+    auto reported = decode<cell_standing>(body);
+    auto* status = std::get_if<cell_standing>(&reported);
+    if (!status || status->uuid != st.setup.uuid)
       return end_peer(self, "it says that it is another one than it proved");
-    st.cell = standing->place.cell;
+    st.cell = status->place.cell;
     self->send(st.setup.coordinator,
-               peer_told{peer_actor{self}, std::move(*standing)});
+               peer_status_reported{peer_actor{self}, std::move(*status)});
   } else if (type == cell_changed::type) {
-    auto told = decode<cell_changed>(body);
-    if (auto* change = std::get_if<cell_changed>(&told))
+    auto reported = decode<cell_changed>(body);
+    if (auto* change = std::get_if<cell_changed>(&reported))
       self->send(st.setup.coordinator,
                  peer_changed{peer_actor{self}, std::move(*change)});
   }
@@ -107,9 +107,9 @@ void on_frame(peer_self self, const frame_received& frame) {
   set_timer(self);
 }
 
-void on_beat(peer_self self, const beat_received& beat) {
+void on_heartbeat(peer_self self, const heartbeat_received& heartbeat) {
   if (!self->state.ended && is_from_session(self))
-    hear_beat(self, beat);
+    hear_heartbeat(self, heartbeat);
 }
 
 void on_tick(peer_self self, uint64_t number) {
@@ -118,7 +118,7 @@ void on_tick(peer_self self, uint64_t number) {
     return;
   st.frames.calls().expire(self->clock().now());
   if (!keep_lease(self))
-    return end_peer(self, silence_of_a_lease());
+    return end_peer(self, missed_heartbeats_text());
   set_timer(self);
 }
 
@@ -141,9 +141,9 @@ static_assert(2 * limits::cell::rows * most_claim_bytes
               "a whole cell can be told of, and be gone, in one frame");
 
 /// Who is not told something has a wrong picture of this cell for good.
-template <class Fact>
-void tell(peer_self self, const Fact& fact) {
-  if (!self->state.ended && !self->state.frames.notify(message_json(fact)))
+template <class Event>
+void notify_peer(peer_self self, const Event& event) {
+  if (!self->state.ended && !self->state.frames.notify(message_json(event)))
     end_peer(self, "what it is to be told does not fit into a frame");
 }
 
@@ -194,15 +194,17 @@ peer_actor::behavior_type peer(peer_self self, const peer_setup& setup) {
       [self](const node_release& x) {
         return ask<node_released>(self, x, limits::transfer::forwarded);
       },
-      [self](const cell_standing& x) { tell(self, x); },
-      [self](const cell_changed& x) { tell(self, x); },
+      [self](const cell_standing& x) { notify_peer(self, x); },
+      [self](const cell_changed& x) { notify_peer(self, x); },
       [self](const frame_received& frame) { on_frame(self, frame); },
-      [self](const beat_received& beat) { on_beat(self, beat); },
-      [self](const session_closed& fact) {
-        if (is_from_session(self))
-          end_peer(self, fact.reason);
+      [self](const heartbeat_received& heartbeat) {
+        on_heartbeat(self, heartbeat);
       },
-      [self](const close_session& wish) { end_peer(self, wish.reason); },
+      [self](const session_closed& event) {
+        if (is_from_session(self))
+          end_peer(self, event.reason);
+      },
+      [self](const close_session& request) { end_peer(self, request.reason); },
       [self](caf::tick_atom, uint64_t number) { on_tick(self, number); },
   };
 }

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "actors/house/alarm.hpp"
-#include "actors/house/house.hpp"
+#include "actors/core/actor_context.hpp"
+#include "actors/core/alarm.hpp"
 #include "actors/session/held_session.hpp"
 #include "messages/messages.hpp"
 
@@ -11,8 +11,9 @@ namespace roscell {
 
 struct peer_setup {
   session_actor session;
-  std::string uuid;        ///< Of the other coordination node, as proven.
-  bool opened_here = true; ///< Then this side beats, as a member does.
+  std::string uuid; ///< Of the other coordination node, as proven.
+  bool opened_here =
+      true; ///< Then this side sends heartbeats, as a member does.
   cell_coordinator_actor coordinator; ///< The own one.
 };
 
@@ -28,8 +29,8 @@ struct peer_state : held_session {
 
 /// The PEER. Messages: messages/inside/membership.hpp. It takes the session
 /// over at once, tells the coordinator `peer_opened`, and passes on what comes
-/// from the other side: notices as `peer_told` and `peer_changed`, questions as
-/// the questions they are. It ends with the session.
+/// from the other side: notices as `peer_status_reported` and `peer_changed`,
+/// questions as the questions they are. It ends with the session.
 peer_actor::behavior_type peer(peer_actor::stateful_pointer<peer_state> self,
                                const peer_setup& setup);
 

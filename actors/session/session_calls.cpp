@@ -1,6 +1,6 @@
 #include "actors/session/session_calls.hpp"
 
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 
 #include <algorithm>
 #include <utility>

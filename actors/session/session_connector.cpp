@@ -24,7 +24,7 @@ failure refusal_of(const edge_error& why, const site_secret& site,
 }
 
 /// On the io thread: turns the outcome of an attempt into a message.
-session_settled settle(caf::actor_system& system, const house& context,
+session_settled settle(caf::actor_system& system, const actor_context& context,
                        const connector_parts& parts, uint64_t attempt,
                        const socket_address& to, session_result result) {
   if (auto* why = std::get_if<edge_error>(&result))
@@ -34,25 +34,26 @@ session_settled settle(caf::actor_system& system, const house& context,
   opened.cell = session.peer.cell;
   opened.coordinator = session.peer.node;
   opened.incarnation = session.peer.number;
-  opened.session =
-      spawn_session(system, context, *parts.beats, std::move(session), to.port);
+  opened.session = spawn_session(system, context, *parts.heartbeats,
+                                 std::move(session), to.port);
   return {attempt, std::move(opened), {}};
 }
 
 caf::result<session_opened> open(session_connector_self self,
-                                 const open_session& wish) {
+                                 const open_session& request) {
   auto& st = self->state;
-  const auto place = parse_socket_address(wish.address);
+  const auto place = parse_socket_address(request.address);
   if (!place)
     return fail(error_code::unreachable,
-                "'" + wish.address + "' is not an address like 10.0.0.1:8420");
+                "'" + request.address
+                    + "' is not an address like 10.0.0.1:8420");
   const auto attempt = ++st.attempts;
   auto promise = self->make_response_promise<session_opened>();
   st.pending.emplace(attempt, promise);
-  connect_session(*st.parts.io, {place->address, place->port, "", wish.uuid},
-                  {wish.self.name, wish.self.uuid, wish.self.epoch,
-                   wish.role == node_role::coordinator
-                       ? std::string{to_word(wish.role)}
+  connect_session(*st.parts.io, {place->address, place->port, "", request.uuid},
+                  {request.self.name, request.self.uuid, request.self.epoch,
+                   request.role == node_role::coordinator
+                       ? std::string{to_word(request.role)}
                        : std::string{}},
                   st.parts.site, {},
                   [&system = self->system(), context = st.context,
@@ -64,22 +65,22 @@ caf::result<session_opened> open(session_connector_self self,
   return promise;
 }
 
-void on_settled(session_connector_self self, const session_settled& fact) {
-  auto i = self->state.pending.find(fact.attempt);
+void on_settled(session_connector_self self, const session_settled& event) {
+  auto i = self->state.pending.find(event.attempt);
   if (i == self->state.pending.end())
     return;
   auto promise = std::move(i->second);
   self->state.pending.erase(i);
-  if (fact.opened.session)
-    promise.deliver(fact.opened);
+  if (event.opened.session)
+    promise.deliver(event.opened);
   else
-    promise.deliver(to_error(fact.problem));
+    promise.deliver(to_error(event.problem));
 }
 
 } // namespace
 
 session_connector_actor::behavior_type
-session_connector(session_connector_self self, const house& context,
+session_connector(session_connector_self self, const actor_context& context,
                   const connector_parts& parts) {
   self->state.context = context;
   self->state.parts = parts;
@@ -88,8 +89,8 @@ session_connector(session_connector_self self, const house& context,
         return state_of({{"attempts", self->state.attempts},
                          {"pending", self->state.pending.size()}});
       },
-      [self](const open_session& wish) { return open(self, wish); },
-      [self](const session_settled& fact) { on_settled(self, fact); },
+      [self](const open_session& request) { return open(self, request); },
+      [self](const session_settled& event) { on_settled(self, event); },
   };
 }
 

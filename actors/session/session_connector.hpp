@@ -1,9 +1,9 @@
 #pragma once
 
+#include "actors/core/actor_context.hpp"
 #include "actors/edge/io/io_thread.hpp"
-#include "actors/edge/session/beat_socket.hpp"
+#include "actors/edge/session/heartbeat_socket.hpp"
 #include "actors/edge/site/site_secret.hpp"
-#include "actors/house/house.hpp"
 #include "messages/messages.hpp"
 
 #include <caf/typed_response_promise.hpp>
@@ -18,7 +18,7 @@ namespace roscell {
 /// What sessions are made with. The edges outlive every actor.
 struct connector_parts {
   io_thread* io = nullptr;
-  beat_socket* beats = nullptr;
+  heartbeat_socket* heartbeats = nullptr;
   site_secret site;
 };
 
@@ -26,7 +26,7 @@ struct connector_parts {
 struct session_connector_state {
   static constexpr const char* name = "session-connector";
 
-  house context;
+  actor_context context;
   connector_parts parts;
   uint64_t attempts = 0;
   std::map<uint64_t, caf::typed_response_promise<session_opened>> pending;
@@ -35,6 +35,6 @@ struct session_connector_state {
 /// The SESSION CONNECTOR. Messages: messages/inside/link.hpp.
 session_connector_actor::behavior_type session_connector(
     session_connector_actor::stateful_pointer<session_connector_state> self,
-    const house& context, const connector_parts& parts);
+    const actor_context& context, const connector_parts& parts);
 
 } // namespace roscell

@@ -1,6 +1,6 @@
 #include "actors/session/session_exchange.hpp"
 
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 
 #include <utility>
 

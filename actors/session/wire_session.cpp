@@ -1,8 +1,8 @@
 #include "actors/session/wire_session.hpp"
 
-#include "actors/house/limits.hpp"
-#include "actors/house/told_times.hpp"
-#include "actors/house/watching.hpp"
+#include "actors/core/limits.hpp"
+#include "actors/core/shifted_times.hpp"
+#include "actors/core/watching.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -30,10 +30,11 @@ namespace {
 
 using session_self = session_actor::stateful_pointer<wire_session_state>;
 
-void count_lost(session_self self, std::ptrdiff_t beats) {
+void count_lost(session_self self, std::ptrdiff_t heartbeats) {
   const auto& st = self->state;
-  if (beats > 0)
-    st.context.count(metric::beats_lost, {st.peer}, static_cast<double>(beats));
+  if (heartbeats > 0)
+    st.context.count(metric::heartbeats_lost, {st.peer},
+                     static_cast<double>(heartbeats));
 }
 
 /// What is on its way when a session ends is not lost; what is older than the
@@ -43,7 +44,7 @@ void count_unanswered(session_self self) {
   const auto latest = st.context.boot_now_ms(self->system())
                       - limits::lease::probe_interval.count();
   count_lost(self,
-             std::count_if(st.beats_sent.begin(), st.beats_sent.end(),
+             std::count_if(st.heartbeats_sent.begin(), st.heartbeats_sent.end(),
                            [&](const auto& x) { return x.second < latest; }));
 }
 
@@ -81,37 +82,40 @@ void on_frame(session_self self, const frame_received& frame) {
     self->state.early_frames.push_back(frame);
 }
 
-void take_owner(session_self self, const own_session& wish) {
+void take_owner(session_self self, const own_session& request) {
   auto& st = self->state;
-  st.owner = wish.owner;
-  watch_until_own_end(self, wish.owner);
+  st.owner = request.owner;
+  watch_until_own_end(self, request.owner);
   for (const auto& frame : std::exchange(st.early_frames, {}))
     hand_over(self, frame);
 }
 
 /// An ack has the number of the beat it answers, so that whoever sent that one
 /// knows when it did. The time is taken before: it may count on that.
-void send_out(session_self self, const send_beat& beat) {
+void send_out(session_self self, const send_heartbeat& heartbeat) {
   auto& st = self->state;
-  const bool is_ack = beat.kind == beat_kind::ack && beat.answers != 0;
-  const auto number = is_ack ? beat.answers : ++st.beat_sequence;
-  if (beat.kind == beat_kind::beat) {
-    st.context.count(metric::beats_sent, {st.peer});
-    st.beats_sent.emplace_back(number, st.context.boot_now_ms(self->system()));
-    if (st.beats_sent.size() > limits::session::remembered_beats) {
-      st.beats_sent.pop_front();
+  const bool is_ack =
+      heartbeat.kind == heartbeat_kind::ack && heartbeat.answers != 0;
+  const auto number = is_ack ? heartbeat.answers : ++st.heartbeat_sequence;
+  if (heartbeat.kind == heartbeat_kind::heartbeat) {
+    st.context.count(metric::heartbeats_sent, {st.peer});
+    st.heartbeats_sent.emplace_back(number,
+                                    st.context.boot_now_ms(self->system()));
+    if (st.heartbeats_sent.size() > limits::session::remembered_heartbeats) {
+      st.heartbeats_sent.pop_front();
       count_lost(self, 1);
     }
   }
-  st.wire->beats->send(beat.kind, number);
-  st.context.count(metric::session_sent_bytes, {st.peer}, beat_packet::size);
+  st.wire->heartbeats->send(heartbeat.kind, number);
+  st.context.count(metric::session_sent_bytes, {st.peer},
+                   heartbeat_packet::size);
 }
 
-/// Finds the beat that an ack answers. Those before it are lost: what comes of
-/// them later proves nothing that this one does not.
-void settle_beats(session_self self, beat_received& ack) {
+/// Finds the heartbeat that an ack answers. Those before it are lost: what
+/// comes of them later proves nothing that this one does not.
+void settle_heartbeats(session_self self, heartbeat_received& ack) {
   auto& st = self->state;
-  auto& sent = st.beats_sent;
+  auto& sent = st.heartbeats_sent;
   const auto found = std::find_if(sent.begin(), sent.end(), [&](const auto& x) {
     return x.first == ack.sequence;
   });
@@ -122,14 +126,14 @@ void settle_beats(session_self self, beat_received& ack) {
   sent.erase(sent.begin(), std::next(found));
 }
 
-void hand_over(session_self self, beat_received beat) {
+void hand_over(session_self self, heartbeat_received heartbeat) {
   auto& st = self->state;
   st.context.count(metric::session_received_bytes, {st.peer},
-                   beat_packet::size);
-  if (beat.kind == beat_kind::ack)
-    settle_beats(self, beat);
+                   heartbeat_packet::size);
+  if (heartbeat.kind == heartbeat_kind::ack)
+    settle_heartbeats(self, heartbeat);
   if (st.owner)
-    self->send(st.owner, beat);
+    self->send(st.owner, heartbeat);
 }
 
 void send_text(session_self self, const send_frame& frame) {
@@ -143,7 +147,7 @@ void send_text(session_self self, const send_frame& frame) {
 } // namespace
 
 session_actor::behavior_type
-wire_session(session_self self, const house& context,
+wire_session(session_self self, const actor_context& context,
              const std::shared_ptr<session_wire>& wire,
              const std::string& peer) {
   self->state.context = context;
@@ -160,16 +164,18 @@ wire_session(session_self self, const house& context,
                          {"frames_out", st.frames_out},
                          {"queued_bytes", st.wire->link->queued_bytes()}});
       },
-      [self](const own_session& wish) { take_owner(self, wish); },
+      [self](const own_session& request) { take_owner(self, request); },
       [self](const send_frame& frame) { send_text(self, frame); },
-      [self](const send_beat& beat) { send_out(self, beat); },
-      [self](const close_session& wish) {
-        end_wire_session(self, wish.reason);
+      [self](const send_heartbeat& heartbeat) { send_out(self, heartbeat); },
+      [self](const close_session& request) {
+        end_wire_session(self, request.reason);
       },
       [self](const frame_received& frame) { on_frame(self, frame); },
-      [self](const beat_received& beat) { hand_over(self, beat); },
-      [self](const session_closed& fact) {
-        end_wire_session(self, fact.reason);
+      [self](const heartbeat_received& heartbeat) {
+        hand_over(self, heartbeat);
+      },
+      [self](const session_closed& event) {
+        end_wire_session(self, event.reason);
       },
   };
 }
@@ -177,35 +183,37 @@ wire_session(session_self self, const house& context,
 namespace {
 
 /// Words for why a connection ended.
-std::string reason_of(const session_end& fact) {
-  switch (fact.why) {
+std::string reason_of(const session_end& event) {
+  switch (event.why) {
   case session_end::cause::closed_there:
-    return "closed by the peer: " + fact.reason;
+    return "closed by the peer: " + event.reason;
   case session_end::cause::lost:
     return "the connection was lost";
   default:
-    return fact.reason;
+    return event.reason;
   }
 }
 
 } // namespace
 
-session_actor spawn_session(caf::actor_system& system, const house& context,
-                            beat_socket& beats, established_session session,
-                            uint16_t beat_port) {
+session_actor spawn_session(caf::actor_system& system,
+                            const actor_context& context,
+                            heartbeat_socket& heartbeats,
+                            established_session session,
+                            uint16_t heartbeat_port) {
   auto wire = std::make_shared<session_wire>();
   wire->link = session.link;
   auto self =
       spawn(system, context, wire_session, context, wire, session.peer.node);
-  beat_registration place{session.agreement, "", 0, {}};
-  if (beat_port != 0) {
+  heartbeat_registration place{session.agreement, "", 0, {}};
+  if (heartbeat_port != 0) {
     place.address = session.peer.address;
-    place.port = beat_port;
+    place.port = heartbeat_port;
   }
-  place.on_beat = [self](beat_kind kind, uint32_t sequence) {
-    caf::anon_send(self, beat_received{kind, sequence, 0});
+  place.on_heartbeat = [self](heartbeat_kind kind, uint32_t sequence) {
+    caf::anon_send(self, heartbeat_received{kind, sequence, 0});
   };
-  wire->beats = beats.register_session(std::move(place));
+  wire->heartbeats = heartbeats.register_session(std::move(place));
   session_callbacks callbacks;
   callbacks.on_frame = [self, wire, ahead = session.ahead_ms](
                            std::string text, std::function<void()> done) {
@@ -213,8 +221,8 @@ session_actor spawn_session(caf::actor_system& system, const house& context,
     caf::anon_send(self, frame_received{with_times_shifted(std::move(text),
                                                            from_peer(ahead))});
   };
-  callbacks.on_closed = [self](const session_end& fact) {
-    caf::anon_send(self, session_closed{reason_of(fact)});
+  callbacks.on_closed = [self](const session_end& event) {
+    caf::anon_send(self, session_closed{reason_of(event)});
   };
   session.link->start(std::move(callbacks));
   return self;

@@ -1,7 +1,7 @@
 #include "embedding/skills/actor_runtime.hpp"
 
-#include "actors/house/limits.hpp"
-#include "actors/house/watching.hpp"
+#include "actors/core/limits.hpp"
+#include "actors/core/watching.hpp"
 #include "embedding/skills/skill_logs.hpp"
 #include "messages/failure.hpp"
 #include "roscell/ros2.hpp"
@@ -62,10 +62,10 @@ std::shared_ptr<line_ring> make_log(actor_runtime_pointer self,
 /// The streams use what the node says of the cell, not what the environment of
 /// this process holds. Throws engine::start_error.
 std::shared_ptr<actor_skill_context::impl>
-make_side(actor_runtime_pointer self, const start_container& wish,
+make_side(actor_runtime_pointer self, const start_container& request,
           const std::shared_ptr<line_ring>& log,
           const std::shared_ptr<skill_keeper_actor>& keeper) {
-  const auto lookup = lookup_in(wish.environment);
+  const auto lookup = lookup_in(request.environment);
   engine::registry protocols;
   ros2::add_ros2_protocol(protocols, lookup);
   return std::make_shared<actor_skill_context::impl>(
@@ -74,18 +74,18 @@ make_side(actor_runtime_pointer self, const start_container& wish,
       actor_skill_context::impl::ears{
           [keeper] { caf::anon_send(*keeper, skill_ready{}); },
           [keeper] { caf::anon_send(*keeper, frames_waiting{}); },
-          [keeper] { caf::anon_send(*keeper, safety_told{}); }});
+          [keeper] { caf::anon_send(*keeper, safety_reported{}); }});
 }
 
-void start_keeper(actor_runtime_pointer self, const start_container& wish,
+void start_keeper(actor_runtime_pointer self, const start_container& request,
                   const actor_skill_factory& make, kept_skill& x) {
   auto& st = self->state;
   // The instance's own calls find its keeper here; it is set before there is
   // any, and taken out when the instance has ended, which ends the circle.
   const auto keeper = std::make_shared<skill_keeper_actor>();
-  skill_keeper_config config{wish.instance,
-                             make_side(self, wish, x.log, keeper), make,
-                             reports_of(self, wish.instance, x.container)};
+  skill_keeper_config config{request.instance,
+                             make_side(self, request, x.log, keeper), make,
+                             reports_of(self, request.instance, x.container)};
   *keeper = spawn<caf::detached>(*st.config.workers, st.config.context,
                                  skill_keeper, config);
   x.keeper = *keeper;
@@ -93,22 +93,22 @@ void start_keeper(actor_runtime_pointer self, const start_container& wish,
 }
 
 caf::result<container_started> start(actor_runtime_pointer self,
-                                     const start_container& wish) {
+                                     const start_container& request) {
   auto& st = self->state;
   const auto make =
-      st.config.factories.find(wish.image.substr(image_prefix.size()));
+      st.config.factories.find(request.image.substr(image_prefix.size()));
   if (make == st.config.factories.end())
     return fail(error_code::engine_failed,
-                "this program has no actors for '" + wish.image + "'");
-  auto& x = st.skills[wish.instance];
+                "this program has no actors for '" + request.image + "'");
+  auto& x = st.skills[request.instance];
   if (x.keeper)
     return fail(error_code::engine_failed,
-                "the instance '" + wish.instance + "' runs already");
+                "the instance '" + request.instance + "' runs already");
   x = kept_skill{};
   x.container = std::string{image_prefix} + std::to_string(++st.starts);
-  x.log = make_log(self, wish.instance);
+  x.log = make_log(self, request.instance);
   try {
-    start_keeper(self, wish, make->second, x);
+    start_keeper(self, request, make->second, x);
   } catch (...) {
     return fail(error_code::engine_failed, engine::current_error());
   }
@@ -137,28 +137,28 @@ void end(actor_runtime_pointer self, kept_skill& x,
 }
 
 caf::result<container_stopped> stop(actor_runtime_pointer self,
-                                    const stop_container& wish) {
-  auto* x = find(self, wish.instance, wish.container);
+                                    const stop_container& request) {
+  auto* x = find(self, request.instance, request.container);
   if (x == nullptr)
     return container_stopped{};
   if (!x->keeper)
     return container_stopped{x->exit_code};
   end(self, *x,
       std::chrono::milliseconds{std::clamp<int64_t>(
-          wish.grace_ms, 0, limits::instance::most_stop_grace.count())});
+          request.grace_ms, 0, limits::instance::most_stop_grace.count())});
   auto promise = self->make_response_promise<container_stopped>();
   x->stoppers.push_back(promise);
   return promise;
 }
 
 caf::result<container_removed> remove(actor_runtime_pointer self,
-                                      const remove_container& wish) {
-  auto* x = find(self, wish.instance, wish.container);
+                                      const remove_container& request) {
+  auto* x = find(self, request.instance, request.container);
   if (x == nullptr)
     return container_removed{};
   if (!x->keeper) {
     release_followers(*x);
-    self->state.skills.erase(wish.instance);
+    self->state.skills.erase(request.instance);
     return container_removed{};
   }
   end(self, *x, std::chrono::milliseconds{0});
@@ -167,22 +167,22 @@ caf::result<container_removed> remove(actor_runtime_pointer self,
   return promise;
 }
 
-void on_ended(actor_runtime_pointer self, const skill_ended& fact) {
+void on_ended(actor_runtime_pointer self, const skill_ended& event) {
   auto& st = self->state;
-  auto* x = find(self, fact.instance, fact.container);
+  auto* x = find(self, event.instance, event.container);
   if (x == nullptr || !x->keeper)
     return;
   x->keeper = nullptr;
   x->patience.reset();
-  x->exit_code = fact.exit_code;
-  self->send(st.listener,
-             container_exited{fact.instance, fact.container, fact.exit_code});
+  x->exit_code = event.exit_code;
+  self->send(st.listener, container_exited{event.instance, event.container,
+                                           event.exit_code});
   for (auto& promise : std::exchange(x->stoppers, {}))
-    promise.deliver(container_stopped{fact.exit_code});
+    promise.deliver(container_stopped{event.exit_code});
   release_followers(*x);
   auto removers = std::exchange(x->removers, {});
   if (!removers.empty())
-    st.skills.erase(fact.instance);
+    st.skills.erase(event.instance);
   for (auto& promise : removers)
     promise.deliver(container_removed{});
 }
@@ -215,17 +215,18 @@ void on_hear(actor_runtime_pointer self, const std::string& instance) {
   self->send(self->state.listener, answer);
 }
 
-void ask_to_be_safe(actor_runtime_pointer self, const ask_for_safety& wish) {
-  const auto* x = find(self, wish.instance, wish.container);
+void ask_to_become_stop_safe(actor_runtime_pointer self,
+                             const ask_for_safety& request) {
+  const auto* x = find(self, request.instance, request.container);
   if (x != nullptr && x->keeper)
     caf::anon_send(x->keeper, safety_wanted{});
 }
 
 container_adopted adopt(actor_runtime_pointer self,
-                        const adopt_container& wish) {
-  const auto* x = find(self, wish.instance, wish.container);
+                        const adopt_container& request) {
+  const auto* x = find(self, request.instance, request.container);
   if (x == nullptr)
-    return {false, wish.container, -1};
+    return {false, request.container, -1};
   return {static_cast<bool>(x->keeper), x->container, x->exit_code};
 }
 
@@ -267,7 +268,7 @@ actor_runtime(actor_runtime_pointer self, const actor_runtime_config& config,
       [](const fence_container&) {
         // A step of actors may not say "move": no shim outlives this process.
       },
-      [self](const ask_for_safety& x) { ask_to_be_safe(self, x); },
+      [self](const ask_for_safety& x) { ask_to_become_stop_safe(self, x); },
       [self](const hear_container& x) { on_hear(self, x.instance); },
       [self](const log_query& x) { return read_log(self, x); },
       [self](const skill_ended& x) { on_ended(self, x); },

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "actors/house/alarm.hpp"
-#include "actors/house/house.hpp"
+#include "actors/core/actor_context.hpp"
+#include "actors/core/alarm.hpp"
 #include "actors/instances/logs/log_following.hpp"
 #include "embedding/skills/messages.hpp"
 #include "embedding/skills/skill_keeper.hpp"
@@ -18,7 +18,7 @@
 namespace roscell::embedding {
 
 struct actor_runtime_config {
-  house context;
+  actor_context context;
   caf::actor_system* workers = nullptr; ///< Where instances live.
   std::map<std::string, actor_skill_factory> factories; ///< By operation.
   std::size_t log_bytes = 0;                            ///< Of one instance.

@@ -1,7 +1,7 @@
 #include "embedding/skills/line_ring.hpp"
 
+#include "actors/core/limits.hpp"
 #include "actors/edge/process/line_times.hpp"
-#include "actors/house/limits.hpp"
 #include "schemas/utf8.hpp"
 
 #include <algorithm>

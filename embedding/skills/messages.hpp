@@ -23,10 +23,10 @@ struct skill_ready {};
 /// Frames are in the inbox again.
 struct frames_waiting {};
 
-/// The instance has said whether it is safe.
-struct safety_told {};
+/// The instance has said whether it is stop-safe.
+struct safety_reported {};
 
-/// Somebody waits for the instance to be safe.
+/// Somebody waits for the instance to be stop-safe.
 struct safety_wanted {};
 
 /// Ends the instance, after `grace_ms` by force.
@@ -34,7 +34,7 @@ struct end_skill {
   int64_t grace_ms = 0;
 };
 
-/// A fact: the keeper's instance has ended, and its streams are closed.
+/// An event: the keeper's instance has ended, and its streams are closed.
 struct skill_ended {
   std::string instance;
   std::string container;
@@ -57,7 +57,7 @@ typename Inspector::result_type inspect(Inspector& f, frames_waiting&) {
 }
 
 template <class Inspector>
-typename Inspector::result_type inspect(Inspector& f, safety_told&) {
+typename Inspector::result_type inspect(Inspector& f, safety_reported&) {
   return f();
 }
 
@@ -79,7 +79,7 @@ typename Inspector::result_type inspect(Inspector& f, skill_ended& x) {
 /// The KEEPER of one instance.
 using skill_keeper_actor = introspected_actor::extend<
     caf::reacts_to<begin_skill>, caf::reacts_to<skill_ready>,
-    caf::reacts_to<frames_waiting>, caf::reacts_to<safety_told>,
+    caf::reacts_to<frames_waiting>, caf::reacts_to<safety_reported>,
     caf::reacts_to<safety_wanted>, caf::reacts_to<end_skill>,
     // INTERNAL: a sign of life is due.
     caf::reacts_to<caf::tick_atom, uint64_t>>;
@@ -99,6 +99,6 @@ CAF_BEGIN_TYPE_ID_BLOCK(roscell_keeper, caf::first_custom_type_id + 1200)
   CAF_ADD_TYPE_ID(roscell_keeper, (roscell::embedding::frames_waiting))
   CAF_ADD_TYPE_ID(roscell_keeper, (roscell::embedding::end_skill))
   CAF_ADD_TYPE_ID(roscell_keeper, (roscell::embedding::skill_ended))
-  CAF_ADD_TYPE_ID(roscell_keeper, (roscell::embedding::safety_told))
+  CAF_ADD_TYPE_ID(roscell_keeper, (roscell::embedding::safety_reported))
   CAF_ADD_TYPE_ID(roscell_keeper, (roscell::embedding::safety_wanted))
 CAF_END_TYPE_ID_BLOCK(roscell_keeper)

@@ -1,9 +1,9 @@
 #include "embedding/skills/skill_keeper.hpp"
 
-#include "actors/house/limits.hpp"
-#include "actors/house/watching.hpp"
+#include "actors/core/limits.hpp"
+#include "actors/core/watching.hpp"
 #include "roscell/skill/errors.hpp"
-#include "skills/engine/life/frame_words.hpp"
+#include "skills/engine/life/frame_text.hpp"
 #include "skills/engine/life/heartbeat.hpp"
 
 #include <caf/exit_reason.hpp>
@@ -71,7 +71,7 @@ void set_timer(self_pointer self) {
 
 void expect_life(self_pointer self) {
   self->state.life_due =
-      self->clock().now() + limits::instance::told_watchdog / 2;
+      self->clock().now() + limits::instance::announced_watchdog / 2;
   set_timer(self);
 }
 
@@ -82,13 +82,13 @@ void ask_life(self_pointer self) {
   self->request(st.skill, limits::instance::watchdog, check_life{})
       .then(
           [self] {
-            instance_notified fact;
-            fact.instance = self->state.config.instance;
-            fact.alive = true;
-            fact.status = engine::frame_words(
+            instance_notified event;
+            event.instance = self->state.config.instance;
+            event.alive = true;
+            event.status = engine::frame_text(
                 *self->state.times, self->state.config.side->inbox().dropped(),
                 self->state.failed);
-            self->state.config.reports.notified(fact);
+            self->state.config.reports.notified(event);
             expect_life(self);
           },
           // The node hears nothing, and judges.
@@ -134,12 +134,12 @@ void on_ready(self_pointer self) {
   auto& st = self->state;
   if (!st.skill || st.ending)
     return;
-  instance_notified fact;
-  fact.instance = st.config.instance;
-  fact.ready = true;
+  instance_notified event;
+  event.instance = st.config.instance;
+  event.ready = true;
   // Who hears that it runs knows whether it may be ended.
-  fact.safe = st.config.side->take_safety();
-  st.config.reports.notified(fact);
+  event.safe = st.config.side->take_safety();
+  st.config.reports.notified(event);
   try {
     st.config.side->start_inputs();
   } catch (...) {
@@ -152,7 +152,7 @@ void on_ready(self_pointer self) {
 
 /// An instance that changes its mind often is not heard more often. It says
 /// nothing more until what it has said is taken.
-void on_safety_told(self_pointer self) {
+void on_safety_reported(self_pointer self) {
   auto& st = self->state;
   const auto now = self->clock().now();
   if (now < st.safety_quiet_until) {
@@ -160,10 +160,10 @@ void on_safety_told(self_pointer self) {
     return set_timer(self);
   }
   st.safety_quiet_until = now + engine::heartbeat::least_word_pause;
-  instance_notified fact;
-  fact.instance = st.config.instance;
-  fact.safe = st.config.side->take_safety();
-  st.config.reports.notified(fact);
+  instance_notified event;
+  event.instance = st.config.instance;
+  event.safe = st.config.side->take_safety();
+  st.config.reports.notified(event);
 }
 
 /// Whether what is due at this time is; if so, it is not any more.
@@ -182,7 +182,7 @@ void on_tick(self_pointer self, uint64_t number) {
   if (take_due(st.life_due, now))
     ask_life(self);
   if (take_due(st.safety_due, now))
-    on_safety_told(self);
+    on_safety_reported(self);
   if (take_due(st.force_due, now))
     use_force(self);
   set_timer(self);
@@ -233,7 +233,7 @@ skill_keeper(self_pointer self, const skill_keeper_config& config) {
       [self](const begin_skill&) { begin(self); },
       [self](const skill_ready&) { on_ready(self); },
       [self](const frames_waiting&) { pass_on(self); },
-      [self](const safety_told&) { on_safety_told(self); },
+      [self](const safety_reported&) { on_safety_reported(self); },
       [self](const safety_wanted&) { self->state.config.side->want_safety(); },
       [self](const end_skill& x) {
         end(self, std::chrono::milliseconds{x.grace_ms});

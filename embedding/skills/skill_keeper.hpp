@@ -1,7 +1,7 @@
 #pragma once
 
-#include "actors/house/alarm.hpp"
-#include "actors/house/house.hpp"
+#include "actors/core/actor_context.hpp"
+#include "actors/core/alarm.hpp"
 #include "embedding/skills/messages.hpp"
 #include "embedding/skills/skill_side.hpp"
 #include "skills/engine/life/processing_times.hpp"

@@ -1,6 +1,6 @@
 #include "embedding/skills/skill_logs.hpp"
 
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 
 #include <utility>
 

@@ -1,6 +1,6 @@
 #include "embedding/skills/skill_side.hpp"
 
-#include "actors/house/wall_clock.hpp"
+#include "actors/core/wall_clock.hpp"
 #include "roscell/skill/errors.hpp"
 
 #include <stdexcept>
@@ -137,12 +137,12 @@ safe_word actor_skill_context::impl::take_safety() {
 }
 
 void actor_skill_context::impl::on_safety_wanted(std::function<void()> call) {
-  std::lock_guard<std::mutex> lock{wish_mutex_};
+  std::lock_guard<std::mutex> lock{request_mutex_};
   on_safety_wanted_ = std::move(call);
 }
 
 void actor_skill_context::impl::want_safety() {
-  std::unique_lock<std::mutex> lock{wish_mutex_};
+  std::unique_lock<std::mutex> lock{request_mutex_};
   const auto call = on_safety_wanted_;
   lock.unlock();
   try {

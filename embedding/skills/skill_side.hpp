@@ -53,7 +53,7 @@ public:
   /// What the instance has said last of its safety.
   safe_word take_safety();
 
-  /// Passes on that somebody waits for it to be safe.
+  /// Passes on that somebody waits for it to be stop-safe.
   void want_safety();
 
   void log(const std::string& line);
@@ -89,7 +89,7 @@ private:
   std::atomic<bool> is_ready_{false};
   std::atomic<safe_word> safety_{safe_word::untold};
   std::atomic<bool> safety_waits_{false}; ///< The keeper is to take it.
-  std::mutex wish_mutex_;                 // Guards what follows.
+  std::mutex request_mutex_;              // Guards what follows.
   std::function<void()> on_safety_wanted_;
   engine::stop_event stop_;
   std::vector<std::unique_ptr<input_port>> inputs_;

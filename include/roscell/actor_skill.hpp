@@ -70,9 +70,9 @@ public:
   void set_safe(bool safe) const;
 
   /// From now on `call` is called each time that somebody waits for the
-  /// instance to be safe. It runs on a thread of the node and must not block:
-  /// let it send the instance a message. To be told before `ready`; a later one
-  /// replaces it.
+  /// instance to be stop-safe. It runs on a thread of the node and must not
+  /// block: let it send the instance a message. To be told before `ready`; a
+  /// later one replaces it.
   void on_safety_wanted(std::function<void()> call) const;
 
   /// One line of the instance's log.

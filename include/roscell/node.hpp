@@ -101,7 +101,7 @@ public:
   task_status run(const std::string& request,
                   std::chrono::milliseconds limit = std::chrono::minutes{2});
 
-  /// Ends a task. What has to be safe before it ends may outlive the call,
+  /// Ends a task. What has to be stop-safe before it ends may outlive the call,
   /// unless it is forced.
   void stop(const std::string& task, bool force = false,
             std::chrono::milliseconds limit = std::chrono::minutes{2});

@@ -18,17 +18,17 @@ struct node_config {
   bool coordinator = false;
   std::string cell;          ///< Empty: the node's own name. Coordinators only.
   std::string address;       ///< Local IPv4 address that everything binds to.
-  uint16_t http_port = 8420; ///< HTTP, sessions, UDP beat; 0: any free.
+  uint16_t http_port = 8420; ///< HTTP, sessions, UDP heartbeat; 0: any free.
   uint16_t discovery_port = 11811; ///< Discovery server; 0: any free.
   /// Of the discovery server, in its prefix; none: the lowest that no visible
   /// coordinator has.
   std::optional<uint8_t> server_id;
   uint8_t ros_domain_id = 0;
   std::string join;  ///< "HOST[:PORT]" of a discovery server; empty: none.
-  bool wait = false; ///< Do not ask for a place: wait to be chosen.
+  bool wait = false; ///< Do not ask for a slot: wait to be chosen.
   uint8_t public_domain_id = 99;  ///< Where nodes of the site see each other.
   std::vector<std::string> peers; ///< "HOST[:PORT]", besides multicast.
-  bool rebalance = true; ///< The cell may be evened out. Coordinators only.
+  bool rebalance = true; ///< The cell may be balanced. Coordinators only.
   bool force = false;    ///< Take a cell name that is in use.
   /// auto, process, docker[:SOCKET] or podman[:SOCKET].
   std::string runtime = "auto";

@@ -5,7 +5,7 @@
 
 namespace roscell {
 
-/// A fact of a node, as `roscell events` shows it.
+/// An event of a node, as `roscell events` shows it.
 struct node_event {
   std::uint64_t sequence = 0; ///< Counts from 1 at every start of the node.
   std::int64_t time_unix_ms = 0;

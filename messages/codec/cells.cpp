@@ -9,7 +9,7 @@
 namespace roscell {
 
 ROSCELL_CODEC(registry_row)
-ROSCELL_CODEC(free_node)
+ROSCELL_CODEC(unassigned_node)
 ROSCELL_CODEC(cell_query)
 ROSCELL_CODEC(cell_description)
 ROSCELL_CODEC(cell_list_query)
@@ -57,8 +57,8 @@ ROSCELL_CODEC(switch_accepted)
 ROSCELL_CODEC(registration_query)
 ROSCELL_CODEC(registration_challenge)
 ROSCELL_DESCRIBED(switch_node)
-ROSCELL_DESCRIBED(prove_standing)
-ROSCELL_DESCRIBED(standing_proved)
+ROSCELL_DESCRIBED(prove_status)
+ROSCELL_DESCRIBED(status_proved)
 ROSCELL_DESCRIBED(node_answered)
 
 } // namespace roscell

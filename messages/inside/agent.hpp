@@ -69,7 +69,7 @@ struct use_measured {
 };
 
 /// Takes a CPU sample now, so that a later measurement need not wait for one.
-/// Sent along with work that is done anyway, such as a beat.
+/// Sent along with work that is done anyway, such as a heartbeat.
 struct mark_sample {
   static constexpr auto fields() {
     return field_list{};

@@ -37,7 +37,7 @@ struct depart_node {
   }
 };
 
-/// A fact: a member's session has ended or its lease has run out.
+/// An event: a member's session has ended or its lease has run out.
 struct member_lost {
   std::string uuid;
   member_actor member; ///< Ignored unless it is the row's present one.
@@ -52,8 +52,8 @@ struct member_lost {
   }
 };
 
-/// A fact: a session with another coordinator is open. The coordinator sends
-/// its standing to the peer in return.
+/// An event: a session with another coordinator is open. The coordinator sends
+/// its status to the peer in return.
 struct peer_opened {
   peer_actor peer;
   std::string uuid;        ///< Of the other coordination node.
@@ -66,7 +66,7 @@ struct peer_opened {
   }
 };
 
-/// A fact: the session with another coordinator has ended.
+/// An event: the session with another coordinator has ended.
 struct peer_lost {
   peer_actor peer;
   std::string uuid;
@@ -79,18 +79,18 @@ struct peer_lost {
   }
 };
 
-/// A fact: another coordinator has told its standing.
-struct peer_told {
+/// An event: another coordinator has told its status.
+struct peer_status_reported {
   peer_actor peer;
-  cell_standing standing;
+  cell_standing status;
 
   static constexpr auto fields() {
-    return field_list{required("peer", &peer_told::peer),
-                      required("standing", &peer_told::standing)};
+    return field_list{required("peer", &peer_status_reported::peer),
+                      required("standing", &peer_status_reported::status)};
   }
 };
 
-/// A fact: another cell has changed.
+/// An event: another cell has changed.
 struct peer_changed {
   peer_actor peer;
   cell_changed change;
@@ -102,20 +102,20 @@ struct peer_changed {
 };
 
 /// Has instances of other tasks go, for whose room a task is held already.
-struct make_way {
+struct preempt_instances {
   std::string task;
   std::vector<preempted_instance> preempted;
-  bool force = false; ///< Nothing is waited for to be safe.
+  bool force = false; ///< Nothing is waited for to be stop-safe.
 
   static constexpr auto fields() {
-    return field_list{required("task", &make_way::task),
-                      required("preempted", &make_way::preempted),
-                      required("force", &make_way::force)};
+    return field_list{required("task", &preempt_instances::task),
+                      required("preempted", &preempt_instances::preempted),
+                      required("force", &preempt_instances::force)};
   }
 };
 
-/// Reply to `make_way`: they are gone.
-struct way_made {
+/// Reply to `preempt_instances`: they are gone.
+struct instances_preempted {
   static constexpr auto fields() {
     return field_list{};
   }

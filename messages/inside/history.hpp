@@ -45,7 +45,7 @@ struct past_events_query {
   }
 };
 
-/// A fact: the log of an instance has been put into the history.
+/// An event: the log of an instance has been put into the history.
 struct log_kept {
   static constexpr auto fields() {
     return field_list{};

@@ -8,7 +8,7 @@
 
 namespace roscell {
 
-/// Asks an actor what it knows. Every actor of the house answers.
+/// Asks an actor what it knows. Every actor of a node answers.
 struct state_query {
   static constexpr auto fields() {
     return field_list{};
@@ -24,7 +24,7 @@ struct actor_state {
   }
 };
 
-/// A fact to be numbered, dated and kept.
+/// An event to be numbered, dated and kept.
 struct record_event {
   std::string what;    ///< A past participle: "node_joined".
   std::string subject; ///< Whom it concerns: a node, task or instance.

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "messages/actors.hpp"
-#include "messages/beat.hpp"
 #include "messages/failure.hpp"
+#include "messages/heartbeat.hpp"
 #include "messages/inside/introspection.hpp"
 #include "messages/node.hpp"
 
@@ -31,27 +31,28 @@ struct frame_received {
   }
 };
 
-struct send_beat {
-  beat_kind kind = beat_kind::beat;
-  uint32_t answers = 0; ///< With an ack: the number of the beat.
+struct send_heartbeat {
+  heartbeat_kind kind = heartbeat_kind::heartbeat;
+  uint32_t answers = 0; ///< With an ack: the number of the heartbeat.
 
   static constexpr auto fields() {
-    return field_list{required("kind", &send_beat::kind),
-                      required("answers", &send_beat::answers)};
+    return field_list{required("kind", &send_heartbeat::kind),
+                      required("answers", &send_heartbeat::answers)};
   }
 };
 
-struct beat_received {
-  beat_kind kind = beat_kind::beat;
+struct heartbeat_received {
+  heartbeat_kind kind = heartbeat_kind::heartbeat;
   uint32_t sequence = 0; ///< An ack has that of the beat it answers.
-  /// When the beat that an ack answers was sent, by the clock of the boot; 0:
-  /// it answers none of the last ones.
+  /// When the heartbeat that an ack answers was sent, by the clock of the boot;
+  /// 0: it answers none of the last ones.
   int64_t sent_boot_ms = 0;
 
   static constexpr auto fields() {
-    return field_list{required("kind", &beat_received::kind),
-                      required("sequence", &beat_received::sequence),
-                      required("sent_boot_ms", &beat_received::sent_boot_ms)};
+    return field_list{
+        required("kind", &heartbeat_received::kind),
+        required("sequence", &heartbeat_received::sequence),
+        required("sent_boot_ms", &heartbeat_received::sent_boot_ms)};
   }
 };
 
@@ -63,7 +64,7 @@ struct close_session {
   }
 };
 
-/// A fact, the last one of a session.
+/// An event, the last one of a session.
 struct session_closed {
   std::string reason;
 
@@ -80,7 +81,8 @@ struct own_session {
   }
 };
 
-/// A fact for the COORDINATOR: a node has proved that it knows the site token.
+/// An event for the COORDINATOR: a node has proved that it knows the site
+/// token.
 struct session_admitted {
   session_actor session;
   node_identity peer;
@@ -229,7 +231,7 @@ struct watch_endpoints {
   }
 };
 
-/// A fact: what of the watched endpoints is not there.
+/// An event: what of the watched endpoints is not there.
 struct endpoints_missing {
   std::string instance;
   std::vector<std::string> missing; ///< "a writer of /scene_1/image"
@@ -247,7 +249,7 @@ struct graph_changed {
   }
 };
 
-/// A fact: the discovery server has told who coordinates its cell.
+/// An event: the discovery server has told who coordinates its cell.
 struct coordinator_found {
   std::string cell;
   std::string coordinator;
@@ -306,7 +308,7 @@ struct withdraw_presence {
   }
 };
 
-/// A fact: somebody announces this.
+/// An event: somebody announces this.
 struct presence_seen {
   node_presence who;
 
@@ -315,7 +317,7 @@ struct presence_seen {
   }
 };
 
-/// A fact: somebody has said farewell or was silent for long.
+/// An event: somebody has said farewell or was silent for long.
 struct presence_gone {
   node_presence who; ///< As announced last.
 

@@ -8,14 +8,14 @@
 namespace roscell {
 
 /// Asks what the skills of a whole cell say of themselves.
-struct collect_figures {
+struct collect_metrics {
   static constexpr auto fields() {
     return field_list{};
   }
 };
 
 /// What they say is known now, as far as their nodes have answered in time.
-struct figures_collected {
+struct metrics_collected {
   static constexpr auto fields() {
     return field_list{};
   }
@@ -47,7 +47,7 @@ struct instance_measures {
   std::string node;
   instance_state state = instance_state::pending;
   int64_t restarts = 0;
-  instance_figures figures;
+  instance_metrics metrics;
   instance_health health = instance_health::good;
 
   static constexpr auto fields() {
@@ -57,14 +57,14 @@ struct instance_measures {
                       required("node", &instance_measures::node),
                       required("state", &instance_measures::state),
                       required("restarts", &instance_measures::restarts),
-                      required("figures", &instance_measures::figures),
+                      required("figures", &instance_measures::metrics),
                       required("health", &instance_measures::health)};
   }
 };
 
 inline instance_measures measures_of(const instance_row& row) {
   return {row.spec.instance, row.spec.task, row.spec.step, row.node,
-          row.state,         row.restarts,  row.figures,   row.health};
+          row.state,         row.restarts,  row.metrics,   row.health};
 }
 
 /// Tasks that are in one state.

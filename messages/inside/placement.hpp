@@ -34,7 +34,7 @@ struct deployed_end {
   }
 };
 
-/// An instance that may have to make way, and the room that it holds.
+/// An instance that may have to be preempted, and the room that it holds.
 struct evictable_instance {
   preempted_instance who;
   resource_request resources;

@@ -62,7 +62,7 @@ struct start_container {
   /// When it is ended unless that is moved on before, by the clock of the boot
   /// (CLOCK_BOOTTIME); 0: never.
   int64_t fence_boot_ms = 0;
-  scheduling_wish scheduling; ///< That the node's configuration grants.
+  scheduling_request scheduling; ///< That the node's configuration grants.
   std::vector<std::string> capabilities; ///< The same, "NET_RAW".
   std::string user;       ///< The same; empty: the node's. Processes only.
   bool read_only = false; ///< Its root file system may be.
@@ -201,8 +201,8 @@ struct fence_container {
   }
 };
 
-/// Tells the program of a container that somebody waits for it to be safe, by
-/// SIGUSR1.
+/// Tells the program of a container that somebody waits for it to be stop-safe,
+/// by SIGUSR1.
 struct ask_for_safety {
   std::string instance;
   std::string container;
@@ -223,7 +223,7 @@ struct hear_container {
   }
 };
 
-/// A fact: the container's program has ended, asked or not.
+/// An event: the container's program has ended, asked or not.
 struct container_exited {
   std::string instance;
   std::string container;
@@ -243,7 +243,7 @@ struct container_exited {
   }
 };
 
-/// A fact: an instance said something on its NOTIFY_SOCKET.
+/// An event: an instance said something on its NOTIFY_SOCKET.
 struct instance_notified {
   std::string instance;
   bool ready = false;    ///< READY=1
@@ -251,10 +251,10 @@ struct instance_notified {
   bool stopping = false; ///< STOPPING=1
   std::string status;    ///< STATUS=..., may be empty.
   bool heard = false;    ///< Answers `hear_container`; may say nothing else.
-  safe_word safe = safe_word::untold; ///< ROSCELL_SAFE=0 or 1
-  std::vector<stream_figure> streams; ///< ROSCELL_STREAMS=...
-  std::vector<stream_count> frames;   ///< ROSCELL_FRAMES=...
-  std::string remark;                 ///< ROSCELL_REMARK=...
+  safe_word safe = safe_word::untold;  ///< ROSCELL_SAFE=0 or 1
+  std::vector<stream_metrics> streams; ///< ROSCELL_STREAMS=...
+  std::vector<stream_count> frames;    ///< ROSCELL_FRAMES=...
+  std::string remark;                  ///< ROSCELL_REMARK=...
 
   static constexpr auto fields() {
     return field_list{required("instance", &instance_notified::instance),
@@ -270,13 +270,13 @@ struct instance_notified {
   }
 };
 
-/// A fact: the engine under the runtime cannot be asked at present, so what is
-/// known of its containers may be outdated; or it can again.
-struct runtime_troubled {
-  std::string message; ///< Empty: the trouble is over.
+/// An event: the engine under the runtime cannot be asked at present, so what
+/// is known of its containers may be outdated; or it can again.
+struct runtime_problem_changed {
+  std::string message; ///< Empty: the problem is over.
 
   static constexpr auto fields() {
-    return field_list{required("message", &runtime_troubled::message)};
+    return field_list{required("message", &runtime_problem_changed::message)};
   }
 };
 
@@ -311,7 +311,7 @@ struct start_instance {
 /// INTERNAL to supervision: take it down; repeated requests are harmless.
 struct stop_instance {
   std::string reason;
-  bool force = false; ///< It is not waited for to be safe.
+  bool force = false; ///< It is not waited for to be stop-safe.
 
   static constexpr auto fields() {
     return field_list{required("reason", &stop_instance::reason),
@@ -319,9 +319,9 @@ struct stop_instance {
   }
 };
 
-/// A fact: a word of this node, sent at that time by the clock of the boot, has
-/// reached the coordinator. What may move to another node goes on until then
-/// and its patience.
+/// An event: a word of this node, sent at that time by the clock of the boot,
+/// has reached the coordinator. What may move to another node goes on until
+/// then and its patience.
 struct contact_proven {
   int64_t boot_ms = 0;
   /// With a registration: what the coordinator wants to go on.
@@ -333,7 +333,7 @@ struct contact_proven {
   }
 };
 
-/// A fact: the coordinator is out of reach, or is another one. Until it is
+/// An event: the coordinator is out of reach, or is another one. Until it is
 /// proven again nothing is known of what it wants to go on.
 struct contact_lost {
   static constexpr auto fields() {

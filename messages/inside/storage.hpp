@@ -14,7 +14,7 @@ namespace roscell {
 /// | identity | node, membership | node_identity, membership_record |
 /// | identity | incarnation | a number; coordinators |
 /// | instances | instance | instance_row |
-/// | tasks, members, transfers | see the coordinator's books | coordinators |
+/// | tasks, members, transfers | see the coordinator's tables | coordinators |
 ///
 /// A field that is new in such a struct needs a default: records of before lack
 /// it. Reading them: actors/node/node_data.cpp. The file itself:

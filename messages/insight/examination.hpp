@@ -31,9 +31,9 @@ struct finding {
   finding() = default;
 
   finding(judgement how_is_it, std::string what, std::string why = {},
-          std::string mend = {})
+          std::string fix = {})
       : how{how_is_it}, seen{std::move(what)}, matters{std::move(why)},
-        remedy{std::move(mend)} {}
+        remedy{std::move(fix)} {}
 
   judgement how = judgement::ok;
   std::string seen;    ///< One sentence without its full stop.

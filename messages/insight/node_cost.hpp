@@ -56,12 +56,12 @@ struct cost_window {
 struct node_cost {
   std::string node;
   std::vector<cost_window> windows; ///< Minute, hour, day.
-  std::string trouble;              ///< Why there are none; empty: there are.
+  std::string problem;              ///< Why there are none; empty: there are.
 
   static constexpr auto fields() {
     return field_list{required("node", &node_cost::node),
                       required("windows", &node_cost::windows),
-                      optional("trouble", &node_cost::trouble)};
+                      optional("trouble", &node_cost::problem)};
   }
 };
 

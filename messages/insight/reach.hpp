@@ -26,7 +26,7 @@ struct reach_opened {
   static constexpr const char* type = "reach_opened";
   std::string node;
   std::string version;          ///< Of the program.
-  std::string address;          ///< "ip:port" of HTTP and beats.
+  std::string address;          ///< "ip:port" of HTTP and heartbeats.
   std::string discovery_server; ///< "ip:port"; empty: it runs none now.
   uint16_t data_port = 0;       ///< UDP, of this answer.
   int64_t clock_unix_us = 0;    ///< The node's, when it answered.
@@ -72,11 +72,11 @@ struct reach_query {
 
 /// How one port answers.
 enum class port_answer {
-  silent,      ///< Not at all, in time.
-  closed,      ///< The host says that nothing listens there.
-  unreachable, ///< The network says that there is no way to the host.
-  stranger,    ///< Something else than what was looked for.
-  found,       ///< As it should.
+  silent,               ///< Not at all, in time.
+  closed,               ///< The host says that nothing listens there.
+  unreachable,          ///< The network says that there is no way to the host.
+  unauthenticated_peer, ///< Something else than what was looked for.
+  found,                ///< As it should.
 };
 
 constexpr auto enum_words(port_answer) {
@@ -87,7 +87,7 @@ constexpr auto enum_words(port_answer) {
 /// By what one node reaches another.
 enum class reach_way {
   session,   ///< TCP: sessions and HTTP.
-  beat,      ///< UDP at the same port.
+  heartbeat, ///< UDP at the same port.
   discovery, ///< UDP of the discovery server.
   data,      ///< UDP of DDS's data.
   large,     ///< The same, by a datagram that has to be sent in fragments.

@@ -91,7 +91,7 @@ void check_ros_values(error_list& errors, const place& skill) {
         continue;
       if (auto problem = ros_problem(value, reader); !problem.empty())
         errors.push_back(
-            {by_default.to_string(), problem + ", got " + value_words(value)});
+            {by_default.to_string(), problem + ", got " + shown_value(value)});
     }
   }
 }
@@ -132,12 +132,12 @@ void check_program(error_list& errors, const place& skill) {
 }
 
 /// Only what is real time has priorities.
-void check_scheduling(error_list& errors, const place& wish) {
-  if (!wish.value.is_object())
+void check_scheduling(error_list& errors, const place& request) {
+  if (!request.value.is_object())
     return;
-  const auto policy = (wish / "policy").text();
+  const auto policy = (request / "policy").text();
   const auto real_time = policy == "fifo" || policy == "rr";
-  const auto priority = wish / "priority";
+  const auto priority = request / "priority";
   if (real_time && priority.value.is_null())
     refuse(errors, priority,
            "a priority from 1 to 99, which " + policy + " needs");

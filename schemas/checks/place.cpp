@@ -8,9 +8,9 @@ namespace roscell::checks {
 
 void refuse(error_list& errors, const place& x, const std::string& expected) {
   errors.push_back({x.at.to_string(), x.value.is_null()
-                                          ? absence_words(x.at.back(), expected)
+                                          ? absence_text(x.at.back(), expected)
                                           : "expected " + expected + ", got "
-                                                + value_words(x.value)});
+                                                + shown_value(x.value)});
 }
 
 void append(error_list& errors, const error_list& others) {

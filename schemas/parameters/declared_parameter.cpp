@@ -59,13 +59,13 @@ bool is_listed(const declared_parameter& x, const json& value) {
 }
 
 /// "a list of numbers"
-std::string list_words(const std::string& items) {
+std::string list_text(const std::string& items) {
   if (items.empty())
     return "a list";
   return "a list of " + (items == "string" ? "text" : items) + "s";
 }
 
-std::string type_words(const std::string& type) {
+std::string type_text(const std::string& type) {
   static constexpr std::array<std::pair<const char*, const char*>, 6> words{
       {{"boolean", "true or false"},
        {"integer", "an integer"},
@@ -110,15 +110,15 @@ declared_parameters read_parameters(const json& parameters,
   return result;
 }
 
-std::string parameter_words(const declared_parameter& x) {
+std::string parameter_text(const declared_parameter& x) {
   if (!x.values.empty()) {
     std::string result = "one of";
     for (const auto& value : x.values)
       result += (&value == &x.values.front() ? " " : ", ") + value.dump();
     return result;
   }
-  return (x.type == "array" ? list_words(x.items) : type_words(x.type))
-         + range_words(x.minimum, x.maximum)
+  return (x.type == "array" ? list_text(x.items) : type_text(x.type))
+         + bounds_text(x.minimum, x.maximum)
          + (x.unit.empty() ? "" : " (" + x.unit + ")");
 }
 
@@ -126,7 +126,7 @@ std::string value_problem(const declared_parameter& x, const json& value) {
   if (has_type(x, value) && has_items(x, value) && is_in_range(x, value)
       && is_listed(x, value))
     return {};
-  return "expected " + parameter_words(x) + ", got " + value_words(value);
+  return "expected " + parameter_text(x) + ", got " + shown_value(value);
 }
 
 std::vector<schema_error> declaration_errors(const json& parameters,
@@ -139,12 +139,12 @@ std::vector<schema_error> declaration_errors(const json& parameters,
     const auto declared = read_declaration(x);
     if (declared.minimum > declared.maximum)
       result.push_back({at + "/minimum", "expected at most the maximum, got "
-                                             + value_words(x["minimum"])});
+                                             + shown_value(x["minimum"])});
     if (!declared.items.empty() && declared.type != "array")
       result.push_back(
           {at + "/items", "expected \"type\": \"array\" beside it, "
                           "got "
-                              + value_words(x["type"])});
+                              + shown_value(x["type"])});
     if (declared.value.is_null())
       continue;
     if (auto problem = value_problem(declared, declared.value);

@@ -34,7 +34,7 @@ declared_parameters read_parameters(const json& parameters,
                                     const declared_parameters& known = {});
 
 /// What a value of it must be: `a number from 0 to 100 (m)`.
-std::string parameter_words(const declared_parameter& x);
+std::string parameter_text(const declared_parameter& x);
 
 /// What is wrong with a value; empty if nothing is.
 std::string value_problem(const declared_parameter& x, const json& value);

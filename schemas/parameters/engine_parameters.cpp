@@ -91,8 +91,8 @@ void add_parameters(const json& engine, const std::string& protocol,
       to = read_parameters(parameters, to);
 }
 
-std::string unknown_parameter_words(const declared_parameters& known,
-                                    const std::string& name) {
+std::string unknown_parameter_text(const declared_parameters& known,
+                                   const std::string& name) {
   std::vector<std::string_view> names;
   for (const auto& [each, x] : known)
     names.emplace_back(each);
@@ -133,7 +133,7 @@ std::vector<schema_error> parameter_errors(const declared_parameters& known,
     const auto at = (json::json_pointer{place} / name).to_string();
     const auto declared = known.find(name);
     if (declared == known.end())
-      result.push_back({at, unknown_parameter_words(known, name)});
+      result.push_back({at, unknown_parameter_text(known, name)});
     else if (auto problem = value_problem(declared->second, value);
              !problem.empty())
       result.push_back({at, std::move(problem)});

@@ -145,7 +145,7 @@ std::vector<schema_error> ros_errors(const json& values, ros_reader reader,
   for (const auto& [name, value] : values.items())
     if (auto problem = ros_problem(value, reader); !problem.empty())
       result.push_back({(json::json_pointer{place} / name).to_string(),
-                        problem + ", got " + value_words(value)});
+                        problem + ", got " + shown_value(value)});
   return result;
 }
 

@@ -15,7 +15,7 @@ constexpr int number_overflow = 406;
 /// The bare words of the parser's message, such as "unexpected end of input;
 /// expected string literal". The token that it quotes in between is left out:
 /// it may be as long as the document, and need not be UTF-8.
-std::string syntax_words(std::string text, const std::string& token) {
+std::string syntax_text(std::string text, const std::string& token) {
   if (auto dash = text.find(" - "); dash != std::string::npos)
     text.erase(0, dash + 3);
   const auto last_read = "; last read: '" + token + "'";
@@ -88,7 +88,7 @@ public:
     to_.fail({position == 0 ? 0 : position - 1,
               error.id == number_overflow
                   ? "the number is too large for a 64-bit floating-point number"
-                  : syntax_words(error.what(), token)});
+                  : syntax_text(error.what(), token)});
     return false;
   }
 

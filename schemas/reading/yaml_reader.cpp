@@ -172,7 +172,7 @@ private:
     if (!takes_name())
       return go_on(to_.scalar(std::move(value), at));
     if (!value.is_string())
-      refuse(mark, "expected a name, got " + value_words(value)
+      refuse(mark, "expected a name, got " + shown_value(value)
                        + "; write it in quotes");
     go_on(to_.key(value.get<std::string>(), at));
   }
@@ -212,7 +212,7 @@ size_t readable_bytes(std::string_view text) {
 }
 
 /// The parser's words without what it quotes, which may be long.
-std::string syntax_words(std::string words) {
+std::string syntax_text(std::string words) {
   words.erase(std::min(words.find(": "), words.size()));
   return words;
 }
@@ -232,7 +232,7 @@ bool read_all(std::string_view text, document_events& to) {
       return true;
     to.fail({0, "the document is empty"});
   } catch (const YAML::Exception& e) {
-    to.fail({events.offset(e.mark), syntax_words(e.msg)});
+    to.fail({events.offset(e.mark), syntax_text(e.msg)});
   } catch (const end_of_reading&) {
     // The events know why.
   }

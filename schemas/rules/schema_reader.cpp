@@ -127,7 +127,7 @@ void schema_reader::fill(schema_rule& rule, const std::string& name,
       throw std::logic_error{name + ": unsupported keyword " + keyword};
   }
   if (rule.pattern)
-    rule.pattern_words = schema.at("description").get<std::string>();
+    rule.pattern_text = schema.at("description").get<std::string>();
   if (rule.pattern || !rule.words.empty())
     rule.kinds = kind_string;
   fill_members(rule, name, schema);

@@ -45,7 +45,7 @@ struct schema_rule {
 
   std::vector<std::string> words; ///< `enum` or `const`; empty: any string.
   std::optional<text_pattern> pattern;
-  std::string pattern_words; ///< What the pattern asks for, in words.
+  std::string pattern_text; ///< What the pattern asks for, in words.
 
   std::vector<member> members;                ///< `properties`, `required`.
   const schema_rule* member_names = nullptr;  ///< `propertyNames`.
@@ -66,6 +66,6 @@ struct schema_rule {
 
 /// What a rule asks for, as the object of "expected": `a string of at most 63
 /// characters`, `an integer from 0 to 7`, `one of "cpu", "gpu"`.
-std::string rule_words(const schema_rule& rule);
+std::string rule_text(const schema_rule& rule);
 
 } // namespace roscell

@@ -29,9 +29,9 @@ void output_ports::suspend() {
     p.handler->suspend();
 }
 
-void output_ports::resume(const changed_variables& told) {
+void output_ports::resume(const changed_variables& reported) {
   for (auto& p : ports_)
-    p.handler->resume(told);
+    p.handler->resume(reported);
 }
 
 void output_ports::begin(const frame& input) {

@@ -62,7 +62,7 @@ public:
   void suspend();
 
   /// Throws start_error.
-  void resume(const changed_variables& told);
+  void resume(const changed_variables& reported);
 
   /// Closes all outputs; what goes wrong is found in `failure`.
   void close();

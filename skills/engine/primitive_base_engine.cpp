@@ -1,6 +1,6 @@
 #include "skills/engine/primitive_base_engine.hpp"
 
-#include "skills/engine/life/frame_words.hpp"
+#include "skills/engine/life/frame_text.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -119,7 +119,7 @@ std::string primitive_base_engine::status() const {
       dropped += queue_.dropped(i);
       failed += work_.failed(i);
     }
-  auto result = frame_words(work_.main_times(), dropped, failed);
+  auto result = frame_text(work_.main_times(), dropped, failed);
   if (const auto& ages = outputs_.ages(); ages.count() > 0) {
     const auto median = duration_cast<microseconds>(ages.quantile(0.5));
     result += " age_us=" + std::to_string(median.count());
@@ -149,7 +149,7 @@ std::string primitive_base_engine::frame_counts() const {
   return result;
 }
 
-std::string primitive_base_engine::told_status() const {
+std::string primitive_base_engine::reported_status() const {
   auto result = "STATUS=" + status() + "\nROSCELL_FRAMES=" + frame_counts();
   if (auto words = remark(); !words.empty()) {
     words.resize(std::min(words.size(), most_remark_bytes));
@@ -191,14 +191,14 @@ void primitive_base_engine::report_ready() {
   if (!socket_.enabled())
     return;
   if (survives_new_address())
-    news_.emplace(env_.notify_socket, [this](changed_variables told) {
-      use_variables(std::move(told));
+    news_.emplace(env_.notify_socket, [this](changed_variables reported) {
+      use_variables(std::move(reported));
     });
   if (auto error = socket_.send("READY=1"))
     say_("cannot report READY=1 to NOTIFY_SOCKET '" + env_.notify_socket
          + "': " + std::strerror(error)
          + "; the skill runs, but the node may not notice");
-  heartbeat::words words{[this] { return told_status(); }, nullptr};
+  heartbeat::words words{[this] { return reported_status(); }, nullptr};
   if (env_.health)
     words.streams = [this](stream_meters::clock::time_point now) {
       return meters_.take_text(now);
@@ -260,7 +260,7 @@ std::size_t primitive_base_engine::handle(const frame& input) {
 
 void primitive_base_engine::work_has_ended() {
   if (alive_.work_ends() && heartbeat_)
-    heartbeat_->beat_now();
+    heartbeat_->send_now();
 }
 
 void primitive_base_engine::want_safety() {
@@ -268,28 +268,28 @@ void primitive_base_engine::want_safety() {
   queue_.interpose([this] { between_frames(); });
 }
 
-void primitive_base_engine::use_variables(changed_variables told) {
+void primitive_base_engine::use_variables(changed_variables reported) {
   {
-    const std::lock_guard guard{told_mutex_};
-    told_ = std::move(told);
+    const std::lock_guard guard{reported_mutex_};
+    reported_ = std::move(reported);
   }
   queue_.interpose([this] { between_frames(); });
 }
 
-/// One wish does not push out the other.
+/// One request does not push out the other.
 void primitive_base_engine::between_frames() {
   if (safety_wanted_.exchange(false))
-    pass_on_wish();
-  std::optional<changed_variables> told;
+    pass_on_request();
+  std::optional<changed_variables> reported;
   {
-    const std::lock_guard guard{told_mutex_};
-    told.swap(told_);
+    const std::lock_guard guard{reported_mutex_};
+    reported.swap(reported_);
   }
-  if (told)
-    move_to(*told);
+  if (reported)
+    move_to(*reported);
 }
 
-void primitive_base_engine::pass_on_wish() {
+void primitive_base_engine::pass_on_request() {
   alive_.work_begins(liveness::clock::now());
   try {
     executor_->on_safety_wanted();
@@ -301,12 +301,12 @@ void primitive_base_engine::pass_on_wish() {
 
 /// No thread uses an output meanwhile, and what an input still brings waits in
 /// the queue.
-void primitive_base_engine::move_to(const changed_variables& told) {
+void primitive_base_engine::move_to(const changed_variables& reported) {
   using namespace std::chrono;
   const auto start = liveness::clock::now();
   alive_.work_begins(start);
   try {
-    make_connections_anew(told);
+    make_connections_anew(reported);
     const auto spent = liveness::clock::now() - start;
     say_("this host has another address: inputs and outputs were made anew in "
          + std::to_string(duration_cast<milliseconds>(spent).count()) + " ms");
@@ -320,13 +320,13 @@ void primitive_base_engine::move_to(const changed_variables& told) {
 
 /// What several of them share is gone before one of them needs it again.
 void primitive_base_engine::make_connections_anew(
-    const changed_variables& told) {
+    const changed_variables& reported) {
   for (auto& input : inputs_)
     input->handler->suspend();
   outputs_.suspend();
-  outputs_.resume(told);
+  outputs_.resume(reported);
   for (auto& input : inputs_)
-    input->handler->resume(told);
+    input->handler->resume(reported);
 }
 
 std::string primitive_base_engine::call_process(const frame& input) {
@@ -368,7 +368,7 @@ exit_code primitive_base_engine::finish(exit_code so_far) {
   news_.reset();
   heartbeat_.reset();
   if (so_far == exit_code::done)
-    socket_.send("STOPPING=1\n" + told_status());
+    socket_.send("STOPPING=1\n" + reported_status());
   try {
     executor_->release();
   } catch (...) {

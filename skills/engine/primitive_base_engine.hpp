@@ -49,13 +49,13 @@ public:
   void request_stop();
 
   /// Tells the executor, between two frames, that somebody waits for it to be
-  /// safe. May be called from any thread, at any time, repeatedly.
+  /// stop-safe. May be called from any thread, at any time, repeatedly.
   void want_safety();
 
   /// Has inputs and outputs go on, between two frames, where these variables
   /// lead; of what is said meanwhile the last word counts. `run` returns where
   /// they cannot. May be called from any thread, at any time, repeatedly.
-  void use_variables(changed_variables told);
+  void use_variables(changed_variables reported);
 
   /// For instance `frames=120 dropped=0 failed=0 median_us=85 p99_us=210
   /// times_us=10900 times=119,1,0,0,0,0,0,0,0,0,0 age_us=4200`: of the input
@@ -91,11 +91,11 @@ private:
   void say_failure(const frame& input, std::size_t port,
                    const std::string& reason) const;
   bool gives_up(std::size_t input) const;
-  std::string told_status() const;
+  std::string reported_status() const;
   void between_frames();
-  void pass_on_wish();
-  void move_to(const changed_variables& told);
-  void make_connections_anew(const changed_variables& told);
+  void pass_on_request();
+  void move_to(const changed_variables& reported);
+  void make_connections_anew(const changed_variables& reported);
   void work_has_ended();
   exit_code finish(exit_code so_far);
 
@@ -117,8 +117,8 @@ private:
   std::atomic<std::size_t> open_inputs_{0};
   std::atomic<bool> stream_failed_{false};
   std::atomic<bool> safety_wanted_{false};
-  std::mutex told_mutex_; // Guards what follows.
-  std::optional<changed_variables> told_;
+  std::mutex reported_mutex_; // Guards what follows.
+  std::optional<changed_variables> reported_;
   std::optional<environment_watch> news_; // Calls until it is gone.
 };
 

@@ -92,7 +92,7 @@ participant::~participant() {
   participant_.reset();
 }
 
-bool participant::is_frail(const guid& reader) {
+bool participant::is_best_effort_reader(const guid& reader) {
   const std::lock_guard guard{others_mutex_};
   return best_effort_readers_.count(reader) > 0
          && stock_programs_.count(program_of(reader)) > 0;
@@ -223,13 +223,13 @@ shared_participant::get(const engine::parameters& options) {
   return result;
 }
 
-void shared_participant::use(const engine::changed_variables& told) {
-  told_ = told;
+void shared_participant::use(const engine::changed_variables& reported) {
+  reported_ = reported;
 }
 
 const char* shared_participant::look_up(const char* name) const {
-  const auto i = told_.find(name);
-  return i != told_.end() ? i->second.c_str() : lookup_(name);
+  const auto i = reported_.find(name);
+  return i != reported_.end() ? i->second.c_str() : lookup_(name);
 }
 
 } // namespace roscell::ros2

@@ -59,7 +59,7 @@ public:
 
   /// Whether a reader is best effort and of a stock program, whose enclave, its
   /// participant's name, begins with '/': what it loses nobody sends again.
-  bool is_frail(const guid& reader);
+  bool is_best_effort_reader(const guid& reader);
 
 private:
   struct deleter {
@@ -104,13 +104,13 @@ public:
 
   /// The next participant, once all ports have let go of this one, is made by
   /// these values of variables. To be called by the same thread.
-  void use(const engine::changed_variables& told);
+  void use(const engine::changed_variables& reported);
 
 private:
   const char* look_up(const char* name) const;
 
   const engine::variable_lookup lookup_;
-  engine::changed_variables told_;
+  engine::changed_variables reported_;
   std::weak_ptr<participant> participant_;
 };
 

@@ -2,7 +2,7 @@
 
 #include "roscell/ros2/stamp.hpp"
 #include "skills/ros2/names.hpp"
-#include "skills/ros2/status_words.hpp"
+#include "skills/ros2/status_text.hpp"
 
 #include <fastdds/dds/subscriber/SampleInfo.hpp>
 
@@ -58,12 +58,12 @@ void topic_input::suspend() {
   participant_.reset();
 }
 
-void topic_input::resume(const engine::changed_variables& told) {
+void topic_input::resume(const engine::changed_variables& reported) {
   {
     const std::lock_guard guard{mutex_};
     moved_ = true;
   }
-  shared_->use(told);
+  shared_->use(reported);
   open();
 }
 
@@ -77,15 +77,14 @@ void topic_input::on_data_available(dds::DataReader* reader) {
 
 void topic_input::on_subscription_matched(
     dds::DataReader*, const dds::SubscriptionMatchedStatus& status) {
-  context_.say(matched_words(context_.config.endpoint, "writer",
-                             status.current_count,
-                             status.current_count_change));
+  context_.say(matched_text(context_.config.endpoint, "writer",
+                            status.current_count, status.current_count_change));
 }
 
 void topic_input::on_requested_incompatible_qos(
     dds::DataReader*, const dds::RequestedIncompatibleQosStatus& status) {
-  context_.say(incompatible_words(context_.config.endpoint, "writer",
-                                  status.last_policy_id));
+  context_.say(incompatible_text(context_.config.endpoint, "writer",
+                                 status.last_policy_id));
 }
 
 engine::frame topic_input::make_frame(std::string payload,

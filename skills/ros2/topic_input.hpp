@@ -34,7 +34,7 @@ public:
 
   /// What was missed meanwhile is counted; what a writer has kept for those who
   /// come late is not delivered a second time.
-  void resume(const engine::changed_variables& told) override;
+  void resume(const engine::changed_variables& reported) override;
 
 private:
   void on_data_available(dds::DataReader* reader) override;

@@ -1,7 +1,7 @@
 #include "skills/ros2/topic_output.hpp"
 
 #include "roscell/skill/errors.hpp"
-#include "skills/ros2/status_words.hpp"
+#include "skills/ros2/status_text.hpp"
 
 #include <utility>
 
@@ -41,12 +41,12 @@ void topic_output::suspend() {
   }
   participant_.reset();
   const std::lock_guard guard{mutex_};
-  frail_readers_.clear();
-  pace_.set_frail_readers(0);
+  best_effort_readers_.clear();
+  pace_.set_best_effort_readers(0);
 }
 
-void topic_output::resume(const engine::changed_variables& told) {
-  shared_->use(told);
+void topic_output::resume(const engine::changed_variables& reported) {
+  shared_->use(reported);
   open();
   for (const auto& payload : kept_)
     send(payload, "what was kept");
@@ -105,25 +105,26 @@ void topic_output::on_publication_matched(
   eprosima::fastrtps::rtps::iHandle2GUID(reader,
                                          status.last_subscription_handle);
   const auto which = to_guid(reader);
-  const bool is_frail =
-      status.current_count_change > 0 && participant_->is_frail(which);
+  const bool is_best_effort_reader =
+      status.current_count_change > 0
+      && participant_->is_best_effort_reader(which);
   {
     const std::lock_guard guard{mutex_};
-    if (is_frail)
-      frail_readers_.insert(which);
+    if (is_best_effort_reader)
+      best_effort_readers_.insert(which);
     else
-      frail_readers_.erase(which);
-    pace_.set_frail_readers(static_cast<int>(frail_readers_.size()));
+      best_effort_readers_.erase(which);
+    pace_.set_best_effort_readers(
+        static_cast<int>(best_effort_readers_.size()));
   }
-  context_.say(matched_words(context_.config.endpoint, "reader",
-                             status.current_count,
-                             status.current_count_change));
+  context_.say(matched_text(context_.config.endpoint, "reader",
+                            status.current_count, status.current_count_change));
 }
 
 void topic_output::on_offered_incompatible_qos(
     dds::DataWriter*, const dds::OfferedIncompatibleQosStatus& status) {
-  context_.say(incompatible_words(context_.config.endpoint, "reader",
-                                  status.last_policy_id));
+  context_.say(incompatible_text(context_.config.endpoint, "reader",
+                                 status.last_policy_id));
 }
 
 } // namespace roscell::ros2

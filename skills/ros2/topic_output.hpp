@@ -34,7 +34,7 @@ public:
   void suspend() override;
 
   /// What is kept for readers that come late is written again.
-  void resume(const engine::changed_variables& told) override;
+  void resume(const engine::changed_variables& reported) override;
 
 private:
   void send(const std::string& payload, const std::string& name);
@@ -53,7 +53,7 @@ private:
   dds::DataWriter* writer_ = nullptr;
   std::deque<std::string> kept_; // As the writer keeps them, for another one.
   std::mutex mutex_;             // Guards what follows.
-  std::set<guid> frail_readers_;
+  std::set<guid> best_effort_readers_;
   writer_pace pace_;
 };
 

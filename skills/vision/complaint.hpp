@@ -7,7 +7,7 @@
 namespace roscell::vision {
 
 /// Says once what is wrong with a source of pictures, and once that it is well
-/// again: the same trouble comes with every picture. Of a source that changes
+/// again: the same problem comes with every picture. Of a source that changes
 /// again and again it says no more after some lines.
 class complaint {
 public:

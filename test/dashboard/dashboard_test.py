@@ -131,7 +131,7 @@ class DashboardTest(Asking, KeepingPlace, MakingWay, unittest.TestCase):
         os.kill(victim["pid"], signal.SIGKILL)
         begun = time.monotonic()
         page.sees("lost", selector="tbody")
-        page.sees(f"Node {victim['name']}", selector=".troubles")
+        page.sees(f"Node {victim['name']}", selector=".problems")
         page.sees(f"Node {victim['name']} is lost", selector="#announcer")
         self.assertIn("(1 node lost)", page.driver.title)
         self.assertEqual(page.text("#ways .amount"), "1")

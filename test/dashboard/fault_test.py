@@ -150,7 +150,7 @@ class FaultTest(unittest.TestCase):
         page.open("#/tasks/task-01")
         links = lambda: page.js("return [...document.querySelectorAll('a.step')].map((x) => x.getAttribute('href'))")
         page.until(lambda: f"#/instances/{INSTANCE}" in links())
-        page.until(lambda: "takes" in page.js("return document.querySelector('.flow .figures').textContent"))
+        page.until(lambda: "takes" in page.js("return document.querySelector('.flow .metrics').textContent"))
         row["spec"]["instance"] = "task-01-step_3-11111111"
         self.fake.say("instance_restarted", INSTANCE, {"task": "task-01"})
         page.until(lambda: "#/instances/task-01-step_3-11111111" in links())

@@ -27,7 +27,7 @@ class KeepingPlace:
         page.open("#/nodes/edge-3")
         drain = page.button("Drain", "main")
         page.js("arguments[0].focus()", drain)
-        fact = page.find(".facts dd")
+        fact = page.find(".attributes dd")
         page.js("performance.clearResourceTimings()")
         for times in (1, 2):
             # Who has looked away asks at once; else a busy node is asked every 30 s.

@@ -78,14 +78,14 @@ struct skill_site {
 TEST_CASE("an operation that is registered is placed, run and ended like any "
           "other") {
   std::promise<std::string> seen;
-  std::atomic<bool> told{false};
+  std::atomic<bool> reported{false};
   std::promise<void> held;
   skill_site site{[&](pointer, const context_type& context) -> behavior {
     context.log("begins");
     context.ready();
     return {
         [&](const skill_frame& x) {
-          if (!told.exchange(true))
+          if (!reported.exchange(true))
             seen.set_value(x.data->payload);
         },
         [](check_life) {},

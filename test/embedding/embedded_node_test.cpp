@@ -186,19 +186,19 @@ TEST_CASE("a client asks a node, and is told when it goes away") {
         == "controller");
   std::string code;
   CHECK_THROWS_AS(from_outside.get("/v1/nowhere"), client_error);
-  std::promise<void> first_fact;
-  std::thread watcher{[&, told = false]() mutable {
+  std::promise<void> first_event;
+  std::thread watcher{[&, reported = false]() mutable {
     try {
       from_outside.follow_events(0, [&](const node_event&) {
-        if (!std::exchange(told, true))
-          first_fact.set_value();
+        if (!std::exchange(reported, true))
+          first_event.set_value();
         return true;
       });
     } catch (const client_error& error) {
       code = error.code();
     }
   }};
-  auto heard = first_fact.get_future();
+  auto heard = first_event.get_future();
   CHECK(heard.wait_for(std::chrono::seconds{30}) == std::future_status::ready);
   node.reset();
   watcher.join();

@@ -5,14 +5,14 @@
 using roscell::embedding::line_ring;
 
 TEST_CASE("a place in a log stays valid when older lines are dropped") {
-  int told = 0;
-  line_ring log{12, [&] { ++told; }};
+  int reported = 0;
+  line_ring log{12, [&] { ++reported; }};
   log.add("one", 1);
   log.add("two", 2);
   const auto place = log.read_from(0).next_offset;
   CHECK(place == 8);
   log.add("three", 3);
-  CHECK(told == 3);
+  CHECK(reported == 3);
   CHECK(log.read_from(place).text == "three\n");
   CHECK(log.read_from(0).text == "two\nthree\n");
   CHECK(log.read_from(1000).text.empty());

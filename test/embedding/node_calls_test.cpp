@@ -14,7 +14,7 @@ constexpr std::chrono::seconds patience{30};
 constexpr std::chrono::seconds at_once{10};
 
 /// What was heard, on whatever thread.
-class heard_words {
+class heard_status {
 public:
   void add(const std::string& word) {
     {
@@ -83,8 +83,8 @@ std::string code_of_call(const std::function<void()>& call) {
 
 TEST_CASE("a program hears events and log of its node by plain calls") {
   scratch_folder folder;
-  heard_words events;
-  heard_words lines;
+  heard_status events;
+  heard_status lines;
   auto setup = setup_in(folder.path);
   setup.calls.on_event = [&](const node_event& x) {
     events.add(x.what + " " + x.subject);
@@ -109,7 +109,7 @@ TEST_CASE("a program hears events and log of its node by plain calls") {
 
 TEST_CASE("a program hears what keeps its node from its cell") {
   scratch_folder folder;
-  heard_words problems;
+  heard_status problems;
   auto setup = setup_in(folder.path);
   setup.node.coordinator = false;
   // Nobody listens there.
@@ -123,7 +123,7 @@ TEST_CASE("a program hears what keeps its node from its cell") {
 
 TEST_CASE("a program runs, asks, watches and stops a task by plain calls") {
   scratch_folder folder;
-  heard_words states;
+  heard_status states;
   embedded_node node{setup_with_skill(folder.path)};
   const auto watch = node.watch(
       "t", [&](const task_status& x) { states.add(x.task + " " + x.state); });
@@ -150,11 +150,11 @@ TEST_CASE("a program at a member hears of each change elsewhere at once") {
   setup.node.name = "arm";
   setup.node.coordinator = false;
   setup.node.join = base.facts().discovery_server;
-  heard_words problems;
+  heard_status problems;
   setup.calls.on_join_problem = [&](const join_problem& x) {
     problems.add(x.reason.empty() ? "joined" : x.reason);
   };
-  heard_words states;
+  heard_status states;
   embedded_node member{setup};
   REQUIRE(problems.has("joined"));
   const auto watch = member.watch(
@@ -170,7 +170,7 @@ TEST_CASE("a program at a member hears of each change elsewhere at once") {
 
 TEST_CASE("a watch at a member goes on when its coordinator is back") {
   scratch_folder folder;
-  heard_words states;
+  heard_status states;
   auto coordinator = setup_with_skill(folder.path);
   auto base = std::make_unique<embedded_node>(coordinator);
   const auto server = base->facts().discovery_server;
@@ -195,7 +195,7 @@ TEST_CASE("a watch at a member goes on when its coordinator is back") {
 TEST_CASE("a program hears that its node lacks the site token") {
   scratch_folder folder;
   embedded_node base{setup_in(folder.path)};
-  heard_words problems;
+  heard_status problems;
   const auto other = folder.path / "other";
   std::filesystem::create_directory(other);
   auto setup = setup_in(other);
@@ -225,7 +225,7 @@ TEST_CASE("a watch may be ended by its own call, and makes no other one") {
   embedded_node node{setup_in(folder.path)};
   std::mutex mutex;
   std::unique_ptr<task_watch> watch;
-  heard_words calls;
+  heard_status calls;
   {
     const std::lock_guard<std::mutex> lock{mutex};
     watch =

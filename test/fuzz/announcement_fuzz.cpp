@@ -1,6 +1,6 @@
+#include "actors/core/limits.hpp"
 #include "actors/edge/dds/announcement.hpp"
 #include "actors/edge/dds/rtps/discovery_probe.hpp"
-#include "actors/house/limits.hpp"
 
 #include <cstdint>
 #include <cstdlib>

@@ -43,6 +43,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
       != check(bytes, roscell::arrival::multicast))
     std::abort();
   guard(bytes);
-  roscell::own_words_in(bytes.data(), bytes.size());
+  roscell::own_announcement_in(bytes.data(), bytes.size());
   return 0;
 }

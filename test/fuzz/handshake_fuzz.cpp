@@ -3,8 +3,8 @@
 #include <cstdlib>
 #include <string_view>
 
-/// Both sides of the handshake are fed frames of a stranger: the input, cut
-/// at zero bytes. Neither may ever come to believe in a session.
+/// Both sides of the handshake are fed frames of an unauthenticated peer: the
+/// input, cut at zero bytes. Neither may ever come to believe in a session.
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, size_t size) {
   using namespace roscell;
   const std::string nonce(64, '0');

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <iterator>
 
-/// What `roscell echo` makes of a message that a stranger has sent. The first
-/// byte chooses its type.
+/// What `roscell echo` makes of a message that an unauthenticated peer has
+/// sent. The first byte chooses its type.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
                                       std::size_t size) {
   using namespace roscell::cli;

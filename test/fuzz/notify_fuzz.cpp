@@ -8,7 +8,7 @@
 
 namespace {
 
-bool is_sound(const roscell::stream_figure& x) {
+bool is_sound(const roscell::stream_metrics& x) {
   return (x.end.rfind("input:", 0) == 0 || x.end.rfind("output:", 0) == 0)
          && x.end.size() <= 9 && std::isfinite(x.rate_hz) && x.rate_hz >= 0
          && std::isfinite(x.age_s) && x.age_s >= -1;
@@ -23,7 +23,7 @@ bool is_sound(const roscell::stream_count& x) {
 } // namespace
 
 /// Whatever a program says, its status is one short line of valid UTF-8, and
-/// figures of its streams are few and finite.
+/// metrics of its streams are few and finite.
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, size_t size) {
   using namespace roscell;
   const std::string_view bytes{reinterpret_cast<const char*>(data), size};
@@ -34,9 +34,9 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, size_t size) {
       || unfinished_utf8(words.status) != 0)
     std::abort();
   const auto sound = [](const auto& x) { return is_sound(x); };
-  if (words.streams.size() > max_told_streams
+  if (words.streams.size() > max_reported_streams
       || !std::all_of(words.streams.begin(), words.streams.end(), sound)
-      || words.frames.size() > max_told_streams
+      || words.frames.size() > max_reported_streams
       || !std::all_of(words.frames.begin(), words.frames.end(), sound)
       || words.remark.size() > max_remark_bytes)
     std::abort();

@@ -10,7 +10,7 @@ using Catch::Matchers::Contains;
 namespace {
 
 /// A program that takes its time to end, says when it is told that somebody
-/// waits for it to be safe, and that it has ended.
+/// waits for it to be stop-safe, and that it has ended.
 constexpr const char* careful = R"(
 exec bash -c 'trap "sleep 0.3; echo parked; exit 0" TERM
   trap "echo asked" USR1

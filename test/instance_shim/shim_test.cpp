@@ -41,14 +41,14 @@ TEST_CASE("the shim records the signal that ended its child") {
 }
 
 TEST_CASE("the shim records that it was told to end its child") {
-  const bool told = GENERATE(false, true);
+  const bool reported = GENERATE(false, true);
   shim_run run{"trap 'exit 0' TERM; echo up; while :; do sleep 0.01; done"};
   REQUIRE((run.wait_for("pid") && run.wait_for_log("up")));
   // A signal to the child alone is an end as any other.
-  ::kill(static_cast<pid_t>(run.pids()[told ? 0 : 2]), SIGTERM);
+  ::kill(static_cast<pid_t>(run.pids()[reported ? 0 : 2]), SIGTERM);
   CHECK(run.process.wait() == 0);
   CHECK(run.exit()["code"] == 0);
-  CHECK(run.exit().value("terminated", false) == told);
+  CHECK(run.exit().value("terminated", false) == reported);
 }
 
 TEST_CASE("in a container the shim records the end in a file of the host") {

@@ -39,7 +39,7 @@ std::unique_ptr<cell_server> opened(const cell_server_options& options,
 }
 
 /// Counts how often participants are told of, by their names.
-class told_names {
+class reported_names {
 public:
   void add(const std::string& name) {
     std::lock_guard guard{mutex_};
@@ -117,9 +117,9 @@ private:
 };
 
 struct two_servers {
-  told_names told;
-  std::unique_ptr<cell_server> cell =
-      opened(local(cell_id), [this](const sighting& x) { told.add(x.name); });
+  reported_names reported;
+  std::unique_ptr<cell_server> cell = opened(
+      local(cell_id), [this](const sighting& x) { reported.add(x.name); });
   topic_watch seen{cell->graph()};
   std::unique_ptr<cell_server> member;
 
@@ -174,11 +174,11 @@ TEST_CASE("who ended while servers were parted is forgotten once the doubt is "
   const auto c = x.there("/c");
   topic_watch seen_there{x.member->graph()};
   REQUIRE(seen_there.wait_for("/c"));
-  const auto before = x.told.count("of_b");
+  const auto before = x.reported.count("of_b");
   REQUIRE(before > 0);
   x.meet();
   REQUIRE(x.seen.wait_for("/c"));
-  REQUIRE(x.told.wait_for_more_than(before, "of_b"));
+  REQUIRE(x.reported.wait_for_more_than(before, "of_b"));
   CHECK(x.seen.knows("/a"));
   x.end_doubt();
   CHECK(x.seen.wait_for("/a", false));

@@ -27,15 +27,15 @@ TEST_CASE("datagrams are held back only while a best-effort stock reader is "
           "there") {
   writer_pace pace;
   CHECK(settled_gap(pace, 100ms, image_bytes) == 0ms);
-  pace.set_frail_readers(1);
+  pace.set_best_effort_readers(1);
   CHECK(settled_gap(pace, 100ms, image_bytes) == 2ms);
-  pace.set_frail_readers(0);
+  pace.set_best_effort_readers(0);
   CHECK(settled_gap(pace, 100ms, image_bytes) == 0ms);
 }
 
 TEST_CASE("a message takes up half the time until the next at most") {
   writer_pace pace;
-  pace.set_frail_readers(1);
+  pace.set_best_effort_readers(1);
   // 4 MiB are 65 datagrams.
   const auto gap = settled_gap(pace, 33ms, 4 << 20);
   CHECK(gap * 65 <= 17ms);
@@ -44,7 +44,7 @@ TEST_CASE("a message takes up half the time until the next at most") {
 
 TEST_CASE("small messages are not held back, and a pause does not count") {
   writer_pace pace;
-  pace.set_frail_readers(1);
+  pace.set_best_effort_readers(1);
   CHECK(settled_gap(pace, 100ms, 129'000) == 0ms);
   const auto before = settled_gap(pace, 33ms, 4 << 20);
   CHECK(pace.next_gap(start + 10min, 4 << 20) == before);

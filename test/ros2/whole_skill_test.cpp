@@ -19,7 +19,7 @@ constexpr const char* text = ros2::std_msgs::string::type_name;
 constexpr const char* image = ros2::sensor_msgs::image::type_name;
 
 /// Says how large an image is.
-class size_teller : public engine::executor {
+class size_reporter : public engine::executor {
 public:
   void process(const engine::frame& input, engine::emitter& output) override {
     auto x = ros2::view_image(input.payload);
@@ -38,7 +38,7 @@ public:
   explicit running_skill(const cell& home, const std::string& socket = {}) {
     const auto lookup = lookup_in(home.environment("teller"));
     ros2::add_ros2_protocol(parts_, lookup);
-    parts_.add_executor<size_teller>("teller");
+    parts_.add_executor<size_reporter>("teller");
     env_.model = "teller";
     env_.notify_socket = socket;
     env_.inputs = {{"ros2", "/image", image}};
@@ -80,12 +80,12 @@ TEST_CASE("a skill goes on after an image whose sizes lie") {
   cell home{0};
   skill camera{home.environment("camera")};
   skill reader{home.environment("reader")};
-  running_skill teller{home};
+  running_skill reporter{home};
   running_input sizes{reader.input("/size", text)};
   auto images = camera.output("/image", image);
   REQUIRE(camera.log.wait_for("a reader has come"));
-  REQUIRE(teller.log.wait_for("'/image': a writer has come"));
-  REQUIRE(teller.log.wait_for("'/size': a reader has come"));
+  REQUIRE(reporter.log.wait_for("'/image': a writer has come"));
+  REQUIRE(reporter.log.wait_for("'/size': a reader has come"));
   auto lie = gray_image(2, 3);
   lie[24] = 7; // Its width, behind a header without a name.
   images->write(frame_of(image, lie));
@@ -93,9 +93,9 @@ TEST_CASE("a skill goes on after an image whose sizes lie") {
   auto got = sizes.sink().wait_for(0);
   REQUIRE(got);
   CHECK(ros2::deserialize<ros2::std_msgs::string>(got->payload).data == "3x2");
-  CHECK(teller.log.wait_for("frame 'image-1' failed (1 in a row): field "
-                            "'step': 3 bytes are too few for 7 pixels"));
-  CHECK(teller.stop() == engine::exit_code::done);
+  CHECK(reporter.log.wait_for("frame 'image-1' failed (1 in a row): field "
+                              "'step': 3 bytes are too few for 7 pixels"));
+  CHECK(reporter.stop() == engine::exit_code::done);
 }
 
 TEST_CASE("a skill goes on in another place when its node tells it so") {
@@ -103,40 +103,40 @@ TEST_CASE("a skill goes on in another place when its node tells it so") {
   cell other{1};
   temp_folder folder;
   notify_receiver node{folder / "notify"};
-  const auto told = environment_file_of(folder / "notify");
-  make_environment_file(told);
-  running_skill teller{home, folder / "notify"};
+  const auto reported = environment_file_of(folder / "notify");
+  make_environment_file(reported);
+  running_skill reporter{home, folder / "notify"};
   REQUIRE(node.wait_for("READY=1"));
   skill far_camera{other.environment("camera")};
   skill far_reader{other.environment("reader")};
   running_input sizes{far_reader.input("/size", text)};
   auto images = far_camera.output("/image", image);
   // A second time before the first is done, and while messages come.
-  REQUIRE(tell_environment(told, home.environment("teller")));
-  REQUIRE(tell_environment(told, other.environment("teller")));
+  REQUIRE(write_environment_update(reported, home.environment("teller")));
+  REQUIRE(write_environment_update(reported, other.environment("teller")));
   REQUIRE(far_camera.log.wait_for("a reader has come"));
-  REQUIRE(teller.log.wait_for("'/image': a writer has come"));
-  REQUIRE(teller.log.wait_for("'/size': a reader has come"));
+  REQUIRE(reporter.log.wait_for("'/image': a writer has come"));
+  REQUIRE(reporter.log.wait_for("'/size': a reader has come"));
   images->write(frame_of(image, gray_image(2, 3)));
   REQUIRE(sizes.sink().wait_for(0));
-  REQUIRE(tell_environment(told, other.environment("teller")));
+  REQUIRE(write_environment_update(reported, other.environment("teller")));
   REQUIRE(far_camera.log.wait_for("a reader has come", 2));
-  REQUIRE(teller.log.wait_for("'/size': a reader has come", 2));
+  REQUIRE(reporter.log.wait_for("'/size': a reader has come", 2));
   images->write(frame_of(image, gray_image(4, 5)));
   const auto got = sizes.sink().wait_for(1);
   REQUIRE(got);
   CHECK(ros2::deserialize<ros2::std_msgs::string>(got->payload).data == "5x4");
-  CHECK(teller.stop() == engine::exit_code::done);
-  CHECK_FALSE(tell_environment(told, home.environment("teller")));
+  CHECK(reporter.stop() == engine::exit_code::done);
+  CHECK_FALSE(write_environment_update(reported, home.environment("teller")));
 }
 
 TEST_CASE("a skill moves time and again while images come") {
   cell home{0};
   temp_folder folder;
   notify_receiver node{folder / "notify"};
-  const auto told = environment_file_of(folder / "notify");
-  make_environment_file(told);
-  running_skill teller{home, folder / "notify"};
+  const auto reported = environment_file_of(folder / "notify");
+  make_environment_file(reported);
+  running_skill reporter{home, folder / "notify"};
   REQUIRE(node.wait_for("READY=1"));
   skill camera{home.environment("camera")};
   auto images = camera.output("/image", image);
@@ -144,10 +144,10 @@ TEST_CASE("a skill moves time and again while images come") {
     REQUIRE(camera.log.wait_for("a reader has come", move));
     for (int i = 0; i < 20; ++i)
       images->write(frame_of(image, gray_image(2, 3)));
-    REQUIRE(tell_environment(told, home.environment("teller")));
+    REQUIRE(write_environment_update(reported, home.environment("teller")));
     for (int i = 0; i < 20; ++i)
       images->write(frame_of(image, gray_image(2, 3)));
   }
-  REQUIRE(teller.log.wait_for("made anew in", 5));
-  CHECK(teller.stop() == engine::exit_code::done);
+  REQUIRE(reporter.log.wait_for("made anew in", 5));
+  CHECK(reporter.stop() == engine::exit_code::done);
 }

@@ -80,7 +80,7 @@ std::set<std::string> strings_in(const json& x) {
 }
 
 /// The only words that a value may be; empty: it may be any.
-std::set<std::string> words_of(const json& rule) {
+std::set<std::string> allowed_words(const json& rule) {
   for (const auto* key : {"enum", "const"})
     if (rule.contains(key))
       return strings_in(rule[key]);
@@ -89,7 +89,7 @@ std::set<std::string> words_of(const json& rule) {
 
 /// The kinds of values; empty: all.
 std::set<std::string> kinds_of(const json& rule) {
-  if (!words_of(rule).empty() || rule.contains("pattern"))
+  if (!allowed_words(rule).empty() || rule.contains("pattern"))
     return {"string"};
   auto result = strings_in(rule.value("type", json::array()));
   if (result.count("number") != 0)
@@ -144,8 +144,8 @@ private:
 
   void compare_one(const rule_place& said, const rule_place& taken,
                    const json::json_pointer& at) {
-    const auto words = words_of(*said.rule);
-    if (!is_within(words, words_of(*taken.rule)))
+    const auto words = allowed_words(*said.rule);
+    if (!is_within(words, allowed_words(*taken.rule)))
       note(at, "a word");
     if (words.empty() && !is_bounded_by(*said.rule, *taken.rule))
       note(at, "a bound");

@@ -19,18 +19,18 @@ TEST_CASE("bytes that are no UTF-8 are replaced") {
 }
 
 TEST_CASE("a member that is missing is named") {
-  CHECK(absence_words("id", "a name")
+  CHECK(absence_text("id", "a name")
         == R"(expected "id", a name, but it is missing)");
 }
 
 TEST_CASE("a value is told in few words") {
-  CHECK(value_words(nullptr) == "null");
-  CHECK(value_words(true) == "true");
-  CHECK(value_words(-7) == "the number -7");
-  CHECK(value_words(0.5) == "the number 0.5");
-  CHECK(value_words("a b") == R"("a b")");
-  CHECK(value_words(json::array()) == "an array of 0 items");
-  CHECK(value_words({{"a", 1}}) == "an object of 1 member");
-  auto words = value_words(std::string(80, 'x'));
+  CHECK(shown_value(nullptr) == "null");
+  CHECK(shown_value(true) == "true");
+  CHECK(shown_value(-7) == "the number -7");
+  CHECK(shown_value(0.5) == "the number 0.5");
+  CHECK(shown_value("a b") == R"("a b")");
+  CHECK(shown_value(json::array()) == "an array of 0 items");
+  CHECK(shown_value({{"a", 1}}) == "an object of 1 member");
+  auto words = shown_value(std::string(80, 'x'));
   CHECK(words == '"' + std::string(40, 'x') + "\"... (80 characters)");
 }

@@ -156,7 +156,7 @@ void check_batches(const std::function<size_t(batch&)>& start) {
     const auto members = start(x);
     const bool even = x.evens_out(members);
     if (!even)
-      print_facts(x.place);
+      print_events(x.place);
     INFO("seed " << first + i << ": sizes " << x.text());
     CHECK(even);
     // It stays so.
@@ -213,7 +213,7 @@ TEST_CASE("cells stay even when one coordinator dies in the middle",
     // Whoever was a member of the dead cell waits for it.
     const auto orphans =
         std::count_if(x.nodes.begin(), x.nodes.end(), [](const auto* node) {
-          return node->status().standing == node_state::orphaned;
+          return node->status().state == node_state::orphaned;
         });
     return x.nodes.size() + 3 - static_cast<size_t>(orphans);
   });
@@ -247,7 +247,7 @@ TEST_CASE("a batch is even at once although coordinators tell sizes late",
   }
 }
 
-TEST_CASE("cells are evened out once what hindered it is gone", "[balance]") {
+TEST_CASE("cells are balanced once what hindered it is gone", "[balance]") {
   virtual_time clock;
   site place{clock, 1};
   auto& late = place.add_coordinator("c-0");

@@ -18,7 +18,7 @@ struct two_of_one_name {
     place.start(own);
     place.start(node);
     place.pass(10s);
-    REQUIRE(node.status().standing == node_state::member);
+    REQUIRE(node.status().state == node_state::member);
   }
 };
 
@@ -28,12 +28,12 @@ TEST_CASE("an orphan comes back to its cell, not to another of that name",
   x.place.kill(x.own);
   x.place.start(x.other);
   x.place.pass(60s);
-  CHECK(x.node.status().standing == node_state::orphaned);
+  CHECK(x.node.status().state == node_state::orphaned);
   CHECK_FALSE(x.other.cell_state().registry.find_uuid(x.node.uuid));
   CHECK(x.place.count("join_refused") == 0);
   x.place.start(x.own);
   x.place.pass(60s);
-  CHECK(x.node.status().standing == node_state::member);
+  CHECK(x.node.status().state == node_state::member);
   CHECK(x.own.cell_state().registry.find_uuid(x.node.uuid));
 }
 
@@ -45,9 +45,9 @@ TEST_CASE("a cell refuses an orphan of another cell at its address",
   x.other.discovery_server = x.own.discovery_server;
   x.place.start(x.other);
   x.place.pass(60s);
-  CHECK(x.node.status().standing == node_state::orphaned);
+  CHECK(x.node.status().state == node_state::orphaned);
   REQUIRE(x.node.status().report.rows().size() == 1);
-  CHECK(x.node.status().report.rows()[0].trouble.find("another cell")
+  CHECK(x.node.status().report.rows()[0].problem.find("another cell")
         != std::string::npos);
   CHECK_FALSE(x.other.cell_state().registry.find_uuid(x.node.uuid));
 }
@@ -59,7 +59,7 @@ TEST_CASE("an orphan returns to its cell under the cell's new name",
   x.own.cell = "renamed";
   x.place.start(x.own);
   x.place.pass(60s);
-  CHECK(x.node.status().standing == node_state::member);
+  CHECK(x.node.status().state == node_state::member);
   CHECK(x.node.status().cell == "renamed");
   CHECK(x.own.cell_state().registry.find_uuid(x.node.uuid));
 }
@@ -71,7 +71,7 @@ TEST_CASE("a member remembers its cell's UUID over a restart", "[cell_uuid]") {
   x.place.start(x.other);
   x.place.start(x.node);
   x.place.pass(60s);
-  CHECK(x.node.status().standing == node_state::orphaned);
+  CHECK(x.node.status().state == node_state::orphaned);
   CHECK_FALSE(x.other.cell_state().registry.find_uuid(x.node.uuid));
 }
 
@@ -85,7 +85,7 @@ TEST_CASE("a member that never heard of a cell's UUID goes by its name",
   record = document.dump();
   x.place.start(x.node);
   x.place.pass(20s);
-  CHECK(x.node.status().standing == node_state::member);
+  CHECK(x.node.status().state == node_state::member);
   CHECK(json::parse(record).at("cell_uuid") == "ce-c-0");
 }
 

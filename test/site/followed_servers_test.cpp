@@ -19,11 +19,11 @@ struct cell_of_two {
       place.start(*x);
     place.pass(20s);
     REQUIRE(complaint(place).empty());
-    REQUIRE(arm.status().standing == node_state::member);
+    REQUIRE(arm.status().state == node_state::member);
   }
 
   /// What was told since the last time, oldest first.
-  std::vector<server_contact> told() {
+  std::vector<server_contact> reported() {
     std::vector<server_contact> result;
     for (const auto& x : base.followed)
       result.push_back(x.contact);
@@ -52,24 +52,24 @@ TEST_CASE("both discovery servers lose each other with the session and meet "
           "with the next",
           "[servers]") {
   cell_of_two x;
-  x.told();
+  x.reported();
   x.place.split({0, 1});
   x.place.pass(20s);
-  CHECK(x.told() == contacts{server_contact::lost});
+  CHECK(x.reported() == contacts{server_contact::lost});
   CHECK_FALSE(x.arm.served->remote_is_there);
   x.place.heal_all();
   x.place.pass(40s);
-  CHECK(x.told() == contacts{server_contact::met});
+  CHECK(x.reported() == contacts{server_contact::met});
   CHECK(x.arm.served->remote_is_there);
 }
 
 TEST_CASE("programs of a host that is silent for a minute are taken for ended",
           "[servers]") {
   cell_of_two x;
-  x.told();
+  x.reported();
   x.place.split({0, 1});
   x.place.pass(50s);
-  CHECK(x.told() == contacts{server_contact::lost});
+  CHECK(x.reported() == contacts{server_contact::lost});
   x.place.pass(30s);
   REQUIRE(x.base.followed.size() == 1);
   CHECK(x.base.followed.front().contact == server_contact::settled);
@@ -78,36 +78,36 @@ TEST_CASE("programs of a host that is silent for a minute are taken for ended",
 
 TEST_CASE("programs of a node that was killed go on to be known", "[servers]") {
   cell_of_two x;
-  x.told();
+  x.reported();
   x.place.kill(x.arm);
   x.place.pass(200s);
-  CHECK(x.told() == contacts{server_contact::lost});
+  CHECK(x.reported() == contacts{server_contact::lost});
 }
 
 TEST_CASE("what a released node's discovery server has told of ends",
           "[servers]") {
   cell_of_two x;
-  x.told();
-  node_release wish;
-  wish.node = x.arm.name;
-  const auto reply = x.clock.ask<node_released>(x.base.coordinator, wish);
+  x.reported();
+  node_release request;
+  request.node = x.arm.name;
+  const auto reply = x.clock.ask<node_released>(x.base.coordinator, request);
   x.place.pass(20s);
   REQUIRE(*reply);
   REQUIRE(**reply);
-  const auto told = x.told();
-  REQUIRE_FALSE(told.empty());
-  CHECK(told.back() == server_contact::gone);
+  const auto reported = x.reported();
+  REQUIRE_FALSE(reported.empty());
+  CHECK(reported.back() == server_contact::gone);
 }
 
 TEST_CASE("a coordinator that starts anew meets its members anew",
           "[servers]") {
   cell_of_two x;
-  x.told();
+  x.reported();
   x.place.kill(x.base);
   x.place.pass(2s);
   x.place.start(x.base);
   x.place.pass(60s);
-  CHECK(x.told() == contacts{server_contact::met});
+  CHECK(x.reported() == contacts{server_contact::met});
   CHECK(x.arm.served->remote_is_there);
 }
 

@@ -39,10 +39,10 @@ struct two_cells {
 
   site_reply<node_released> release(site_party& whom, const std::string& node,
                                     const std::string& cell = "") {
-    node_release wish;
-    wish.node = node;
-    wish.cell = cell;
-    return clock.ask<node_released>(whom.coordinator, wish);
+    node_release request;
+    request.node = node;
+    request.cell = cell;
+    return clock.ask<node_released>(whom.coordinator, request);
   }
 
   registry_entry* row_of(site_party& cell, const site_party& node) {
@@ -50,7 +50,7 @@ struct two_cells {
   }
 
   /// The order to go is lost on its way to the node, or its answer is.
-  void lose_next_frame_to(const site_party& node) {
+  void drop_next_frame_to(const site_party& node) {
     place.judge = [this, &node, lost = false](const site_message& x) mutable {
       if (lost || x.to != node.index || std::string{x.what} != "frame")
         return frame_fate::passed;
@@ -77,12 +77,12 @@ TEST_CASE("a release that is sent twice takes no other cell's namesake",
   CHECK(why.code == error_code::unknown_node);
   CHECK(why.message.find((*first)->value().transfer) != std::string::npos);
   CHECK(why.hint.find("\"cell\"") != std::string::npos);
-  CHECK(x.leg.status().standing == node_state::member);
+  CHECK(x.leg.status().state == node_state::member);
   const auto named = x.release(x.left, x.arm.name, x.right.cell);
   x.place.pass(5s);
   REQUIRE(*named);
   CHECK(**named);
-  CHECK(x.leg.status().standing == node_state::independent);
+  CHECK(x.leg.status().state == node_state::independent);
 }
 
 TEST_CASE("a node of another cell is released if it is the only one",
@@ -210,7 +210,7 @@ TEST_CASE("a node that leaves while a switch is written down goes nowhere",
   x.place.pass(500ms);
   x.place.judge = nullptr;
   x.place.pass(20s);
-  CHECK(x.arm.status().standing == node_state::independent);
+  CHECK(x.arm.status().state == node_state::independent);
   CHECK(x.arm.status().cell.empty());
   CHECK(x.place.count("switch_accepted") == 0);
 }

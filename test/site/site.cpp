@@ -67,32 +67,32 @@ site::~site() {
     kill(*x);
   for (auto& x : connections)
     cut(*x.link);
-  for (const auto& x : fact_keepers_)
+  for (const auto& x : event_collectors_)
     time.kill(x);
   time.scheduler.clock().cancel_all();
 }
 
-size_t site::count(const std::string& fact) const {
+size_t site::count(const std::string& event) const {
   return static_cast<size_t>(
-      std::count_if(facts.begin(), facts.end(),
-                    [&](const auto& x) { return x.what == fact; }));
+      std::count_if(events.begin(), events.end(),
+                    [&](const auto& x) { return x.what == event; }));
 }
 
-void site::keep_facts(site_party& x) {
-  fact_keepers_.push_back(time.system.spawn(
+void site::collect_events(site_party& x) {
+  event_collectors_.push_back(time.system.spawn(
       [this, &x](caf::event_based_actor* self) -> caf::behavior {
-        return {[this, &x, self](const record_event& fact) {
+        return {[this, &x, self](const record_event& event) {
           const auto when =
               std::chrono::duration_cast<std::chrono::milliseconds>(
                   self->clock().now() - start_);
           auto data =
-              fact.data.empty() ? json::object() : json::parse(fact.data);
-          facts.push_back({when, x.index, x.life, fact.what, fact.subject,
-                           std::move(data)});
+              event.data.empty() ? json::object() : json::parse(event.data);
+          events.push_back({when, x.index, x.life, event.what, event.subject,
+                            std::move(data)});
         }};
       }));
   x.context = context;
-  x.context.events = caf::actor_cast<event_log_actor>(fact_keepers_.back());
+  x.context.events = caf::actor_cast<event_log_actor>(event_collectors_.back());
 }
 
 site_party& site::add_party(const std::string& name) {
@@ -101,7 +101,7 @@ site_party& site::add_party(const std::string& name) {
   const auto number = std::to_string(x.index);
   x.name = name + "-" + number;
   x.address = "10.0.0." + number + ":8420";
-  keep_facts(x);
+  collect_events(x);
   return x;
 }
 

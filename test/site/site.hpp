@@ -43,7 +43,7 @@ struct site_message {
   size_t to = 0; ///< As `from` for a write.
 };
 
-struct told_at {
+struct site_event {
   std::chrono::milliseconds when{0}; ///< Since the start.
   size_t party = 0;
   unsigned life = 0; ///< Of the party.
@@ -70,12 +70,12 @@ public:
   std::mt19937 random;
   wire_faults faults;
   /// Of a half of a REST call.
-  double lose_call = 0;
+  double drop_call = 0;
   std::vector<std::unique_ptr<site_party>> parties;
   std::vector<connection> connections;
   std::vector<site_request> requests;
   std::vector<std::unique_ptr<site_task>> tasks;
-  std::vector<told_at> facts;
+  std::vector<site_event> events;
   /// Decides about a message; may be empty.
   std::function<frame_fate(const site_message&)> judge;
   size_t messages = 0;
@@ -89,7 +89,7 @@ public:
   site_party& add_node(const std::string& configured = "");
 
   /// How often something was told by anybody.
-  size_t count(const std::string& fact) const;
+  size_t count(const std::string& event) const;
 
   void start(site_party& x);
   void kill(site_party& x);
@@ -174,12 +174,12 @@ public:
   wire_ptr connect(const site_party& from, const site_party& to);
   void report_violation(const std::string& what);
   site_party* find_address(const std::string& address);
-  house context;
+  actor_context context;
 
 private:
   bool sees(const site_party& viewer, const site_party& subject) const;
   site_party& add_party(const std::string& name);
-  void keep_facts(site_party& x);
+  void collect_events(site_party& x);
   void call(site_task& x, const json& document, bool ends);
   void close_calls(const site_party& x);
   void settle();
@@ -196,7 +196,7 @@ private:
   std::set<std::pair<size_t, size_t>> hidden_;
   std::map<uint64_t, std::function<void()>> work_;
   uint64_t last_work_ = 0;
-  std::vector<caf::actor> fact_keepers_;             ///< One a party.
+  std::vector<caf::actor> event_collectors_;         ///< One a party.
   std::map<size_t, std::set<caf::actor_id>> frozen_; ///< By party.
   std::map<size_t, std::vector<caf::resumable*>> kept_back_;
   std::chrono::steady_clock::time_point start_;

@@ -26,33 +26,33 @@ void announce(site* place, site_party* me, const node_presence& what) {
 
 /// Both sides have shaken hands.
 session_opened admit(const wire_ptr& link, const site_party& to,
-                     const open_session& wish) {
+                     const open_session& request) {
   caf::anon_send(to.coordinator,
-                 session_admitted{link->ends[0], wish.self, wish.role});
+                 session_admitted{link->ends[0], request.self, request.role});
   return {link->ends[1], to.cell, to.name, to.cell_state().setup.incarnation};
 }
 
-void finish_connecting(site* place, site_party* me, const open_session& wish,
+void finish_connecting(site* place, site_party* me, const open_session& request,
                        caf::typed_response_promise<session_opened> promise) {
-  auto* to = place->find_address(wish.address);
+  auto* to = place->find_address(request.address);
   const auto refuse = [promise](const char* why) {
     auto answer = promise;
     answer.deliver(fail(error_code::unreachable, why));
   };
   if (!to || !place->reachable(me->index, to->index))
     return place->later(*me, silence_span, [refuse] { refuse("no answer"); });
-  if (!wish.uuid.empty() && wish.uuid != to->uuid)
+  if (!request.uuid.empty() && request.uuid != to->uuid)
     return refuse("another node is there");
   auto link = to->coordinates ? place->connect(*me, *to) : nullptr;
   if (!link)
     return refuse("connection refused");
-  promise.deliver(admit(link, *to, wish));
+  promise.deliver(admit(link, *to, request));
 }
 
 caf::result<session_opened> open(caf::event_based_actor* self, site* place,
-                                 site_party* me, const open_session& wish) {
+                                 site_party* me, const open_session& request) {
   auto promise = self->make_response_promise<session_opened>();
-  auto* to = place->find_address(wish.address);
+  auto* to = place->find_address(request.address);
   const auto fate =
       place->decide("connect", me->index, to ? to->index : me->index);
   auto delay = std::max(place->faults.longest_delay, 1ms);
@@ -64,7 +64,7 @@ caf::result<session_opened> open(caf::event_based_actor* self, site* place,
     });
   else
     place->later(*me, delay,
-                 [=] { finish_connecting(place, me, wish, promise); });
+                 [=] { finish_connecting(place, me, request, promise); });
   return promise;
 }
 
@@ -88,7 +88,7 @@ void carry(site* place, site_party* from, site_party* to, const char* what,
   std::uniform_real_distribution<double> chance;
   const bool gone =
       fate == frame_fate::lost || !place->reachable(from->index, to->index)
-      || (place->lose_call > 0 && chance(place->random) < place->lose_call);
+      || (place->drop_call > 0 && chance(place->random) < place->drop_call);
   if (gone)
     return lost();
   const auto delay = std::max(place->faults.longest_delay, 1ms);
@@ -138,19 +138,19 @@ void ask_node(site* place, site_party* me, site_party* node,
 /// From somebody of the site.
 registration_query question_with(char digit) {
   const std::string nonce(64, digit);
-  return {nonce, prove(standing_question{nonce}, site_token)};
+  return {nonce, prove(status_question{nonce}, site_token)};
 }
 
 caf::result<switch_accepted> switch_over(caf::event_based_actor* self,
                                          site* place, site_party* me,
-                                         const switch_node& wish) {
-  auto* node = place->find_address(wish.address);
+                                         const switch_node& request) {
+  auto* node = place->find_address(request.address);
   if (!node || node->coordinates)
     return fail(error_code::unreachable, "no node is there");
   auto reply = self->make_response_promise<switch_accepted>();
   auto promise = std::make_shared<decltype(reply)>(reply);
   const auto on_challenge = [=](const registration_challenge& challenge) {
-    auto order = wish.order;
+    auto order = request.order;
     order.epoch = challenge.epoch;
     order.nonce = challenge.nonce;
     order.proof = prove(order_of(order), site_token);
@@ -164,22 +164,21 @@ caf::result<switch_accepted> switch_over(caf::event_based_actor* self,
 }
 
 /// The node proves where it stands, as the real REST API does.
-caf::result<standing_proved> ask_standing(caf::event_based_actor* self,
-                                          site* place, site_party* me,
-                                          const prove_standing& wish) {
-  auto* node = place->find_address(wish.address);
+caf::result<status_proved> ask_status(caf::event_based_actor* self, site* place,
+                                      site_party* me,
+                                      const prove_status& request) {
+  auto* node = place->find_address(request.address);
   if (!node || node->coordinates)
     return fail(error_code::unreachable, "no node is there");
-  auto reply = self->make_response_promise<standing_proved>();
+  auto reply = self->make_response_promise<status_proved>();
   auto promise = std::make_shared<decltype(reply)>(reply);
   const auto question = question_with('e');
   const auto on_challenge = [=](const registration_challenge& x) {
-    const standing_claim claim{question.nonce, x.node, x.uuid, x.epoch,
-                               x.state};
-    if (x.uuid != wish.uuid || !proves(claim, site_token, x.proof))
+    const status_claim claim{question.nonce, x.node, x.uuid, x.epoch, x.state};
+    if (x.uuid != request.uuid || !proves(claim, site_token, x.proof))
       return end_call(promise, fail(error_code::unauthorized, "no proof"));
-    end_call(promise, standing_proved{{x.node, x.uuid, x.epoch, wish.address},
-                                      json(x.state).get<node_state>()});
+    end_call(promise, status_proved{{x.node, x.uuid, x.epoch, request.address},
+                                    json(x.state).get<node_state>()});
   };
   ask_node<registration_challenge>(place, me, node, question, promise,
                                    on_challenge);
@@ -241,7 +240,7 @@ caf::behavior site_edge(caf::event_based_actor* self, site* place,
   const caf::message_handler outside{
       [=](const announce_presence& x) { announce(place, me, x.self); },
       [=](const withdraw_presence&) { place->withdraw(*me); },
-      [](const scout_address&) { return address_scouted{}; },
+      [](const probe_server&) { return server_probed{}; },
       [=](const find_coordinator& x) {
         me->looking_for = x.address;
         place->look_up(*me);
@@ -261,7 +260,7 @@ caf::behavior site_edge(caf::event_based_actor* self, site* place,
       },
       [=](const open_session& x) { return open(self, place, me, x); },
       [=](const switch_node& x) { return switch_over(self, place, me, x); },
-      [=](const prove_standing& x) { return ask_standing(self, place, me, x); },
+      [=](const prove_status& x) { return ask_status(self, place, me, x); },
       [=](const store_record& x) { return write(self, place, me, {{x}}); },
       [=](const store_records& x) { return write(self, place, me, x); },
       [=](caf::tick_atom, uint64_t number) { place->run_work(number); },

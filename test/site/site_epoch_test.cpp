@@ -79,7 +79,7 @@ TEST_CASE("an order for an earlier epoch of a node is refused", "[epoch]") {
   const std::string nonce(64, 'e');
   auto challenge = clock.ask<registration_challenge>(
       node.membership,
-      registration_query{nonce, prove(standing_question{nonce}, site_token)});
+      registration_query{nonce, prove(status_question{nonce}, site_token)});
   clock.settle();
   registration_switch order;
   order.transfer = "t-1";
@@ -94,7 +94,7 @@ TEST_CASE("an order for an earlier epoch of a node is refused", "[epoch]") {
   REQUIRE(reply->has_value());
   REQUIRE_FALSE(**reply);
   CHECK(to_failure((*reply)->error()).code == error_code::conflict);
-  CHECK(node.status().standing == node_state::independent);
+  CHECK(node.status().state == node_state::independent);
 }
 
 TEST_CASE("a node tells nobody where it stands who does not prove the site's "
@@ -105,12 +105,12 @@ TEST_CASE("a node tells nobody where it stands who does not prove the site's "
   place.start(node);
   place.pass(1s);
   const std::string nonce(64, 'e');
-  const auto proof = prove(standing_question{nonce}, site_token);
+  const auto proof = prove(status_question{nonce}, site_token);
   for (const auto& query :
        {registration_query{}, registration_query{nonce, ""},
         registration_query{"", proof},
         registration_query{std::string(64, 'f'), proof},
-        registration_query{nonce, prove(standing_question{nonce}, "")}}) {
+        registration_query{nonce, prove(status_question{nonce}, "")}}) {
     auto answer = clock.ask<registration_challenge>(node.membership, query);
     clock.settle();
     REQUIRE(answer->has_value());

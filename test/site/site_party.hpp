@@ -46,7 +46,7 @@ struct site_party {
   std::optional<node_presence> announced;
   std::map<size_t, node_presence> shown; ///< What it sees of which party.
 
-  house context; ///< Tells facts as this party's.
+  actor_context context; ///< Tells events as this party's.
 
   bool alive() const {
     return edge != nullptr;

@@ -33,9 +33,9 @@ site_program* find_running(const site& place, site_party& x,
   return nullptr;
 }
 
-void tell_listener(const site_party& x, const instance_notified& fact) {
+void notify_listener(const site_party& x, const instance_notified& event) {
   if (x.listener)
-    caf::anon_send(x.listener, fact);
+    caf::anon_send(x.listener, event);
 }
 
 /// What the shim writes down.
@@ -78,7 +78,7 @@ void say_alive(site& place, site_party& x, const std::string& container) {
   auto* program = find_running(place, x, container);
   if (!program)
     return;
-  tell_listener(x, {program->instance, true, true, false, ""});
+  notify_listener(x, {program->instance, true, true, false, ""});
   place.later(x, heartbeat,
               [&place, &x, container] { say_alive(place, x, container); });
 }
@@ -125,7 +125,7 @@ bool was_ordered_before_loss(const site& place, const site_party& me,
                              const std::string& lost) {
   std::optional<std::chrono::milliseconds> ordered;
   std::optional<std::chrono::milliseconds> loss;
-  for (const auto& x : place.facts)
+  for (const auto& x : place.events)
     if (x.subject == lost
         && (x.what == "node_lost" || x.what == "transfer_ended"))
       loss = x.when;
@@ -136,17 +136,17 @@ bool was_ordered_before_loss(const site& place, const site_party& me,
 
 /// What may run on a node that its cell has lost is not started elsewhere.
 void check_others(site& place, const site_party& me,
-                  const start_container& wish) {
-  const auto& cell = wish.labels.at("cell");
+                  const start_container& request) {
+  const auto& cell = request.labels.at("cell");
   for (const auto& x : place.parties)
     for (const auto& [instance, known] : x->programs) {
       const bool same = known.cell == cell
-                        && known.task == wish.labels.at("task")
-                        && known.step == wish.environment.at("ROSCELL_STEP");
+                        && known.task == request.labels.at("task")
+                        && known.step == request.environment.at("ROSCELL_STEP");
       if (same && known.fence && x->index != me.index && known.runs(place.now())
           && place.has_lost(cell, x->name)
-          && !was_ordered_before_loss(place, me, wish.instance, x->name))
-        place.report_violation("'" + wish.instance + "' is started on "
+          && !was_ordered_before_loss(place, me, request.instance, x->name))
+        place.report_violation("'" + request.instance + "' is started on "
                                + me.name + " while '" + instance
                                + "' may run on " + x->name);
     }
@@ -154,35 +154,37 @@ void check_others(site& place, const site_party& me,
 
 /// No instance is started twice, on two machines, or after it has finished.
 void check_start(site& place, const site_party& me,
-                 const start_container& wish) {
-  const auto home = place.homes.emplace(wish.instance, me.index).first->second;
+                 const start_container& request) {
+  const auto home =
+      place.homes.emplace(request.instance, me.index).first->second;
   if (home != me.index)
-    place.report_violation("'" + wish.instance + "' is started on " + me.name
+    place.report_violation("'" + request.instance + "' is started on " + me.name
                            + " and was on " + place.parties[home]->name);
-  if (place.finished.count(wish.instance) > 0)
-    place.report_violation("'" + wish.instance
+  if (place.finished.count(request.instance) > 0)
+    place.report_violation("'" + request.instance
                            + "' has finished and is started again");
-  const auto known = me.programs.find(wish.instance);
+  const auto known = me.programs.find(request.instance);
   if (known != me.programs.end() && known->second.runs(place.now()))
-    place.report_violation("'" + wish.instance + "' is started while it runs");
+    place.report_violation("'" + request.instance
+                           + "' is started while it runs");
 }
 
 caf::result<container_started> start(site* place, site_party* me,
-                                     const start_container& wish) {
-  check_start(*place, *me, wish);
-  check_others(*place, *me, wish);
-  auto& program = me->programs[wish.instance];
+                                     const start_container& request) {
+  check_start(*place, *me, request);
+  check_others(*place, *me, request);
+  auto& program = me->programs[request.instance];
   program = {};
-  program.instance = wish.instance;
+  program.instance = request.instance;
   program.container = "c" + std::to_string(++place->containers);
-  program.cell = wish.labels.at("cell");
-  program.task = wish.labels.at("task");
-  program.step = wish.environment.at("ROSCELL_STEP");
+  program.cell = request.labels.at("cell");
+  program.task = request.labels.at("task");
+  program.step = request.environment.at("ROSCELL_STEP");
   program.script =
-      program_script::from(wish.environment.at("ROSCELL_PARAMETERS"));
+      program_script::from(request.environment.at("ROSCELL_PARAMETERS"));
   const auto& script = program.script;
   if (script.cannot_start) {
-    me->programs.erase(wish.instance);
+    me->programs.erase(request.instance);
     return fail(error_code::engine_failed, "the program cannot be started");
   }
   auto end_counts_from = place->now();
@@ -192,24 +194,25 @@ caf::result<container_started> start(site* place, site_party* me,
   }
   if (script.ends_ms >= 0)
     program.ends_at = end_counts_from + milliseconds{script.ends_ms};
-  if (wish.fence_boot_ms != 0)
-    program.fence = moment_of(wish.fence_boot_ms);
+  if (request.fence_boot_ms != 0)
+    program.fence = moment_of(request.fence_boot_ms);
   watch(*place, *me, program);
   return container_started{program.container};
 }
 
 caf::result<container_stopped> stop(caf::event_based_actor* self, site* place,
                                     site_party* me,
-                                    const stop_container& wish) {
-  auto* program = find(*me, wish.instance);
+                                    const stop_container& request) {
+  auto* program = find(*me, request.instance);
   if (!program || !program->runs(place->now()))
     return container_stopped{program ? program->exit_code : -1};
   const auto takes =
-      milliseconds{std::min(program->script.stop_ms, wish.grace_ms)};
-  const auto code =
-      program->script.stop_ms > wish.grace_ms ? killed_code : terminated_code;
+      milliseconds{std::min(program->script.stop_ms, request.grace_ms)};
+  const auto code = program->script.stop_ms > request.grace_ms
+                        ? killed_code
+                        : terminated_code;
   auto promise = self->make_response_promise<container_stopped>();
-  place->later(*me, takes, [=, instance = wish.instance]() mutable {
+  place->later(*me, takes, [=, instance = request.instance]() mutable {
     auto* known = find(*me, instance);
     if (known && known->runs(place->now()))
       write_end(*place, *known, code);
@@ -219,18 +222,19 @@ caf::result<container_stopped> stop(caf::event_based_actor* self, site* place,
 }
 
 container_adopted adopt(site* place, site_party* me,
-                        const adopt_container& wish) {
-  const auto* program = find(*me, wish.instance);
+                        const adopt_container& request) {
+  const auto* program = find(*me, request.instance);
   if (!program)
     return {};
   return {program->runs(place->now()), program->container, program->exit_code};
 }
 
 caf::result<image_prepared> prepare(caf::event_based_actor* self, site* place,
-                                    site_party* me, const prepare_image& wish) {
+                                    site_party* me,
+                                    const prepare_image& request) {
   auto promise = self->make_response_promise<image_prepared>();
   place->later(*me, me->build_takes,
-               [promise, me, image = wish.skill]() mutable {
+               [promise, me, image = request.skill]() mutable {
                  if (me->builds_fail)
                    promise.deliver(fail(error_code::engine_failed,
                                         "the image cannot be built"));
@@ -293,7 +297,7 @@ caf::message_handler program_edge(caf::event_based_actor* self, site* place,
         return log_excerpt{x.instance, "", 0, true};
       },
       [=](const hear_container& x) {
-        tell_listener(*me, {x.instance, false, false, false, "", true});
+        notify_listener(*me, {x.instance, false, false, false, "", true});
       },
       [=](const measure_host&) { return measure(*me); },
       [](const measure_use&) { return use_measured{}; },

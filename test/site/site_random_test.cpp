@@ -1,10 +1,10 @@
-#include "test/site/trouble.hpp"
+#include "test/site/disturbance.hpp"
 
 #include <chrono>
 #include <cstdlib>
 #include <iostream>
 
-/// Random trouble at a whole site, then calm: docs/operations.md says how to
+/// Random faults at a whole site, then calm: docs/operations.md says how to
 /// run many seeds, or one that has failed.
 namespace {
 
@@ -26,17 +26,17 @@ unsigned number_from(const char* variable, unsigned otherwise) {
 /// True if the run ended well; else what is wrong has been printed, with a
 /// trace if there shall be one.
 bool ends_well(virtual_time& clock, uint32_t seed, bool trace) {
-  trouble x{clock, seed};
+  disturbance x{clock, seed};
   x.run();
   const auto left = x.verdict();
   if (trace && (!left.empty() || std::getenv("ROSCELL_SEED")))
-    print_facts(x.place());
+    print_events(x.place());
   if (!left.empty())
     std::cerr << "ROSCELL_SEED=" << seed << " fails: " << left << std::endl;
   return left.empty();
 }
 
-TEST_CASE("after any trouble a site agrees on where every node and task is",
+TEST_CASE("after any fault a site agrees on where every node and task is",
           "[random]") {
   virtual_time clock;
   if (std::getenv("ROSCELL_SEED")) {

@@ -91,7 +91,7 @@ void start_membership(site& place, site_party& x) {
   parts.agent = x.agent;
   parts.supervisor = x.supervisor;
   parts.store = part<state_store_actor>(x);
-  parts.scout = part<join_scout_actor>(x);
+  parts.diagnoser = part<join_diagnoser_actor>(x);
   const auto config = membership_setup(x);
   x.membership =
       spawn(place.time.system, x.context, membership, x.context, parts, config);

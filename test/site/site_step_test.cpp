@@ -1,4 +1,4 @@
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 #include "test/site/watch/site_watch.hpp"
 
 #include <iostream>
@@ -76,7 +76,7 @@ std::vector<procedure> procedures() {
          return x;
        },
        [](step_site& x) { x.place.start(x.node); }},
-      {"formation of a free node",
+      {"formation of an unassigned node",
        [](virtual_time& clock) {
          auto x = std::make_unique<step_site>(clock, "wait");
          x->start_coordinators();
@@ -103,7 +103,7 @@ std::vector<procedure> procedures() {
   };
 }
 
-/// Long enough for each procedure to end without trouble.
+/// Long enough for each procedure to end without a problem.
 constexpr auto procedure_span = 10s;
 
 size_t count_messages(virtual_time& clock, const procedure& what) {
@@ -124,7 +124,7 @@ bool ends_well(step_site& x, const std::string& what) {
   if (left.empty() && lie <= limit)
     return true;
   std::cerr << what << ": " << left << "longest lie " << lie.count() << " ms\n";
-  print_facts(x.place);
+  print_events(x.place);
   return false;
 }
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-/// What becomes of tasks while nodes come and go, one trouble at a time.
+/// What becomes of tasks while nodes come and go, one fault at a time.
 namespace {
 
 using namespace roscell;
@@ -154,8 +154,8 @@ TEST_CASE("a node that dies while it goes can be released", "[tasks]") {
                                 node_transfer{x.arm.name, x.other.cell});
   x.place.pass_until(5s, [&] {
     return std::any_of(
-        x.place.facts.begin(), x.place.facts.end(),
-        [](const auto& fact) { return fact.what == "switch_accepted"; });
+        x.place.events.begin(), x.place.events.end(),
+        [](const auto& event) { return event.what == "switch_accepted"; });
   });
   x.arm.retired = true;
   x.place.kill(x.arm);

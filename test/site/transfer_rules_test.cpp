@@ -37,7 +37,7 @@ struct transfer_site {
 
   size_t count(const std::string& what, const site_party& who) const {
     return static_cast<size_t>(std::count_if(
-        place.facts.begin(), place.facts.end(),
+        place.events.begin(), place.events.end(),
         [&](const auto& x) { return x.what == what && x.party == who.index; }));
   }
 };
@@ -128,7 +128,7 @@ TEST_CASE("two cells that are cut apart go on and compare their rows later",
   x.place.pass(30s);
   CHECK(x.count("peer_lost", x.from) == 1);
   CHECK(x.count("peer_lost", x.to) == 1);
-  CHECK(x.node.status().standing == node_state::member);
+  CHECK(x.node.status().state == node_state::member);
   x.place.heal_all();
   x.place.pass(60s);
   CHECK(complaint(x.place).empty());

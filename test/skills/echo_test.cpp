@@ -58,7 +58,7 @@ TEST_CASE("echo repeats a growing file until it is told to stop") {
   CHECK(skill.output().empty());
 }
 
-TEST_CASE("echo lives on when somebody waits for it to be safe") {
+TEST_CASE("echo lives on when somebody waits for it to be stop-safe") {
   temp_folder folder;
   folder.write("in", "one\n");
   notify_receiver node{folder / "notify"};

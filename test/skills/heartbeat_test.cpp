@@ -57,7 +57,7 @@ TEST_CASE("the heart beats with READY, WATCHDOG and now and then a status") {
   notify_socket skill{folder / "notify"};
   liveness alive{20ms};
   safe_state untold;
-  heartbeat beat{
+  heartbeat sender{
       skill, alive, untold, {[] { return "STATUS=frames=1"; }, nullptr}};
   CHECK(node.receive() == "READY=1\nWATCHDOG=1");
   CHECK(node.receive() == "READY=1\nWATCHDOG=1");
@@ -71,15 +71,15 @@ TEST_CASE("the heart stands still while work hangs, and makes up for it") {
   liveness alive{20ms};
   // Work that began an hour ago hangs, whatever the machine's speed.
   alive.work_begins(liveness::clock::now() - 1h);
-  CHECK_FALSE(alive.allows_beat(liveness::clock::now()));
+  CHECK_FALSE(alive.allows_heartbeat(liveness::clock::now()));
   safe_state untold;
-  heartbeat beat{skill, alive, untold, {[] { return ""; }, nullptr}};
-  // Ten periods of the timer that would have sent a beat.
+  heartbeat sender{skill, alive, untold, {[] { return ""; }, nullptr}};
+  // Ten periods of the timer that would have sent a heartbeat.
   stop_event never;
   CHECK_FALSE(never.wait_until(liveness::clock::now() + 100ms));
   CHECK_FALSE(node.receive_now());
   CHECK(alive.work_ends());
-  beat.beat_now();
+  sender.send_now();
   CHECK(node.receive() == "READY=1\nWATCHDOG=1");
 }
 
@@ -92,7 +92,7 @@ struct quiet_heart {
   notify_socket skill{folder / "notify"};
   liveness alive{1h};
   safe_state safety;
-  heartbeat beat{skill, alive, safety, {[] { return ""; }, nullptr}};
+  heartbeat sender{skill, alive, safety, {[] { return ""; }, nullptr}};
 };
 
 } // namespace
@@ -138,7 +138,7 @@ TEST_CASE_METHOD(quiet_heart, "a skill that changes its mind a thousand times "
     CHECK(node.wait_for("ROSCELL_SAFE=1"));
 }
 
-TEST_CASE("every beat repeats the word on safety, for a node that was "
+TEST_CASE("every heartbeat repeats the word on safety, for a node that was "
           "restarted") {
   temp_folder folder;
   notify_receiver node{folder / "notify"};
@@ -146,7 +146,7 @@ TEST_CASE("every beat repeats the word on safety, for a node that was "
   liveness alive{20ms};
   safe_state safety;
   safety.set(false);
-  heartbeat beat{skill, alive, safety, {[] { return ""; }, nullptr}};
+  heartbeat sender{skill, alive, safety, {[] { return ""; }, nullptr}};
   for (int i = 0; i < 3; ++i)
     CHECK(node.wait_for("WATCHDOG") == "READY=1\nWATCHDOG=1\nROSCELL_SAFE=0");
 }
@@ -158,19 +158,20 @@ TEST_CASE("a word on safety is told while work hangs") {
   liveness alive{20ms};
   alive.work_begins(liveness::clock::now() - 1h);
   safe_state safety;
-  heartbeat beat{skill, alive, safety, {[] { return ""; }, nullptr}};
+  heartbeat sender{skill, alive, safety, {[] { return ""; }, nullptr}};
   safety.set(false);
   CHECK(node.receive() == "ROSCELL_SAFE=0");
 }
 
-TEST_CASE("a heart that tells of streams beats every second or faster") {
+TEST_CASE(
+    "a heart that tells of streams sends a heartbeat every second or faster") {
   temp_folder folder;
   notify_receiver node{folder / "notify"};
   notify_socket skill{folder / "notify"};
   liveness alive{1h};
   safe_state untold;
   const auto begin = liveness::clock::now();
-  heartbeat beat{
+  heartbeat sender{
       skill,
       alive,
       untold,

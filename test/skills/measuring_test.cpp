@@ -1,6 +1,6 @@
 #include "messages/instance.hpp"
 #include "skills/engine/file/line_splitter.hpp"
-#include "skills/engine/life/frame_words.hpp"
+#include "skills/engine/life/frame_text.hpp"
 #include "skills/engine/life/liveness.hpp"
 #include "skills/engine/life/processing_times.hpp"
 
@@ -70,14 +70,14 @@ TEST_CASE("a time that is as long as a bound lies within it") {
   CHECK(all.counts == decltype(all.counts){2, 2, 0, 0, 0, 0, 0, 0, 0, 1, 1});
 }
 
-TEST_CASE("what a status says of frames is one line of figures") {
+TEST_CASE("what a status says of frames is one line of metrics") {
   processing_times times;
-  CHECK(frame_words(times, 0, 0)
+  CHECK(frame_text(times, 0, 0)
         == "frames=0 dropped=0 failed=0 median_us=0 p99_us=0 times_us=0 "
            "times=0,0,0,0,0,0,0,0,0,0,0");
   times.add(15ns);
   times.add(3ms);
-  const auto words = frame_words(times, 7, 1);
+  const auto words = frame_text(times, 7, 1);
   CHECK(words.find("frames=2 dropped=7 failed=1 median_us=0 p99_us=") == 0);
   CHECK(words.find(" times_us=3000 times=1,0,1,0,0,0,0,0,0,0,0")
         != std::string::npos);
@@ -86,27 +86,27 @@ TEST_CASE("what a status says of frames is one line of figures") {
 TEST_CASE("a skill that waits for frames is alive") {
   liveness alive{2s};
   liveness::clock::time_point start{};
-  CHECK(alive.allows_beat(start + 100h));
+  CHECK(alive.allows_heartbeat(start + 100h));
 }
 
 TEST_CASE("a skill is alive while its work takes less than half a period") {
   liveness alive{2s};
   liveness::clock::time_point start{};
   alive.work_begins(start);
-  CHECK(alive.allows_beat(start + 999ms));
+  CHECK(alive.allows_heartbeat(start + 999ms));
   CHECK_FALSE(alive.work_ends());
   alive.work_begins(start + 5s);
-  CHECK(alive.allows_beat(start + 5900ms));
+  CHECK(alive.allows_heartbeat(start + 5900ms));
 }
 
-TEST_CASE("a beat that was withheld is owed when the work ends") {
+TEST_CASE("a heartbeat that was withheld is owed when the work ends") {
   liveness alive{2s};
   liveness::clock::time_point start{};
   alive.work_begins(start);
-  CHECK_FALSE(alive.allows_beat(start + 1s));
-  CHECK_FALSE(alive.allows_beat(start + 100s));
+  CHECK_FALSE(alive.allows_heartbeat(start + 1s));
+  CHECK_FALSE(alive.allows_heartbeat(start + 100s));
   CHECK(alive.work_ends());
-  CHECK(alive.allows_beat(start + 101s));
+  CHECK(alive.allows_heartbeat(start + 101s));
   alive.work_begins(start + 102s);
   CHECK_FALSE(alive.work_ends());
 }

@@ -112,10 +112,10 @@ struct resuming_output : staying_output {
     log.text += "suspend_output ";
   }
 
-  void resume(const changed_variables& told) override {
-    if (told.at("AT") == "nowhere")
+  void resume(const changed_variables& reported) override {
+    if (reported.at("AT") == "nowhere")
       throw start_error("there is no way to nowhere");
-    log.text += "resume_output_" + told.at("AT") + " ";
+    log.text += "resume_output_" + reported.at("AT") + " ";
   }
 };
 
@@ -179,7 +179,7 @@ struct address_fixture {
                             O_WRONLY | O_NONBLOCK | O_CLOEXEC)};
   }
 
-  void tell(const std::string& text) const {
+  void write_line(const std::string& text) const {
     const auto fifo = way_to_skill();
     CHECK(::write(fifo.get(), text.data(), text.size())
           == static_cast<ssize_t>(text.size()));
@@ -222,7 +222,7 @@ TEST_CASE_METHOD(address_fixture,
   const auto code = run_until([&](auto&) {
     CHECK(has_listener());
     CHECK(log.await(log.written));
-    tell("{\"AT\": \"10.0.0.9\"}\n");
+    write_line("{\"AT\": \"10.0.0.9\"}\n");
     CHECK(log.await(log.written_again));
     CHECK(has_listener());
   });
@@ -239,8 +239,8 @@ TEST_CASE_METHOD(address_fixture,
                  "error") {
   const auto code = run_until([&](auto&) {
     CHECK(log.await(log.written));
-    tell("{\"AT\": ");
-    tell("\"nowhere\"}\n");
+    write_line("{\"AT\": ");
+    write_line("\"nowhere\"}\n");
     CHECK(log.await(log.ended));
   });
   CHECK(code == exit_code::stream_failed);
@@ -252,8 +252,8 @@ TEST_CASE_METHOD(address_fixture, "what cannot be read moves nothing") {
   run_until([&](auto& engine) {
     CHECK(log.await(log.written));
     for (const auto* text : {"", R"({"AT": )", "[]", "{}", R"({"AT": 1})"})
-      tell(std::string{text} + "\n");
-    tell(std::string(35'000, 'a'));
+      write_line(std::string{text} + "\n");
+    write_line(std::string(35'000, 'a'));
     engine.use_variables({{"AT", "there"}});
     CHECK(log.await(log.written_again));
   });
@@ -277,7 +277,7 @@ TEST_CASE_METHOD(address_fixture,
 
 TEST_CASE_METHOD(
     address_fixture,
-    "who waits for a skill to be safe is not overtaken by a move") {
+    "who waits for a skill to be stop-safe is not overtaken by a move") {
   primitive_base_engine engine{parts, env, [](const std::string&) {}};
   engine.want_safety();
   engine.use_variables({{"AT", "here"}});

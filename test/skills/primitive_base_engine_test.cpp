@@ -136,7 +136,7 @@ struct joiner : executor {
   std::string waiting;
 };
 
-/// Says that it is not safe, and that it is when it is wanted to be.
+/// Says that it is not stop-safe, and that it is when it is wanted to be.
 struct careful : executor {
   explicit careful(journal& j) : log(j) {
     set_safe(false);
@@ -435,8 +435,9 @@ TEST_CASE_METHOD(fixture, "a skill that cannot start is never ready") {
   CHECK_FALSE(node.receive_now());
 }
 
-TEST_CASE_METHOD(fixture, "an executor says whether it is safe, and hears that "
-                          "somebody waits for that") {
+TEST_CASE_METHOD(fixture,
+                 "an executor says whether it is stop-safe, and hears that "
+                 "somebody waits for that") {
   temp_folder folder;
   notify_receiver node{folder / "notify"};
   env.notify_socket = folder / "notify";
@@ -455,7 +456,7 @@ TEST_CASE_METHOD(fixture, "an executor says whether it is safe, and hears that "
 }
 
 TEST_CASE_METHOD(fixture, "an executor that does not care goes on when it is "
-                          "wanted to be safe") {
+                          "wanted to be stop-safe") {
   primitive_base_engine engine{parts, env, [](const std::string&) {}};
   engine.want_safety();
   CHECK(engine.run() == exit_code::done);
@@ -470,10 +471,10 @@ TEST_CASE_METHOD(fixture, "streams are measured where the node wants to know") {
   env.inputs = {{"live", "3", "n"}, {"live", "0", "n"}};
   primitive_base_engine engine{parts, env, [](const std::string&) {}};
   std::thread runner{[&] { engine.run(); }};
-  const auto told = node.wait_for("ROSCELL_STREAMS=").value_or("");
+  const auto reported = node.wait_for("ROSCELL_STREAMS=").value_or("");
   engine.request_stop();
   runner.join();
-  CHECK_THAT(told, Contains("WATCHDOG=1\nROSCELL_STREAMS=input:0 "));
-  CHECK_THAT(told, Contains(";input:1 0.000 -;output:0 "));
-  CHECK(told.find("output:0 0.000 -") == std::string::npos);
+  CHECK_THAT(reported, Contains("WATCHDOG=1\nROSCELL_STREAMS=input:0 "));
+  CHECK_THAT(reported, Contains(";input:1 0.000 -;output:0 "));
+  CHECK(reported.find("output:0 0.000 -") == std::string::npos);
 }

@@ -17,7 +17,7 @@ TEST_CASE("a stream without a frame has no age and no rate") {
   CHECK(meter.take(start + 9s).rate_hz == 0);
 }
 
-TEST_CASE("a rate is that of the frames since the figure before") {
+TEST_CASE("a rate is that of the frames since the value before") {
   stream_meter meter{start};
   for (int i = 1; i <= 10; ++i)
     meter.count(start + i * 100ms);
@@ -74,7 +74,7 @@ TEST_CASE("no more streams are told than a node reads") {
   CHECK(text.find(":16 ") == std::string::npos);
 }
 
-TEST_CASE("all frames of a stream are counted, whoever takes figures") {
+TEST_CASE("all frames of a stream are counted, whoever takes metrics") {
   stream_meter meter{start};
   meter.count(start);
   meter.take(start + 1s);

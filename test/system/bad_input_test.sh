@@ -188,7 +188,7 @@ test_slow_requests_are_ended_and_lock_nobody_out() {
     expect "ends later than 15 s" \
       "$(awk '$2 > 15 && $1 != "left"' "$scratch/$kind")" ""
   done
-  # Strangers over the limit are closed without a word.
+  # Unauthenticated peers over the limit are closed without a word.
   expect "replies to those with the token" \
     "$(grep -c '^408' "$scratch/body")" 40
   still_up

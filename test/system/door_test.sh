@@ -105,7 +105,7 @@ test_a_program_of_another_user_gets_nothing_from_a_port_of_loopback() {
   start_head
   start_node arm --interface lo --join "$server"
   await_joined head arm
-  install -m 755 test/system/scenes/stranger.py "$scratch"
+  install -m 755 test/system/scenes/unauthenticated_peer.py "$scratch"
   expect_nothing head as_stranger
   expect_nothing arm as_stranger
   expect_alone 2
@@ -137,7 +137,7 @@ test_skills_that_somebody_else_may_change_are_told_to_root() {
     "$scratch/head.log" || fail "$(cat "$scratch/head.log")"
 }
 
-test_a_stranger_with_the_cells_name_keeps_no_coordinator_from_starting() {
+test_an_unauthenticated_peer_with_the_cells_name_keeps_no_coordinator_from_starting() {
   let_in_strangers
   start_theirs den --coordinator --cell line --interface lo
   start_head
@@ -151,7 +151,7 @@ test_a_stranger_with_the_cells_name_keeps_no_coordinator_from_starting() {
     || fail "$(cat "$scratch/stderr")"
 }
 
-# A stranger is nearer than the coordinator that has the name.
+# An unauthenticated peer is nearer than the coordinator that has the name.
 test_who_has_the_name_of_a_cell_keeps_it_though_a_stranger_is_heard_first() {
   bridge_hosts 2
   make_site_token

@@ -46,7 +46,7 @@ test_without_a_terminal_sudo_is_not_waited_for() {
   bare_path
   fake sudo '[ "$1" = -n ] && echo "sudo: a password is required" >&2; exit 1'
   fake setsid "exec $(command -v setsid) -w \"\$@\""
-  says_one_line "cannot install: sudo: a password is required; mend that" \
+  says_one_line "cannot install: sudo: a password is required; fix that" \
     setsid "${as_nobody[@]}" tools/install.sh
 }
 

@@ -1,13 +1,13 @@
 # Why a node does not join, as its log and its status say it: hosts in network
 # namespaces, and the causes made for real.
 
-# said NAME: the first trouble that the node has told, with the remedy.
+# said NAME: the first problem that the node has told, with the remedy.
 said() {
   await "$1" '.event == "join_failed" or .event == "join_refused"' \
     | jq -r '.data.reason + " | " + (.data.hint // "")'
 }
 
-# expect_said NAME TEXT...: the node's first words of trouble hold each text, in
+# expect_said NAME TEXT...: the node's first problem holds each text, in
 # its event, in its log and in its status.
 expect_said() {
   local name=$1 words text shown

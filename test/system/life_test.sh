@@ -87,7 +87,7 @@ test_a_skill_that_is_not_safe_is_waited_for_over_restarts() {
   local stopping=$!
   await head '.event == "instance_awaited"' > /dev/null
   text=$(to head tasks)
-  has_line 't/a waits to be safe' <<< "$text" || fail "$text"
+  has_line 't/a waits to be stop-safe' <<< "$text" || fail "$text"
   stop_node arm KILL
   start_node arm --interface lo --join "$server" --label place=arm
   await arm '.event == "instance_adopted"' > /dev/null
@@ -312,17 +312,17 @@ test_what_runs_makes_way_for_a_task_of_higher_priority() {
   expect "the task" "$(get head /v1/tasks/low | jq -r '.tasks[0].state')" running
   to head run "$scratch/high.json" --preempt --yes > "$scratch/said" 2>&1 \
     || fail "$(cat "$scratch/said")"
-  has_line 'made way: low/a on arm' "$scratch/said" || fail "$(cat "$scratch/said")"
+  has_line 'preempted: low/a on arm' "$scratch/said" || fail "$(cat "$scratch/said")"
   expect "it ended first" \
     "$(jq -n "$(cat "$scratch/end.a") < $(last_start b)")" true
   text=$(to head tasks low)
-  has_line "it makes way for task 'high'" <<< "$text" || fail "$text"
+  has_line "it is preempted by task 'high'" <<< "$text" || fail "$text"
   to head stop high > /dev/null
   to head run "$scratch/low.json" > "$scratch/said" || fail "$(cat "$scratch/said")"
   has_line 'runs once more, run 2' "$scratch/said" || fail "$(cat "$scratch/said")"
 }
 
-test_what_makes_way_has_not_finished_though_the_coordinator_is_killed() {
+test_what_is_preempted_has_not_finished_though_the_coordinator_is_killed() {
   local said
   make_worker
   make_heavy 600
@@ -338,7 +338,7 @@ test_what_makes_way_has_not_finished_though_the_coordinator_is_killed() {
   wait "$said"
   start_head_without_room
   await_joined head arm
-  # It is safe only now, and its program ends with 0.
+  # It is stop-safe only now, and its program ends with 0.
   order safe a
   await head '.event == "instance_restarted" and .data.task == "low"' > /dev/null
   expect "the task" "$(get head /v1/tasks/low | jq -r '.tasks[0].state')" running

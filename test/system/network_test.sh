@@ -174,7 +174,7 @@ test_doctor_says_whose_clock_is_off_by_how_much() {
   await_joined head arm
   await_joined head belt
   cell_doctor cell-clocks && fail "it is content: $(cat "$scratch/found")"
-  # Beats go between hosts with little delay, and not without any.
+  # Heartbeats go between hosts with little delay, and not without any.
   jq -e 'length == 1 and .[0].verdict == "broken" and (.[0].seen
       | test("^arm.s clock is (6[.]9[0-9]*|7|7[.]0[0-9]*) s behind the coord"))
     and (.[0].remedy | startswith("ssh -t 10.231.7.2 "))' \

@@ -33,7 +33,7 @@ known_cell sample() {
   row.state = instance_state::running;
   row.since_unix_ms = 2000;
   row.status = "frames=7";
-  row.figures = {7, 2.5, 0, 1.5};
+  row.metrics = {7, 2.5, 0, 1.5};
   known.instances = {row};
   known.cell.tasks = {{"t", task_state::running, 1000, 0, {row}}};
   skill_row skill;
@@ -98,11 +98,11 @@ TEST_CASE("a task is described with its steps, ports and allocation",
   CHECK(has(text, "  tag_size_m  0.16\n"));
 }
 
-TEST_CASE("an instance is described with its words, figures and log",
+TEST_CASE("an instance is described with its words, metrics and log",
           "[tools]") {
   const auto text = described(sample(), "t-poses-1a2b3c4d");
-  CHECK(has(text, "Says:           frames=7\n"));
-  CHECK(has(text, "Figures:        2.5 Hz, 0 dropped, 1.5 ms\n"));
+  CHECK(has(text, "Status text:    frames=7\n"));
+  CHECK(has(text, "Metrics:        2.5 Hz, 0 dropped, 1.5 ms\n"));
   CHECK(has(text, "\nEnd of the log:\n  a line\n"));
 }
 

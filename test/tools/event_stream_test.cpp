@@ -1,4 +1,4 @@
-#include "tools/roscell/client/event_words.hpp"
+#include "tools/roscell/client/event_text.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -149,7 +149,7 @@ TEST_CASE("progress tells where each step was placed", "[tools]") {
         == lines{"step a: placed on n1 (cpu)", "step b: placed on n2 (gpu)"});
 }
 
-TEST_CASE("progress tells facts about the task itself", "[tools]") {
+TEST_CASE("progress tells events about the task itself", "[tools]") {
   CHECK(progress_lines(sample("task_accepted", "t", ""), "t")
         == lines{"task accepted"});
 }
@@ -167,12 +167,12 @@ TEST_CASE("progress leaves out what concerns others", "[tools]") {
             .empty());
 }
 
-TEST_CASE("who waits for a task is told what makes way for it", "[tools]") {
+TEST_CASE("who waits for a task is told what is preempted for it", "[tools]") {
   CHECK(progress_lines(sample("instance_preempted", "low-a-1",
                               R"({"by":"t","task":"low","step":"a",)"
                               R"("node":"arm"})"),
                        "t")
-        == std::vector<std::string>{"low/a makes way on arm"});
+        == std::vector<std::string>{"low/a is preempted on arm"});
 }
 
 TEST_CASE("who waits for nodes is told what happens to them", "[tools]") {

@@ -68,7 +68,7 @@ TEST_CASE("a kept log is told with when and how its instance ended",
   log.state = instance_state::failed;
   log.exit_code = 3;
   log.reason = "it ended with exit code 3";
-  CHECK(kept_log_words(log, 65'000)
+  CHECK(kept_log_text(log, 65'000)
         == "fleet-poses-5a2b3c4d on node belt: failed 1m00s ago, exit code 3 "
            "(it ended with exit code 3)");
 }

@@ -44,7 +44,7 @@ TEST_CASE("a node that ends while it deploys is told of, and the remedy",
         who.hang_up();
       }};
   const node_client client{{path, {}}};
-  const auto told = [&](const std::string& body) {
+  const auto reported = [&](const std::string& body) {
     try {
       client.post("/v1/requests", body, std::chrono::seconds{10});
       return std::string{};
@@ -52,10 +52,10 @@ TEST_CASE("a node that ends while it deploys is told of, and the remedy",
       return std::string{e.what()} + "; " + e.hint;
     }
   };
-  CHECK(told(R"({"type":"task_request","task":"t"})")
+  CHECK(reported(R"({"type":"task_request","task":"t"})")
         == "the node ended while it deployed; ask again with the same file "
            "once it is back");
-  CHECK(told(R"({"type":"cell_query"})")
+  CHECK(reported(R"({"type":"cell_query"})")
         == "the node ended while it worked on the request; ask again once it "
            "is back");
 }

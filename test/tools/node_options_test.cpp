@@ -124,7 +124,7 @@ TEST_CASE("a coordinator joins nothing, and only it names a cell", "[tools]") {
   CHECK(refusal(named).empty());
 }
 
-TEST_CASE("only a coordinator has a name to take and a cell to even out",
+TEST_CASE("only a coordinator has a name to take and a cell to balance",
           "[tools]") {
   node_options forcing;
   forcing.config.force = true;

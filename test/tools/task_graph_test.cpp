@@ -28,7 +28,7 @@ const io_endpoint tf{"ros2", "/tf", "tf2_msgs/msg/TFMessage"};
 
 task_graph sample_graph() {
   auto camera = step("camera", {pictures}, {image});
-  camera.figures = {120, 10, 0, 3.25};
+  camera.metrics = {120, 10, 0, 3.25};
   return graph_of("t", {camera, step("poses", {image}, {tf})});
 }
 
@@ -57,7 +57,7 @@ TEST_CASE("the same endpoint of another protocol joins nothing", "[tools]") {
     CHECK_FALSE((x.from && x.to));
 }
 
-TEST_CASE("a graph shows steps, nodes, streams and figures", "[tools]") {
+TEST_CASE("a graph shows steps, nodes, streams and metrics", "[tools]") {
   const auto text = graph_view(sample_graph(), {});
   CHECK(has(text, "│ on arm-1, running "));
   CHECK(has(text, "│ 10 Hz, 0 dropped, 3.25 ms │"));
@@ -73,13 +73,13 @@ TEST_CASE("a graph shows what arrives at each reader", "[tools]") {
   stream_count out;
   out.end = "output:0";
   out.rate_hz = 9;
-  graph.steps[0].figures.streams = {out};
+  graph.steps[0].metrics.streams = {out};
   stream_count in;
   in.end = "input:0";
   in.frames = 7;
   in.failed = 2;
   in.rate_hz = 8;
-  graph.steps[1].figures.streams = {in};
+  graph.steps[1].metrics.streams = {in};
   const auto text = graph_view(graph, {});
   CHECK(has(text, "│ /image  Image  9 Hz\n"));
   CHECK(has(text, "AT ITS READER"));

@@ -13,7 +13,7 @@ using namespace roscell::cli;
 namespace {
 
 /// What is said of a command line that cannot be parsed, and its hint.
-std::string told(std::vector<std::string> words) {
+std::string reported(std::vector<std::string> words) {
   CLI::App app;
   action chosen;
   set_up(app, chosen);
@@ -31,41 +31,41 @@ std::string told(std::vector<std::string> words) {
 } // namespace
 
 TEST_CASE("a misspelt command is told with the one that was meant", "[tools]") {
-  CHECK(told({"nodess"})
+  CHECK(reported({"nodess"})
         == "there is no command 'nodess'; did you mean `roscell nodes`?");
-  CHECK(told({"coffee"})
+  CHECK(reported({"coffee"})
         == "there is no command 'coffee'; `roscell --help` lists the commands");
-  CHECK(told({})
+  CHECK(reported({})
         == "a command is missing; `roscell --help` lists the commands");
 }
 
 TEST_CASE("a misspelt option is told with the one that was meant", "[tools]") {
-  CHECK(told({"node", "--jion", "10.0.0.1"})
+  CHECK(reported({"node", "--jion", "10.0.0.1"})
         == "`roscell node` has no option --jion; did you mean --join?");
-  CHECK(told({"transfer", "--cel=line", "arm-1"})
+  CHECK(reported({"transfer", "--cel=line", "arm-1"})
         == "`roscell transfer` has no option --cel; did you mean --cell?");
-  CHECK(told({"nodes", "--colour"})
+  CHECK(reported({"nodes", "--colour"})
         == "`roscell nodes` has no option --colour; `roscell nodes --help` "
            "shows how it is used");
-  CHECK(told({"--versoin"})
+  CHECK(reported({"--versoin"})
         == "there is no option --versoin; did you mean --version?");
 }
 
 TEST_CASE("an argument too many or too few is told with the help to read",
           "[tools]") {
-  CHECK(told({"tasks", "a", "b"})
+  CHECK(reported({"tasks", "a", "b"})
         == "'b' is one argument too many for `roscell tasks`; `roscell tasks "
            "--help` shows how it is used");
-  CHECK(told({"plan"})
+  CHECK(reported({"plan"})
         == "FILE is required; `roscell plan --help` shows how it is used");
-  CHECK(told({"tasks", "-o", "xml"}).find("roscell tasks --help")
+  CHECK(reported({"tasks", "-o", "xml"}).find("roscell tasks --help")
         != std::string::npos);
 }
 
 TEST_CASE("help and version are commands, too", "[tools]") {
-  CHECK(told({"help"}) == "it is parsed");
-  CHECK(told({"help", "node"}) == "it is parsed");
-  CHECK(told({"version"}) == "it is parsed");
+  CHECK(reported({"help"}) == "it is parsed");
+  CHECK(reported({"help", "node"}) == "it is parsed");
+  CHECK(reported({"version"}) == "it is parsed");
   CLI::App app;
   action chosen;
   set_up(app, chosen);

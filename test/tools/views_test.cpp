@@ -71,7 +71,7 @@ TEST_CASE("a cell's row shows its size and where to join it", "[tools]") {
   CHECK(right_aligned(text) == "NODES|ROS_DOMAIN_ID");
 }
 
-TEST_CASE("trouble has a column only if a cell has some", "[tools]") {
+TEST_CASE("problems have a column only if a cell has some", "[tools]") {
   const cell_list cells{
       {{"lab", "arm-1", "10.0.0.1:8420", "10.0.0.1:11811", 3, ""},
        {"hall", "arm-2", "10.0.0.2:8420", "10.0.0.2:11811", 0, "no route"}}};
@@ -81,7 +81,7 @@ TEST_CASE("trouble has a column only if a cell has some", "[tools]") {
             "hall|arm-2|-|10.0.0.2:8420|10.0.0.2:11811|-|-|no route\n"));
 }
 
-TEST_CASE("both claims of a cell's name are shown as trouble", "[tools]") {
+TEST_CASE("both claims of a cell's name are shown as a problem", "[tools]") {
   const cell_list cells{{{"lab", "arm-1", "10.0.0.1:8420", "", 3, ""},
                          {"hall", "arm-3", "10.0.0.3:8420", "", 1, ""},
                          {"lab", "arm-2", "10.0.0.2:8420", "", 1, "told"}}};
@@ -102,7 +102,7 @@ TEST_CASE("a task that is named is shown with its steps, and how long data "
     row.spec.step = age_ms < 4 ? "camera" : "poses";
     row.node = "arm";
     row.state = instance_state::running;
-    row.figures.age_ms = age_ms;
+    row.metrics.age_ms = age_ms;
     task.instances.push_back(row);
   }
   const auto text = task_view({{task}}, at(0));
@@ -120,8 +120,8 @@ TEST_CASE("a step that does not simply run says why", "[tools]") {
     row.state = instance_state::running;
   CHECK_FALSE(has(task_view({{task}}, at(0)), "REMARK"));
   task.instances[1].state = instance_state::failed;
-  task.instances[1].reason = "it makes way for task 'high'";
-  CHECK(has(task_view({{task}}, at(0)), "it makes way for task 'high'\n"));
+  task.instances[1].reason = "it is preempted by task 'high'";
+  CHECK(has(task_view({{task}}, at(0)), "it is preempted by task 'high'\n"));
 }
 
 TEST_CASE("a node that has a coordinator is a member", "[tools]") {
@@ -153,7 +153,7 @@ TEST_CASE("a node's row shows use and capacity with units", "[tools]") {
   row.identity = {"arm-1", "u", 1, "10.0.0.1:8420"};
   row.state = row_state::lost;
   row.since_unix_ms = 1000;
-  row.reason = "silent for 8 s";
+  row.reason = "no heartbeat for 8 s";
   row.resources = sample_resources();
   cell_description cell;
   cell.nodes = {row};
@@ -162,7 +162,7 @@ TEST_CASE("a node's row shows use and capacity with units", "[tools]") {
   CHECK(has(text, " 0.8/3.8 GiB "));
   CHECK(has(text, " 4.9/19.5 GiB "));
   CHECK(has(text, "lost   1m00s"));
-  CHECK(has(text, "silent for 8 s"));
+  CHECK(has(text, "no heartbeat for 8 s"));
 }
 
 TEST_CASE("what a node has not measured yet is not shown as zero", "[tools]") {
@@ -197,16 +197,17 @@ TEST_CASE("what waits is shown with whom and for how long", "[tools]") {
   unsafe.unsafe_since_unix_ms = 1000;
   unsafe.unsafe_until_unix_ms = 21'000;
   tasks.tasks[0].instances = {unsafe};
-  CHECK(has(tasks_view(tasks, at(6000)),
-            name + " waits to be safe, 5s; it ends in 15s all the same\n"));
+  CHECK(
+      has(tasks_view(tasks, at(6000)),
+          name + " waits to be stop-safe, 5s; it ends in 15s all the same\n"));
   cell_description cell;
   cell.nodes.resize(1);
-  cell.nodes[0].reason = "silent for 8 s";
+  cell.nodes[0].reason = "no heartbeat for 8 s";
   cell.nodes[0].instances = {lost};
   cell.nodes[0].draining_since_unix_ms = 1;
   const auto nodes = members_view(cell, at(0));
   CHECK(has(nodes, "expected, draining"));
-  CHECK(has(nodes, "silent for 8 s; " + name + " moves unless"));
+  CHECK(has(nodes, "no heartbeat for 8 s; " + name + " moves unless"));
 }
 
 TEST_CASE("a task that has ended shows how long it took", "[tools]") {
@@ -269,15 +270,15 @@ TEST_CASE("labels and devices of nodes are shown when all is wanted",
   CHECK(has(members_view(cell, style), "host=one,room=lab  /dev/video0\n"));
 }
 
-TEST_CASE("an instance's row shows what its skill tells in figures",
+TEST_CASE("an instance's row shows what its skill tells in metrics",
           "[tools]") {
   auto row = sample_instance();
   row.status = "frames=120 dropped=3 median_us=4125";
-  row.figures = {120, 29.97, 3, 4.125};
+  row.metrics = {120, 29.97, 3, 4.125};
   const auto text = instances_view({{row}}, at(2000));
   CHECK(has(text, " 120  30 Hz        3  4.12 ms "));
   CHECK_FALSE(has(text, "median_us"));
-  row.figures.rate_hz = 0;
+  row.metrics.rate_hz = 0;
   CHECK(has(instances_view({{row}}, at(2000)), " 0 Hz "));
 }
 
@@ -289,8 +290,8 @@ instance_row barren_instance() {
   row.spec.input = {{"ros2", "/image", "sensor_msgs/msg/Image"},
                     {"ros2", "/info", "sensor_msgs/msg/CameraInfo"}};
   row.spec.output = {{"ros2", "/tf", "tf2_msgs/msg/TFMessage"}};
-  row.figures.frames = 118;
-  row.figures.remark = "118 frames in, none out: no CameraInfo has come";
+  row.metrics.frames = 118;
+  row.metrics.remark = "118 frames in, none out: no CameraInfo has come";
   stream_count image;
   image.end = "input:0";
   image.frames = 121;
@@ -299,7 +300,7 @@ instance_row barren_instance() {
   image.latency_ms = 0.25;
   stream_count info;
   info.end = "input:1";
-  row.figures.streams = {image, info};
+  row.metrics.streams = {image, info};
   return row;
 }
 
@@ -309,14 +310,14 @@ TEST_CASE("an instance of whose frames nothing comes says so wherever it is "
           "listed",
           "[tools]") {
   const auto row = barren_instance();
-  const auto words = row.figures.remark;
+  const auto words = row.metrics.remark;
   CHECK(has(instances_view({{row}}, at(2000)), "  " + words + "\n"));
   const task_description tasks{{{"t", task_state::running, 0, 0, {row}}}};
   CHECK(has(tasks_view(tasks, at(2000)), "  poses: " + words + "\n"));
   CHECK(has(task_view(tasks, at(2000)), "  " + words + "\n"));
 }
 
-TEST_CASE("each stream's figures are shown when all is wanted", "[tools]") {
+TEST_CASE("each stream's metrics are shown when all is wanted", "[tools]") {
   auto style = at(2000);
   CHECK_FALSE(has(instances_view({{barren_instance()}}, style), "/image"));
   style.text.tables.wide = true;
@@ -345,7 +346,7 @@ TEST_CASE("a failed instance shows its exit code and why", "[tools]") {
 TEST_CASE("an instance whose engine is away shows that", "[tools]") {
   auto row = sample_instance();
   row.status = "frames=12";
-  row.trouble = "the engine is away";
+  row.problem = "the engine is away";
   CHECK(has(instances_view({{row}}, at(2000)), "  the engine is away\n"));
 }
 

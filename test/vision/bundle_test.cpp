@@ -180,7 +180,7 @@ TEST_CASE("the covariance of a body is the spread of its poses", "[bundle]") {
   const auto truth = world.next_pose();
   constexpr auto rounds = 300;
   Eigen::Matrix<double, 6, 1> squares = Eigen::Matrix<double, 6, 1>::Zero();
-  Eigen::Matrix<double, 6, 1> told = squares;
+  Eigen::Matrix<double, 6, 1> reported = squares;
   for (auto i = 0; i < rounds; ++i) {
     const auto sight = locate(body, see_all(world, body, truth, 0.4), eye);
     REQUIRE(sight.where);
@@ -192,11 +192,11 @@ TEST_CASE("the covariance of a body is the spread of its poses", "[bundle]") {
         turn.axis() * turn.angle();
     squares += off.cwiseProduct(off) / rounds;
     for (auto k = 0; k < 6; ++k)
-      told[k] += found.covariance[static_cast<std::size_t>(7 * k)] / rounds;
+      reported[k] += found.covariance[static_cast<std::size_t>(7 * k)] / rounds;
   }
   for (auto k = 0; k < 6; ++k) {
     CAPTURE(k);
-    CHECK(told[k] / squares[k] == Approx(1).margin(0.3));
+    CHECK(reported[k] / squares[k] == Approx(1).margin(0.3));
   }
 }
 

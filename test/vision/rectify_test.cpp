@@ -290,7 +290,7 @@ TEST_CASE("of each image that is left out the reason is given") {
   CHECK(b.out.excuses().size() == 6);
 }
 
-TEST_CASE("images follow when the calibration has come or was mended") {
+TEST_CASE("images follow when the calibration has come or was fixed") {
   bench b;
   auto message = noise("mono8", 1);
   for (auto i = 0; i < 10; ++i)

@@ -1,4 +1,4 @@
-#include "actors/house/house.hpp"
+#include "actors/core/actor_context.hpp"
 #include "embedding/skills/actor_runtime.hpp"
 #include "messages/type_ids.hpp"
 
@@ -61,7 +61,7 @@ listener(container_listener_actor::stateful_pointer<listener_state>,
         if (x.ready)
           (*next)->set_value(clock_type::now());
       },
-      [](const runtime_troubled&) {},
+      [](const runtime_problem_changed&) {},
   };
 }
 
@@ -180,7 +180,7 @@ private:
   caf::actor_system nodes_;
   caf::actor_system workers_;
   caf::scoped_actor self_;
-  house context_;
+  actor_context context_;
   ready_word* next_ = nullptr;
   std::promise<void> passed_;
   std::promise<void> ignored_;

@@ -53,7 +53,7 @@ auto seldom_read_clock() {
 }
 
 /// What was measured in the cases of one shape.
-struct figures {
+struct metrics {
   std::vector<double> cpu_ms, wall_ms, branches, gap, enumeration_ms;
   int feasible = 0;
   int solved = 0;
@@ -111,7 +111,7 @@ private:
 };
 
 void enumerate(const alloc::problem& asked, const alloc::result& answer,
-               double most, figures& into) {
+               double most, metrics& into) {
   enumeration all(asked);
   if (all.size() < 1 || all.size() > most)
     return;
@@ -124,7 +124,7 @@ void enumerate(const alloc::problem& asked, const alloc::result& answer,
 }
 
 void measure_one(const cell_shape& shape, unsigned seed,
-                 const bench_options& options, figures& into) {
+                 const bench_options& options, metrics& into) {
   auto asked = make_problem(shape, seed);
   alloc::limits bounds;
   bounds.budget = std::chrono::milliseconds(options.budget_ms);
@@ -146,7 +146,7 @@ void measure_one(const cell_shape& shape, unsigned seed,
     enumerate(asked, answer, options.most_enumerated, into);
 }
 
-void print(const cell_shape& shape, const figures& of) {
+void print(const cell_shape& shape, const metrics& of) {
   auto cases = static_cast<double>(of.cpu_ms.size());
   std::cout << std::setprecision(4) << R"({"bench":"allocation","kind":")"
             << to_string(shape.kind) << R"(","tight":)" << std::boolalpha
@@ -168,7 +168,7 @@ void print(const cell_shape& shape, const figures& of) {
 }
 
 void measure(const cell_shape& shape, const bench_options& options) {
-  figures found;
+  metrics found;
   for (int i = 0; i < options.cases; ++i)
     measure_one(shape, options.seed + static_cast<unsigned>(i), options, found);
   print(shape, found);

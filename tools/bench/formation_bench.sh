@@ -11,7 +11,7 @@ ROSCELL_BUILD=$(realpath "${1:?usage: tools/bench/formation_bench.sh BUILD_DIR [
 batches=${2:-10}
 transfers=${3:-100}
 
-. tools/bench/figures.sh
+. tools/bench/metrics.sh
 
 # in_scratch FUNCTION...: runs it with processes and files of its own.
 in_scratch() {

@@ -6,7 +6,7 @@ export ROSCELL_BUILD
 ROSCELL_BUILD=$(realpath "$1")
 scratch=$(mktemp -d /tmp/roscell-bench.XXXXXX)
 . test/system/lib.sh
-. tools/bench/figures.sh
+. tools/bench/metrics.sh
 trap 'clean_up 2> /dev/null; rm -rf "$scratch"' EXIT
 
 skip() {

@@ -12,7 +12,7 @@ span_s=${2:-600}
 rounds=${3:-3}
 bench=$(mktemp -d /tmp/roscell-bench.XXXXXX)
 . test/system/lib.sh
-. tools/bench/figures.sh
+. tools/bench/metrics.sh
 
 # counters N: bytes sent and received, packets sent and received, time in ms.
 counters() {

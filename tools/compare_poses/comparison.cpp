@@ -8,12 +8,13 @@ namespace roscell::comparison {
 namespace {
 
 /// One figure of each error.
-template <class Figure>
-std::vector<double> all(const std::vector<pose_error>& errors, Figure figure) {
+template <class Summary>
+std::vector<double> all(const std::vector<pose_error>& errors,
+                        Summary summary) {
   std::vector<double> result;
   result.reserve(errors.size());
   for (const auto& error : errors)
-    result.push_back(error.*figure);
+    result.push_back(error.*summary);
   return result;
 }
 
@@ -72,7 +73,7 @@ scene_comparison compare(std::string name, const true_poses& truth,
   }
   for (const auto& [id, poses] : estimated.poses)
     if (truth.count(id) == 0)
-      result.strangers.push_back(id);
+      result.unknown_tags.push_back(id);
   return result;
 }
 

@@ -57,7 +57,7 @@ struct scene_comparison {
   std::string name;
   std::string node; ///< Where its poses are estimated, if that is known.
   std::vector<tag_comparison> tags; ///< In the order of ids.
-  std::vector<int> strangers;       ///< Tags that are not in the scene.
+  std::vector<int> unknown_tags;    ///< Tags that are not in the scene.
   std::vector<pose_error> errors;   ///< Of each tag in each frame.
   frame_timing timing;
 };

@@ -60,14 +60,14 @@ std::string remarks(const scene_comparison& scene) {
   for (const auto& tag : scene.tags)
     if (tag.frames == 0)
       missed += " " + std::to_string(tag.id);
-  std::string strangers;
-  for (auto id : scene.strangers)
-    strangers += " " + std::to_string(id);
+  std::string unknown_tags;
+  for (auto id : scene.unknown_tags)
+    unknown_tags += " " + std::to_string(id);
   std::string result;
   if (!missed.empty() && missed.size() < 60)
     result += scene.name + ": not found:" + missed + "\n";
-  if (!strangers.empty())
-    result += scene.name + ": not in the scene:" + strangers + "\n";
+  if (!unknown_tags.empty())
+    result += scene.name + ": not in the scene:" + unknown_tags + "\n";
   return result;
 }
 
@@ -79,7 +79,7 @@ std::string tag_table(const scene_comparison& scene) {
           "TRUE X Y Z m", "ESTIMATED X Y Z m", "ERROR %", "TURNED °", "FRAMES");
   for (const auto& tag : scene.tags)
     result += tag_row(scene.name, tag);
-  for (auto id : scene.strangers)
+  for (auto id : scene.unknown_tags)
     result += row("%-12s %4d  is not in the scene", scene.name.c_str(), id);
   return result;
 }

@@ -1,7 +1,7 @@
-// Puts the page together: what is known (cell/), the rooms that show it (rooms/),
+// Puts the page together: what is known (cell/), the pages that show it (pages/),
 // and which of them is open (page/router.js).
 import { EventStream } from './cell/event_stream.js';
-import { Figures } from './cell/figures.js';
+import { Metrics } from './cell/metrics.js';
 import { applyEvent } from './cell/follow_events.js';
 import { Questions } from './cell/questions.js';
 import { Store } from './cell/store.js';
@@ -10,11 +10,11 @@ import { setAttribute, setText } from './page/dom.js';
 import { Frame } from './page/frame.js';
 import { place } from './page/router.js';
 import { count } from './page/words.js';
-import { ROOMS } from './rooms/rooms.js';
+import { PAGES } from './pages/pages.js';
 
 /** A page that nobody sees lets the node go after this, and catches up when it is looked at. */
 const HIDDEN_MS = 60000;
-/** No first reading takes longer; facts that are newer may not be in it. */
+/** No first reading takes longer; events that are newer may not be in it. */
 const READ_MS = 3000;
 /** How long ago something was is said anew this often, though nothing happens. */
 const TICK_MS = 5000;
@@ -23,10 +23,10 @@ const store = new Store();
 const announcer = new Announcer(document.getElementById('announcer'));
 const stream = new EventStream({ onEvents, onLink, onNode, onOpen });
 const questions = new Questions(store, () => stream.cut());
-const figures = new Figures(store, () => stream.cut(), questions.want);
-const app = { store, figures, questions, announcer, go: (hash) => { location.hash = hash; } };
+const metrics = new Metrics(store, () => stream.cut(), questions.want);
+const app = { store, metrics, questions, announcer, go: (hash) => { location.hash = hash; } };
 const frame = new Frame(app, stream);
-let room = null;
+let page = null;
 
 function onNode(node) {
   store.me = node;
@@ -44,14 +44,14 @@ async function onOpen(again) {
   store.ended.clear();
   await questions.readAll();
   caughtUp = true;
-  // Clocks of nodes differ, so "while it was read" is counted back from the newest fact.
+  // Clocks of nodes differ, so "while it was read" is counted back from the newest event.
   const newest = late.at(-1)?.time_unix_ms ?? 0;
   const doubtful = late.splice(0).filter((x) => x.time_unix_ms > newest - READ_MS);
   // In this order: what has been terminated in the end is not asked for.
   doubtful.filter((x) => x.event === 'task_terminated').forEach((x) => store.ended.add(x.subject));
   doubtful.forEach((x) => applyEvent(store, x, questions.ask));
-  figures.lookSoon();
-  // The rooms show it with the next frame.
+  metrics.lookSoon();
+  // The pages show it with the next frame.
   requestAnimationFrame(() => { document.documentElement.dataset.ready = 'yes'; });
 }
 
@@ -73,27 +73,27 @@ function onLink(state, retryAt) {
   store.setLink(state, retryAt);
 }
 
-function openRoom() {
+function openPage() {
   const where = place();
-  const Room = ROOMS[where.room] ?? ROOMS.site;
-  room?.close?.();
-  figures.wish();
-  room = new Room(app, where);
-  frame.show(where, room);
-  room.update(new Set(['all']));
+  const Page = PAGES[where.page] ?? PAGES.site;
+  page?.close?.();
+  metrics.request();
+  page = new Page(app, where);
+  frame.show(where, page);
+  page.update(new Set(['all']));
 }
 
 store.subscribe((kinds) => {
   frame.update(kinds);
-  room?.update(kinds);
-  const trouble = [...store.nodes.values()].filter((x) => x.state === 'lost').length;
-  document.title = `${trouble ? `(${count(trouble, 'node')} lost) ` : ''}${store.cell?.cell ?? 'ROSCell'} · ROSCell`;
+  page?.update(kinds);
+  const problem = [...store.nodes.values()].filter((x) => x.state === 'lost').length;
+  document.title = `${problem ? `(${count(problem, 'node')} lost) ` : ''}${store.cell?.cell ?? 'ROSCell'} · ROSCell`;
 });
 
-/** A room that has paused goes on once the link is live. */
+/** A page that has paused goes on once the link is live. */
 function letGo() {
   stream.halt();
-  room?.pause?.();
+  page?.pause?.();
   store.setLink('paused');
 }
 
@@ -113,10 +113,10 @@ window.addEventListener('pagehide', letGo);
 window.addEventListener('pageshow', (event) => event.persisted && onVisibility());
 
 setInterval(() => document.hidden || store.touch('time'), TICK_MS);
-window.addEventListener('hashchange', openRoom);
+window.addEventListener('hashchange', openPage);
 window.addEventListener('online', () => stream.lookNow());
 setText(document.getElementById('loading'), '');
 setAttribute(document.body, 'data-open', 'yes');
-openRoom();
+openPage();
 onVisibility();
 stream.run();

@@ -124,12 +124,12 @@ pid_t fork_into(const cgroup_list& folders, bool& inside) {
   const auto folder =
       unified ? ::open(folders.at[0], O_PATH | O_DIRECTORY | O_CLOEXEC) : -1;
   if (folder >= 0) {
-    clone_args wish{};
-    wish.flags = CLONE_INTO_CGROUP;
-    wish.exit_signal = SIGCHLD;
-    wish.cgroup = static_cast<std::uint64_t>(folder);
+    clone_args request{};
+    request.flags = CLONE_INTO_CGROUP;
+    request.exit_signal = SIGCHLD;
+    request.cgroup = static_cast<std::uint64_t>(folder);
     const auto child =
-        static_cast<pid_t>(::syscall(SYS_clone3, &wish, sizeof(wish)));
+        static_cast<pid_t>(::syscall(SYS_clone3, &request, sizeof(request)));
     ::close(folder);
     inside = child >= 0;
     if (inside)

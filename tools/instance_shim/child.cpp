@@ -2,7 +2,7 @@
 
 #include "tools/instance_shim/descendants.hpp"
 #include "tools/instance_shim/identity.hpp"
-#include "tools/instance_shim/standing.hpp"
+#include "tools/instance_shim/process_attributes.hpp"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -94,7 +94,7 @@ void die_with(pid_t shim) {
   become_ordinary();
   if (!inside)
     enter(o.cgroups);
-  if (!take_scheduling(o.wish))
+  if (!take_scheduling(o.request))
     fail("schedule as it was granted", o.command[0]);
   // Last, for the above may need powers that are given up here.
   if (!take_identity(o.who))
@@ -137,7 +137,7 @@ bool reap(pid_t child, int& wait_status, bool spares_group) {
          && info.si_pid != 0) {
     auto status = 0;
     // As long as the child is not reaped, its number cannot have become that
-    // of a stranger's process group.
+    // of another program's process group.
     if (info.si_pid == child && !spares_group)
       ::kill(-child, SIGKILL);
     ::waitpid(info.si_pid, &status, 0);

@@ -9,7 +9,7 @@
 namespace roscell::shim {
 
 /// Starts the command in a process group of its own and in its cgroup, with the
-/// standing of an ordinary program. It dies with the shim,
+/// attributes of an ordinary program. It dies with the shim,
 /// reads from /dev/null, and writes to `output`, or where the shim does if that
 /// is negative. If it cannot be started, it writes the reason and ends with
 /// code 127. Returns the process id, or -1 with errno set.

@@ -111,7 +111,7 @@ constexpr option all_options[] = {
     {"--cgroup",
      [](const char* x, options& to) { return add_cgroup(x, to.cgroups); }},
     {"--scheduling",
-     [](const char* x, options& to) { return read_scheduling(x, to.wish); }},
+     [](const char* x, options& to) { return read_scheduling(x, to.request); }},
     {"--user", [](const char* x, options& to) { return read_user(x, to.who); }},
     {"--capabilities",
      [](const char* x, options& to) { return read_capabilities(x, to.who); }},

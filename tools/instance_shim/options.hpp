@@ -6,7 +6,7 @@
 
 namespace roscell::shim {
 
-/// How the command is scheduled; without a wish as any program.
+/// How the command is scheduled; without a request as any program.
 struct scheduling {
   int policy = 0; ///< As of sched(7): SCHED_OTHER.
   int priority = 0;
@@ -32,7 +32,7 @@ struct options {
   const char* working_dir = nullptr; ///< of the command; null: the shim's own
   int stop_signal = 15;              ///< what asks the command to end
   cgroup_list cgroups;               ///< That the command is put into.
-  scheduling wish;                   ///< Of the command.
+  scheduling request;                ///< Of the command.
   identity who;                      ///< that the command is to be
   char** command = nullptr;          ///< the command and its arguments
 };

@@ -54,7 +54,7 @@ void pass_to_all(pid_t process, void* context) {
 
 void ask_to_end(supervision& x) {
   x.terminated = true;
-  // The numbers of a child that has ended may be a stranger's by now.
+  // The numbers of a child that has ended may be another process's by now.
   if (x.ended)
     visit_descendants(::getpid(), pass_to_all, &x);
   else
@@ -67,14 +67,15 @@ void ask_if_it_listens(pid_t process, void* context) {
 }
 
 /// A shell in front of the program would die of it.
-void ask_to_be_safe(supervision& x) {
+void ask_to_become_stop_safe(supervision& x) {
   auto heard = false;
   if (!x.ended)
     ask_if_it_listens(x.child, &heard);
   if (!heard)
     visit_descendants(::getpid(), ask_if_it_listens, &heard);
   if (!heard)
-    say(x, "[shim: nobody here takes SIGUSR1, by which it is asked to be safe: "
+    say(x, "[shim: nobody here takes SIGUSR1, by which it is asked to be "
+           "stop-safe: "
            "it was not sent]\n");
 }
 
@@ -95,7 +96,7 @@ void on_signal(supervision& x) {
     if (info.ssi_signo == SIGTERM)
       ask_to_end(x);
     else if (info.ssi_signo == SIGUSR1)
-      ask_to_be_safe(x);
+      ask_to_become_stop_safe(x);
     else if (info.ssi_signo == SIGQUIT)
       x.forced = true;
     else if (reap(x.child, x.wait_status, is_patient(x)))

@@ -17,8 +17,8 @@ namespace roscell::cli {
 
 namespace {
 
-int tell_of_version(const std::exception& e) {
-  print_error(std::string{"the answer is none of this version: "} + e.what(),
+int print_version_mismatch(const std::exception& e) {
+  print_error(std::string{"the answer is not of this version: "} + e.what(),
               "compare `roscell --version` here and there");
   return exit_unreachable;
 }
@@ -37,10 +37,10 @@ int perform(const action& chosen) {
     print_error(e.what(), e.hint);
     return e.code;
   } catch (const json::exception& e) {
-    return tell_of_version(e);
+    return print_version_mismatch(e);
   } catch (const std::invalid_argument& e) {
     // A word that this version does not know.
-    return tell_of_version(e);
+    return print_version_mismatch(e);
   } catch (const std::bad_alloc&) {
     print_error("out of memory");
     return exit_refused;

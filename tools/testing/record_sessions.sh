@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Records what the nodes of a small site say to each other, each frame of their
-# sessions and some beats: two coordinators, and a member that joins, runs a step,
+# sessions and some heartbeats: two coordinators, and a member that joins, runs a step,
 # stops, comes back, loses its coordinator, is given to the other cell and released.
 # What a version has said is kept in test/data, for later ones must understand it.
 # Prints a line of JSON a frame; the first has the site's token. Needs root.
@@ -35,7 +35,7 @@ await_joined hall arm
 echo_task say arm | to hall request > "$scratch/answer.json" \
   || fail "$(cat "$scratch/answer.json")"
 echo hello >> "$scratch/data/say.in"
-# Until the step has told what it has done, and beats have passed.
+# Until the step has told what it has done, and heartbeats have passed.
 timeout 5 tail -f /dev/null
 to hall instances > /dev/null
 to hall top --once > /dev/null 2>&1

@@ -4,11 +4,11 @@
 #include "actors/cell/state/may_start.hpp"
 #include "actors/cell/state/task_story.hpp"
 #include "actors/cell/tasks/ordered_stops.hpp"
+#include "actors/cell/tasks/placement_locks.hpp"
 #include "actors/cell/tasks/step_ends.hpp"
 #include "actors/cell/tasks/task_changes.hpp"
 #include "actors/cell/tasks/task_removals.hpp"
-#include "actors/cell/tasks/task_turns.hpp"
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 
 #include <map>
 #include <utility>
@@ -17,15 +17,15 @@ namespace roscell {
 
 namespace {
 
-void tell_moved(coordinator_pointer self, const moved_step& x) {
-  const auto* fact =
+void publish_moved(coordinator_pointer self, const moved_step& x) {
+  const auto* event =
       x.from != x.change.place.node ? "instance_moved" : "instance_restarted";
-  tell_of_task(self, fact, x.task, x.change.spec.instance,
-               {{"task", x.task},
-                {"from", x.from},
-                {"to", x.change.place.node},
-                {"replaces", x.change.old_instance},
-                {"step", x.change.spec.step}});
+  publish_task_event(self, event, x.task, x.change.spec.instance,
+                     {{"task", x.task},
+                      {"from", x.from},
+                      {"to", x.change.place.node},
+                      {"replaces", x.change.old_instance},
+                      {"step", x.change.spec.step}});
 }
 
 /// A task's state is that of the instances it still has.
@@ -34,7 +34,7 @@ void forget_new(coordinator_pointer self, const std::string& task,
   if (!self->state.deployments.find(added.front()))
     return;
   pending_change change;
-  change.still = &task_book::is_kept;
+  change.still = &task_table::is_kept;
   change.insistent = true;
   change.make = [added](task_record record) {
     return without(std::move(record), added);
@@ -45,17 +45,17 @@ void forget_new(coordinator_pointer self, const std::string& task,
 
 /// It has come to nothing: it is placed once more, elsewhere if need be, once
 /// it has surely ended there.
-void lose_again(coordinator_pointer self, const moved_step& x) {
+void abandon_again(coordinator_pointer self, const moved_step& x) {
   const auto& node = x.change.place.node;
   const auto* entry = self->state.registry.find_name(node);
-  lost_step again;
+  abandoned_step again;
   again.task = x.task;
   again.step = x.change.spec.step;
   again.instance = x.change.spec.instance;
   again.node = node;
   again.uuid = entry ? entry->row.identity.uuid : std::string{};
   again.due = self->clock().now() + limits::retry::longest;
-  self->state.failures.lose(std::move(again));
+  self->state.failures.abandon(std::move(again));
   set_timer(self);
 }
 
@@ -73,7 +73,7 @@ void keep_old(coordinator_pointer self, const task_move& move,
 } // namespace
 
 void end_move(coordinator_pointer self, const move_ptr& move) {
-  end_turn(self, std::exchange(move->turn, 0));
+  release_placement_lock(self, std::exchange(move->placement_lock, 0));
   self->state.moves.end(move->id);
   move->done(move->problem ? &*move->problem : nullptr);
 }
@@ -96,7 +96,7 @@ void complete_steps(coordinator_pointer self, const move_ptr& move,
     st.moves.enter(move->id, i, moved ? move_stage::moved : move_stage::over,
                    self->clock().now());
     if (moved)
-      tell_moved(self, x);
+      publish_moved(self, x);
     record_ends(self, x.task);
     remove_instance(self,
                     moved
@@ -141,10 +141,10 @@ void complete_lost(coordinator_pointer self, const move_ptr& move) {
     st.failures.forget(x.change.old_instance);
     if (st.moves.is_at(move->id, i, move_stage::up)) {
       st.deployments.heed_end(x.change.spec.instance);
-      tell_moved(self, x);
+      publish_moved(self, x);
     } else if (st.tasks.is_running(x.task)
                && st.deployments.find(x.change.spec.instance)) {
-      lose_again(self, x);
+      abandon_again(self, x);
     }
   }
   for (const auto& x : move->steps)

@@ -32,7 +32,7 @@ void drop_new(coordinator_pointer self, const move_ptr& move,
 /// still to end is started anew when it has.
 void undo_move(coordinator_pointer self, const move_ptr& move);
 
-/// A move of lost steps: the new ones are in the books, whatever becomes of
+/// A move of lost steps: the new ones are in the tables, whatever becomes of
 /// them. What has not come up is placed once more.
 void complete_lost(coordinator_pointer self, const move_ptr& move);
 

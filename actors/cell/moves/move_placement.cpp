@@ -2,7 +2,7 @@
 
 #include "actors/cell/moves/move_end.hpp"
 #include "actors/cell/tasks/cell_resources.hpp"
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 #include "actors/placement/instance_specs.hpp"
 #include "messages/failure.hpp"
 
@@ -43,17 +43,17 @@ std::map<std::string, std::vector<instance_reservation>>
 reservations_of(const task_move& move) {
   std::map<std::string, std::vector<instance_reservation>> result;
   for (const auto& x : move.steps) {
-    auto& wishes = result[x.change.place.node];
-    if (wishes.empty() || wishes.back().task != x.task)
-      wishes.push_back({x.task, {}});
-    wishes.back().specs.push_back(x.change.spec);
+    auto& requests = result[x.change.place.node];
+    if (requests.empty() || requests.back().task != x.task)
+      requests.push_back({x.task, {}});
+    requests.back().specs.push_back(x.change.spec);
   }
   return result;
 }
 
 void reserve_room(coordinator_pointer self, const move_ptr& move,
                   move_stage_handler next, const std::string& node,
-                  const instance_reservation& wish) {
+                  const instance_reservation& request) {
   const auto* entry = self->state.registry.find_name(node);
   auto end_with = [self, move, next, node](const std::string& why) {
     add_problem(move, {error_code::no_feasible_allocation,
@@ -63,7 +63,7 @@ void reserve_room(coordinator_pointer self, const move_ptr& move,
   };
   if (!entry || entry->row.state != row_state::active)
     return end_with("it left meanwhile");
-  self->request(entry->agent, limits::task::reservation, wish)
+  self->request(entry->agent, limits::task::reservation, request)
       .then(
           [self, move, next, end_with](const instances_reserved& reply) {
             if (!reply.refused.empty())
@@ -77,13 +77,13 @@ void reserve_room(coordinator_pointer self, const move_ptr& move,
 
 void reserve_steps(coordinator_pointer self, const move_ptr& move,
                    move_stage_handler next) {
-  const auto wishes = reservations_of(*move);
+  const auto requests = reservations_of(*move);
   move->open = 1;
-  for (const auto& [node, list] : wishes)
+  for (const auto& [node, list] : requests)
     move->open += list.size();
-  for (const auto& [node, list] : wishes)
-    for (const auto& wish : list)
-      reserve_room(self, move, next, node, wish);
+  for (const auto& [node, list] : requests)
+    for (const auto& request : list)
+      reserve_room(self, move, next, node, request);
   end_part(self, move, next, undo_move);
 }
 

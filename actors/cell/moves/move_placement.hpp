@@ -6,7 +6,7 @@
 namespace roscell {
 
 /// Finds places for the steps, and has the members keep room. Then comes
-/// `next`, while the turn goes on; or the move has failed.
+/// `next`, while the placement lock is held; or the move has failed.
 ///
 /// In between tasks are terminated, steps end, and nodes leave: what needs no
 /// place any more is left out when the places are known.

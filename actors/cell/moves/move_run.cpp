@@ -4,9 +4,9 @@
 #include "actors/cell/moves/move_placement.hpp"
 #include "actors/cell/state/may_start.hpp"
 #include "actors/cell/tasks/ordered_stops.hpp"
+#include "actors/cell/tasks/placement_locks.hpp"
 #include "actors/cell/tasks/task_changes.hpp"
 #include "actors/cell/tasks/task_removals.hpp"
-#include "actors/cell/tasks/task_turns.hpp"
 #include "messages/failure.hpp"
 
 #include <utility>
@@ -55,13 +55,14 @@ void change_tasks(coordinator_pointer self, const move_ptr& move,
 
 /// Who fell silent meanwhile cannot be told to end the old one, and may run it
 /// on for as long as it is away.
-std::optional<failure> silence_of(coordinator_pointer self,
-                                  const task_move& move, const moved_step& x) {
+std::optional<failure> missed_heartbeats_of(coordinator_pointer self,
+                                            const task_move& move,
+                                            const moved_step& x) {
   if (move.kind != move_kind::leaving || x.ends_first || !x.was_there
       || !is_away(self->state, x.from))
     return std::nullopt;
   return failure{error_code::unreachable,
-                 "node '" + x.from + "' fell silent while '"
+                 "node '" + x.from + "' missed its heartbeats while '"
                      + x.change.old_instance + "' was moved"};
 }
 
@@ -76,7 +77,7 @@ void end_wave(coordinator_pointer self, const move_ptr& move) {
 void replace_old(coordinator_pointer self, const move_ptr& move) {
   const auto up = self->state.moves.in_wave(move->id, move_stage::up);
   for (const auto i : up)
-    if (auto why = silence_of(self, *move, move->steps[i]))
+    if (auto why = missed_heartbeats_of(self, *move, move->steps[i]))
       add_problem(move, *why);
   if (move->problem)
     return undo_move(self, move);
@@ -123,7 +124,7 @@ void start_new(coordinator_pointer self, const move_ptr& move, size_t i) {
   if (!st.deployments.find(spec.instance, node)
       || !(st.tasks.*still_of(*move))(x.task))
     return leave_out(self, move, i);
-  if (auto why = silence_of(self, *move, x))
+  if (auto why = missed_heartbeats_of(self, *move, x))
     return fail_step(self, move, i, *why);
   const bool beside = move->kind == move_kind::leaving && !x.ends_first;
   if (auto why =
@@ -182,7 +183,7 @@ bool is_over(const cell_coordinator_state& st, const task_move& move,
   const auto* old = st.deployments.find(x.change.old_instance, x.from);
   return !(st.tasks.*still_of(move))(x.task)
          || (move.kind == move_kind::leaving
-             && (!old || old->end || has_told_end(st, *old)));
+             && (!old || old->end || has_ordered_end(st, *old)));
 }
 
 void begin_step(coordinator_pointer self, const move_ptr& move, size_t i) {
@@ -207,9 +208,10 @@ void open_next_wave(coordinator_pointer self, const move_ptr& move) {
     begin_step(self, move, i);
 }
 
-/// The room is held in the books from here on, so the turn is over.
+/// The room is held in the tables from here on, so the placement lock is
+/// released.
 void open_first_wave(coordinator_pointer self, const move_ptr& move) {
-  end_turn(self, std::exchange(move->turn, 0));
+  release_placement_lock(self, std::exchange(move->placement_lock, 0));
   open_next_wave(self, move);
 }
 
@@ -218,7 +220,7 @@ void open_first_wave(coordinator_pointer self, const move_ptr& move) {
 bool give_up(coordinator_pointer self, const task_move& move) {
   auto& failures = self->state.failures;
   for (const auto& x : move.steps)
-    if (!failures.find_lost(x.change.old_instance))
+    if (!failures.find_abandoned(x.change.old_instance))
       return false;
   for (const auto& x : move.steps)
     failures.give_up(x.change.old_instance);

@@ -6,8 +6,8 @@
 /// end, as the move table says.
 namespace roscell {
 
-/// The move has its turn, and its steps. `done` is called once, with the first
-/// problem or null; each stage ends, at the latest with its deadline.
+/// The move has the placement lock, and its steps. `done` is called once, with
+/// the first problem or null; each stage ends, at the latest with its deadline.
 void run_move(coordinator_pointer self, const move_ptr& move);
 
 } // namespace roscell

@@ -1,6 +1,6 @@
 #include "actors/cell/moves/move_table.hpp"
 
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 
 #include <algorithm>
 #include <set>
@@ -50,10 +50,10 @@ bool is_over(move_stage x) {
   return x >= move_stage::moved;
 }
 
-std::string words_of(const moving_step& x) {
+std::string step_progress_text(const moving_step& x) {
   const auto what = "'" + x.task + "/" + x.step + "'";
   if (x.stage == move_stage::ending)
-    return what + " on node '" + x.node + "' to be safe and to end";
+    return what + " on node '" + x.node + "' to be stop-safe and to end";
   if (x.stage == move_stage::starting)
     return what + " to run on its new node";
   return "";
@@ -151,7 +151,7 @@ std::string move_table::waits_on(const std::string& node) const {
   for (const auto& [id, x] : moves_)
     for (const auto& step : x.steps)
       if (step.node == node)
-        if (auto words = words_of(step); !words.empty())
+        if (auto words = step_progress_text(step); !words.empty())
           return words;
   return "";
 }

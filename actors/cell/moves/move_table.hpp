@@ -13,7 +13,7 @@ namespace roscell {
 enum class move_stage {
   placed,   ///< Its new place is known, and has its room.
   ordered,  ///< Its old instance is told to end, which is being written down.
-  ending,   ///< That is waited for: it may have to be safe first.
+  ending,   ///< That is waited for: it may have to be stop-safe first.
   starting, ///< The new instance is started.
   up,       ///< That runs, beside the old one unless that has ended.
   moved,    ///< It has the old one's place.
@@ -40,8 +40,8 @@ struct moving_step {
 /// The move table: of each move that goes on, how far each step is. A move goes
 /// in waves: first all steps whose new instances run before the old ones end,
 /// then, one after the other, each group in which one ends first. So nothing
-/// ends for what has to be safe but that itself. A wave is all or nothing; the
-/// first one that does not come up is the last one. Pure; told the time.
+/// ends for what has to be stop-safe but that itself. A wave is all or nothing;
+/// the first one that does not come up is the last one. Pure; told the time.
 ///
 ///     [*] --> placed
 ///     placed -- its wave, ends first --> ordered -- written --> ending

@@ -42,8 +42,8 @@ resolve(const cell_coordinator_state& st, const task_step& step) {
 } // namespace
 
 task_question still_of(const task_move& move) {
-  return move.kind == move_kind::restarted ? &task_book::is_kept
-                                           : &task_book::is_running;
+  return move.kind == move_kind::restarted ? &task_table::is_kept
+                                           : &task_table::is_running;
 }
 
 void add_problem(const move_ptr& move, failure why) {

@@ -37,9 +37,9 @@ enum class move_kind {
 struct task_move {
   std::string what; ///< Whose instances they are, for errors.
   move_kind kind = move_kind::leaving;
-  uint64_t turn = 0;
+  uint64_t placement_lock = 0;
   uint64_t id = 0;    ///< In the move table.
-  bool force = false; ///< Nothing is waited for to be safe.
+  bool force = false; ///< Nothing is waited for to be stop-safe.
   std::vector<moved_step> steps;
   size_t open = 0;                ///< Parts of the present stage.
   std::optional<failure> problem; ///< The first.
@@ -48,7 +48,7 @@ struct task_move {
 
 using move_ptr = std::shared_ptr<task_move>;
 using move_stage_handler = void (*)(coordinator_pointer, const move_ptr&);
-using task_question = bool (task_book::*)(const std::string&) const;
+using task_question = bool (task_table::*)(const std::string&) const;
 
 /// What a task must still be for the move to go on.
 task_question still_of(const task_move& move);

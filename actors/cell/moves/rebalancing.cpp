@@ -4,7 +4,7 @@
 #include "actors/cell/moves/task_move.hpp"
 #include "actors/cell/state/coordinator_timer.hpp"
 #include "actors/cell/tasks/cell_resources.hpp"
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 #include "messages/failure.hpp"
 
 #include <utility>
@@ -16,7 +16,7 @@ namespace {
 
 bool can_move(const cell_coordinator_state& st, const deployment& x) {
   const auto* node = st.registry.find_name(x.node);
-  const auto* row = st.deployments.told(x.node, x.spec.instance);
+  const auto* row = st.deployments.reported(x.node, x.spec.instance);
   return node && node->row.state == row_state::active && !is_draining(st, *node)
          && row && row->state == instance_state::running && !x.end
          && !x.tentative;
@@ -63,13 +63,14 @@ void end_moves(coordinator_pointer self) {
   for (const auto& x : report.moves)
     done += x.state == move_state::done ? 1 : 0;
   json data{{"moves", done}};
-  if (!report.trouble.empty())
-    data["reason"] = report.trouble;
-  self->state.context.tell("rebalance_ended", self->state.setup.cell, data);
+  if (!report.problem.empty())
+    data["reason"] = report.problem;
+  self->state.context.publish_event("rebalance_ended", self->state.setup.cell,
+                                    data);
 }
 
-void fail_moves(coordinator_pointer self, const std::string& trouble) {
-  self->state.rebalance.fail(trouble);
+void fail_moves(coordinator_pointer self, const std::string& problem) {
+  self->state.rebalance.fail(problem);
   end_moves(self);
 }
 
@@ -114,30 +115,30 @@ cell_rebalanced report_of(coordinator_pointer self, moves_planned plan) {
 /// The moves are known, and begin unless they are only shown.
 cell_rebalanced take_up(coordinator_pointer self, const cell_rebalance& request,
                         moves_planned plan) {
-  auto& book = self->state.rebalance;
+  auto& table = self->state.rebalance;
   auto report = report_of(self, std::move(plan));
   if (request.dry_run || report.moves.empty())
     return report;
-  if (!book.is_running()) {
-    book.begin(std::move(report), request.force);
-    self->state.context.tell("rebalance_begun", self->state.setup.cell,
-                             {{"moves", book.report().moves.size()},
-                              {"before", book.report().before},
-                              {"after", book.report().after}});
+  if (!table.is_running()) {
+    table.begin(std::move(report), request.force);
+    self->state.context.publish_event("rebalance_begun", self->state.setup.cell,
+                                      {{"moves", table.report().moves.size()},
+                                       {"before", table.report().before},
+                                       {"after", table.report().after}});
     make_next_move(self);
   }
-  return book.report();
+  return table.report();
 }
 
 } // namespace
 
 caf::result<cell_rebalanced> rebalance_cell(coordinator_pointer self,
                                             const cell_rebalance& request) {
-  auto& book = self->state.rebalance;
+  auto& table = self->state.rebalance;
   if (request.stop)
-    book.stop();
-  if (request.stop || (book.is_running() && !request.dry_run))
-    return book.report();
+    table.stop();
+  if (request.stop || (table.is_running() && !request.dry_run))
+    return table.report();
   auto promise = self->make_response_promise<cell_rebalanced>();
   collect_resources_of_cell(
       self, [self, request, promise](cell_resources&& found) mutable {
@@ -155,8 +156,8 @@ caf::result<cell_rebalanced> rebalance_cell(coordinator_pointer self,
 }
 
 void watch_moved(coordinator_pointer self, const instance_row& row) {
-  const auto& book = self->state.rebalance;
-  if (book.settling().empty() || row.spec.instance != book.settling())
+  const auto& table = self->state.rebalance;
+  if (table.settling().empty() || row.spec.instance != table.settling())
     return;
   if (row.state == instance_state::running
       && row.health != instance_health::unhealthy)
@@ -168,18 +169,18 @@ void watch_moved(coordinator_pointer self, const instance_row& row) {
 
 void settle_due_move(coordinator_pointer self) {
   auto& st = self->state;
-  auto& book = st.rebalance;
-  if (book.next_due() > self->clock().now())
+  auto& table = st.rebalance;
+  if (table.next_due() > self->clock().now())
     return;
-  const auto row = st.deployments.find_row(book.settling());
+  const auto row = st.deployments.find_row(table.settling());
   if (!row || row->state != instance_state::running)
-    return fail_moves(self, "the moved instance '" + book.settling()
+    return fail_moves(self, "the moved instance '" + table.settling()
                                 + "' runs no more");
   if (row->health != instance_health::good)
-    return fail_moves(self, "the moved instance '" + book.settling() + "' is "
+    return fail_moves(self, "the moved instance '" + table.settling() + "' is "
                                 + std::string{to_word(row->health)} + ": "
                                 + row->health_reason);
-  book.complete();
+  table.complete();
   make_next_move(self);
 }
 

@@ -2,8 +2,8 @@
 
 #include "actors/cell/moves/move_end.hpp"
 #include "actors/cell/moves/move_run.hpp"
+#include "actors/cell/tasks/placement_locks.hpp"
 #include "actors/cell/tasks/task_removals.hpp"
-#include "actors/cell/tasks/task_turns.hpp"
 #include "messages/failure.hpp"
 
 #include <memory>
@@ -15,9 +15,10 @@ namespace {
 
 /// Who has asked for it did not know that the node would fall silent before
 /// there was a turn.
-failure fell_silent_before(const std::string& node) {
+failure missed_heartbeats_before(const std::string& node) {
   return {error_code::unreachable,
-          "node '" + node + "' fell silent before its instances were moved",
+          "node '" + node
+              + "' missed its heartbeats before its instances were moved",
           "/node", "send the request again when it is back"};
 }
 
@@ -73,10 +74,10 @@ void move_tasks(coordinator_pointer self, const std::string& node,
   move->what = "the instances of node '" + node + "'";
   move->done = done;
   const bool was_away = is_away(self->state, node);
-  take_turn(self, caf::actor_addr{}, [=](uint64_t turn) {
-    move->turn = turn;
+  take_placement_lock(self, caf::actor_addr{}, [=](uint64_t placement_lock) {
+    move->placement_lock = placement_lock;
     if (!was_away && is_away(self->state, node))
-      return fail_move(self, move, fell_silent_before(node));
+      return fail_move(self, move, missed_heartbeats_before(node));
     for (const auto& task : tasks)
       if (self->state.tasks.is_running(task))
         if (auto why = add_steps(self, *move, task, node))
@@ -92,15 +93,17 @@ void move_instance(coordinator_pointer self, const std::string& instance,
   move->what = "instance '" + instance + "'";
   move->force = force;
   move->done = done;
-  take_turn(self, caf::actor_addr{}, [self, move, instance, to](uint64_t turn) {
-    move->turn = turn;
-    const auto* x = self->state.deployments.find(instance);
-    if (x && is_away(self->state, x->node))
-      return fail_move(self, move, fell_silent_before(x->node));
-    if (auto why = add_instance(self, *move, instance, to))
-      return fail_move(self, move, *why);
-    run_move(self, move);
-  });
+  take_placement_lock(self, caf::actor_addr{},
+                      [self, move, instance, to](uint64_t placement_lock) {
+                        move->placement_lock = placement_lock;
+                        const auto* x = self->state.deployments.find(instance);
+                        if (x && is_away(self->state, x->node))
+                          return fail_move(self, move,
+                                           missed_heartbeats_before(x->node));
+                        if (auto why = add_instance(self, *move, instance, to))
+                          return fail_move(self, move, *why);
+                        run_move(self, move);
+                      });
 }
 
 } // namespace roscell

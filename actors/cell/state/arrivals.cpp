@@ -9,7 +9,7 @@ namespace roscell {
 
 void await_arrival(coordinator_pointer self, const std::string& uuid,
                    std::function<void(const failure*)> done) {
-  if (self->state.places.await_arrival(uuid, done, self->clock().now()))
+  if (self->state.slots.await_arrival(uuid, done, self->clock().now()))
     return set_timer(self);
   const failure why{error_code::conflict,
                     "too many requests wait for nodes to join", "",
@@ -19,7 +19,7 @@ void await_arrival(coordinator_pointer self, const std::string& uuid,
 
 void settle_arrivals(coordinator_pointer self, const std::string& uuid,
                      const failure* why) {
-  for (const auto& x : self->state.places.take_arrivals(uuid))
+  for (const auto& x : self->state.slots.take_arrivals(uuid))
     x.done(why);
 }
 
@@ -27,9 +27,9 @@ void settle_overdue_arrivals(coordinator_pointer self) {
   const failure why{error_code::unresolved,
                     "the node was told to join and has not done so in time", "",
                     "send the request again; `roscell events --since 0` on the "
-                    "node tells why"};
-  auto& book = self->state.places;
-  for (const auto& x : book.take_overdue_arrivals(self->clock().now()))
+                    "node shows why"};
+  auto& table = self->state.slots;
+  for (const auto& x : table.take_overdue_arrivals(self->clock().now()))
     x.done(&why);
 }
 

@@ -26,7 +26,7 @@ void drop_row(coordinator_pointer self, const std::string& uuid) {
   if (!entry)
     return;
   if (entry->row.state != row_state::reserved)
-    record_fact(self, {"members", uuid, ""});
+    persist_record(self, {"members", uuid, ""});
   st.deployments.forget_node(entry->row.identity.name);
   follow_member_server(self, *entry, server_contact::gone);
   st.registry.erase(uuid);

@@ -1,23 +1,23 @@
 #pragma once
 
-#include "actors/cell/books/cell_registry.hpp"
-#include "actors/cell/books/deployment_book.hpp"
-#include "actors/cell/books/drain_book.hpp"
-#include "actors/cell/books/free_node_book.hpp"
-#include "actors/cell/books/history_book.hpp"
-#include "actors/cell/books/node_failures.hpp"
-#include "actors/cell/books/ordered_ends.hpp"
-#include "actors/cell/books/peer_book.hpp"
-#include "actors/cell/books/place_book.hpp"
-#include "actors/cell/books/task_book.hpp"
-#include "actors/cell/books/transfer_book.hpp"
 #include "actors/cell/moves/move_table.hpp"
-#include "actors/cell/moves/rebalance_book.hpp"
+#include "actors/cell/moves/rebalance_table.hpp"
 #include "actors/cell/streams/stream_watch.hpp"
-#include "actors/cell/tasks/task_desk.hpp"
+#include "actors/cell/tables/cell_registry.hpp"
+#include "actors/cell/tables/deployment_table.hpp"
+#include "actors/cell/tables/drain_table.hpp"
+#include "actors/cell/tables/history_table.hpp"
+#include "actors/cell/tables/node_failures.hpp"
+#include "actors/cell/tables/ordered_ends.hpp"
+#include "actors/cell/tables/peer_table.hpp"
+#include "actors/cell/tables/slot_table.hpp"
+#include "actors/cell/tables/task_table.hpp"
+#include "actors/cell/tables/transfer_table.hpp"
+#include "actors/cell/tables/unassigned_node_table.hpp"
+#include "actors/cell/tasks/pending_operations.hpp"
+#include "actors/core/actor_context.hpp"
+#include "actors/core/alarm.hpp"
 #include "actors/edge/dds/ros_graph.hpp"
-#include "actors/house/alarm.hpp"
-#include "actors/house/house.hpp"
 #include "actors/placement/search_guard.hpp"
 #include "messages/messages.hpp"
 
@@ -61,7 +61,7 @@ struct coordinator_setup {
   scheduler_actor scheduler; ///< Places what leaves with a node.
   int64_t server_id = 0;     ///< Of the discovery server.
   int64_t ros_domain_id = 0; ///< Of the cell's skills.
-  bool rebalance = true;     ///< Cells are evened out in size.
+  bool rebalance = true;     ///< Cells are balanced in size.
   /// What the cell's discovery server knows of ROS 2 topics. May be null in
   /// tests.
   std::shared_ptr<ros_graph> graph;
@@ -73,28 +73,28 @@ struct coordinator_setup {
 struct cell_coordinator_state {
   static constexpr const char* name = "cell-coordinator";
 
-  house context;
+  actor_context context;
   coordinator_setup setup;
   cell_registry registry;
-  task_book tasks;
-  deployment_book deployments;
+  task_table tasks;
+  deployment_table deployments;
   stream_watch streams;
-  task_desk desk;
-  history_book history;
-  std::vector<store_record> facts; ///< Of that, not written yet.
+  pending_operations pending;
+  history_table history;
+  std::vector<store_record> events; ///< Of that, not written yet.
   /// When they are written; max(): there are none.
-  std::chrono::steady_clock::time_point facts_due =
+  std::chrono::steady_clock::time_point events_due =
       std::chrono::steady_clock::time_point::max();
   node_failures failures;
   ordered_ends orders;
   move_table moves;
-  drain_book drains;
-  rebalance_book rebalance;
+  drain_table drains;
+  rebalance_table rebalance;
 
-  peer_book peers;
-  free_node_book free_nodes;
-  place_book places;
-  transfer_book transfers;
+  peer_table peers;
+  unassigned_node_table unassigned_nodes;
+  slot_table slots;
+  transfer_table transfers;
   /// When cells are to be looked at for evening out; max(): not at all.
   std::chrono::steady_clock::time_point balance_due =
       std::chrono::steady_clock::time_point::max();

@@ -1,7 +1,7 @@
 #include "actors/cell/state/coordinator_store.hpp"
 
 #include "actors/cell/state/coordinator_timer.hpp"
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 #include "messages/failure.hpp"
 
 #include <chrono>
@@ -15,7 +15,7 @@ namespace {
 void hurry_waiting_changes(coordinator_pointer self) {
   constexpr auto none = std::chrono::steady_clock::time_point::max();
   bool is_one_waiting = false;
-  for (auto& [task, line] : self->state.desk.lines)
+  for (auto& [task, line] : self->state.pending.lines)
     if (line.retry != none) {
       line.retry = self->clock().now();
       is_one_waiting = true;
@@ -28,7 +28,7 @@ void hurry_waiting_changes(coordinator_pointer self) {
 
 void keep_records(coordinator_pointer self, std::vector<store_record> records,
                   std::function<void()> kept,
-                  std::function<void(const failure&)> not_kept) {
+                  std::function<void(const failure&)> not_persisted) {
   const auto& st = self->state;
   if (!st.setup.store || records.empty())
     return kept();
@@ -41,20 +41,20 @@ void keep_records(coordinator_pointer self, std::vector<store_record> records,
             hurry_waiting_changes(self);
           },
           [self, subject,
-           not_kept = std::move(not_kept)](const caf::error& err) {
+           not_persisted = std::move(not_persisted)](const caf::error& err) {
             const auto why = to_failure(err);
-            self->state.context.tell("store_failed", subject,
-                                     {{"reason", why.message}});
-            not_kept(why);
+            self->state.context.publish_event("store_failed", subject,
+                                              {{"reason", why.message}});
+            not_persisted(why);
           });
 }
 
 void forget_refused(coordinator_pointer self, std::string table,
                     std::string key) {
-  record_fact(self, {std::move(table), std::move(key), ""});
+  persist_record(self, {std::move(table), std::move(key), ""});
 }
 
-void record_fact(coordinator_pointer self, store_record record) {
+void persist_record(coordinator_pointer self, store_record record) {
   record.may_wait = true;
   keep_records(
       self, {std::move(record)}, [] {}, [](const failure&) {});

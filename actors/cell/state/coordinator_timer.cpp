@@ -1,8 +1,8 @@
 #include "actors/cell/state/coordinator_timer.hpp"
 
 #include "actors/cell/state/doubts.hpp"
-#include "actors/cell/tasks/task_desk.hpp"
-#include "actors/house/limits.hpp"
+#include "actors/cell/tasks/pending_operations.hpp"
+#include "actors/core/limits.hpp"
 
 #include <algorithm>
 
@@ -16,11 +16,11 @@ void set_timer(coordinator_pointer self) {
       st.setup.connector ? st.peers.next_due() : time_point::max();
   const auto when = std::min(
       {st.registry.next_overdue(), st.transfers.next_deadline(),
-       st.places.next_deadline(), next_peer, next_proof(st),
-       next_change_retry(st.desk), next_end_of_remains(st.desk),
-       st.desk.removals.next_due(), st.failures.next_due(),
-       st.orders.next_due(), next_safety_deadline(st.desk),
-       st.drains.next_due(), st.rebalance.next_due(), st.facts_due, balance});
+       st.slots.next_deadline(), next_peer, next_proof(st),
+       next_change_retry(st.pending), next_end_of_remains(st.pending),
+       st.pending.removals.next_due(), st.failures.next_due(),
+       st.orders.next_due(), next_safety_deadline(st.pending),
+       st.drains.next_due(), st.rebalance.next_due(), st.events_due, balance});
   if (when != time_point::max())
     st.timer.set(self, when);
 }

@@ -17,7 +17,7 @@ std::chrono::steady_clock::time_point
 next_proof(const cell_coordinator_state& st) {
   if (!st.setup.registration)
     return std::chrono::steady_clock::time_point::max();
-  return st.free_nodes.next_question(
+  return st.unassigned_nodes.next_question(
       [&](const node_presence& who) { return is_in_doubt(st, who); });
 }
 

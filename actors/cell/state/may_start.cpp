@@ -62,7 +62,7 @@ failure hold_failure(coordinator_pointer self, const start_hold& x) {
             "/instances",
             "wait for the node; if it is off for good, release it"};
   return {error_code::conflict,
-          "nobody knows whether " + what + " on node '" + at.node
+          "it is unknown whether " + what + " on node '" + at.node
               + "' has ended",
           "/instances", "send it again once it has"};
 }
@@ -93,15 +93,17 @@ bool starts_alone(const instance_spec& x) {
 }
 
 std::optional<failure> why_not_yet(coordinator_pointer self,
-                                   const start_wish& wish) {
+                                   const start_request& request) {
   look_for_gone_nodes(self);
   const auto& failures = self->state.failures;
   const auto now = self->clock().now();
-  if (const auto x = failures.hold(wish.task, wish.step, now, wish.replaces))
+  if (const auto x =
+          failures.hold(request.task, request.step, now, request.replaces))
     return hold_failure(self, *x);
-  const auto* old = failures.find(wish.replaces, now);
+  const auto* old = failures.find(request.replaces, now);
   // Where it waits for its node, whoever asks knows that the node is off.
-  if (!old || (old->silent_since ? old->rule == away_rule::waits : wish.beside))
+  if (!old
+      || (old->silent_since ? old->rule == away_rule::waits : request.beside))
     return std::nullopt;
   const auto until = old->silent_since && old->rule == away_rule::fenced
                          ? *old->silent_since + old->after
@@ -114,8 +116,8 @@ bool note_start(coordinator_pointer self, const instance_spec& spec,
   return self->state.failures.order(place_of(self->state, spec, node));
 }
 
-void note_told(coordinator_pointer self, const instance_row& row,
-               const std::string& node) {
+void note_reported(coordinator_pointer self, const instance_row& row,
+                   const std::string& node) {
   auto& st = self->state;
   // A node that registers says less of it than its task knows.
   const auto* placed = st.deployments.find(row.spec.instance);
@@ -129,7 +131,7 @@ void note_gone(coordinator_pointer self, const std::string& uuid,
                const std::string& instance) {
   auto& st = self->state;
   st.failures.end(uuid, instance);
-  if (!st.desk.remains.empty())
+  if (!st.pending.remains.empty())
     wake(self);
 }
 

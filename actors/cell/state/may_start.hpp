@@ -9,7 +9,7 @@
 #include <vector>
 
 /// What whoever starts an instance asks first, and how the node failure table
-/// hears of facts. Nothing of a step is started while another instance of it
+/// hears of events. Nothing of a step is started while another instance of it
 /// may run.
 namespace roscell {
 
@@ -23,7 +23,7 @@ std::chrono::milliseconds fence_of(const instance_spec& x);
 bool starts_alone(const instance_spec& x);
 
 /// Whose place an instance takes.
-struct start_wish {
+struct start_request {
   std::string task;
   std::string step;
   std::string replaces; ///< Empty: nobody's.
@@ -33,15 +33,15 @@ struct start_wish {
 
 /// Why it must not be started now; null: it may.
 std::optional<failure> why_not_yet(coordinator_pointer self,
-                                   const start_wish& wish);
+                                   const start_request& request);
 
 /// It is about to be told to start there. False: too many are known.
 bool note_start(coordinator_pointer self, const instance_spec& spec,
                 const std::string& node);
 
 /// A node has told of it. What has ended may have a successor.
-void note_told(coordinator_pointer self, const instance_row& row,
-               const std::string& node);
+void note_reported(coordinator_pointer self, const instance_row& row,
+                   const std::string& node);
 
 /// It has ended there, which may have been the last one of a task that is no
 /// more.

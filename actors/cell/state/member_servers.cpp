@@ -1,7 +1,7 @@
 #include "actors/cell/state/member_servers.hpp"
 
-#include "actors/house/delay.hpp"
-#include "actors/house/limits.hpp"
+#include "actors/core/delay.hpp"
+#include "actors/core/limits.hpp"
 
 #include <chrono>
 #include <utility>
@@ -19,10 +19,10 @@ void meet_member_server(coordinator_pointer self, int64_t server_id,
   const auto& discovery = self->state.setup.discovery;
   if (!discovery || server_id < 0)
     return then();
-  follow_server wish;
-  wish.server_id = server_id;
-  wish.tells_anew = tells_anew;
-  self->request(discovery, limits::local::part, wish)
+  follow_server request;
+  request.server_id = server_id;
+  request.tells_anew = tells_anew;
+  self->request(discovery, limits::local::part, request)
       .then([then](caf::ok_atom) { then(); },
             [then](const caf::error&) { then(); });
 }
@@ -32,20 +32,20 @@ void follow_member_server(coordinator_pointer self, const registry_entry& entry,
   const auto& discovery = self->state.setup.discovery;
   if (!discovery || entry.server_id < 0)
     return;
-  follow_server wish;
-  wish.server_id = entry.server_id;
-  wish.contact = contact;
-  caf::anon_send(discovery, wish);
+  follow_server request;
+  request.server_id = entry.server_id;
+  request.contact = contact;
+  caf::anon_send(discovery, request);
 }
 
 void doubt_silent_host(coordinator_pointer self, const registry_entry& entry) {
   const auto& discovery = self->state.setup.discovery;
   if (!discovery || entry.server_id < 0)
     return;
-  follow_server wish;
-  wish.server_id = entry.server_id;
-  wish.contact = server_contact::settled;
-  send_lasting_actor_later(discovery, silent_host, wish);
+  follow_server request;
+  request.server_id = entry.server_id;
+  request.contact = server_contact::settled;
+  send_lasting_actor_later(discovery, silent_host, request);
 }
 
 } // namespace roscell

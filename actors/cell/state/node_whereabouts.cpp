@@ -18,10 +18,11 @@ void on_node_elsewhere(coordinator_pointer self, const std::string& uuid,
   drop_row(self, uuid);
   if (member)
     self->send(member, close_session{"the node is elsewhere"});
-  st.context.tell("node_left", name,
-                  {{"reason", cell.empty() ? "it is independent"
-                                           : "it is in cell '" + cell + "'"},
-                   {"size", st.registry.active_count()}});
+  st.context.publish_event(
+      "node_left", name,
+      {{"reason",
+        cell.empty() ? "it is independent" : "it is in cell '" + cell + "'"},
+       {"size", st.registry.active_count()}});
   const auto* x = st.transfers.find_open_of(uuid);
   if (!x)
     return;
@@ -50,11 +51,11 @@ void on_node_returned(coordinator_pointer self, const std::string& uuid) {
                     name + " could not register with cell '" + x->row.to
                         + "' and has come back",
                     "/target",
-                    "`roscell events --since 0` on the node tells why"};
+                    "`roscell events --since 0` on the node shows why"};
   end_transfer(self, id, transfer_state::returned, why.message, &why);
 }
 
-bool lose_departing_node(coordinator_pointer self, registry_entry& entry,
+bool fail_departing_node(coordinator_pointer self, registry_entry& entry,
                          const std::string& reason) {
   auto& st = self->state;
   const auto& who = entry.row.identity;
@@ -67,7 +68,7 @@ bool lose_departing_node(coordinator_pointer self, registry_entry& entry,
   if (x && x->row.state == transfer_state::preparing)
     call_off_transfer(self, x->row.transfer,
                       {error_code::unreachable,
-                       "node '" + who.name + "' fell silent", "/node",
+                       "node '" + who.name + "' missed its heartbeats", "/node",
                        "it stays in the cell; send the request again when it "
                        "is back"});
   else
@@ -76,10 +77,11 @@ bool lose_departing_node(coordinator_pointer self, registry_entry& entry,
   return true;
 }
 
-void tell_node_lost(coordinator_pointer self, const registry_entry& entry) {
-  self->state.context.tell("node_lost", entry.row.identity.name,
-                           {{"reason", entry.row.reason},
-                            {"size", self->state.registry.active_count()}});
+void publish_node_lost(coordinator_pointer self, const registry_entry& entry) {
+  self->state.context.publish_event(
+      "node_lost", entry.row.identity.name,
+      {{"reason", entry.row.reason},
+       {"size", self->state.registry.active_count()}});
 }
 
 } // namespace roscell

@@ -11,7 +11,7 @@ namespace roscell {
 store_record record_of_remains(coordinator_pointer self,
                                const std::string& task) {
   auto& st = self->state;
-  auto& remains = st.desk.remains;
+  auto& remains = st.pending.remains;
   const auto hold = st.failures.hold_of_task(task, self->clock().now());
   if (!hold) {
     remains.erase(task);
@@ -27,7 +27,7 @@ store_record record_of_remains(coordinator_pointer self,
 
 void forget_past_remains(coordinator_pointer self) {
   auto& st = self->state;
-  auto& remains = st.desk.remains;
+  auto& remains = st.pending.remains;
   st.failures.forget_ended(self->clock().now());
   for (auto i = remains.begin(); i != remains.end();) {
     const auto hold = st.failures.hold_of_task(i->first, self->clock().now());
@@ -38,7 +38,7 @@ void forget_past_remains(coordinator_pointer self) {
       continue;
     }
     if (!is_begun_anew)
-      record_fact(self, {"tasks", i->first, ""});
+      persist_record(self, {"tasks", i->first, ""});
     i = remains.erase(i);
   }
 }

@@ -2,8 +2,8 @@
 
 #include "actors/cell/state/coordinator_store.hpp"
 #include "actors/cell/state/coordinator_timer.hpp"
-#include "actors/house/limits.hpp"
-#include "actors/house/wall_clock.hpp"
+#include "actors/core/limits.hpp"
+#include "actors/core/wall_clock.hpp"
 #include "messages/failure.hpp"
 
 #include <algorithm>
@@ -19,62 +19,63 @@ std::string bounded_text(json data) {
   for (auto& [name, value] : data.items())
     if (value.is_string()
         && value.get_ref<const std::string&>().size()
-               > limits::task::fact_text_bytes)
-      value = value.get<std::string>().substr(0, limits::task::fact_text_bytes);
+               > limits::task::event_text_bytes)
+      value =
+          value.get<std::string>().substr(0, limits::task::event_text_bytes);
   return data.dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
 /// Tells it, and takes it up into the history.
-void add_fact(coordinator_pointer self, const char* what,
-              const std::string& task, const std::string& subject,
-              const json& data) {
+void add_event(coordinator_pointer self, const char* what,
+               const std::string& task, const std::string& subject,
+               const json& data) {
   auto& st = self->state;
-  st.context.tell(what, subject, data);
+  st.context.publish_event(what, subject, data);
   auto added = st.history.add(
       task, {0, unix_now_ms(), what, subject, bounded_text(data)});
-  const auto& fact = added.record.fact;
-  st.facts.push_back({"history", history_key(task, fact.sequence),
-                      json(added.record).dump(), true});
+  const auto& recorded = added.record.recorded;
+  st.events.push_back({"history", history_key(task, recorded.sequence),
+                       json(added.record).dump(), true});
   for (auto& key : added.dropped)
-    st.facts.push_back({"history", std::move(key), "", true});
+    st.events.push_back({"history", std::move(key), "", true});
 }
 
-void write_facts(coordinator_pointer self) {
+void write_events(coordinator_pointer self) {
   auto& st = self->state;
-  st.facts_due = std::chrono::steady_clock::time_point::max();
+  st.events_due = std::chrono::steady_clock::time_point::max();
   keep_records(
-      self, std::exchange(st.facts, {}), [] {}, [](const failure&) {});
+      self, std::exchange(st.events, {}), [] {}, [](const failure&) {});
 }
 
 } // namespace
 
-void tell_of_task(coordinator_pointer self, const char* what,
-                  const std::string& task, const std::string& subject,
-                  const json& data) {
-  add_fact(self, what, task, subject, data);
-  write_facts(self);
-}
-
-void tell_of_repetition(coordinator_pointer self, const char* what,
+void publish_task_event(coordinator_pointer self, const char* what,
                         const std::string& task, const std::string& subject,
                         const json& data) {
+  add_event(self, what, task, subject, data);
+  write_events(self);
+}
+
+void publish_repeated_event(coordinator_pointer self, const char* what,
+                            const std::string& task, const std::string& subject,
+                            const json& data) {
   constexpr std::chrono::seconds span{2};
   constexpr size_t most = 128;
-  add_fact(self, what, task, subject, data);
+  add_event(self, what, task, subject, data);
   auto& st = self->state;
-  if (st.facts.size() >= most)
-    return write_facts(self);
-  st.facts_due = std::min(st.facts_due, self->clock().now() + span);
+  if (st.events.size() >= most)
+    return write_events(self);
+  st.events_due = std::min(st.events_due, self->clock().now() + span);
   set_timer(self);
 }
 
-void write_due_facts(coordinator_pointer self) {
-  if (self->clock().now() >= self->state.facts_due)
-    write_facts(self);
+void write_due_events(coordinator_pointer self) {
+  if (self->clock().now() >= self->state.events_due)
+    write_events(self);
 }
 
-caf::result<task_history> tell_history(const cell_coordinator_state& st,
-                                       const task_history_query& query) {
+caf::result<task_history> report_history(const cell_coordinator_state& st,
+                                         const task_history_query& query) {
   if (auto known = st.history.find(query.task))
     return std::move(*known);
   return fail(error_code::unknown_task,

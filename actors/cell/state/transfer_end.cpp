@@ -19,14 +19,14 @@ failure with_losses(failure why, const cell_transfer& x) {
   return why;
 }
 
-void tell_end(coordinator_pointer self, const transfer_row& row) {
+void publish_transfer_end(coordinator_pointer self, const transfer_row& row) {
   json data{{"transfer", row.transfer},
             {"from", row.from},
             {"to", row.to},
             {"state", row.state}};
   if (!row.reason.empty())
     data["reason"] = row.reason;
-  self->state.context.tell("transfer_ended", row.node, data);
+  self->state.context.publish_event("transfer_ended", row.node, data);
 }
 
 } // namespace
@@ -34,17 +34,17 @@ void tell_end(coordinator_pointer self, const transfer_row& row) {
 void end_transfer(coordinator_pointer self, const std::string& id,
                   transfer_state state, const std::string& reason,
                   const failure* why) {
-  auto& book = self->state.transfers;
-  const auto ended = book.end(id, state, reason, now_of(self).unix_ms);
+  auto& table = self->state.transfers;
+  const auto ended = table.end(id, state, reason, now_of(self).unix_ms);
   if (!ended)
     return;
-  record_fact(self, record_of(ended->row));
-  for (const auto& old : book.forget_oldest())
-    record_fact(self, {"transfers", old, ""});
-  tell_end(self, ended->row);
-  const auto told = why ? with_losses(*why, *ended) : failure{};
+  persist_record(self, record_of(ended->row));
+  for (const auto& old : table.forget_oldest())
+    persist_record(self, {"transfers", old, ""});
+  publish_transfer_end(self, ended->row);
+  const auto reported = why ? with_losses(*why, *ended) : failure{};
   for (const auto& done : ended->waiting)
-    done(*ended, why ? &told : nullptr);
+    done(*ended, why ? &reported : nullptr);
 }
 
 void call_off_transfer(coordinator_pointer self, const std::string& id,
@@ -59,7 +59,7 @@ void call_off_transfer(coordinator_pointer self, const std::string& id,
       st.registry.stay(*entry, now_of(self));
     else
       st.registry.deactivate(*entry, row_state::lost,
-                             "it fell silent while it was to leave",
+                             "it missed its heartbeats while it was to leave",
                              now_of(self));
     publish(self, {entry->row.identity.uuid});
     arm_balance(self);

@@ -1,7 +1,7 @@
 #include "actors/cell/streams/cell_streams.hpp"
 
 #include "actors/cell/state/task_story.hpp"
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 #include "schemas/utf8.hpp"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ std::string bounded(const std::string& reason) {
   return valid_utf8(reason.substr(0, limits::instance::reason_bytes));
 }
 
-void tell_verdict(coordinator_pointer self, const std::string& instance) {
+void publish_verdict(coordinator_pointer self, const std::string& instance) {
   const auto& st = self->state;
   const auto row = st.deployments.find_row(instance);
   if (!row)
@@ -25,22 +25,23 @@ void tell_verdict(coordinator_pointer self, const std::string& instance) {
   json data{{"task", row->spec.task}, {"step", row->spec.step}};
   if (reason)
     data["reason"] = bounded(*reason);
-  st.context.tell(reason ? "instance_starved" : "instance_recovered", instance,
-                  data);
-  tell_change(self, *row, row->node);
+  st.context.publish_event(reason ? "instance_starved" : "instance_recovered",
+                           instance, data);
+  publish_change(self, *row, row->node);
 }
 
 } // namespace
 
 void judge_streams(coordinator_pointer self,
-                   const std::set<std::string>& told) {
+                   const std::set<std::string>& reported) {
   auto& st = self->state;
-  for (const auto& instance : st.streams.judge(st.deployments.all_told(), told))
-    tell_verdict(self, instance);
+  for (const auto& instance :
+       st.streams.judge(st.deployments.all_reported(), reported))
+    publish_verdict(self, instance);
 }
 
 bool is_doubtful(const cell_coordinator_state& st, const instance_row& row) {
-  const auto& streams = row.figures.streams;
+  const auto& streams = row.metrics.streams;
   return row.state == instance_state::running
          && (st.streams.reason_of(row.spec.instance) != nullptr
              || std::any_of(streams.begin(), streams.end(), [](const auto& x) {
@@ -51,11 +52,11 @@ bool is_doubtful(const cell_coordinator_state& st, const instance_row& row) {
 
 instance_health health_of(const cell_coordinator_state& st,
                           const std::string& instance, instance_state state,
-                          instance_health told) {
-  return told == instance_health::good && state == instance_state::running
+                          instance_health reported) {
+  return reported == instance_health::good && state == instance_state::running
                  && st.streams.reason_of(instance) != nullptr
              ? instance_health::starved
-             : told;
+             : reported;
 }
 
 void add_verdict(const cell_coordinator_state& st, instance_row& row) {
@@ -66,8 +67,8 @@ void add_verdict(const cell_coordinator_state& st, instance_row& row) {
   row.health_reason = bounded(*st.streams.reason_of(row.spec.instance));
 }
 
-void tell_change(coordinator_pointer self, instance_row x,
-                 const std::string& node) {
+void publish_change(coordinator_pointer self, instance_row x,
+                    const std::string& node) {
   add_verdict(self->state, x);
   json data{{"task", x.spec.task},
             {"step", x.spec.step},
@@ -91,11 +92,11 @@ void tell_change(coordinator_pointer self, instance_row x,
   const auto& task = x.spec.task;
   // Of a new start its history has the end before, and that it runs.
   if (x.restarts > 0 && x.state < instance_state::running)
-    self->state.context.tell(what, x.spec.instance, data);
+    self->state.context.publish_event(what, x.spec.instance, data);
   else if (x.restarts > 0 && x.state <= instance_state::backing_off)
-    tell_of_repetition(self, what, task, x.spec.instance, data);
+    publish_repeated_event(self, what, task, x.spec.instance, data);
   else
-    tell_of_task(self, what, task, x.spec.instance, data);
+    publish_task_event(self, what, task, x.spec.instance, data);
 }
 
 } // namespace roscell

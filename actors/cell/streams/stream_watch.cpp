@@ -74,8 +74,8 @@ struct stream_verdict {
 };
 
 stream_verdict verdict_on(const instance_row& row, const topic_writers& writers,
-                          const std::set<std::string>& told) {
-  if (told.count(row.node) == 0)
+                          const std::set<std::string>& reported) {
+  if (reported.count(row.node) == 0)
     return {{}, false};
   stream_verdict result;
   for (size_t i = 0; i < row.spec.input.size(); ++i) {
@@ -89,7 +89,7 @@ stream_verdict verdict_on(const instance_row& row, const topic_writers& writers,
       const auto& writer = *x->second.row;
       if (&writer == &row)
         continue;
-      if (told.count(writer.node) == 0)
+      if (reported.count(writer.node) == 0)
         result.certain = false;
       else if (goes_on_sending(x->second))
         return {sentence_on(row, input, *count, writer), true};
@@ -101,7 +101,8 @@ stream_verdict verdict_on(const instance_row& row, const topic_writers& writers,
 } // namespace
 
 std::vector<std::string>
-stream_watch::judge(const row_list& rows, const std::set<std::string>& told) {
+stream_watch::judge(const row_list& rows,
+                    const std::set<std::string>& reported) {
   const auto before = std::exchange(reasons_, {});
   const auto writers = writers_in(rows);
   std::vector<std::string> result;
@@ -111,7 +112,7 @@ stream_watch::judge(const row_list& rows, const std::set<std::string>& told) {
     const auto& id = row->spec.instance;
     const auto known = before.find(id);
     const bool was_starved = known != before.end();
-    auto verdict = verdict_on(*row, writers, told);
+    auto verdict = verdict_on(*row, writers, reported);
     if (!verdict.certain && was_starved)
       verdict.reason = known->second;
     if (verdict.reason.empty() == was_starved)

@@ -24,13 +24,13 @@ public:
   /// What a reader must have had nothing for, and a writer have sent for.
   static constexpr double long_enough_s = 10;
 
-  /// Judges all that is known now. Of a node that is not among `told` nobody
-  /// knows the figures: an instance there, or with a silent input that only
-  /// such nodes may write, is judged as before. Returns the instances of which
-  /// the judgement has changed; those that do not run are forgotten without a
-  /// word.
+  /// Judges all that is known now. Of a node that is not among `reported`
+  /// nobody knows the metrics: an instance there, or with a silent input that
+  /// only such nodes may write, is judged as before. Returns the instances of
+  /// which the judgement has changed; those that do not run are forgotten
+  /// without a word.
   std::vector<std::string> judge(const std::vector<const instance_row*>& rows,
-                                 const std::set<std::string>& told);
+                                 const std::set<std::string>& reported);
 
   /// One sentence, or null if the instance is not starved.
   const std::string* reason_of(const std::string& instance) const;

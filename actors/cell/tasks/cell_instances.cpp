@@ -1,7 +1,7 @@
 #include "actors/cell/tasks/cell_instances.hpp"
 
-#include "actors/cell/cell_figures.hpp"
-#include "actors/cell/moves/lost_steps.hpp"
+#include "actors/cell/cell_metrics.hpp"
+#include "actors/cell/moves/abandoned_steps.hpp"
 #include "actors/cell/moves/rebalancing.hpp"
 #include "actors/cell/state/coordinator_timer.hpp"
 #include "actors/cell/state/may_start.hpp"
@@ -12,8 +12,8 @@
 #include "actors/cell/tasks/ordered_stops.hpp"
 #include "actors/cell/tasks/step_ends.hpp"
 #include "actors/cell/tasks/task_removals.hpp"
-#include "actors/house/limits.hpp"
-#include "actors/house/wall_clock.hpp"
+#include "actors/core/limits.hpp"
+#include "actors/core/wall_clock.hpp"
 #include "messages/failure.hpp"
 
 #include <algorithm>
@@ -33,7 +33,7 @@ bool is_wanted(const cell_coordinator_state& st, const instance_row& x,
   const auto* placed = st.deployments.find(instance, node);
   return placed && st.tasks.is_kept(placed->spec.task)
          && !(placed->end && is_live(x.state))
-         && !st.failures.is_given_up(instance);
+         && !st.failures.is_abandoned(instance);
 }
 
 /// What running tasks want on a node, without what has ended.
@@ -46,7 +46,7 @@ std::vector<instance_spec> to_be_run_on(const cell_coordinator_state& st,
     for (const auto& x : st.deployments.of_task(task))
       if (x.node == node.name && !x.end && !x.tentative
           && !st.orders.is_asked(x.spec.instance)
-          && !st.failures.is_given_up(x.spec.instance)
+          && !st.failures.is_abandoned(x.spec.instance)
           && !is_elsewhere(st, x.spec.instance, node.uuid))
         result.push_back(x.spec);
   }
@@ -86,7 +86,7 @@ void settle_waits(coordinator_pointer self, const node_registration& node) {
   for (const auto& x : node.instances)
     if (is_live(x.state))
       live.insert(x.spec.instance);
-  const auto waits = self->state.desk.unsafe;
+  const auto waits = self->state.pending.not_stop_safe;
   for (const auto& x : waits)
     if (x.wait.node == node.identity.name && live.count(x.wait.instance) == 0)
       on_instance_gone(self, x.wait.node, x.wait.instance);
@@ -106,7 +106,7 @@ bool is_held(coordinator_pointer self, const instance_spec& spec,
           && !spec.life.safe_state))
     return false;
   if (const auto* placed = st.deployments.find(spec.instance, node.name))
-    lose_own_start(self, *placed, node.uuid);
+    abandon_own_start(self, *placed, node.uuid);
   return true;
 }
 
@@ -153,8 +153,8 @@ void apply_here(coordinator_pointer self, const node_registration& own,
 }
 
 /// What nobody wants any more has run on meanwhile, or begun anew.
-void tell_unwanted(coordinator_pointer self, const instance_row& x,
-                   const std::string& node) {
+void publish_unwanted(coordinator_pointer self, const instance_row& x,
+                      const std::string& node) {
   json data{{"task", x.spec.task},
             {"step", x.spec.step},
             {"node", node},
@@ -162,7 +162,8 @@ void tell_unwanted(coordinator_pointer self, const instance_row& x,
   if (x.since_unix_ms > 0)
     data["for_s"] =
         std::max<int64_t>(0, unix_now_ms() - x.since_unix_ms) / 1000;
-  tell_of_task(self, "instance_unwanted", x.spec.task, x.spec.instance, data);
+  publish_task_event(self, "instance_unwanted", x.spec.task, x.spec.instance,
+                     data);
 }
 
 /// The node that speaks: a member speaks for its own only.
@@ -182,10 +183,10 @@ std::optional<std::string> node_of_sender(coordinator_pointer self) {
 }
 
 /// Only what a skill says has changed, which no event tells.
-bool differs_in_words_only(const instance_row* before, instance_row now) {
-  if (before == nullptr || before->figures == now.figures)
+bool differs_in_text_only(const instance_row* before, instance_row now) {
+  if (before == nullptr || before->metrics == now.metrics)
     return false;
-  now.figures = before->figures;
+  now.metrics = before->metrics;
   now.status = before->status;
   now.node = before->node;
   return *before == now;
@@ -198,13 +199,13 @@ void take_up_own(coordinator_pointer self, instance_description& known) {
   own.identity = st.setup.self;
   own.instances = std::move(known.instances);
   follow_own_name(self, own);
-  contact_proven fact{st.context.boot_now_ms(self->system()), {}};
+  contact_proven event{st.context.boot_now_ms(self->system()), {}};
   for (const auto& x : take_up_instances(self, own)) {
     apply_here(self, own, x);
     if (x.what != verdict::stop)
-      fact.kept.push_back(x.instance);
+      event.kept.push_back(x.instance);
   }
-  self->send(st.setup.supervisor, std::move(fact));
+  self->send(st.setup.supervisor, std::move(event));
 }
 
 } // namespace
@@ -217,9 +218,9 @@ void reconcile_own_node(coordinator_pointer self) {
                 instance_query{})
       .then([self](instance_description& known) { take_up_own(self, known); },
             [self](const caf::error& why) {
-              self->state.context.tell("reconciliation_failed",
-                                       self->state.setup.self.name,
-                                       {{"reason", to_failure(why).message}});
+              self->state.context.publish_event(
+                  "reconciliation_failed", self->state.setup.self.name,
+                  {{"reason", to_failure(why).message}});
             });
 }
 
@@ -236,15 +237,15 @@ std::vector<instance_verdict> take_up_instances(coordinator_pointer self,
     if (!is_wanted(st, x, name)) {
       // It is there until the node has ended it.
       if (is_live(x.state)) {
-        tell_unwanted(self, x, name);
-        st.deployments.tell(name, std::move(x));
+        publish_unwanted(self, x, name);
+        st.deployments.note_row(name, std::move(x));
       }
       continue;
     }
     // A node that registers says less of an instance than the task knows.
     x.spec = st.deployments.find(x.spec.instance, name)->spec;
     tasks.insert(x.spec.task);
-    st.deployments.tell(name, std::move(x));
+    st.deployments.note_row(name, std::move(x));
   }
   settle_waits(self, node);
   for (const auto& x : node.instances)
@@ -255,11 +256,11 @@ std::vector<instance_verdict> take_up_instances(coordinator_pointer self,
                       [](const failure*) {});
   // It has just been told what to stop. Nobody answers to that, so it is asked
   // for until it has ended.
-  st.desk.removals.forget_node(name);
+  st.pending.removals.forget_node(name);
   for (const auto& x : node.instances)
     if (is_live(x.state) && !is_wanted(st, x, name))
-      st.desk.removals.add({name, x.spec.task, x.spec.instance},
-                           self->clock().now());
+      st.pending.removals.add({name, x.spec.task, x.spec.instance},
+                              self->clock().now());
   set_timer(self);
   for (const auto& task : tasks)
     record_ends(self, task);
@@ -286,25 +287,26 @@ instance_row with_own_spec(const cell_coordinator_state& st, instance_row row,
 } // namespace
 
 void on_instance_changed(coordinator_pointer self,
-                         const instance_changed& fact) {
+                         const instance_changed& event) {
   auto& st = self->state;
-  const auto& x = fact.instance;
+  const auto& x = event.instance;
   const auto& id = x.spec.instance;
   const auto node = node_of_sender(self);
   if (!node)
     return;
-  note_told(self, x, *node);
-  const bool news = !differs_in_words_only(st.deployments.told(*node, id), x);
+  note_reported(self, x, *node);
+  const bool news =
+      !differs_in_text_only(st.deployments.reported(*node, id), x);
   if (is_wanted(st, x, *node) || is_live(x.state))
-    st.deployments.tell(*node, with_own_spec(st, x, *node));
+    st.deployments.note_row(*node, with_own_spec(st, x, *node));
   else
-    st.deployments.forget_told(*node, id);
+    st.deployments.forget_reported(*node, id);
   if (x.state != instance_state::running)
     st.streams.forget(id);
   if (news)
-    tell_change(self, x, *node);
+    publish_change(self, x, *node);
   if (is_doubtful(st, x))
-    look_at_streams(self, x.spec.task);
+    check_stream_health(self, x.spec.task);
   watch_moved(self, x);
   if (!is_live(x.state))
     on_instance_gone(self, *node, id);

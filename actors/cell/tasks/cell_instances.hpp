@@ -21,7 +21,7 @@ std::vector<instance_verdict> take_up_instances(coordinator_pointer self,
 /// From a member or the local supervisor: each changes rows of its own node
 /// only.
 void on_instance_changed(coordinator_pointer self,
-                         const instance_changed& fact);
+                         const instance_changed& event);
 
 /// Whether a node has something that runs or will run.
 bool has_instances(const cell_coordinator_state& st, const std::string& node);

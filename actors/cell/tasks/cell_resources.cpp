@@ -1,7 +1,7 @@
 #include "actors/cell/tasks/cell_resources.hpp"
 
 #include "actors/cell/cell_topics.hpp"
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 #include "actors/placement/reservation.hpp"
 
 #include <algorithm>
@@ -47,7 +47,7 @@ std::vector<evictable_instance> evictable_in(const cell_coordinator_state& st) {
   return result;
 }
 
-/// All have answered: what is held in the books is looked up now.
+/// All have answered: what is held in the tables is looked up now.
 void complete_tally(coordinator_pointer self, resource_tally& tally) {
   if (--tally.open > 0)
     return;

@@ -5,13 +5,13 @@
 #include "actors/cell/state/may_start.hpp"
 #include "actors/cell/state/task_remains.hpp"
 #include "actors/cell/state/task_story.hpp"
+#include "actors/cell/tasks/placement_locks.hpp"
 #include "actors/cell/tasks/step_ends.hpp"
 #include "actors/cell/tasks/task_changes.hpp"
 #include "actors/cell/tasks/task_claims.hpp"
 #include "actors/cell/tasks/task_endings.hpp"
 #include "actors/cell/tasks/task_removals.hpp"
-#include "actors/cell/tasks/task_turns.hpp"
-#include "actors/house/wall_clock.hpp"
+#include "actors/core/wall_clock.hpp"
 #include "messages/failure.hpp"
 
 #include <algorithm>
@@ -84,7 +84,7 @@ void on_accepted(coordinator_pointer self, const std::string& task,
     promise.deliver(terminated_meanwhile(task));
     return;
   }
-  auto& waiters = st.desk.waiters[task];
+  auto& waiters = st.pending.waiters[task];
   waiters.owner = nullptr;
   auto reply = reply_of(task, *st.tasks.find(task), st.deployments);
   reply.found = waiters.former ? task_found::anew : task_found::started;
@@ -95,7 +95,7 @@ void on_accepted(coordinator_pointer self, const std::string& task,
   json data{{"instances", st.deployments.of_task(task).size()}};
   if (const auto run = st.tasks.find(task)->run; run > 1)
     data["run"] = run;
-  tell_of_task(self, "task_accepted", task, task, data);
+  publish_task_event(self, "task_accepted", task, task, data);
   record_ends(self, task);
   settle_ended(self, task);
   settle_awaited_deployments(self);
@@ -119,7 +119,7 @@ void restore_tasks(coordinator_pointer self) {
 void drop_unfinished_tasks(coordinator_pointer self) {
   for (const auto& stored : self->state.setup.tasks)
     if (!restored(stored))
-      record_fact(self, record_of_remains(self, stored.task));
+      persist_record(self, record_of_remains(self, stored.task));
 }
 
 caf::result<intent_recorded> hold_placement(coordinator_pointer self,
@@ -144,7 +144,7 @@ caf::result<intent_recorded> hold_placement(coordinator_pointer self,
       return to_error(*why);
   auto promise = self->make_response_promise<intent_recorded>();
   pending_change change;
-  change.still = &task_book::is_deploying;
+  change.still = &task_table::is_deploying;
   change.make = [intent, specs = reply.specs](task_record record) {
     return with_placement(std::move(record), intent.decision, specs,
                           intent.nodes);
@@ -155,7 +155,8 @@ caf::result<intent_recorded> hold_placement(coordinator_pointer self,
     // From here on the pipeline may start them at any time.
     for (size_t i = 0; i < reply.specs.size(); ++i)
       note_start(self, reply.specs[i], intent.nodes[i]);
-    end_turn(self, self->state.desk.waiters[intent.task].turn);
+    release_placement_lock(
+        self, self->state.pending.waiters[intent.task].placement_lock);
     promise.deliver(std::move(reply));
   };
   change_task(self, task, std::move(change));
@@ -163,38 +164,38 @@ caf::result<intent_recorded> hold_placement(coordinator_pointer self,
 }
 
 caf::result<task_accepted> accept_task(coordinator_pointer self,
-                                       const record_running& fact) {
+                                       const record_running& event) {
   auto promise = self->make_response_promise<task_accepted>();
   pending_change change;
-  change.still = &task_book::is_deploying;
-  change.make = [self, task = fact.task](task_record record) {
+  change.still = &task_table::is_deploying;
+  change.make = [self, task = event.task](task_record record) {
     return with_ends(with_state(std::move(record), task_state::running),
                      self->state.deployments.untaken_ends(task), unix_now_ms());
   };
-  change.done = [self, task = fact.task, promise](const failure* why) {
+  change.done = [self, task = event.task, promise](const failure* why) {
     if (why)
       refuse_unwritten(self, task, *why, {}, promise);
     else
       on_accepted(self, task, promise);
   };
-  change_task(self, fact.task, std::move(change));
+  change_task(self, event.task, std::move(change));
   return promise;
 }
 
 caf::result<task_rolled_back> undo_deployment(coordinator_pointer self,
-                                              const record_failure& fact) {
+                                              const record_failure& event) {
   // A task that was terminated meanwhile has been settled already.
-  if (!self->state.tasks.is_deploying(fact.task))
+  if (!self->state.tasks.is_deploying(event.task))
     return task_rolled_back{};
   auto promise = self->make_response_promise<task_rolled_back>();
-  roll_back(self, fact.task, fact.reason, {},
+  roll_back(self, event.task, event.reason, {},
             [promise]() mutable { promise.deliver(task_rolled_back{}); });
   return promise;
 }
 
 void on_pipeline_down(coordinator_pointer self, const caf::actor_addr& gone) {
   leave_line(self, gone);
-  for (const auto& [task, waiters] : self->state.desk.waiters)
+  for (const auto& [task, waiters] : self->state.pending.waiters)
     if (waiters.owner && waiters.owner == gone)
       return on_owner_gone(self, std::string{task});
 }

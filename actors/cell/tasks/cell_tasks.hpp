@@ -17,9 +17,9 @@ void drop_unfinished_tasks(coordinator_pointer self);
 caf::result<intent_recorded> hold_placement(coordinator_pointer self,
                                             const record_intent& intent);
 caf::result<task_accepted> accept_task(coordinator_pointer self,
-                                       const record_running& fact);
+                                       const record_running& event);
 caf::result<task_rolled_back> undo_deployment(coordinator_pointer self,
-                                              const record_failure& fact);
+                                              const record_failure& event);
 
 /// A pipeline has ended: what it was deploying is rolled back.
 void on_pipeline_down(coordinator_pointer self, const caf::actor_addr& gone);

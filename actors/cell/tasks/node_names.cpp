@@ -12,10 +12,11 @@ void rename_node(coordinator_pointer self, const std::string& from,
   const auto tasks = st.deployments.rename_node(from, to);
   if (const auto* entry = st.registry.find_name(to))
     st.failures.rename_node(entry->row.identity.uuid, to);
-  st.context.tell("node_renamed", to, {{"from", from}, {"tasks", json(tasks)}});
+  st.context.publish_event("node_renamed", to,
+                           {{"from", from}, {"tasks", json(tasks)}});
   for (const auto& task : tasks) {
     pending_change change;
-    change.still = &task_book::is_kept;
+    change.still = &task_table::is_kept;
     change.insistent = true;
     change.make = [from, to](task_record record) {
       return with_renamed(std::move(record), from, to);

@@ -17,24 +17,24 @@ void on_stopped(coordinator_pointer self, const ordered_stop& stop) {
   const auto& instance = stop.order.instance;
   if (is_surely_gone(self, instance))
     return stop.done(stop_outcome::ended, nullptr);
-  const failure why{error_code::conflict, "nobody knows whether '" + instance
+  const failure why{error_code::conflict, "it is unknown whether '" + instance
                                               + "' on node '" + stop.node
                                               + "' has ended"};
   const auto* placed = self->state.deployments.find(instance);
   const auto step = placed ? "/" + placed->spec.step : "";
   const failure late{error_code::timeout,
                      "'" + stop.task + step + "' on node '" + stop.node
-                         + "' is not safe yet, or does not end",
+                         + "' is not stop-safe yet, or does not end",
                      "", "`roscell tasks` shows what is waited for"};
   const bool waits = !is_away(self->state, stop.node);
   stop.done(stop_outcome::failed, waits ? &late : &why);
 }
 
-void on_order_kept(coordinator_pointer self, const ordered_stop& stop) {
+void on_order_persisted(coordinator_pointer self, const ordered_stop& stop) {
   auto& st = self->state;
   const auto& instance = stop.order.instance;
   const auto* placed = st.deployments.find(instance, stop.node);
-  const bool is_over = !placed || placed->end || has_told_end(st, *placed);
+  const bool is_over = !placed || placed->end || has_ordered_end(st, *placed);
   if (is_over || (stop.still && !stop.still())) {
     drop_order(self, stop.task, instance);
     return stop.done(stop_outcome::had_ended, nullptr);
@@ -57,13 +57,13 @@ void on_order_kept(coordinator_pointer self, const ordered_stop& stop) {
 bool runs_on(const cell_coordinator_state& st, const std::string& instance) {
   const auto* placed = st.deployments.find(instance);
   if (!placed || is_away(st, placed->node)
-      || st.desk.removals.has(placed->node, instance))
+      || st.pending.removals.has(placed->node, instance))
     return false;
-  const auto& unsafe = st.desk.unsafe;
+  const auto& not_stop_safe = st.pending.not_stop_safe;
   const auto waits = [&](const auto& x) { return x.wait.instance == instance; };
-  const auto* row = st.deployments.told(placed->node, instance);
+  const auto* row = st.deployments.reported(placed->node, instance);
   return row && is_live(row->state) && row->unsafe_since_unix_ms == 0
-         && std::none_of(unsafe.begin(), unsafe.end(), waits);
+         && std::none_of(not_stop_safe.begin(), not_stop_safe.end(), waits);
 }
 
 } // namespace
@@ -72,13 +72,13 @@ void stop_by_order(coordinator_pointer self, const ordered_stop& stop) {
   if (const auto why = why_not_ordered(self->state, stop.order.instance))
     return stop.done(stop_outcome::failed, &*why);
   pending_change change;
-  change.still = &task_book::is_kept;
+  change.still = &task_table::is_kept;
   change.make = [order = stop.order](task_record record) {
     return with_order(std::move(record), order);
   };
   change.done = [self, stop](const failure* why) {
     if (!why)
-      on_order_kept(self, stop);
+      on_order_persisted(self, stop);
     else if (self->state.tasks.is_kept(stop.task))
       stop.done(stop_outcome::failed, why);
     else
@@ -93,7 +93,7 @@ void end_as_ordered(coordinator_pointer self, const std::string& task,
   if (!st.orders.find(instance))
     return st.deployments.heed_end(instance);
   // What its fence has ended is to be placed anew: it has not failed.
-  if (is_surely_gone(self, instance) && !st.failures.find_lost(instance)) {
+  if (is_surely_gone(self, instance) && !st.failures.find_abandoned(instance)) {
     record_forced_end(self, task, instance, reason, [](const failure*) {});
     return drop_order(self, task, instance);
   }
@@ -108,7 +108,7 @@ void drop_order(coordinator_pointer self, const std::string& task,
                 const std::string& instance) {
   self->state.orders.forget(instance);
   pending_change change;
-  change.still = &task_book::is_kept;
+  change.still = &task_table::is_kept;
   change.insistent = true;
   change.make = [instance](task_record record) {
     return without_order(std::move(record), instance);
@@ -126,8 +126,8 @@ std::optional<failure> why_not_ordered(const cell_coordinator_state& st,
                  "send it again in a while"};
 }
 
-bool has_told_end(const cell_coordinator_state& st, const deployment& x) {
-  const auto* row = st.deployments.told(x.node, x.spec.instance);
+bool has_ordered_end(const cell_coordinator_state& st, const deployment& x) {
+  const auto* row = st.deployments.reported(x.node, x.spec.instance);
   return row && !is_live(row->state);
 }
 

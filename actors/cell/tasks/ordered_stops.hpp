@@ -38,7 +38,8 @@ struct ordered_stop {
   std::function<void(stop_outcome, const failure*)> done;
 };
 
-/// Ends an instance by order, and waits until it is safe, or the time is over.
+/// Ends an instance by order, and waits until it is stop-safe, or the time is
+/// over.
 ///
 /// While the order is written it may end by itself, which is its own end then.
 /// While it is waited for its node may be lost, its task be terminated, or the
@@ -62,6 +63,6 @@ std::optional<failure> why_not_ordered(const cell_coordinator_state& st,
                                        const std::string& instance);
 
 /// Whether its node has told that it has ended.
-bool has_told_end(const cell_coordinator_state& st, const deployment& x);
+bool has_ordered_end(const cell_coordinator_state& st, const deployment& x);
 
 } // namespace roscell

@@ -3,7 +3,7 @@
 #include "actors/cell/state/task_story.hpp"
 #include "actors/cell/tasks/task_changes.hpp"
 #include "actors/cell/tasks/task_endings.hpp"
-#include "actors/house/wall_clock.hpp"
+#include "actors/core/wall_clock.hpp"
 #include "messages/failure.hpp"
 
 #include <algorithm>
@@ -16,8 +16,8 @@ namespace {
 /// Ends that are still to be written are taken up with those before them.
 bool has_waiting_ends(const cell_coordinator_state& st,
                       const std::string& task) {
-  const auto line = st.desk.lines.find(task);
-  return line != st.desk.lines.end()
+  const auto line = st.pending.lines.find(task);
+  return line != st.pending.lines.end()
          && std::any_of(line->second.changes.begin(),
                         line->second.changes.end(),
                         [](const auto& x) { return x.takes_ends; });
@@ -45,7 +45,7 @@ void record_ends(coordinator_pointer self, const std::string& task) {
       || has_waiting_ends(st, task))
     return;
   pending_change change;
-  change.still = &task_book::is_running;
+  change.still = &task_table::is_running;
   change.insistent = true;
   change.takes_ends = true;
   change.make = [self, task](task_record record) {
@@ -67,7 +67,7 @@ void record_forced_end(coordinator_pointer self, const std::string& task,
   const instance_end end{instance, instance_state::failed, -1, reason,
                          unix_now_ms()};
   pending_change change;
-  change.still = &task_book::is_running;
+  change.still = &task_table::is_running;
   change.insistent = true;
   change.make = [end](task_record record) {
     return with_ends(std::move(record), {end}, end.unix_ms);
@@ -93,10 +93,10 @@ void settle_ended(coordinator_pointer self, const std::string& task) {
   if (const auto span = entry->ended_unix_ms - entry->submitted_unix_ms;
       span > 0)
     data["duration_s"] = static_cast<double>(span) / 1000;
-  tell_of_task(self,
-               entry->state == task_state::finished ? "task_finished"
-                                                    : "task_failed",
-               task, task, data);
+  publish_task_event(self,
+                     entry->state == task_state::finished ? "task_finished"
+                                                          : "task_failed",
+                     task, task, data);
   for (const auto& old : st.tasks.superfluous())
     end_settled(self, old);
 }

@@ -27,7 +27,7 @@ void write_next_change(coordinator_pointer self, const std::string& task);
 /// The first change is over, one way or the other.
 void end_change(coordinator_pointer self, const std::string& task,
                 const failure* why) {
-  auto& line = self->state.desk.lines.at(task);
+  auto& line = self->state.pending.lines.at(task);
   line.writing = false;
   line.pause.reset();
   const auto change = std::move(line.changes.front());
@@ -48,8 +48,8 @@ void follow_orders(coordinator_pointer self, const std::string& task,
     wake(self);
 }
 
-void on_change_kept(coordinator_pointer self, const std::string& task,
-                    const std::optional<task_record>& record) {
+void on_change_persisted(coordinator_pointer self, const std::string& task,
+                         const std::optional<task_record>& record) {
   auto& st = self->state;
   if (record) {
     st.tasks.apply(*record);
@@ -62,9 +62,9 @@ void on_change_kept(coordinator_pointer self, const std::string& task,
   end_change(self, task, nullptr);
 }
 
-void on_change_not_kept(coordinator_pointer self, const std::string& task,
-                        const failure& why) {
-  auto& line = self->state.desk.lines.at(task);
+void on_change_not_persisted(coordinator_pointer self, const std::string& task,
+                             const failure& why) {
+  auto& line = self->state.pending.lines.at(task);
   const auto& change = line.changes.front();
   if (!change.insistent)
     return end_change(self, task, &why);
@@ -72,8 +72,8 @@ void on_change_not_kept(coordinator_pointer self, const std::string& task,
   line.retry =
       self->clock().now() + std::min(line.pause.next(), longest_wait_for_room);
   set_timer(self);
-  if (change.on_trouble)
-    change.on_trouble(why);
+  if (change.on_problem)
+    change.on_problem(why);
 }
 
 void write_change(coordinator_pointer self, const std::string& task,
@@ -82,22 +82,22 @@ void write_change(coordinator_pointer self, const std::string& task,
       self,
       {record ? store_record{"tasks", task, json(*record).dump()}
               : record_of_remains(self, task)},
-      [self, task, record] { on_change_kept(self, task, record); },
+      [self, task, record] { on_change_persisted(self, task, record); },
       [self, task](const failure& why) {
-        on_change_not_kept(self, task, why);
+        on_change_not_persisted(self, task, why);
       });
 }
 
 /// A change that does not apply any more is not written.
 void write_next_change(coordinator_pointer self, const std::string& task) {
   auto& st = self->state;
-  const auto i = st.desk.lines.find(task);
-  if (i == st.desk.lines.end() || i->second.writing)
+  const auto i = st.pending.lines.find(task);
+  if (i == st.pending.lines.end() || i->second.writing)
     return;
   auto& line = i->second;
   line.retry = time_point::max();
   if (line.changes.empty()) {
-    st.desk.lines.erase(i);
+    st.pending.lines.erase(i);
     return;
   }
   line.writing = true;
@@ -119,7 +119,7 @@ void write_next_change(coordinator_pointer self, const std::string& task) {
 
 void change_task(coordinator_pointer self, const std::string& task,
                  pending_change change) {
-  self->state.desk.lines[task].changes.push_back(std::move(change));
+  self->state.pending.lines[task].changes.push_back(std::move(change));
   write_next_change(self, task);
 }
 
@@ -129,7 +129,7 @@ void retry_change(coordinator_pointer self, const std::string& task) {
 
 void retry_due_changes(coordinator_pointer self) {
   std::vector<std::string> due;
-  for (const auto& [task, line] : self->state.desk.lines)
+  for (const auto& [task, line] : self->state.pending.lines)
     if (line.retry <= self->clock().now())
       due.push_back(task);
   for (const auto& task : due)

@@ -5,7 +5,7 @@
 #include <string>
 
 /// How what changes of a task gets on disk: one change of a task after the
-/// other, and the books show it when the store has kept it.
+/// other, and the tables show it when the store has kept it.
 namespace roscell {
 
 /// Writes a change once those before it are done.

@@ -2,14 +2,14 @@
 
 #include "actors/cell/state/may_start.hpp"
 #include "actors/cell/tasks/cell_resources.hpp"
+#include "actors/cell/tasks/placement_locks.hpp"
 #include "actors/cell/tasks/task_changes.hpp"
 #include "actors/cell/tasks/task_endings.hpp"
 #include "actors/cell/tasks/task_restart.hpp"
-#include "actors/cell/tasks/task_turns.hpp"
 #include "actors/cell/tasks/task_views.hpp"
-#include "actors/house/limits.hpp"
-#include "actors/house/wall_clock.hpp"
-#include "actors/house/watching.hpp"
+#include "actors/core/limits.hpp"
+#include "actors/core/wall_clock.hpp"
+#include "actors/core/watching.hpp"
 #include "messages/failure.hpp"
 
 #include <utility>
@@ -73,30 +73,30 @@ bool answer_known(coordinator_pointer self, const claim_task& request,
                   claim_promise promise) {
   auto& st = self->state;
   const auto& task = request.task;
-  switch (st.tasks.standing_of(task, request.request, request.request_id)) {
-  case claim_standing::unknown:
-  case claim_standing::next_run: {
+  switch (st.tasks.claim_status_of(task, request.request, request.request_id)) {
+  case claim_status::unknown:
+  case claim_status::next_run: {
     const auto why = remains_of(self, task, request.force);
     if (why)
       promise.deliver(to_error(*why));
     return why.has_value();
   }
-  case claim_standing::other_body:
+  case claim_status::other_body:
     promise.deliver(fail(
         error_code::task_exists, "task '" + task + "' exists with another body",
         "/task", "choose another task id, or terminate this one"));
     break;
-  case claim_standing::ending:
+  case claim_status::ending:
     promise.deliver(fail(error_code::conflict,
                          "task '" + task + "' is being terminated", "/task",
                          "send it again once it has ended"));
     break;
-  case claim_standing::accepted:
+  case claim_status::accepted:
     answer_accepted(self, request, promise);
     break;
-  case claim_standing::deploying: {
+  case claim_status::deploying: {
     join_run(self, request);
-    auto& waiting = st.desk.waiters[task].same_requests;
+    auto& waiting = st.pending.waiters[task].same_requests;
     if (waiting.size() >= limits::task::same_requests)
       promise.deliver(refuse_crowd("too many wait for task '" + task + "'"));
     else
@@ -107,11 +107,11 @@ bool answer_known(coordinator_pointer self, const claim_task& request,
 }
 
 /// The task is the claimant's; it is told what it can be placed on.
-void grant_turn(coordinator_pointer self, const claim_task& request,
-                const caf::actor_addr& owner, uint64_t turn,
-                claim_promise promise) {
+void grant_placement_lock(coordinator_pointer self, const claim_task& request,
+                          const caf::actor_addr& owner, uint64_t placement_lock,
+                          claim_promise promise) {
   auto& st = self->state;
-  auto& waiters = st.desk.waiters[request.task];
+  auto& waiters = st.pending.waiters[request.task];
   if (const auto* entry = st.tasks.find(request.task))
     waiters.former = record_of(request.task, *entry, st.deployments);
   st.tasks.begin(request.task, request.request, request.request_id,
@@ -119,11 +119,12 @@ void grant_turn(coordinator_pointer self, const claim_task& request,
   // Whoever asks for it anew knows what is off.
   st.failures.forget_waiting(request.task);
   waiters.owner = owner;
-  waiters.turn = turn;
-  collect_resources_of_cell(self, [self, task = request.task, turn,
+  waiters.placement_lock = placement_lock;
+  collect_resources_of_cell(self, [self, task = request.task, placement_lock,
                                    promise](cell_resources&& found) mutable {
-    auto& desk = self->state.desk;
-    if (self->state.tasks.is_deploying(task) && desk.waiters[task].turn == turn)
+    auto& pending = self->state.pending;
+    if (self->state.tasks.is_deploying(task)
+        && pending.waiters[task].placement_lock == placement_lock)
       promise.deliver(task_claimed{false, {}, std::move(found)});
     else
       promise.deliver(terminated_meanwhile(task));
@@ -132,8 +133,8 @@ void grant_turn(coordinator_pointer self, const claim_task& request,
 
 } // namespace
 
-caf::result<task_claimed> claim_task_turn(coordinator_pointer self,
-                                          const claim_task& request) {
+caf::result<task_claimed> claim_placement_lock(coordinator_pointer self,
+                                               const claim_task& request) {
   auto& st = self->state;
   // The promise takes the message's sender, so it is looked at before.
   const auto sender = self->current_sender();
@@ -144,22 +145,23 @@ caf::result<task_claimed> claim_task_turn(coordinator_pointer self,
   if (answer_known(self, request, promise))
     return promise;
   if ((st.tasks.is_full() && !st.tasks.find(request.task))
-      || st.desk.waiting.size() >= limits::task::waiting) {
+      || st.pending.waiting.size() >= limits::task::waiting) {
     promise.deliver(refuse_crowd("the cell has too many tasks"));
     return promise;
   }
-  take_turn(self, owner, [self, request, owner, promise](uint64_t turn) {
-    if (answer_known(self, request, promise))
-      end_turn(self, turn);
-    else
-      grant_turn(self, request, owner, turn, promise);
-  });
+  take_placement_lock(
+      self, owner, [self, request, owner, promise](uint64_t placement_lock) {
+        if (answer_known(self, request, promise))
+          release_placement_lock(self, placement_lock);
+        else
+          grant_placement_lock(self, request, owner, placement_lock, promise);
+      });
   return promise;
 }
 
 task_claimed known_reply(const cell_coordinator_state& st,
                          const std::string& task) {
-  return {true, standing_reply(st, task), {}};
+  return {true, status_reply(st, task), {}};
 }
 
 } // namespace roscell

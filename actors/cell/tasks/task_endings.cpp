@@ -4,10 +4,10 @@
 #include "actors/cell/state/coordinator_timer.hpp"
 #include "actors/cell/state/task_remains.hpp"
 #include "actors/cell/state/task_story.hpp"
+#include "actors/cell/tasks/placement_locks.hpp"
 #include "actors/cell/tasks/task_changes.hpp"
 #include "actors/cell/tasks/task_removals.hpp"
-#include "actors/cell/tasks/task_turns.hpp"
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 #include "messages/failure.hpp"
 
 #include <algorithm>
@@ -31,12 +31,12 @@ bool is_deploying_on(const cell_coordinator_state& st,
 }
 
 /// The one way in which what waits for a task comes to its end: it is gone from
-/// the books, or is as it was before it was begun.
+/// the tables, or is as it was before it was begun.
 /// @param why What the same request hears.
 void end_waiting(coordinator_pointer self, const task_terminated& reply,
                  const caf::error& why) {
   auto& st = self->state;
-  auto& waiters = st.desk.waiters;
+  auto& waiters = st.pending.waiters;
   const auto gone = std::move(waiters[reply.task]);
   waiters.erase(reply.task);
   st.orders.let_go_of(reply.task, self->clock().now());
@@ -47,13 +47,14 @@ void end_waiting(coordinator_pointer self, const task_terminated& reply,
     promise.deliver(why);
   for (const auto& next : gone.gone)
     next();
-  end_turn(self, gone.turn);
+  release_placement_lock(self, gone.placement_lock);
   settle_awaited_deployments(self);
 }
 
-void tell_terminated(coordinator_pointer self, const task_terminated& reply) {
+void publish_terminated(coordinator_pointer self,
+                        const task_terminated& reply) {
   self->state.tasks.remember_terminated(reply);
-  tell_of_task(
+  publish_task_event(
       self, "task_terminated", reply.task, reply.task,
       {{"instances", reply.instances}, {"pending_nodes", reply.pending_nodes}});
   end_waiting(self, reply, terminated_meanwhile(reply.task));
@@ -63,7 +64,7 @@ void tell_terminated(coordinator_pointer self, const task_terminated& reply) {
 /// again. The instances are gone.
 void refuse_waiting_terminations(coordinator_pointer self,
                                  const std::string& task, const failure& why) {
-  auto& waiting = self->state.desk.waiters[task].terminations;
+  auto& waiting = self->state.pending.waiters[task].terminations;
   for (auto& promise : std::exchange(waiting, {}))
     promise.deliver(fail(
         why.code,
@@ -78,8 +79,10 @@ void refuse_waiting_terminations(coordinator_pointer self,
 void remove_record(coordinator_pointer self, const task_terminated& reply) {
   pending_change change;
   change.insistent = true;
-  change.done = [self, reply](const failure*) { tell_terminated(self, reply); };
-  change.on_trouble = [self, task = reply.task,
+  change.done = [self, reply](const failure*) {
+    publish_terminated(self, reply);
+  };
+  change.on_problem = [self, task = reply.task,
                        since = self->clock().now()](const failure& why) {
     if (self->clock().now() - since >= limits::task::unwritten)
       refuse_waiting_terminations(self, task, why);
@@ -87,10 +90,10 @@ void remove_record(coordinator_pointer self, const task_terminated& reply) {
   change_task(self, reply.task, std::move(change));
 }
 
-/// Whoever waits for a termination hears what is not safe yet.
+/// Whoever waits for a termination hears what is not stop-safe yet.
 void answer_terminations(coordinator_pointer self,
                          const task_terminated& reply) {
-  auto& waiting = self->state.desk.waiters[reply.task].terminations;
+  auto& waiting = self->state.pending.waiters[reply.task].terminations;
   for (auto& promise : std::exchange(waiting, {}))
     promise.deliver(reply);
 }
@@ -124,19 +127,19 @@ caf::error first_failed(const std::string& reason) {
 
 /// A task of which nothing was placed anywhere has not failed: its request was
 /// refused, and that is told already.
-void tell_rolled_back(coordinator_pointer self, const std::string& task,
-                      const std::string& reason, bool begun) {
+void publish_rolled_back(coordinator_pointer self, const std::string& task,
+                         const std::string& reason, bool begun) {
   if (begun)
-    tell_of_task(self, "task_failed", task, task, {{"reason", reason}});
+    publish_task_event(self, "task_failed", task, task, {{"reason", reason}});
   end_waiting(self, {task, {}, {}}, first_failed(reason));
 }
 
 /// A task that is rolled back is not gone yet. Whoever waits for the request
 /// hears what has become of it.
-void answer_early(coordinator_pointer self, const std::string& task,
-                  const std::string& reason,
-                  const std::vector<safety_wait>& waiting) {
-  auto& same = self->state.desk.waiters[task].same_requests;
+void acknowledge_termination(coordinator_pointer self, const std::string& task,
+                             const std::string& reason,
+                             const std::vector<safety_wait>& waiting) {
+  auto& same = self->state.pending.waiters[task].same_requests;
   for (auto& promise : std::exchange(same, {}))
     promise.deliver(first_failed(reason));
   answer_terminations(self, {task, {}, {}, waiting});
@@ -153,7 +156,7 @@ void record_ending(coordinator_pointer self, const std::string& task) {
 }
 
 /// It is being ended already. Asked again, it is ended by force; nobody waits
-/// for what is not safe, the second time either.
+/// for what is not stop-safe, the second time either.
 void end_anyway(coordinator_pointer self, const task_termination& request) {
   auto& st = self->state;
   const auto& task = request.task;
@@ -190,14 +193,14 @@ caf::result<task_terminated> terminate_task(coordinator_pointer self,
                 "/task", "`roscell tasks` lists them");
   }
   auto promise = self->make_response_promise<task_terminated>();
-  auto& waiters = st.desk.waiters[task];
+  auto& waiters = st.pending.waiters[task];
   waiters.terminations.push_back(promise);
   if (!st.tasks.begin_ending(task)) {
     end_anyway(self, request);
     return promise;
   }
   const auto owner = waiters.owner;
-  end_turn(self, waiters.turn);
+  release_placement_lock(self, waiters.placement_lock);
   record_ending(self, task);
   // Nothing that the pipeline sends may reach a node after the removal, so the
   // pipeline ends first.
@@ -218,7 +221,7 @@ void take_back(coordinator_pointer self, const std::string& task,
                const std::optional<task_record>& former, bool is_unwritten) {
   auto& st = self->state;
   if (is_unwritten && !former)
-    record_fact(self, record_of_remains(self, task));
+    persist_record(self, record_of_remains(self, task));
   st.tasks.forget(task);
   st.deployments.forget_task(task);
   if (!former)
@@ -235,7 +238,7 @@ void roll_back(coordinator_pointer self, const std::string& task,
                const std::function<void()>& done) {
   auto& st = self->state;
   st.tasks.begin_ending(task);
-  st.desk.waiters[task].owner = nullptr;
+  st.pending.waiters[task].owner = nullptr;
   // Before it was placed there was nothing to be begun.
   const bool begun = !st.tasks.find(task)->accepted.empty();
   // Called once, whichever comes first.
@@ -246,19 +249,19 @@ void roll_back(coordinator_pointer self, const std::string& task,
   };
   task_removal removal{task, also_on};
   removal.waits = [self, task, reason, finish](const auto& waiting) {
-    answer_early(self, task, reason, waiting);
+    acknowledge_termination(self, task, reason, waiting);
     finish();
   };
   removal.done = [self, task, reason, begun, finish](const auto&) {
     pending_change change;
     const auto former =
-        std::exchange(self->state.desk.waiters[task].former, std::nullopt);
+        std::exchange(self->state.pending.waiters[task].former, std::nullopt);
     if (former)
       change.make = [former](const task_record&) { return *former; };
     change.done = [self, task, reason, begun, former,
                    finish](const failure* why) {
       take_back(self, task, former, why != nullptr);
-      tell_rolled_back(self, task, reason, begun);
+      publish_rolled_back(self, task, reason, begun);
       finish();
     };
     change_task(self, task, std::move(change));
@@ -268,25 +271,25 @@ void roll_back(coordinator_pointer self, const std::string& task,
 
 void on_owner_gone(coordinator_pointer self, const std::string& task) {
   auto& st = self->state;
-  st.desk.waiters[task].owner = nullptr;
+  st.pending.waiters[task].owner = nullptr;
   if (st.tasks.is_deploying(task))
     roll_back(self, task, "the request that deployed it has ended", {}, [] {});
   else
-    finish_termination(self, task, st.desk.waiters[task].force);
+    finish_termination(self, task, st.pending.waiters[task].force);
 }
 
 void after_deployments_on(coordinator_pointer self, const std::string& node,
                           std::function<void()> done) {
-  self->state.desk.deployments_awaited.push_back({node, std::move(done)});
+  self->state.pending.deployments_awaited.push_back({node, std::move(done)});
   settle_awaited_deployments(self);
 }
 
 void settle_awaited_deployments(coordinator_pointer self) {
   auto& st = self->state;
-  auto waiting = std::exchange(st.desk.deployments_awaited, {});
+  auto waiting = std::exchange(st.pending.deployments_awaited, {});
   for (auto& x : waiting)
     if (is_deploying_on(st, x.node))
-      st.desk.deployments_awaited.push_back(std::move(x));
+      st.pending.deployments_awaited.push_back(std::move(x));
     else
       x.done();
 }

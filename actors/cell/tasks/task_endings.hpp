@@ -16,7 +16,7 @@ caf::result<task_terminated> terminate_task(coordinator_pointer self,
                                             const task_termination& request);
 
 /// Undoes a deployment, on these nodes too. Calls `done` once all of it is
-/// gone, or as soon as it is known what has to be safe before.
+/// gone, or as soon as it is known what has to be stop-safe before.
 ///
 /// Meanwhile the task may be terminated, by force too, and its nodes be lost;
 /// whoever waits for it is answered by `end_waiting`, and nowhere else.

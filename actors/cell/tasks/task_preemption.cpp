@@ -6,7 +6,7 @@
 #include "actors/cell/tasks/step_ends.hpp"
 #include "actors/cell/tasks/task_endings.hpp"
 #include "actors/cell/tasks/task_restart.hpp"
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 #include "messages/failure.hpp"
 
 #include <functional>
@@ -20,13 +20,13 @@ namespace {
 
 using outcome_handler = std::function<void(const failure*)>;
 
-/// It is gone. Its task knows, and what it has made way for may have come to
+/// It is gone. Its task knows, and what it was preempted for may have come to
 /// nothing meanwhile.
-void record_eviction(coordinator_pointer self, const make_way& wish,
+void record_eviction(coordinator_pointer self, const preempt_instances& request,
                      const preempted_instance& x, const outcome_handler& done) {
   record_forced_end(self, x.task, x.instance,
-                    "it makes way for task '" + wish.task + "'",
-                    [self, by = wish.task, done](const failure*) {
+                    "it is preempted by task '" + request.task + "'",
+                    [self, by = request.task, done](const failure*) {
                       auto& st = self->state;
                       done(nullptr);
                       if (st.tasks.is_deploying(by))
@@ -36,17 +36,18 @@ void record_eviction(coordinator_pointer self, const make_way& wish,
                     });
 }
 
-void tell_preempted(coordinator_pointer self, const make_way& wish,
-                    const preempted_instance& x) {
-  tell_of_task(self, "instance_preempted", x.task, x.instance,
-               {{"task", x.task},
-                {"step", x.step},
-                {"node", x.node},
-                {"priority", x.priority},
-                {"by", wish.task}});
+void publish_preempted(coordinator_pointer self,
+                       const preempt_instances& request,
+                       const preempted_instance& x) {
+  publish_task_event(self, "instance_preempted", x.task, x.instance,
+                     {{"task", x.task},
+                      {"step", x.step},
+                      {"node", x.node},
+                      {"priority", x.priority},
+                      {"by", request.task}});
 }
 
-void evict(coordinator_pointer self, const make_way& wish,
+void evict(coordinator_pointer self, const preempt_instances& request,
            const preempted_instance& x, const outcome_handler& done) {
   auto& st = self->state;
   const auto* placed = st.deployments.find(x.instance, x.node);
@@ -55,17 +56,18 @@ void evict(coordinator_pointer self, const make_way& wish,
   ordered_stop stop;
   stop.task = x.task;
   stop.node = x.node;
-  stop.order = {x.instance, "it makes way for task '" + wish.task + "'",
-                wish.task, x.priority};
-  stop.force = wish.force;
+  stop.order = {x.instance, "it is preempted by task '" + request.task + "'",
+                request.task, x.priority};
+  stop.force = request.force;
   stop.until = self->clock().now() + limits::task::eviction;
-  stop.still = [self, by = wish.task] {
+  stop.still = [self, by = request.task] {
     return self->state.tasks.is_deploying(by);
   };
-  stop.asked = [self, wish, x] { tell_preempted(self, wish, x); };
-  stop.done = [self, wish, x, done](stop_outcome outcome, const failure* why) {
+  stop.asked = [self, request, x] { publish_preempted(self, request, x); };
+  stop.done = [self, request, x, done](stop_outcome outcome,
+                                       const failure* why) {
     if (outcome == stop_outcome::ended)
-      record_eviction(self, wish, x, done);
+      record_eviction(self, request, x, done);
     else
       done(why);
   };
@@ -84,8 +86,8 @@ void put_off(coordinator_pointer self, const ordered_end& x,
                          self->clock().now()))
     return set_timer(self);
   drop_order(self, x.task, instance);
-  tell_of_task(self, "step_stranded", x.task, instance,
-               {{"task", x.task}, {"reason", why.message}});
+  publish_task_event(self, "step_stranded", x.task, instance,
+                     {{"task", x.task}, {"reason", why.message}});
 }
 
 void start_one_again(coordinator_pointer self, const ordered_end& x) {
@@ -103,17 +105,17 @@ void start_one_again(coordinator_pointer self, const ordered_end& x) {
 
 } // namespace
 
-caf::result<way_made> clear_way(coordinator_pointer self,
-                                const make_way& wish) {
-  if (!self->state.tasks.is_deploying(wish.task))
-    return terminated_meanwhile(wish.task);
-  auto promise = self->make_response_promise<way_made>();
+caf::result<instances_preempted>
+preempt_for_task(coordinator_pointer self, const preempt_instances& request) {
+  if (!self->state.tasks.is_deploying(request.task))
+    return terminated_meanwhile(request.task);
+  auto promise = self->make_response_promise<instances_preempted>();
   struct tally {
     size_t open = 0;
     std::optional<failure> problem; ///< The last.
   };
   auto all = std::make_shared<tally>();
-  all->open = wish.preempted.size() + 1;
+  all->open = request.preempted.size() + 1;
   auto finish = [all, promise](const failure* why) mutable {
     if (why)
       all->problem = *why;
@@ -122,10 +124,10 @@ caf::result<way_made> clear_way(coordinator_pointer self,
     if (all->problem)
       promise.deliver(to_error(*all->problem));
     else
-      promise.deliver(way_made{});
+      promise.deliver(instances_preempted{});
   };
-  for (const auto& x : wish.preempted)
-    evict(self, wish, x, finish);
+  for (const auto& x : request.preempted)
+    evict(self, request, x, finish);
   finish(nullptr);
   return promise;
 }

@@ -2,13 +2,14 @@
 
 #include "actors/cell/state/coordinator_state.hpp"
 
-/// How the CELL COORDINATOR makes way for a task of higher priority: what goes
-/// is ended, once it is safe, and started again where there is still room.
+/// How the CELL COORDINATOR preempts for a task of higher priority: what goes
+/// is ended, once it is stop-safe, and started again where there is still room.
 namespace roscell {
 
 /// Ends these instances, whose room a task that is being deployed holds
 /// already, and replies once they are gone.
-caf::result<way_made> clear_way(coordinator_pointer self, const make_way& wish);
+caf::result<instances_preempted>
+preempt_for_task(coordinator_pointer self, const preempt_instances& request);
 
 /// Takes up what an earlier run of the coordinator has told to end.
 void restore_orders(coordinator_pointer self);

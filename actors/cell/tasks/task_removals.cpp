@@ -4,7 +4,7 @@
 #include "actors/cell/state/may_start.hpp"
 #include "actors/cell/state/task_remains.hpp"
 #include "actors/cell/state/task_story.hpp"
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -33,7 +33,8 @@ void remember_overdue(coordinator_pointer self, const std::string& task,
   auto& st = self->state;
   for (const auto& x : st.deployments.of_task(task))
     if (x.node == node)
-      st.desk.removals.add({node, task, x.spec.instance}, self->clock().now());
+      st.pending.removals.add({node, task, x.spec.instance},
+                              self->clock().now());
   set_timer(self);
 }
 
@@ -47,17 +48,17 @@ void await_safety(coordinator_pointer self, const safety_wait& wait,
   if (is_away(st, wait.node))
     return done();
   if (!st.failures.find(wait.instance, self->clock().now())) {
-    st.desk.removals.add({wait.node, wait.task, wait.instance},
-                         self->clock().now());
+    st.pending.removals.add({wait.node, wait.task, wait.instance},
+                            self->clock().now());
     set_timer(self);
     return done();
   }
-  tell_of_task(self, "instance_awaited", wait.task, wait.instance,
-               {{"task", wait.task},
-                {"step", wait.step},
-                {"node", wait.node},
-                {"until_unix_ms", wait.until_unix_ms}});
-  st.desk.unsafe.push_back({wait, done, until});
+  publish_task_event(self, "instance_awaited", wait.task, wait.instance,
+                     {{"task", wait.task},
+                      {"step", wait.step},
+                      {"node", wait.node},
+                      {"until_unix_ms", wait.until_unix_ms}});
+  st.pending.not_stop_safe.push_back({wait, done, until});
   set_timer(self);
 }
 
@@ -74,34 +75,34 @@ void note_removed(coordinator_pointer self, const std::string& uuid,
 
 /// A task's removal, as the nodes answer.
 struct removal_tally {
-  task_removal wish;
+  task_removal request;
   size_t asked = 1; ///< Nodes that have not answered yet.
-  size_t open = 1;  ///< These, and instances that are not safe.
+  size_t open = 1;  ///< These, and instances that are not stop-safe.
   std::set<std::string> away;
   std::vector<safety_wait> waiting;
 };
 
 void count_down(const std::shared_ptr<removal_tally>& tally) {
   if (--tally->open == 0)
-    tally->wish.done({tally->away.begin(), tally->away.end()});
+    tally->request.done({tally->away.begin(), tally->away.end()});
 }
 
 void on_node_answered(const std::shared_ptr<removal_tally>& tally) {
-  if (--tally->asked == 0 && !tally->waiting.empty() && tally->wish.waits)
-    tally->wish.waits(tally->waiting);
+  if (--tally->asked == 0 && !tally->waiting.empty() && tally->request.waits)
+    tally->request.waits(tally->waiting);
   count_down(tally);
 }
 
 void ask_node(coordinator_pointer self, const registry_entry& entry,
               const std::shared_ptr<removal_tally>& tally) {
-  const auto& task = tally->wish.task;
+  const auto& task = tally->request.task;
   const auto& node = entry.row.identity.name;
   self->request(entry.agent, limits::task::removal_answer,
-                instance_removal{task, "", tally->wish.force})
+                instance_removal{task, "", tally->request.force})
       .then(
           [self, node, uuid = entry.row.identity.uuid,
            tally](const instances_removed& reply) {
-            note_removed(self, uuid, tally->wish.task, reply.waiting);
+            note_removed(self, uuid, tally->request.task, reply.waiting);
             for (auto wait : reply.waiting) {
               wait.node = node;
               ++tally->open;
@@ -133,7 +134,7 @@ void force_removal(coordinator_pointer self, const safety_wait& x) {
 template <class Predicate>
 std::vector<awaited_safety> take_waits(coordinator_pointer self,
                                        Predicate&& is_due) {
-  auto& xs = self->state.desk.unsafe;
+  auto& xs = self->state.pending.not_stop_safe;
   const auto due = std::stable_partition(
       xs.begin(), xs.end(), [&](const auto& x) { return !is_due(x.wait); });
   std::vector<awaited_safety> result{std::make_move_iterator(due),
@@ -149,10 +150,11 @@ bool is_away(const cell_coordinator_state& st, const std::string& node) {
   return !entry || !entry->agent;
 }
 
-void remove_everywhere(coordinator_pointer self, const task_removal& wish) {
+void remove_everywhere(coordinator_pointer self, const task_removal& request) {
   auto tally = std::make_shared<removal_tally>();
-  tally->wish = wish;
-  for (const auto& node : nodes_of(self->state, wish.task, wish.also_on)) {
+  tally->request = request;
+  for (const auto& node :
+       nodes_of(self->state, request.task, request.also_on)) {
     if (is_away(self->state, node)) {
       tally->away.insert(node);
       continue;
@@ -170,7 +172,7 @@ void remove_instance(coordinator_pointer self, const overdue_removal& what,
   const auto* entry = self->state.registry.find_name(what.node);
   // A node that is away is told what to stop when it registers.
   if (!entry || !entry->agent) {
-    self->state.desk.removals.settle(what);
+    self->state.pending.removals.settle(what);
     return done();
   }
   self->request(entry->agent, limits::task::removal_answer,
@@ -178,7 +180,7 @@ void remove_instance(coordinator_pointer self, const overdue_removal& what,
       .then(
           [self, what, done, until,
            uuid = entry->row.identity.uuid](const instances_removed& reply) {
-            self->state.desk.removals.settle(what);
+            self->state.pending.removals.settle(what);
             if (reply.waiting.empty()) {
               note_gone(self, uuid, what.instance);
               return done();
@@ -188,7 +190,7 @@ void remove_instance(coordinator_pointer self, const overdue_removal& what,
             await_safety(self, wait, done, until);
           },
           [self, what, done](const caf::error&) {
-            self->state.desk.removals.add(what, self->clock().now());
+            self->state.pending.removals.add(what, self->clock().now());
             set_timer(self);
             done();
           });
@@ -210,7 +212,7 @@ void force_removals(coordinator_pointer self, const std::string& task) {
 }
 
 void force_removals_on(coordinator_pointer self, const std::string& node) {
-  const auto waits = self->state.desk.unsafe;
+  const auto waits = self->state.pending.not_stop_safe;
   for (const auto& x : waits)
     if (x.wait.node == node)
       force_removal(self, x.wait);
@@ -219,7 +221,7 @@ void force_removals_on(coordinator_pointer self, const std::string& node) {
 std::vector<safety_wait> safety_waits_of(const cell_coordinator_state& st,
                                          const std::string& task) {
   std::vector<safety_wait> result;
-  for (const auto& x : st.desk.unsafe)
+  for (const auto& x : st.pending.not_stop_safe)
     if (x.wait.task == task)
       result.push_back(x.wait);
   return result;
@@ -231,7 +233,7 @@ void on_instance_gone(coordinator_pointer self, const std::string& node,
     return x.node == node && x.instance == instance;
   };
   // It has ended; what it has left is still to be removed.
-  self->state.desk.removals.settle({node, "", instance});
+  self->state.pending.removals.settle({node, "", instance});
   for (const auto& x : take_waits(self, is_it))
     remove_instance(self, {node, x.wait.task, instance}, [done = x.done] {
       if (done)
@@ -248,7 +250,7 @@ void give_up_waits_on(coordinator_pointer self, const std::string& node) {
 
 void give_up_late_waits(coordinator_pointer self) {
   std::vector<std::function<void()>> late;
-  for (auto& x : self->state.desk.unsafe)
+  for (auto& x : self->state.pending.not_stop_safe)
     if (x.until <= self->clock().now()) {
       // It is removed all the same when it has ended.
       x.until = time_point::max();
@@ -259,7 +261,8 @@ void give_up_late_waits(coordinator_pointer self) {
 }
 
 void ask_overdue_removals(coordinator_pointer self) {
-  for (const auto& x : self->state.desk.removals.take_due(self->clock().now()))
+  for (const auto& x :
+       self->state.pending.removals.take_due(self->clock().now()))
     remove_instance(self, x, [] {});
 }
 

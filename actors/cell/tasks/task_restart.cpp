@@ -3,10 +3,10 @@
 #include "actors/cell/moves/move_end.hpp"
 #include "actors/cell/moves/move_run.hpp"
 #include "actors/cell/tasks/ordered_stops.hpp"
+#include "actors/cell/tasks/placement_locks.hpp"
 #include "actors/cell/tasks/step_ends.hpp"
-#include "actors/cell/tasks/task_turns.hpp"
 #include "actors/cell/tasks/task_views.hpp"
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 #include "messages/failure.hpp"
 
 #include <algorithm>
@@ -75,18 +75,21 @@ void start_again(coordinator_pointer self, const move_ptr& move,
   run_move(self, move);
 }
 
-void take_turn_to_start(coordinator_pointer self, const std::string& task,
-                        const instance_list& wanted, const instance_list& stay,
-                        const done_handler& done) {
+void take_placement_lock_to_start(coordinator_pointer self,
+                                  const std::string& task,
+                                  const instance_list& wanted,
+                                  const instance_list& stay,
+                                  const done_handler& done) {
   auto move = std::make_shared<task_move>();
   move->what = "the instances of task '" + task + "'";
   move->kind = move_kind::restarted;
   move->done = done;
-  take_turn(self, caf::actor_addr{},
-            [self, move, task, wanted, stay](uint64_t turn) {
-              move->turn = turn;
-              start_again(self, move, task, wanted, stay);
-            });
+  take_placement_lock(
+      self, caf::actor_addr{},
+      [self, move, task, wanted, stay](uint64_t placement_lock) {
+        move->placement_lock = placement_lock;
+        start_again(self, move, task, wanted, stay);
+      });
 }
 
 /// Ends these instances of a task on their nodes, then goes on, with the first
@@ -199,19 +202,20 @@ void heal_task(coordinator_pointer self, const std::string& task,
              + "', which the cell does not have any more, and has no other "
                "place: ";
   }
-  take_turn_to_start(self, task, wanted, {}, [gone, done](const failure* why) {
-    if (!why || gone.empty())
-      return done(why);
-    auto problem = *why;
-    problem.message = gone + problem.message;
-    done(&problem);
-  });
+  take_placement_lock_to_start(self, task, wanted, {},
+                               [gone, done](const failure* why) {
+                                 if (!why || gone.empty())
+                                   return done(why);
+                                 auto problem = *why;
+                                 problem.message = gone + problem.message;
+                                 done(&problem);
+                               });
 }
 
 void start_ended(coordinator_pointer self, const std::string& task,
                  const std::vector<std::string>& instances,
                  const std::function<void(const failure*)>& done) {
-  take_turn_to_start(self, task, instances, {}, done);
+  take_placement_lock_to_start(self, task, instances, {}, done);
 }
 
 caf::result<task_restarted> restart_task(coordinator_pointer self,
@@ -244,8 +248,8 @@ caf::result<task_restarted> restart_task(coordinator_pointer self,
                   if (why)
                     finish(why);
                   else
-                    take_turn_to_start(self, request.task, plan.wanted,
-                                       plan.running, finish);
+                    take_placement_lock_to_start(
+                        self, request.task, plan.wanted, plan.running, finish);
                 });
   return promise;
 }

@@ -1,6 +1,6 @@
 #include "actors/cell/tasks/task_views.hpp"
 
-#include "actors/cell/moves/lost_steps.hpp"
+#include "actors/cell/moves/abandoned_steps.hpp"
 #include "actors/cell/streams/cell_streams.hpp"
 
 #include "messages/failure.hpp"
@@ -20,7 +20,7 @@ instance_row shown(const cell_coordinator_state& st, instance_row row) {
     const auto* node = st.registry.find_name(row.node);
     row.unknown_since_unix_ms =
         node ? node->row.since_unix_ms : row.since_unix_ms;
-    row.figures = {};
+    row.metrics = {};
   }
   if (row.unknown_since_unix_ms > 0)
     row.waits = wait_of_lost(st, row);
@@ -34,7 +34,7 @@ instance_row shown(const cell_coordinator_state& st, instance_row row) {
 bool is_healthy(const cell_coordinator_state& st, const deployment& x) {
   if (x.end)
     return x.end->state == instance_state::stopped && x.end->exit_code == 0;
-  const auto* row = st.deployments.told(x.node, x.spec.instance);
+  const auto* row = st.deployments.reported(x.node, x.spec.instance);
   if (!row)
     return false;
   if (row->state == instance_state::stopped)
@@ -111,8 +111,8 @@ caf::error unknown_thing(const std::string& what, const std::string& id) {
               "/" + what, "`roscell " + what + "s` lists them");
 }
 
-task_accepted standing_reply(const cell_coordinator_state& st,
-                             const std::string& task) {
+task_accepted status_reply(const cell_coordinator_state& st,
+                           const std::string& task) {
   const auto& entry = *st.tasks.find(task);
   auto result = reply_of(task, entry, st.deployments);
   result.found = found_as(state_now(st, task, entry));

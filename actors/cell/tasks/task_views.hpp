@@ -21,8 +21,8 @@ describe_instances(const cell_coordinator_state& st,
                    const instance_query& query);
 
 /// How a task that is known stands: its state, and what of it does not run.
-task_accepted standing_reply(const cell_coordinator_state& st,
-                             const std::string& task);
+task_accepted status_reply(const cell_coordinator_state& st,
+                           const std::string& task);
 
 /// How many tasks are in each state.
 std::vector<task_count> count_tasks(const cell_coordinator_state& st);

@@ -14,11 +14,11 @@ nodes_elsewhere(const cell_coordinator_state& st, const std::string& node) {
   std::map<std::string, named_node> result;
   st.peers.for_each_session([&](const std::string&, const peer_entry& peer) {
     for (const auto& [uuid, claim] : peer.members) {
-      if (!peer.told || claim.name != node)
+      if (!peer.reported || claim.name != node)
         continue;
       auto& known = result[uuid];
       if (!known.holder || known.claim.epoch < claim.epoch)
-        known = {peer.actor, claim, peer.standing.place.cell, {}};
+        known = {peer.actor, claim, peer.status.place.cell, {}};
     }
   });
   return result;

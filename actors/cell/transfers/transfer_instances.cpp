@@ -3,7 +3,7 @@
 #include "actors/cell/moves/task_move.hpp"
 #include "actors/cell/state/transfer_end.hpp"
 #include "actors/cell/tasks/task_endings.hpp"
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 #include "messages/failure.hpp"
 
 #include <utility>
@@ -31,11 +31,11 @@ void terminate_tasks(coordinator_pointer self, const std::string& id,
       .then(
           [=](const task_terminated& reply) {
             const auto go_on = [=] { terminate_tasks(self, id, tasks, next); };
-            // What is not safe yet is still on the node.
+            // What is not stop-safe yet is still on the node.
             if (reply.waiting.empty() || !self->state.tasks.find(task))
               go_on();
             else
-              self->state.desk.waiters[task].gone.push_back(go_on);
+              self->state.pending.waiters[task].gone.push_back(go_on);
           },
           [=](const caf::error& why) {
             call_off_transfer(self, id, to_failure(why));

@@ -34,10 +34,10 @@ std::optional<failure> objection_of_row(const cell_coordinator_state& st,
 } // namespace
 
 std::optional<failure> objection_to(coordinator_pointer self,
-                                    const transfer_wish& wish) {
+                                    const transfer_order& order) {
   auto& st = self->state;
-  const auto name = "node '" + wish.node + "'";
-  const auto* entry = st.registry.find_name(wish.node);
+  const auto name = "node '" + order.node + "'";
+  const auto* entry = st.registry.find_name(order.node);
   if (!entry)
     return failure{error_code::unknown_node, "no " + name + " is in any cell",
                    "/node", "`roscell nodes` lists those of a cell"};
@@ -46,31 +46,31 @@ std::optional<failure> objection_to(coordinator_pointer self,
                    name + " coordinates cell '" + st.setup.cell
                        + "': a coordination node cannot leave its cell",
                    "/node"};
-  if (wish.target == st.setup.cell)
+  if (order.target == st.setup.cell)
     return failure{error_code::conflict,
                    name + " is in cell '" + st.setup.cell + "' already",
                    "/target"};
   if (auto why = objection_of_row(st, *entry))
     return why;
-  if (!wish.target.empty() && !entry->member)
+  if (!order.target.empty() && !entry->member)
     return failure{error_code::unreachable,
                    name + " is " + std::string{to_word(entry->row.state)},
                    "/node", "try again when it is back"};
-  if (!wish.target.empty() && !st.peers.find_cell(wish.target))
+  if (!order.target.empty() && !st.peers.find_cell(order.target))
     return failure{error_code::unknown_cell,
-                   "no coordinator of a cell '" + wish.target
+                   "no coordinator of a cell '" + order.target
                        + "' is within reach",
                    "/target", "`roscell cells` lists them"};
-  return objection_to_instances(st, wish);
+  return objection_to_instances(st, order);
 }
 
 std::optional<failure> objection_to_instances(const cell_coordinator_state& st,
-                                              const transfer_wish& wish) {
-  const auto specs = st.deployments.bound_to(wish.node);
-  if (wish.instances != instance_policy::refuse || specs.empty())
+                                              const transfer_order& order) {
+  const auto specs = st.deployments.bound_to(order.node);
+  if (order.instances != instance_policy::refuse || specs.empty())
     return std::nullopt;
   return failure{error_code::conflict,
-                 "node '" + wish.node + "' runs, or is being sent, "
+                 "node '" + order.node + "' runs, or is being sent, "
                      + list_instances(specs),
                  "/instances",
                  "say \"terminate\" or \"reschedule\" to let it go"};

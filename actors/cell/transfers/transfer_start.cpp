@@ -6,7 +6,7 @@
 #include "actors/cell/state/transfer_end.hpp"
 #include "actors/cell/transfers/transfer_instances.hpp"
 #include "actors/cell/transfers/transfer_switch.hpp"
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 #include "messages/failure.hpp"
 
 #include <utility>
@@ -44,9 +44,9 @@ void drop_absent(coordinator_pointer self, const std::string& id) {
     return call_off_transfer(self, id, came_back(x->row.node));
   const auto name = x->row.node;
   drop_row(self, x->row.uuid);
-  st.context.tell("node_left", name,
-                  {{"reason", "it was released while it was away"},
-                   {"size", st.registry.active_count()}});
+  st.context.publish_event("node_left", name,
+                           {{"reason", "it was released while it was away"},
+                            {"size", st.registry.active_count()}});
   end_transfer(self, id, transfer_state::done,
                "the node was away and could not be told", nullptr);
 }
@@ -63,15 +63,16 @@ void release_absent(coordinator_pointer self, const std::string& id) {
 }
 
 void begin_departure(coordinator_pointer self, const std::string& id,
-                     const transfer_wish& wish, registry_entry& entry) {
+                     const transfer_order& order, registry_entry& entry) {
   auto& st = self->state;
   st.registry.depart(entry, now_of(self));
   publish(self, {entry.row.identity.uuid});
-  st.context.tell("node_departing", wish.node,
-                  {{"transfer", id}, {"to", wish.target}});
-  reserve_target(self, id, [self, id, wish] {
-    clear_instances(self, id, wish.instances,
-                    [self, id, wish] { order_switch(self, id, wish.origin); });
+  st.context.publish_event("node_departing", order.node,
+                           {{"transfer", id}, {"to", order.target}});
+  reserve_target(self, id, [self, id, order] {
+    clear_instances(self, id, order.instances, [self, id, order] {
+      order_switch(self, id, order.origin);
+    });
   });
 }
 
@@ -89,8 +90,8 @@ void end_unresolved(coordinator_pointer self, const std::string& uuid) {
 
 /// The proposed transfer is kept. What spoke against it is asked once more: the
 /// store took its time.
-void on_transfer_kept(coordinator_pointer self, const std::string& id,
-                      const transfer_wish& wish) {
+void on_transfer_persisted(coordinator_pointer self, const std::string& id,
+                           const transfer_order& order) {
   auto& st = self->state;
   if (const auto* proposed = st.transfers.find_proposed(id))
     end_unresolved(self, proposed->row.uuid);
@@ -102,32 +103,32 @@ void on_transfer_kept(coordinator_pointer self, const std::string& id,
   set_timer(self);
   auto* entry = st.registry.find_uuid(x->row.uuid);
   if (!entry)
-    return call_off_transfer(self, id, came_back(wish.node));
-  if (auto why = objection_to_instances(st, wish))
+    return call_off_transfer(self, id, came_back(order.node));
+  if (auto why = objection_to_instances(st, order))
     return call_off_transfer(self, id, *why);
   if (entry->member && entry->row.state == row_state::active)
-    return begin_departure(self, id, wish, *entry);
-  if (entry->member || !wish.target.empty())
-    return call_off_transfer(self, id, came_back(wish.node));
-  clear_instances(self, id, wish.instances,
+    return begin_departure(self, id, order, *entry);
+  if (entry->member || !order.target.empty())
+    return call_off_transfer(self, id, came_back(order.node));
+  clear_instances(self, id, order.instances,
                   [self, id] { release_absent(self, id); });
 }
 
 } // namespace
 
-void start_transfer(coordinator_pointer self, const transfer_wish& wish,
+void start_transfer(coordinator_pointer self, const transfer_order& order,
                     transfer_done done) {
   auto& st = self->state;
-  if (auto why = objection_to(self, wish))
+  if (auto why = objection_to(self, order))
     return refuse_transfer(done, *why);
-  const auto uuid = st.registry.find_name(wish.node)->row.identity.uuid;
-  const auto row =
-      st.transfers.propose(wish.node, uuid, wish.target, now_of(self).unix_ms);
+  const auto uuid = st.registry.find_name(order.node)->row.identity.uuid;
+  const auto row = st.transfers.propose(order.node, uuid, order.target,
+                                        now_of(self).unix_ms);
   const auto id = row.transfer;
   st.transfers.find_proposed(id)->waiting.push_back(std::move(done));
   keep_records(
       self, {record_of(row)},
-      [self, id, wish] { on_transfer_kept(self, id, wish); },
+      [self, id, order] { on_transfer_persisted(self, id, order); },
       [self, id](const failure& why) { withdraw_transfer(self, id, why); });
 }
 

@@ -8,7 +8,7 @@
 /// How the CELL COORDINATOR begins to let a member go.
 namespace roscell {
 
-struct transfer_wish {
+struct transfer_order {
   std::string node;
   std::string target; ///< Name of the cell; empty: independence.
   instance_policy instances = instance_policy::refuse;
@@ -17,15 +17,15 @@ struct transfer_wish {
 
 /// Why a node of this cell cannot go, if so.
 std::optional<failure> objection_to(coordinator_pointer self,
-                                    const transfer_wish& wish);
+                                    const transfer_order& order);
 
 /// The part of it that instances are: those of deploying tasks count.
 std::optional<failure> objection_to_instances(const cell_coordinator_state& st,
-                                              const transfer_wish& wish);
+                                              const transfer_order& order);
 
 /// Lets a node of this cell go. `done` hears of the outcome, or that it cannot
 /// be known in time.
-void start_transfer(coordinator_pointer self, const transfer_wish& wish,
+void start_transfer(coordinator_pointer self, const transfer_order& order,
                     transfer_done done);
 
 } // namespace roscell

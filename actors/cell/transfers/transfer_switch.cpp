@@ -4,7 +4,7 @@
 #include "actors/cell/state/coordinator_timer.hpp"
 #include "actors/cell/state/node_whereabouts.hpp"
 #include "actors/cell/state/transfer_end.hpp"
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 #include "messages/failure.hpp"
 
 namespace roscell {
@@ -21,9 +21,9 @@ registry_entry* find_departing(coordinator_pointer self,
              : nullptr;
 }
 
-failure fell_silent(const cell_transfer& x) {
-  return {error_code::unreachable, "node '" + x.row.node + "' fell silent",
-          "/node"};
+failure missed_heartbeats(const cell_transfer& x) {
+  return {error_code::unreachable,
+          "node '" + x.row.node + "' missed its heartbeats", "/node"};
 }
 
 /// What is asked of the node.
@@ -37,7 +37,7 @@ registration_switch order_for(const cell_coordinator_state& st,
   result.epoch = entry.row.identity.epoch;
   result.origin = origin;
   if (const auto* peer = st.peers.find_cell(x.row.to))
-    result.target = {peer->standing.place};
+    result.target = {peer->status.place};
   return result;
 }
 
@@ -76,13 +76,14 @@ void send_order(coordinator_pointer self, const std::string& id,
     return;
   const auto* entry = find_departing(self, *x);
   if (!entry)
-    return call_off_transfer(self, id, fell_silent(*x));
+    return call_off_transfer(self, id, missed_heartbeats(*x));
   const auto order = order_for(st, *x, *entry, origin);
   if (!x->row.to.empty() && order.target.empty())
     return call_off_transfer(
         self, id,
         {error_code::unreachable,
-         "the coordinator of cell '" + x->row.to + "' fell silent", "/target"});
+         "the coordinator of cell '" + x->row.to + "' missed its heartbeats",
+         "/target"});
   st.transfers.begin_switch(*x, row, self->clock().now());
   set_timer(self);
   self->request(entry->member, limits::membership::switching, order)
@@ -120,11 +121,11 @@ void reserve_target(coordinator_pointer self, const std::string& id,
 
 void order_switch(coordinator_pointer self, const std::string& id,
                   join_origin origin) {
-  auto& book = self->state.transfers;
-  const auto* x = book.find_open(id);
+  auto& table = self->state.transfers;
+  const auto* x = table.find_open(id);
   if (!x)
     return;
-  const auto row = book.switching_row(*x, now_of(self).unix_ms);
+  const auto row = table.switching_row(*x, now_of(self).unix_ms);
   keep_records(
       self, {record_of(row)}, [=] { send_order(self, id, row, origin); },
       [=](const failure& why) { call_off_transfer(self, id, why); });

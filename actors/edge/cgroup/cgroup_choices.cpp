@@ -49,9 +49,9 @@ fs::path rest_of(const std::string& where) {
 }
 
 void add_unified(const cgroup_mount& x, const cgroup_sight& sight,
-                 const cgroup_wish& wish, std::vector<place>& result) {
+                 const cgroup_request& request, std::vector<place>& result) {
   result.push_back({{x.point / prepared_unified, {}}});
-  if (wish.root)
+  if (request.root)
     result.push_back({{x.point / made_by_root, {}}});
   const auto* own = member_of(x, sight.own);
   const auto folder = own != nullptr ? folder_of(x, own->path) : std::nullopt;
@@ -76,18 +76,18 @@ bool has_version_1(const cgroup_sight& sight) {
                      [](const auto& x) { return !x.unified; });
 }
 
-std::vector<place> places_to_try(const cgroup_wish& wish,
+std::vector<place> places_to_try(const cgroup_request& request,
                                  const cgroup_sight& sight) {
   std::vector<place> result;
   const auto v1 = has_version_1(sight);
   const auto* unified = unified_of(sight);
-  if (wish.where == "none")
+  if (request.where == "none")
     return {};
-  if (wish.where != "auto") {
+  if (request.where != "auto") {
     if (v1)
-      result.push_back(in_each(sight, rest_of(wish.where)));
+      result.push_back(in_each(sight, rest_of(request.where)));
     else if (unified != nullptr)
-      result.push_back({{wish.where, {}}});
+      result.push_back({{request.where, {}}});
     return result;
   }
   // A host that has both uses version 1 for what limits.
@@ -95,7 +95,7 @@ std::vector<place> places_to_try(const cgroup_wish& wish,
     result.push_back(in_each(sight, prepared_v1));
     result.push_back(beside_in_each(sight));
   } else if (unified != nullptr) {
-    add_unified(*unified, sight, wish, result);
+    add_unified(*unified, sight, request, result);
   }
   return result;
 }

@@ -87,15 +87,15 @@ bool may_enter(const fs::path& folder, const cgroup_sight& sight) {
 }
 
 /// The same place, as it works; nothing with errno set where it does not.
-std::optional<cgroup_parent> ready(const cgroup_parent& wish,
-                                   const cgroup_wish& about,
+std::optional<cgroup_parent> ready(const cgroup_parent& request,
+                                   const cgroup_request& about,
                                    const cgroup_sight& sight, bool unified) {
-  cgroup_parent result{wish.folder / (node_prefix + about.node_uuid),
-                       wish.controllers};
+  cgroup_parent result{request.folder / (node_prefix + about.node_uuid),
+                       request.controllers};
   // Only root makes the place itself.
   if (about.root && unified)
-    make_folder(wish.folder);
-  if (unified && !may_enter(wish.folder, sight))
+    make_folder(request.folder);
+  if (unified && !may_enter(request.folder, sight))
     return std::nullopt;
   if (!make_parent(result) || ::access(result.folder.c_str(), W_OK) != 0)
     return std::nullopt;
@@ -129,11 +129,11 @@ void say_what_it_is(cgroup_place& x) {
 }
 
 /// The hierarchies of one place that can be written.
-cgroup_place made(const std::vector<cgroup_parent>& wish,
-                  const cgroup_wish& about, const cgroup_sight& sight,
+cgroup_place made(const std::vector<cgroup_parent>& request,
+                  const cgroup_request& about, const cgroup_sight& sight,
                   bool unified, std::string& why) {
   cgroup_place result;
-  for (const auto& x : wish)
+  for (const auto& x : request)
     if (auto parent = ready(x, about, sight, unified))
       result.parents.push_back(std::move(*parent));
     else if (why.empty())
@@ -182,17 +182,17 @@ cgroup_sight see_cgroups() {
                      .value_or(""))};
 }
 
-cgroup_place find_cgroup_place(const cgroup_wish& wish,
+cgroup_place find_cgroup_place(const cgroup_request& request,
                                const cgroup_sight& sight) {
-  if (wish.where == "none")
+  if (request.where == "none")
     return none("it was told so");
-  const auto all = places_to_try(wish, sight);
+  const auto all = places_to_try(request, sight);
   if (all.empty())
     return none("this host has no cgroups");
   std::string why;
   cgroup_place second;
   for (const auto& x : all) {
-    auto result = made(x, wish, sight, !has_version_1(sight), why);
+    auto result = made(x, request, sight, !has_version_1(sight), why);
     if (result.has("memory"))
       return result;
     if (second.version == 0)

@@ -27,7 +27,7 @@ struct cgroup_place {
   bool has(const std::string& controller) const;
 };
 
-struct cgroup_wish {
+struct cgroup_request {
   /// A folder of the cgroup file system, "auto" or "none".
   std::string where = "auto";
   std::string node_uuid; ///< Names the node's folder there.
@@ -52,7 +52,7 @@ cgroup_sight see_cgroups();
 /// The folders in which one may be made for the node, the best first: one list
 /// of alternatives, each a folder in one or several hierarchies. Pure.
 std::vector<std::vector<cgroup_parent>>
-places_to_try(const cgroup_wish& wish, const cgroup_sight& sight);
+places_to_try(const cgroup_request& request, const cgroup_sight& sight);
 
 /// Makes the folder of a parent, which is one of a node. False: it cannot.
 bool make_parent(const cgroup_parent& parent);
@@ -63,7 +63,7 @@ void remove_place(const cgroup_place& place);
 /// Makes the node's folder in the first place where it can, and turns on there
 /// what limits instances; empty folders of other nodes go. Fails never: the
 /// words say why there is none.
-cgroup_place find_cgroup_place(const cgroup_wish& wish,
+cgroup_place find_cgroup_place(const cgroup_request& request,
                                const cgroup_sight& sight);
 
 } // namespace roscell

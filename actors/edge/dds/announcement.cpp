@@ -1,6 +1,6 @@
 #include "actors/edge/dds/announcement.hpp"
 
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 
 #include <array>
 #include <charconv>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -48,8 +48,9 @@ std::string encode(const announcement& x);
 
 /// Reads a wire form. Unknown keys are ignored, absent ones stay empty, so
 /// that another protocol version can still be refused by its name. Gives none
-/// for the USER_DATA of strangers: whatever does not start with a version, is
-/// too long, repeats a key or is damaged. Never throws but for lack of memory.
+/// for the USER_DATA of unauthenticated peers: whatever does not start with a
+/// version, is too long, repeats a key or is damaged. Never throws but for lack
+/// of memory.
 std::optional<announcement> decode(std::string_view bytes);
 
 } // namespace roscell

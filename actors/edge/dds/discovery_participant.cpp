@@ -1,8 +1,8 @@
 #include "actors/edge/dds/discovery_participant.hpp"
 
+#include "actors/core/limits.hpp"
 #include "actors/edge/dds/announcement.hpp"
 #include "actors/edge/dds/rtps/discovery_transport.hpp"
-#include "actors/house/limits.hpp"
 
 #include <fastdds/rtps/RTPSDomain.h>
 #include <fastdds/rtps/participant/ParticipantDiscoveryInfo.h>

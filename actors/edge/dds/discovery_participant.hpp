@@ -1,10 +1,10 @@
 #pragma once
 
+#include "actors/core/limits.hpp"
 #include "actors/edge/dds/discovery_sighting.hpp"
 #include "actors/edge/dds/lives/discovery_guard.hpp"
 #include "actors/edge/dds/ros_graph.hpp"
 #include "actors/edge/io/edge_error.hpp"
-#include "actors/house/limits.hpp"
 #include "dds/participant_ids.hpp"
 
 #include <chrono>

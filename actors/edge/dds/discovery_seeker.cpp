@@ -39,7 +39,8 @@ int to_timeout(std::chrono::milliseconds limit) {
 std::optional<server_sighting> sighting_in(std::vector<std::uint8_t>& message) {
   const auto prefix = probe_answer(message.data(), message.size());
   const auto id = prefix ? server_id_of(*prefix) : std::nullopt;
-  auto said = id ? own_words_in(message.data(), message.size()) : std::nullopt;
+  auto said =
+      id ? own_announcement_in(message.data(), message.size()) : std::nullopt;
   if (!said)
     return std::nullopt;
   return server_sighting{*id, *prefix, std::move(said->announcement)};

@@ -104,7 +104,8 @@ public:
     participant_ = rtps_participant::create(
         options.domain_id, server_attributes(options, port, guard_),
         [this](const sighting& seen) { on_client(seen); }, graph_);
-    if (participant_ == nullptr || (introducer_ && !learn_words(options)))
+    if (participant_ == nullptr
+        || (introducer_ && !learn_announcement(options)))
       return false;
     guard_->speak(options.announcement);
     graph_->begin_service();
@@ -185,13 +186,13 @@ private:
     return true;
   }
 
-  bool learn_words(const cell_server_options& options) {
+  bool learn_announcement(const cell_server_options& options) {
     server_readiness own{*to_socket_address(options.address, port_),
                          [this] { participant_->announce(); }};
     auto words = own.wait(ready_limit);
     if (!words)
       return false;
-    introducer_->set_words(*std::move(words));
+    introducer_->set_announcement(*std::move(words));
     return true;
   }
 

@@ -11,7 +11,7 @@ namespace roscell {
 ///
 /// - `ROS_DISCOVERY_SERVER`, `FASTDDS_ENVIRONMENT_FILE` and
 ///   `FASTRTPS_DEFAULT_PROFILES_FILE` are unset: the first would turn simple
-///   participants into clients and make our servers join a stranger's, the
+///   participants into clients and make our servers join a foreign one, the
 ///   others can bring it back or alter every default. Children that need them
 ///   must be given them.
 /// - `SKIP_DEFAULT_XML=1` is set, so that no file in the working directory

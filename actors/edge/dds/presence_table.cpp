@@ -1,6 +1,6 @@
 #include "actors/edge/dds/presence_table.hpp"
 
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -18,8 +18,8 @@ bool same_subject(const announcement& x, const announcement& y) {
 } // namespace
 
 /// What was killed and has started again is there, though its former presence
-/// ends only now. What it says is told anew, as a stranger may have claimed its
-/// UUID for a while.
+/// ends only now. What it says is told anew, as an unauthenticated peer may
+/// have claimed its UUID for a while.
 presence_table::change presence_table::succession(const announcement& former,
                                                   time_point now) {
   const auto heir =
@@ -28,7 +28,7 @@ presence_table::change presence_table::succession(const announcement& former,
       });
   if (heir == known_.end())
     return {true, former};
-  heir->second.told = now;
+  heir->second.reported = now;
   return {false, heir->second.said};
 }
 
@@ -38,7 +38,7 @@ presence_table::outcome presence_table::remember(const guid_prefix& who,
   outcome result;
   const auto i = known_.find(who);
   if (i == known_.end()) {
-    if (known_.size() >= limits::strangers::participants)
+    if (known_.size() >= limits::unauthenticated_peers::participants)
       return result;
     known_.emplace(who, entry{said, now});
     result.newcomer = true;
@@ -46,10 +46,11 @@ presence_table::outcome presence_table::remember(const guid_prefix& who,
     return result;
   }
   auto& x = i->second;
-  if (x.said == said && now - x.told < limits::strangers::retelling)
+  if (x.said == said
+      && now - x.reported < limits::unauthenticated_peers::retelling)
     return result;
   const auto former = std::exchange(x.said, said);
-  x.told = now;
+  x.reported = now;
   if (!same_subject(former, said))
     result.changes.push_back(succession(former, now));
   result.changes.push_back({false, said});

@@ -40,7 +40,7 @@ public:
 private:
   struct entry {
     announcement said;
-    time_point told;
+    time_point reported;
   };
 
   change succession(const announcement& former, time_point now);

@@ -1,10 +1,10 @@
 #include "actors/edge/dds/public_presence.hpp"
 
+#include "actors/core/limits.hpp"
 #include "actors/edge/dds/discovery_address.hpp"
 #include "actors/edge/dds/discovery_participant.hpp"
 #include "actors/edge/dds/herald.hpp"
 #include "actors/edge/dds/presence_table.hpp"
-#include "actors/house/limits.hpp"
 
 #include <charconv>
 #include <random>
@@ -159,7 +159,7 @@ private:
   void on_sighting(const sighting& seen) {
     if (seen.what == sighting::kind::left || seen.what == sighting::kind::lost)
       for (const auto& x : known_.forget(seen.prefix, clock::now()))
-        tell(x);
+        report_change(x);
     else if (auto said = decode(seen.announcement))
       remember(seen.prefix, *said);
   }
@@ -169,10 +169,10 @@ private:
     if (outcome.newcomer)
       herald_.ask();
     for (const auto& x : outcome.changes)
-      tell(x);
+      report_change(x);
   }
 
-  void tell(const presence_table::change& x) {
+  void report_change(const presence_table::change& x) {
     const auto& event = x.gone ? events_.on_gone : events_.on_seen;
     if (event)
       event(x.said);

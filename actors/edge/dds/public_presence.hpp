@@ -1,8 +1,8 @@
 #pragma once
 
+#include "actors/core/limits.hpp"
 #include "actors/edge/dds/announcement.hpp"
 #include "actors/edge/io/edge_error.hpp"
-#include "actors/house/limits.hpp"
 
 #include <chrono>
 #include <cstdint>

@@ -48,7 +48,7 @@ void ros_graph::name_participant(const guid_prefix& who,
       return;
     names_[who] = name;
   }
-  tell();
+  report_change();
 }
 
 void ros_graph::remove_participant(const guid_prefix& who) {
@@ -58,7 +58,7 @@ void ros_graph::remove_participant(const guid_prefix& who) {
     for (auto i = endpoints_.begin(); i != endpoints_.end();)
       i = prefix_of(i->first) == who ? endpoints_.erase(i) : std::next(i);
   }
-  tell();
+  report_change();
 }
 
 void ros_graph::add(const endpoint_guid& which, graph_endpoint end) {
@@ -72,7 +72,7 @@ void ros_graph::add(const endpoint_guid& which, graph_endpoint end) {
       return;
     endpoints_[which] = std::move(end);
   }
-  tell();
+  report_change();
 }
 
 void ros_graph::remove(const endpoint_guid& which) {
@@ -81,7 +81,7 @@ void ros_graph::remove(const endpoint_guid& which) {
     if (endpoints_.erase(which) == 0)
       return;
   }
-  tell();
+  report_change();
 }
 
 void ros_graph::begin_service() {
@@ -89,7 +89,7 @@ void ros_graph::begin_service() {
     const std::lock_guard guard{mutex_};
     ++servers_;
   }
-  tell();
+  report_change();
 }
 
 void ros_graph::end_service() {
@@ -100,7 +100,7 @@ void ros_graph::end_service() {
       endpoints_.clear();
     }
   }
-  tell();
+  report_change();
 }
 
 bool ros_graph::is_served() {
@@ -110,7 +110,7 @@ bool ros_graph::is_served() {
 
 std::vector<graph_endpoint> ros_graph::endpoints() {
   const std::lock_guard guard{mutex_};
-  told_ = false;
+  reported_ = false;
   std::vector<graph_endpoint> result;
   for (const auto& [guid, end] : endpoints_) {
     result.push_back(end);
@@ -124,18 +124,18 @@ void ros_graph::watch(std::function<void()> on_change) {
   {
     const std::lock_guard guard{mutex_};
     on_change_ = std::move(on_change);
-    told_ = false;
+    reported_ = false;
   }
-  tell();
+  report_change();
 }
 
-void ros_graph::tell() {
+void ros_graph::report_change() {
   std::function<void()> call;
   {
     const std::lock_guard guard{mutex_};
-    if (told_ || !on_change_)
+    if (reported_ || !on_change_)
       return;
-    told_ = true;
+    reported_ = true;
     call = on_change_;
   }
   call();

@@ -77,13 +77,13 @@ public:
   void watch(std::function<void()> on_change);
 
 private:
-  void tell();
+  void report_change();
 
   std::mutex mutex_;
   std::map<guid_prefix, std::string> names_;
   std::map<endpoint_guid, graph_endpoint> endpoints_;
   std::function<void()> on_change_;
-  bool told_ = false;
+  bool reported_ = false;
   int servers_ = 0; ///< One may begin before the one before has ended.
 };
 

@@ -60,12 +60,12 @@ private:
   void run() {
     while (!closing_)
       if (auto seen = seeker_.seek(wake_)) {
-        tell(*seen);
+        report_change(*seen);
         wake_.wait(longest_pause);
       }
   }
 
-  void tell(const server_sighting& seen) {
+  void report_change(const server_sighting& seen) {
     if (closing_ || known_ == seen.announcement)
       return;
     known_ = seen.announcement;

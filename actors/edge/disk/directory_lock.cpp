@@ -46,7 +46,7 @@ std::optional<edge_error> refusal_of_folder(const fs::path& folder) {
   return edge_error{error_code::unauthorized,
                     "the data directory '" + folder.string()
                         + "' is not taken: " + fault,
-                    "choose a --data-dir that is of " + user_words(::geteuid())
+                    "choose a --data-dir that is of " + user_text(::geteuid())
                         + " alone; chmod go-w takes the right to write from "
                           "others"};
 }

@@ -141,7 +141,7 @@ void add_file(sha256& sum, const fs::path& path, uint64_t& bytes_left) {
 }
 
 void add_look(sha256& sum, const fs::path& folder, const fs::path& name,
-              folder_look& look) {
+              folder_fingerprint& look) {
   struct stat info {};
   if (::lstat((folder / name).c_str(), &info) != 0)
     unreadable(folder / name, std::strerror(errno));
@@ -160,11 +160,11 @@ void add_look(sha256& sum, const fs::path& folder, const fs::path& name,
 
 } // namespace
 
-edge_result<folder_look> look_at_folder(const fs::path& folder,
-                                        const folder_limits& limits) {
+edge_result<folder_fingerprint> read_folder(const fs::path& folder,
+                                            const folder_limits& limits) {
   try {
     sha256 sum;
-    folder_look result;
+    folder_fingerprint result;
     for (const auto& name : list(folder, limits))
       add_look(sum, folder, name, result);
     result.state = sum.hex();

@@ -26,7 +26,7 @@ edge_result<std::string> hash_folder(const std::filesystem::path& folder,
                                      const folder_limits& limits = {});
 
 /// How a folder looks without reading its files.
-struct folder_look {
+struct folder_fingerprint {
   /// Differs once a file has been added, removed, replaced or written.
   std::string state;
   int64_t changed_unix_ms = 0; ///< When one of its files last changed.
@@ -36,7 +36,7 @@ struct folder_look {
 /// can set back) of the files that `hash_folder` would read.
 ///
 /// Errors: as `hash_folder`.
-edge_result<folder_look> look_at_folder(const std::filesystem::path& folder,
-                                        const folder_limits& limits = {});
+edge_result<folder_fingerprint> read_folder(const std::filesystem::path& folder,
+                                            const folder_limits& limits = {});
 
 } // namespace roscell

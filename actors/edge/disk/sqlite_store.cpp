@@ -241,8 +241,8 @@ void sqlite_store::count_written() {
 bool sqlite_store::lacks_room() const {
   const int code = sqlite3_errcode(db_.get()) & 0xff;
   // SQLite forgets it when a commit fails.
-  const int told = sqlite3_system_errno(db_.get());
-  const int number = told != 0 ? told : step_errno_;
+  const int reported = sqlite3_system_errno(db_.get());
+  const int number = reported != 0 ? reported : step_errno_;
   return code == SQLITE_FULL
          || ((code == SQLITE_IOERR || code == SQLITE_CANTOPEN)
              && (number == EDQUOT || number == EFBIG || number == ENOSPC));

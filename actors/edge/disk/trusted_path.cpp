@@ -43,7 +43,7 @@ std::optional<struct stat> look_at(const fs::path& path, bool follow) {
 }
 
 std::string belongs_to(uid_t user) {
-  return "belongs to " + user_words(user);
+  return "belongs to " + user_text(user);
 }
 
 std::string quote(const fs::path& path) {
@@ -78,7 +78,7 @@ std::string fault_on(const fs::path& path) {
 
 } // namespace
 
-std::string user_words(uid_t user) {
+std::string user_text(uid_t user) {
   std::array<char, 4096> room{};
   struct passwd entry {};
   struct passwd* found = nullptr;

@@ -19,6 +19,6 @@ std::string who_may_change(const std::filesystem::path& path);
 std::string who_may_replace(const std::filesystem::path& path);
 
 /// "user 'nils'", or "user 1000" where he has no name.
-std::string user_words(uid_t user);
+std::string user_text(uid_t user);
 
 } // namespace roscell

@@ -1,7 +1,7 @@
 #include "actors/edge/engine/build_context.hpp"
 
+#include "actors/core/limits.hpp"
 #include "actors/edge/process/process_spawner.hpp"
-#include "actors/house/limits.hpp"
 
 #include <cerrno>
 #include <chrono>

@@ -1,7 +1,7 @@
 #include "actors/edge/engine/engine_client.hpp"
 
-#include "actors/edge/engine/engine_words.hpp"
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
+#include "actors/edge/engine/engine_text.hpp"
 
 #include <system_error>
 #include <utility>
@@ -25,7 +25,7 @@ http_call to_call(const std::string& socket, engine_request what) {
 }
 
 /// Why an engine gave no reply, with the remedy.
-edge_error engine_trouble(const std::string& socket, const http_failure& why,
+edge_error engine_problem(const std::string& socket, const http_failure& why,
                           std::chrono::milliseconds limit,
                           const std::string& file) {
   const auto engine = "the container engine on '" + socket + "'";
@@ -41,14 +41,14 @@ edge_error engine_trouble(const std::string& socket, const http_failure& why,
     return {error_code::timeout,
             engine + " did not answer within "
                 + std::to_string(limit.count() / 1000) + " s",
-            "look into the engine's own log: " + engine_log_command(socket)};
+            "see the engine's own log: " + engine_log_command(socket)};
   case http_failure::kind::cut_off:
     return {error_code::unreachable,
             engine + " went away: it broke the connection",
             "is it being restarted? " + engine_log_command(socket) + " tells"};
   case http_failure::kind::too_long:
     return {error_code::unreachable, engine + " gave an answer without an end",
-            "look into the engine's own log: " + engine_log_command(socket)};
+            "see the engine's own log: " + engine_log_command(socket)};
   default:
     return {error_code::unreachable,
             engine + " gave no answer that can be read: " + why.reason,
@@ -71,7 +71,7 @@ end_of_call(const std::string& socket, const engine_request& what,
       auto& reply = std::get<http_reply>(outcome);
       on_end(engine_reply{reply.status, std::move(reply.body)});
     } else if (why->what != http_failure::kind::stopped) {
-      on_end(engine_trouble(socket, *why, limit, file));
+      on_end(engine_problem(socket, *why, limit, file));
     }
   };
 }

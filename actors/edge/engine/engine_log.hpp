@@ -1,7 +1,7 @@
 #pragma once
 
+#include "actors/core/limits.hpp"
 #include "actors/edge/process/instance_log.hpp"
-#include "actors/house/limits.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,9 +1,9 @@
 #include "actors/edge/engine/engine_search.hpp"
 
-#include "actors/edge/engine/engine_words.hpp"
+#include "actors/core/limits.hpp"
+#include "actors/edge/engine/engine_text.hpp"
 #include "actors/edge/http/client/http_client.hpp"
 #include "actors/edge/io/unique_fd.hpp"
-#include "actors/house/limits.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -57,9 +57,9 @@ std::string unix_path(const char* address) {
 /// The folder for the sockets of a user's own services. A node that no login
 /// has started has no variable that tells.
 std::string user_folder() {
-  const char* told = std::getenv("XDG_RUNTIME_DIR");
-  return told != nullptr && *told != '\0'
-             ? std::string{told}
+  const char* reported = std::getenv("XDG_RUNTIME_DIR");
+  return reported != nullptr && *reported != '\0'
+             ? std::string{reported}
              : "/run/user/" + std::to_string(::geteuid());
 }
 
@@ -75,7 +75,7 @@ edge_result<http_reply> ask(const std::string& socket,
     return edge_error{why->code,
                       "the container engine on '" + socket
                           + "' does not answer: " + why->message,
-                      "look into the engine's own log: "
+                      "see the engine's own log: "
                           + engine_log_command(socket)};
   return std::get<http_reply>(std::move(answer));
 }

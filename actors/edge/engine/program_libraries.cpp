@@ -1,8 +1,8 @@
 #include "actors/edge/engine/program_libraries.hpp"
 
+#include "actors/core/limits.hpp"
 #include "actors/edge/process/process_spawner.hpp"
-#include "actors/edge/program/elf_facts.hpp"
-#include "actors/house/limits.hpp"
+#include "actors/edge/program/elf_properties.hpp"
 
 #include <link.h>
 #include <sys/stat.h>
@@ -43,8 +43,8 @@ fs::path own_linker() {
 
 /// Whether the dynamic linker can be asked what a file loads.
 bool may_load(const fs::path& path) {
-  const auto facts = read_elf(path);
-  return facts && !facts->is_static;
+  const auto properties = read_elf(path);
+  return properties && !properties->is_static;
 }
 
 /// Everything in the folder that may load libraries, `program` first.
@@ -70,7 +70,7 @@ bool lies_in(const fs::path& path, const fs::path& folder) {
   return !inside.empty() && *inside.begin() != "..";
 }
 
-bool read_facts(shared_library& library) {
+bool read_properties(shared_library& library) {
   struct stat info {};
   if (::stat(library.file.c_str(), &info) != 0)
     return false;
@@ -91,7 +91,7 @@ edge_result<shared_library> look_at(const needed_library& needed) {
   shared_library result;
   result.name = needed.name;
   result.file = fs::canonical(needed.path, error);
-  if (error || !read_facts(result))
+  if (error || !read_properties(result))
     return edge_error{error_code::internal,
                       "cannot read the library '" + needed.path + "'", ""};
   return result;
@@ -101,7 +101,7 @@ edge_result<shared_library> look_at(const needed_library& needed) {
 
 bool is_still(const shared_library& library) {
   auto now = library;
-  return read_facts(now) && now.bytes == library.bytes
+  return read_properties(now) && now.bytes == library.bytes
          && now.modified_unix_s == library.modified_unix_s;
 }
 
@@ -203,11 +203,11 @@ edge_result<std::vector<needed_library>> list_libraries(const fs::path& path) {
 edge_result<std::vector<std::string>>
 missing_libraries(const fs::path& program) {
   const auto own = read_elf(own_linker());
-  const auto facts = read_elf(program);
+  const auto properties = read_elf(program);
   std::vector<std::string> result;
   // One for another machine that this host emulates has a linker of its own.
-  if (!facts || facts->is_static || !own
-      || facts->architecture != own->architecture)
+  if (!properties || properties->is_static || !own
+      || properties->architecture != own->architecture)
     return result;
   auto list = list_libraries(program);
   if (auto* error = std::get_if<edge_error>(&list))

@@ -1,7 +1,7 @@
 #include "actors/edge/history/event_files.hpp"
 
+#include "actors/core/limits.hpp"
 #include "actors/edge/history/event_lines.hpp"
-#include "actors/house/limits.hpp"
 
 #include <algorithm>
 #include <fstream>

@@ -1,8 +1,8 @@
 #include "actors/edge/history/event_numbers.hpp"
 
+#include "actors/core/limits.hpp"
 #include "actors/edge/disk/small_file.hpp"
 #include "actors/edge/io/unique_fd.hpp"
-#include "actors/house/limits.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>

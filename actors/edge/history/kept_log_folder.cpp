@@ -1,8 +1,8 @@
 #include "actors/edge/history/kept_log_folder.hpp"
 
+#include "actors/core/limits.hpp"
 #include "actors/edge/disk/small_file.hpp"
 #include "actors/edge/history/kept_files.hpp"
-#include "actors/house/limits.hpp"
 #include "schemas/decode.hpp"
 #include "schemas/document.hpp"
 #include "schemas/message_catalogue.hpp"
@@ -140,7 +140,7 @@ kept_logs kept_log_folder::list(const kept_logs_query& query) const {
   for (const auto& x : entries()) {
     if (!query.instance.empty() && x.instance != query.instance)
       continue;
-    if (result.logs.size() >= limits::history::told_logs)
+    if (result.logs.size() >= limits::history::listed_logs)
       break;
     auto about = read(x);
     if (!about)

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "actors/core/limits.hpp"
 #include "actors/edge/host/gpu_probe.hpp"
-#include "actors/house/limits.hpp"
 #include "messages/resources.hpp"
 
 #include <chrono>

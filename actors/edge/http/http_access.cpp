@@ -65,7 +65,7 @@ find_caller(const http_access& access, const http::request_header<>& x,
             const std::string& path) {
   if (!names_host(access, x))
     return http_refusal{403, error_code::unauthorized,
-                        "this server is not called by that name", ""};
+                        "the Host header does not name this server", ""};
   if (has_token(access, x))
     return http_caller::trusted;
   if (access.has_secret(path)) {
@@ -75,7 +75,7 @@ find_caller(const http_access& access, const http::request_header<>& x,
     return http_caller::trusted;
   }
   if (contains(access.public_paths, path))
-    return http_caller::stranger;
+    return http_caller::unauthenticated_peer;
   return http_refusal{
       401, error_code::unauthorized, "the bearer token is missing or wrong",
       "the node wrote it to its data directory; on the node's own host "

@@ -36,8 +36,8 @@ struct http_refusal {
 
 /// Whom a request comes from that is not refused.
 enum class http_caller {
-  stranger, ///< Who asks for a public path.
-  trusted,  ///< Who has shown the token or the secret.
+  unauthenticated_peer, ///< Who asks for a public path.
+  trusted,              ///< Who has shown the token or the secret.
 };
 
 /// What the header of a request for `path` tells of who asks.

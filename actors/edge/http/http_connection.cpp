@@ -1,10 +1,10 @@
 #include "actors/edge/http/http_connection.hpp"
 
+#include "actors/core/limits.hpp"
 #include "actors/edge/http/error_body.hpp"
 #include "actors/edge/http/http_paths.hpp"
 #include "actors/edge/http/http_sink.hpp"
 #include "actors/edge/http/http_target.hpp"
-#include "actors/house/limits.hpp"
 
 #include <boost/asio/buffer.hpp>
 #include <boost/asio/write.hpp>
@@ -177,7 +177,7 @@ bool http_connection::on_header() {
     refuse_request(why->status, why->code, why->message, why->hint);
     return false;
   }
-  if (std::get<http_caller>(caller) == http_caller::stranger)
+  if (std::get<http_caller>(caller) == http_caller::unauthenticated_peer)
     return check_body(shared_->limits.public_body_bytes);
   if (!shared_->table.promote(this, http_group::trusted)) {
     refuse_crowd();
@@ -190,7 +190,7 @@ bool http_connection::on_header() {
 void http_connection::refuse_crowd() {
   if (!parser_)
     parser_.emplace();
-  const auto words = crowd_words();
+  const auto words = crowd_error();
   refuse_request(503, words.code, words.message, words.hint);
 }
 

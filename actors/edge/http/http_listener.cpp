@@ -1,7 +1,7 @@
 #include "actors/edge/http/http_listener.hpp"
 
+#include "actors/core/limits.hpp"
 #include "actors/edge/http/http_connection.hpp"
-#include "actors/house/limits.hpp"
 
 #include <cerrno>
 #include <system_error>
@@ -82,7 +82,7 @@ void http_listener::rest() {
   if (!std::exchange(complained_, true))
     shared_->core->log("cannot take connections: "
                        + std::generic_category().message(why));
-  shared_->table.evict_from(http_group::strangers);
+  shared_->table.evict_from(http_group::unauthenticated_peers);
   pause_.expires_after(limits::http::shortage_pause);
   pause_.async_wait([self = shared_from_this()](error ec) {
     if (!ec && self->listening_.is_open())
@@ -91,7 +91,8 @@ void http_listener::rest() {
 }
 
 void http_listener::admit(int fd) {
-  const auto group = local_ ? http_group::local : http_group::strangers;
+  const auto group =
+      local_ ? http_group::local : http_group::unauthenticated_peers;
   const bool has_room = shared_->table.make_room(group);
   error ec;
   stream_socket socket{shared_->core->context()};

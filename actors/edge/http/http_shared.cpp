@@ -7,15 +7,15 @@
 
 namespace roscell {
 
-edge_error crowd_words() {
+edge_error crowd_error() {
   return {error_code::conflict, "too many clients are connected",
           "ask again in a moment; clients that follow events or logs keep "
           "their places until they end"};
 }
 
 connection_table::connection_table(const http_limits& limits)
-    : limits_{limits.strangers, limits.joining, limits.trusted, limits.local,
-              limits.refused},
+    : limits_{limits.unauthenticated_peers, limits.joining, limits.trusted,
+              limits.local, limits.refused},
       waiting_limit_(limits.waiting) {
   // nop
 }
@@ -25,8 +25,8 @@ bool connection_table::full(http_group group) {
 }
 
 bool connection_table::make_room(http_group group) {
-  const bool unproven =
-      group == http_group::strangers || group == http_group::joining;
+  const bool unproven = group == http_group::unauthenticated_peers
+                        || group == http_group::joining;
   if (unproven && full(group))
     evict_from(group);
   return !full(group)
@@ -73,7 +73,7 @@ bool connection_table::promote(const http_connection* connection,
   const auto i = entries_.find(connection);
   if (i == entries_.end())
     return false;
-  if (i->second.group != http_group::strangers)
+  if (i->second.group != http_group::unauthenticated_peers)
     return true;
   if (!make_room(group))
     return false;

@@ -18,15 +18,15 @@ namespace roscell {
 class http_connection;
 
 /// What a client is told for whom there is no room.
-edge_error crowd_words();
+edge_error crowd_error();
 
 /// Whom a connection comes from; each group has its own allowance.
 enum class http_group {
-  strangers, ///< TCP, no bearer token shown yet.
-  joining,   ///< TCP, asks for a session, and has proved nothing yet.
-  trusted,   ///< TCP, showed it.
-  local,     ///< The Unix socket.
-  refused,   ///< There is no room: is being told so.
+  unauthenticated_peers, ///< TCP, no bearer token shown yet.
+  joining, ///< TCP, asks for a session, and has proved nothing yet.
+  trusted, ///< TCP, showed it.
+  local,   ///< The Unix socket.
+  refused, ///< There is no room: is being told so.
 };
 
 /// INTERNAL to this folder: the connections of one server. Io thread only.
@@ -46,7 +46,7 @@ public:
   void add(const std::shared_ptr<http_connection>& connection,
            http_group group);
 
-  /// Moves a stranger to another group; false if there is no room.
+  /// Moves an unauthenticated peer to another group; false if there is no room.
   bool promote(const http_connection* connection, http_group group);
 
   void remove(const http_connection* connection);

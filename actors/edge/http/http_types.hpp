@@ -1,6 +1,6 @@
 #pragma once
 
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 #include "messages/error_code.hpp"
 
 #include <atomic>
@@ -24,7 +24,7 @@ struct http_limits {
   std::chrono::milliseconds idle = limits::http::idle;
   std::chrono::milliseconds write = limits::http::write;
   std::chrono::milliseconds grace = limits::http::grace;
-  size_t strangers = limits::http::strangers;
+  size_t unauthenticated_peers = limits::http::unauthenticated_peers;
   size_t joining = limits::http::joining;
   size_t trusted = limits::http::trusted;
   size_t local = limits::http::local;

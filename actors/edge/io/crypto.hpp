@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-/// The few cryptographic helpers of sessions, beats and tokens.
+/// The few cryptographic helpers of sessions, heartbeats and tokens.
 /// All of them may be called from any thread.
 namespace roscell {
 

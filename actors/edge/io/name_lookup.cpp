@@ -1,8 +1,8 @@
 #include "actors/edge/io/name_lookup.hpp"
 
+#include "actors/core/limits.hpp"
 #include "actors/edge/io/io_core.hpp"
 #include "actors/edge/io/socket_address.hpp"
-#include "actors/house/limits.hpp"
 
 #include <boost/asio/steady_timer.hpp>
 
@@ -36,7 +36,7 @@ edge_error no_such_host(const std::string& host, const std::string& why) {
 edge_error no_answer(const std::string& host) {
   return {error_code::timeout,
           "the name '" + host + "' does not resolve: no name server answers",
-          "look after the name server, or give the IPv4 address"};
+          "check the name server, or give the IPv4 address"};
 }
 
 /// Asks and waits, for as long as the system likes.
@@ -81,7 +81,7 @@ edge_error too_many(const std::string& host) {
           "the name '" + host + "' is not looked up: "
               + std::to_string(limits::membership::lookups)
               + " others have no answer yet",
-          "look after the name server, or give the IPv4 address"};
+          "check the name server, or give the IPv4 address"};
 }
 
 edge_error no_thread(const std::string& host, const std::string& why) {
@@ -128,15 +128,15 @@ public:
             self->finish(no_answer(host));
         });
     // The thread may outlive the node, but keeps nothing of it alive.
-    auto tell = [core = std::weak_ptr<io_core>{core_},
-                 self = weak_from_this()](const answer& x) {
+    auto report = [core = std::weak_ptr<io_core>{core_},
+                   self = weak_from_this()](const answer& x) {
       if (const auto loop = core.lock())
         loop->post([self, x] {
           if (const auto question = self.lock())
             question->finish(x);
         });
     };
-    if (auto why = resolve_apart(host, std::move(tell)))
+    if (auto why = resolve_apart(host, std::move(report)))
       finish(*std::move(why));
   }
 
@@ -198,7 +198,7 @@ resolved_hosts await_hosts(const std::vector<std::string>& hosts,
     const auto found = await_host(host.substr(0, colon),
                                   std::max(left, std::chrono::milliseconds{0}));
     if (const auto* why = std::get_if<edge_error>(&found))
-      result.trouble += (result.trouble.empty() ? "" : "; ") + why->message;
+      result.problem += (result.problem.empty() ? "" : "; ") + why->message;
     else
       result.addresses.push_back(std::get<std::string>(found)
                                  + host.substr(colon));

@@ -26,7 +26,7 @@ edge_result<std::string> await_host(const std::string& host,
 /// Hosts in numbers, as far as their names resolve.
 struct resolved_hosts {
   std::vector<std::string> addresses; ///< As they came: "ADDR[:PORT]".
-  std::string trouble; ///< Of the names that do not; empty: there are none.
+  std::string problem; ///< Of the names that do not; empty: there are none.
 };
 
 /// Looks up the hosts in "HOST[:PORT]", waiting no longer than `limit` for all

@@ -2,7 +2,8 @@
 
 #include <string_view>
 
-/// What strangers may call themselves: it ends up in replies and logs.
+/// What unauthenticated peers may call themselves: it ends up in replies and
+/// logs.
 namespace roscell {
 
 /// Whether the byte is an ASCII control character.

@@ -1,8 +1,8 @@
 #include "actors/edge/process/child_watch.hpp"
 
+#include "actors/core/limits.hpp"
 #include "actors/edge/io/io_core.hpp"
 #include "actors/edge/process/notify_socket.hpp"
-#include "actors/house/limits.hpp"
 
 #include <chrono>
 #include <utility>
@@ -29,7 +29,7 @@ fd_watch watch_notifications(const std::shared_ptr<io_core>& core,
             hear(notify_socket->get(), call);
             return true;
           },
-          limits::instance::words_pause};
+          limits::instance::status_pause};
 }
 
 void hear_notifications(const std::shared_ptr<io_core>& core,

@@ -37,8 +37,8 @@ void make_environment_file(const fs::path& file) {
   ::mkfifo(file.c_str(), 0600);
 }
 
-bool tell_environment(const fs::path& file,
-                      const std::map<std::string, std::string>& variables) {
+bool write_environment_update(
+    const fs::path& file, const std::map<std::string, std::string>& variables) {
   // It cannot be opened where nobody reads it.
   const auto out = open_fifo(file, O_WRONLY);
   if (!out)

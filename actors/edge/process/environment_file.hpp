@@ -21,11 +21,12 @@ void make_environment_file(const std::filesystem::path& file);
 
 /// Writes the variables, as a JSON object of texts on a line. False where
 /// nobody listens, or they cannot be written. Never blocks.
-bool tell_environment(const std::filesystem::path& file,
-                      const std::map<std::string, std::string>& variables);
+bool write_environment_update(
+    const std::filesystem::path& file,
+    const std::map<std::string, std::string>& variables);
 
 /// The same for an instance, wherever its runtime has the file.
-using environment_teller =
+using environment_writer =
     std::function<bool(const std::string& instance,
                        const std::map<std::string, std::string>& variables)>;
 

@@ -1,6 +1,6 @@
 #include "actors/edge/process/log_watch.hpp"
 
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 
 #include <sys/inotify.h>
 

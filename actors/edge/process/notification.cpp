@@ -1,7 +1,7 @@
 #include "actors/edge/process/notification.hpp"
 
 #include "actors/edge/io/plain_text.hpp"
-#include "actors/edge/process/told_streams.hpp"
+#include "actors/edge/process/reported_streams.hpp"
 #include "schemas/utf8.hpp"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace roscell {
 
 namespace {
 
-std::string words_of(std::string_view bytes, size_t most) {
+std::string bounded_text(std::string_view bytes, size_t most) {
   bytes = bytes.substr(0, most);
   bytes.remove_suffix(unfinished_utf8(bytes));
   auto result = valid_utf8(bytes);
@@ -40,13 +40,13 @@ void read_line(std::string_view line, notification& result) {
   else if (line == "ROSCELL_SAFE=0")
     result.safe = safe_word::unsafe;
   else if (line.substr(0, status.size()) == status)
-    result.status = words_of(line.substr(status.size()), max_status_bytes);
+    result.status = bounded_text(line.substr(status.size()), max_status_bytes);
   else if (line.substr(0, streams.size()) == streams)
     result.streams = read_streams(line.substr(streams.size()));
   else if (line.substr(0, frames.size()) == frames)
     result.frames = read_frames(line.substr(frames.size()));
   else if (line.substr(0, remark.size()) == remark)
-    result.remark = words_of(line.substr(remark.size()), max_remark_bytes);
+    result.remark = bounded_text(line.substr(remark.size()), max_remark_bytes);
 }
 
 } // namespace

@@ -18,7 +18,7 @@ struct notification {
   /// ROSCELL_STREAMS=, what its data streams do: "END RATE AGE" for each,
   /// separated by ";". END is "input:N" or "output:N", RATE in Hz, AGE in
   /// seconds, or "-" where there was no frame yet.
-  std::vector<stream_figure> streams;
+  std::vector<stream_metrics> streams;
   /// ROSCELL_FRAMES=, what has gone through its data streams, whole numbers
   /// separated by ";": "input:N RECEIVED PROCESSED FAILED DROPPED MEDIAN_US"
   /// and "output:N WRITTEN". It goes along with a status, as does
@@ -30,7 +30,7 @@ struct notification {
 /// Longest datagram that is read; longer ones are ignored whole.
 constexpr size_t max_notification_bytes = 4096;
 
-/// Longest status that is kept, in bytes: all figures of a skill, however
+/// Longest status that is kept, in bytes: all metrics of a skill, however
 /// large.
 constexpr size_t max_status_bytes = 512;
 
@@ -39,7 +39,7 @@ constexpr size_t max_remark_bytes = 256;
 
 /// A line that tells of more streams is ignored: a step has at most 16 inputs
 /// and as many outputs.
-constexpr size_t max_told_streams = 32;
+constexpr size_t max_reported_streams = 32;
 
 /// Reads one datagram. Unknown and malformed lines are ignored, for programs
 /// may say more than we understand.

@@ -32,7 +32,7 @@ identify(pid_t pid, const std::filesystem::path& proc = "/proc");
 /// A descriptor for the process that can be polled for its end and signalled
 /// without mistaking another process for it. Empty if it is gone. One of its
 /// arguments must end with `marker`: after a reboot, number and start time may
-/// be those of a stranger.
+/// be those of another process.
 unique_fd open_process(const process_identity& process,
                        const std::string& marker = {});
 

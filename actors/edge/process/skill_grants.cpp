@@ -79,10 +79,11 @@ std::string read_what(std::string_view text, skill_grant& to) {
   return {};
 }
 
-std::string scheduling_what(const scheduling_wish& wish) {
-  if (wish.policy == "fifo" || wish.policy == "rr")
-    return "scheduling:" + wish.policy + ":" + std::to_string(wish.priority);
-  return "scheduling:nice:" + std::to_string(wish.nice);
+std::string scheduling_what(const scheduling_request& request) {
+  if (request.policy == "fifo" || request.policy == "rr")
+    return "scheduling:" + request.policy + ":"
+           + std::to_string(request.priority);
+  return "scheduling:nice:" + std::to_string(request.nice);
 }
 
 } // namespace
@@ -124,17 +125,18 @@ std::string skill_grants::user_of(const std::string& skill) const {
 }
 
 bool skill_grants::allows_scheduling(const std::string& skill,
-                                     const scheduling_wish& wish) const {
-  const bool real_time = wish.policy == "fifo" || wish.policy == "rr";
-  if (!real_time && wish.nice >= 0)
+                                     const scheduling_request& request) const {
+  const bool real_time = request.policy == "fifo" || request.policy == "rr";
+  if (!real_time && request.nice >= 0)
     return true;
   return std::any_of(grants_.begin(), grants_.end(), [&](const auto& x) {
     if (x.skill != skill && x.skill != "*")
       return false;
     if (!real_time)
-      return x.what == grant_sort::nice && x.bound <= wish.nice;
-    const auto sort = wish.policy == "fifo" ? grant_sort::fifo : grant_sort::rr;
-    return x.what == sort && wish.priority <= x.bound;
+      return x.what == grant_sort::nice && x.bound <= request.nice;
+    const auto sort =
+        request.policy == "fifo" ? grant_sort::fifo : grant_sort::rr;
+    return x.what == sort && request.priority <= x.bound;
   });
 }
 
@@ -150,8 +152,8 @@ skill_grants::missing(const std::string& skill,
   return result;
 }
 
-std::string refusal_words(const std::string& skill, const std::string& node,
-                          const std::string& what) {
+std::string refusal_text(const std::string& skill, const std::string& node,
+                         const std::string& what) {
   auto words = what;
   std::replace(words.begin(), words.end(), ':', ' ');
   return "skill '" + skill + "' wants " + words + ", which node '" + node

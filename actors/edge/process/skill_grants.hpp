@@ -39,7 +39,7 @@ public:
 
   /// What takes nothing from others is everybody's.
   bool allows_scheduling(const std::string& skill,
-                         const scheduling_wish& wish) const;
+                         const scheduling_request& request) const;
 
   /// What a deployment of the skill wants that is not granted, each as the WHAT
   /// that would grant it.
@@ -59,7 +59,7 @@ using shared_skill_grants = std::shared_ptr<const skill_grants>;
 /// Why a node is no place for a deployment, of which `what` is missing:
 /// "skill 'x' wants capability NET_RAW, which node 'n' does not grant it: grant
 /// = x=capability:NET_RAW".
-std::string refusal_words(const std::string& skill, const std::string& node,
-                          const std::string& what);
+std::string refusal_text(const std::string& skill, const std::string& node,
+                         const std::string& what);
 
 } // namespace roscell

@@ -152,10 +152,10 @@ private:
 /// What comes by multicast comes to no socket that is bound to one address. A
 /// host without multicast does without.
 void join_group(int fd, const std::string& address) {
-  ip_mreq wish{};
-  inet_pton(AF_INET, discovery_group, &wish.imr_multiaddr);
-  inet_pton(AF_INET, address.c_str(), &wish.imr_interface);
-  setsockopt(fd, IPPROTO_IP, IP_ADD_MEMBERSHIP, &wish, sizeof(wish));
+  ip_mreq request{};
+  inet_pton(AF_INET, discovery_group, &request.imr_multiaddr);
+  inet_pton(AF_INET, address.c_str(), &request.imr_interface);
+  setsockopt(fd, IPPROTO_IP, IP_ADD_MEMBERSHIP, &request, sizeof(request));
   const int off = 0;
   setsockopt(fd, IPPROTO_IP, IP_MULTICAST_ALL, &off, sizeof(off));
 }

@@ -1,10 +1,10 @@
 #include "actors/edge/reach/reach_tries.hpp"
 
+#include "actors/core/limits.hpp"
 #include "actors/edge/dds/rtps/server_question.hpp"
 #include "actors/edge/io/io_core.hpp"
 #include "actors/edge/reach/reach_port.hpp"
-#include "actors/edge/session/address_scout.hpp"
-#include "actors/house/limits.hpp"
+#include "actors/edge/session/address_probe.hpp"
 
 #include <chrono>
 #include <utility>
@@ -16,7 +16,7 @@ namespace roscell {
 
 namespace {
 
-constexpr auto limit = limits::membership::scouted_port;
+constexpr auto limit = limits::membership::probed_port;
 
 /// Eleven fragments on Ethernet, as of a small image.
 constexpr std::size_t large_datagram = 16 * 1024;
@@ -54,7 +54,7 @@ void try_session(const reach_try& x) {
   using clock = std::chrono::steady_clock;
   ask_for_hello(
       x.setup.core, x.to,
-      [settle = x.settles(), begin = clock::now()](const scouted_port& found) {
+      [settle = x.settles(), begin = clock::now()](const probed_port& found) {
         const std::chrono::duration<double, std::milli> span =
             clock::now() - begin;
         const bool came = found.answer == port_answer::found;
@@ -115,14 +115,14 @@ std::optional<socket_address> place_of(const reach_goal& goal, reach_way way) {
   auto at = parse_socket_address(goal.address);
   if (way == reach_way::discovery)
     return parse_socket_address(goal.discovery_server);
-  if (!at || way == reach_way::session || way == reach_way::beat)
+  if (!at || way == reach_way::session || way == reach_way::heartbeat)
     return at;
   return socket_address{way == reach_way::multicast ? discovery_group
                                                     : at->address,
                         goal.data_port};
 }
 
-constexpr reach_way ways[] = {reach_way::session,   reach_way::beat,
+constexpr reach_way ways[] = {reach_way::session,   reach_way::heartbeat,
                               reach_way::discovery, reach_way::data,
                               reach_way::large,     reach_way::multicast};
 

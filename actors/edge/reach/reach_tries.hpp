@@ -19,7 +19,7 @@ struct reach_setup {
 };
 
 /// Tries every way to every goal, all at once. `done` is called once, on the io
-/// thread, within `limits::membership::scouted`, with a row for each goal and
+/// thread, within `limits::membership::probed`, with a row for each goal and
 /// way, in their order; a goal without a discovery server has none for that,
 /// and one with two ports for data has two. From any thread.
 void try_to_reach(const reach_setup& setup,

@@ -17,7 +17,7 @@ struct traffic_verdict {
     drop,   ///< It is lost.
     delay,  ///< It comes later, and so behind what follows it.
     repeat, ///< It comes `times` times in a row.
-    cut,    ///< It is lost, and the connection with it. For a beat: drop.
+    cut,    ///< It is lost, and the connection with it. For a heartbeat: drop.
   };
 
   action what = action::pass;

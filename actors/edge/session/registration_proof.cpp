@@ -1,8 +1,8 @@
 #include "actors/edge/session/registration_proof.hpp"
 
+#include "actors/core/limits.hpp"
 #include "actors/edge/io/crypto.hpp"
 #include "actors/edge/session/transcript.hpp"
-#include "actors/house/limits.hpp"
 
 #include <cstring>
 #include <iterator>
@@ -29,14 +29,14 @@ digest sign(const registration_order& order, std::string_view site_token) {
 
 constexpr std::string_view question_label = "roscell registration question v1";
 
-digest sign(const standing_question& question, std::string_view site_token) {
+digest sign(const status_question& question, std::string_view site_token) {
   return transcript{question_label}.add(question.nonce).sign(site_token);
 }
 
-constexpr std::string_view standing_label = "roscell standing v1";
+constexpr std::string_view status_label = "roscell standing v1";
 
-digest sign(const standing_claim& claim, std::string_view site_token) {
-  return transcript{standing_label}
+digest sign(const status_claim& claim, std::string_view site_token) {
+  return transcript{status_label}
       .add(claim.nonce)
       .add(claim.node)
       .add(claim.uuid)
@@ -83,21 +83,21 @@ bool proves(const registration_order& order, std::string_view site_token,
   return is_signed(order, site_token, proof);
 }
 
-std::string prove(const standing_question& question,
+std::string prove(const status_question& question,
                   std::string_view site_token) {
   return to_hex(sign(question, site_token));
 }
 
-bool proves(const standing_question& question, std::string_view site_token,
+bool proves(const status_question& question, std::string_view site_token,
             std::string_view proof) {
   return is_signed(question, site_token, proof);
 }
 
-std::string prove(const standing_claim& claim, std::string_view site_token) {
+std::string prove(const status_claim& claim, std::string_view site_token) {
   return to_hex(sign(claim, site_token));
 }
 
-bool proves(const standing_claim& claim, std::string_view site_token,
+bool proves(const status_claim& claim, std::string_view site_token,
             std::string_view proof) {
   return is_signed(claim, site_token, proof);
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 
 #include <chrono>
 #include <cstdint>
@@ -35,18 +35,17 @@ bool proves(const registration_order& order, std::string_view site_token,
             std::string_view proof);
 
 /// What somebody says who asks a node where it stands.
-struct standing_question {
+struct status_question {
   std::string nonce; ///< His own.
 };
 
 /// The same for a question.
-std::string prove(const standing_question& question,
-                  std::string_view site_token);
-bool proves(const standing_question& question, std::string_view site_token,
+std::string prove(const status_question& question, std::string_view site_token);
+bool proves(const status_question& question, std::string_view site_token,
             std::string_view proof);
 
 /// What a node says when it is asked where it stands.
-struct standing_claim {
+struct status_claim {
   std::string nonce; ///< From whoever asks.
   std::string node;
   std::string uuid;
@@ -55,14 +54,14 @@ struct standing_claim {
 };
 
 /// The same for a claim.
-std::string prove(const standing_claim& claim, std::string_view site_token);
-bool proves(const standing_claim& claim, std::string_view site_token,
+std::string prove(const status_claim& claim, std::string_view site_token);
+bool proves(const status_claim& claim, std::string_view site_token,
             std::string_view proof);
 
-/// The nonces that a node hands out. Strangers may ask for as many as they
-/// like: none is remembered, since each says when it was made and proves that
-/// this node made it. Only those that have proven a switch are, so that each is
-/// good for one.
+/// The nonces that a node hands out. Unauthenticated peers may ask for as many
+/// as they like: none is remembered, since each says when it was made and
+/// proves that this node made it. Only those that have proven a switch are, so
+/// that each is good for one.
 class registration_challenges {
 public:
   using time_point = std::chrono::steady_clock::time_point;

@@ -7,9 +7,9 @@ namespace roscell {
 session_accept::session_accept(std::shared_ptr<io_core> core,
                                stream_socket socket,
                                std::shared_ptr<const session_acceptor> acceptor,
-                               hooks told)
+                               hooks reported)
     : session_dialog(std::move(core), std::move(socket), acceptor->options),
-      acceptor_(std::move(acceptor)), hooks_(std::move(told)),
+      acceptor_(std::move(acceptor)), hooks_(std::move(reported)),
       peer_(peer_of(stream().next_layer())),
       handshake_(acceptor_->identity, acceptor_->site.text()) {
   tune_for_session(stream().next_layer(), options().user_timeout);

@@ -26,7 +26,8 @@ public:
   };
 
   session_accept(std::shared_ptr<io_core> core, stream_socket socket,
-                 std::shared_ptr<const session_acceptor> acceptor, hooks told);
+                 std::shared_ptr<const session_acceptor> acceptor,
+                 hooks reported);
 
   void run(upgrade_request request);
 

@@ -126,7 +126,7 @@ public:
                  std::function<void(std::optional<edge_error>)> callback)
       : session_connect(std::move(core), std::move(target), std::move(identity),
                         site, std::move(options), {}),
-        tell_(std::move(callback)) {}
+        on_progress_(std::move(callback)) {}
 
 protected:
   handshake_step receive(std::string_view frame) override {
@@ -140,11 +140,11 @@ protected:
   }
 
   void on_refused(const edge_error& why) override {
-    tell_(proven_ ? std::nullopt : std::optional{why});
+    on_progress_(proven_ ? std::nullopt : std::optional{why});
   }
 
 private:
-  std::function<void(std::optional<edge_error>)> tell_;
+  std::function<void(std::optional<edge_error>)> on_progress_;
   bool proven_ = false;
 };
 

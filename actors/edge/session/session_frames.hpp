@@ -8,8 +8,8 @@
 #include <string_view>
 
 /// The four frames with which a session begins, in the order in which they
-/// are sent, and their JSON codec. They come from strangers: decoding checks
-/// every field, and an unknown field is ignored.
+/// are sent, and their JSON codec. They come from unauthenticated peers:
+/// decoding checks every field, and an unknown field is ignored.
 namespace roscell {
 
 /// Protocol version of sessions. A peer with another major version is
@@ -19,7 +19,7 @@ inline constexpr std::string_view session_version = "2.0";
 /// The role of a joiner that coordinates another cell.
 inline constexpr std::string_view coordinator_role = "coordinator";
 
-/// Upper bounds of what a stranger may send, in bytes.
+/// Upper bounds of what an unauthenticated peer may send, in bytes.
 struct session_frame_bounds {
   static constexpr size_t frame = 4096;
   static constexpr size_t version = 16;

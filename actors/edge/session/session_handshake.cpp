@@ -11,8 +11,9 @@ namespace {
 constexpr std::string_view acceptor_label = "roscell session v1 acceptor";
 constexpr std::string_view joiner_label = "roscell session v1 joiner";
 constexpr std::string_view session_label = "roscell session v1 id";
-constexpr std::string_view acceptor_beat_label = "roscell beat v1 acceptor";
-constexpr std::string_view joiner_beat_label = "roscell beat v1 joiner";
+constexpr std::string_view acceptor_heartbeat_label =
+    "roscell beat v1 acceptor";
+constexpr std::string_view joiner_heartbeat_label = "roscell beat v1 joiner";
 
 /// HMAC over the label and all that both sides said.
 digest keyed_digest(std::string_view token, std::string_view label,
@@ -85,9 +86,9 @@ edge_error tokenless_acceptor(const session_challenge& self) {
           "give node '" + self.node + "' the file of the site"};
 }
 
-handshake_step fail(edge_error why, bool tell_peer) {
+handshake_step fail(edge_error why, bool notify_other_side) {
   handshake_step step;
-  if (tell_peer)
+  if (notify_other_side)
     step.reply = encode(why);
   step.failure = std::move(why);
   return step;
@@ -151,9 +152,9 @@ handshake_step acceptor_handshake::on_proof(std::string_view frame) {
     return fail(wrong_token(hello_, challenge_), true);
   agreement_.session = session_id(token_, hello_, challenge_);
   agreement_.keys.send =
-      keyed_digest(token_, acceptor_beat_label, hello_, challenge_);
+      keyed_digest(token_, acceptor_heartbeat_label, hello_, challenge_);
   agreement_.keys.receive =
-      keyed_digest(token_, joiner_beat_label, hello_, challenge_);
+      keyed_digest(token_, joiner_heartbeat_label, hello_, challenge_);
   handshake_step step;
   step.reply = encode(session_accepted{agreement_.session});
   step.done = true;
@@ -227,9 +228,9 @@ handshake_step joiner_handshake::on_accepted(std::string_view frame) {
   if (std::get<session_accepted>(decoded).session != agreement_.session)
     return fail(wrong_token(hello_, challenge_), false);
   agreement_.keys.send =
-      keyed_digest(token_, joiner_beat_label, hello_, challenge_);
+      keyed_digest(token_, joiner_heartbeat_label, hello_, challenge_);
   agreement_.keys.receive =
-      keyed_digest(token_, acceptor_beat_label, hello_, challenge_);
+      keyed_digest(token_, acceptor_heartbeat_label, hello_, challenge_);
   handshake_step step;
   step.done = true;
   return step;

@@ -25,7 +25,7 @@
 /// incarnation of the acceptor; both nonces. So a proof holds for this joiner,
 /// this target and this run only. The acceptor proves itself first, and the
 /// joiner stays silent towards one that cannot. The session id and the keys of
-/// the beat come from the same transcript under other labels.
+/// the heartbeat come from the same transcript under other labels.
 namespace roscell {
 
 /// Who asks for a session.
@@ -44,9 +44,9 @@ struct acceptor_identity {
   int64_t incarnation = 0;
 };
 
-/// Keys of the beat of one session, one per direction, so that a packet can
-/// never be reflected.
-struct beat_keys {
+/// Keys of the heartbeat of one session, one per direction, so that a packet
+/// can never be reflected.
+struct heartbeat_keys {
   digest send{};
   digest receive{};
 };
@@ -54,7 +54,7 @@ struct beat_keys {
 /// What both sides know after the handshake.
 struct session_agreement {
   std::string session; ///< 16 hexadecimal digits, unique by its nonces.
-  beat_keys keys;
+  heartbeat_keys keys;
 };
 
 /// One step of a side: send `reply` if there is one; then, if there is a

@@ -1,11 +1,11 @@
 #pragma once
 
+#include "actors/core/limits.hpp"
 #include "actors/edge/io/edge_error.hpp"
 #include "actors/edge/io/io_thread.hpp"
 #include "actors/edge/session/fault_seam.hpp"
 #include "actors/edge/session/session_handshake.hpp"
 #include "actors/edge/site/site_secret.hpp"
-#include "actors/house/limits.hpp"
 
 #include <chrono>
 #include <cstddef>
@@ -53,7 +53,8 @@ struct session_callbacks {
 
 /// One authenticated connection. All methods may be called from any thread,
 /// also after the end, when they do nothing. Letting go of the link closes it.
-/// An idle link sends nothing at all: the beat tells whether its peer lives.
+/// An idle link sends nothing at all: the heartbeat tells whether its peer
+/// lives.
 class session_link {
 public:
   virtual ~session_link() = default;

@@ -37,11 +37,11 @@ public:
   done_token& operator=(const done_token&) = delete;
 
   ~done_token() {
-    tell();
+    notify();
   }
 
-  void tell() {
-    if (told_.exchange(true))
+  void notify() {
+    if (reported_.exchange(true))
       return;
     core_->post([link = link_] {
       if (const auto alive = link.lock())
@@ -52,7 +52,7 @@ public:
 private:
   std::shared_ptr<io_core> core_;
   std::weak_ptr<websocket_link> link_;
-  std::atomic<bool> told_{false};
+  std::atomic<bool> reported_{false};
 };
 
 /// What the owner of a session holds.
@@ -219,7 +219,7 @@ void websocket_link::deliver(std::string text) {
   auto token = std::make_shared<done_token>(core_, weak_from_this());
   core_->guarded([&] {
     callbacks_.on_frame(std::move(text),
-                        [token = std::move(token)] { token->tell(); });
+                        [token = std::move(token)] { token->notify(); });
   });
 }
 

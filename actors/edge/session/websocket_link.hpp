@@ -26,7 +26,7 @@ class websocket_link : public io_component,
 public:
   using error = boost::system::error_code;
 
-  /// `on_gone` is called once when the session has ended, for the books of
+  /// `on_gone` is called once when the session has ended, for the tables of
   /// the server that it came from.
   websocket_link(std::shared_ptr<io_core> core, websocket&& stream,
                  session_options options, std::function<void()> on_gone);

@@ -75,7 +75,7 @@ private:
       return;
     auto read = read_site_token(file_);
     auto* token = std::get_if<std::string>(&read);
-    // What was wrong may be mended beside the file.
+    // What was wrong may be fixed beside the file.
     if (token == nullptr)
       return;
     text_ = std::move(*token);

@@ -1,10 +1,10 @@
 #include "actors/edge/site/site_token_file.hpp"
 
+#include "actors/core/limits.hpp"
 #include "actors/edge/disk/small_file.hpp"
 #include "actors/edge/disk/trusted_path.hpp"
 #include "actors/edge/io/crypto.hpp"
 #include "actors/edge/io/unique_fd.hpp"
-#include "actors/house/limits.hpp"
 
 #include <fcntl.h>
 #include <pwd.h>
@@ -36,8 +36,8 @@ fs::path path_in(const char* variable) {
 
 /// Services may have no $HOME.
 fs::path home_folder() {
-  if (auto told = path_in("HOME"); !told.empty())
-    return told;
+  if (auto reported = path_in("HOME"); !reported.empty())
+    return reported;
   std::array<char, 4096> room{};
   struct passwd entry {};
   struct passwd* found = nullptr;
@@ -50,8 +50,8 @@ fs::path home_folder() {
 fs::path settings_folder() {
   if (::geteuid() == 0)
     return "/etc";
-  if (auto told = path_in("XDG_CONFIG_HOME"); !told.empty())
-    return told;
+  if (auto reported = path_in("XDG_CONFIG_HOME"); !reported.empty())
+    return reported;
   const auto home = home_folder();
   return home.is_absolute() ? home / ".config" : fs::path{};
 }
@@ -122,15 +122,15 @@ std::optional<edge_error> distrusted(const fs::path& file) {
   return edge_error{error_code::unauthorized,
                     "the site token in '" + file.string()
                         + "' is not taken: " + fault,
-                    "copy it to a place of " + user_words(::geteuid())
+                    "copy it to a place of " + user_text(::geteuid())
                         + " alone, with mode 600"};
 }
 
 } // namespace
 
 fs::path own_site_token() {
-  if (auto told = path_in(site_token_variable); !told.empty())
-    return told;
+  if (auto reported = path_in(site_token_variable); !reported.empty())
+    return reported;
   const auto settings = settings_folder();
   return settings.empty() ? settings : settings / "roscell" / "site.token";
 }

@@ -1,5 +1,5 @@
 #include "actors/instances/actor_skills/runtime_switch.hpp"
-#include "actors/house/watching.hpp"
+#include "actors/core/watching.hpp"
 
 #include <caf/result.hpp>
 
@@ -28,22 +28,22 @@ const runtime_actor& runtime_of(self_pointer self, const std::string& instance,
 }
 
 caf::result<container_started> start(self_pointer self,
-                                     const start_container& wish) {
+                                     const start_container& request) {
   auto& st = self->state;
-  if (!is_of_actor(wish.image)) {
-    st.in_process.erase(wish.instance);
-    return self->delegate(st.programs, wish);
+  if (!is_of_actor(request.image)) {
+    st.in_process.erase(request.instance);
+    return self->delegate(st.programs, request);
   }
-  st.in_process.insert(wish.instance);
-  return self->delegate(st.actors, wish);
+  st.in_process.insert(request.instance);
+  return self->delegate(st.actors, request);
 }
 
 caf::result<container_removed> remove(self_pointer self,
-                                      const remove_container& wish) {
+                                      const remove_container& request) {
   auto& st = self->state;
-  const auto& runtime = runtime_of(self, wish.instance, wish.container);
-  st.in_process.erase(wish.instance);
-  return self->delegate(runtime, wish);
+  const auto& runtime = runtime_of(self, request.instance, request.container);
+  st.in_process.erase(request.instance);
+  return self->delegate(runtime, request);
 }
 
 } // namespace

@@ -2,7 +2,7 @@
 
 #include "actors/instances/engine/container_powers.hpp"
 #include "actors/instances/engine/dockerfile.hpp"
-#include "actors/instances/instance_words.hpp"
+#include "actors/instances/instance_text.hpp"
 
 #include <sys/resource.h>
 
@@ -54,15 +54,15 @@ json limit_json(const char* name, int resource, rlim_t most) {
   return {{"Name", name}, {"Soft", value}, {"Hard", value}};
 }
 
-json environment_json(const start_container& wish) {
-  auto variables = wish.environment;
+json environment_json(const start_container& request) {
+  auto variables = request.environment;
   variables["NOTIFY_SOCKET"] =
       std::string{container_notify_dir} + '/' + notify_socket_name;
   // The image's own setting would be replaced, and the libraries not found.
   if (const auto i = variables.find("LD_LIBRARY_PATH"); i != variables.end())
     i->second = std::string{image_library_dir} + ':' + i->second;
   // The only GPU that a container sees is its first.
-  if (wish.gpu >= 0)
+  if (request.gpu >= 0)
     variables["CUDA_VISIBLE_DEVICES"] = "0";
   json result = json::array();
   for (const auto& [name, value] : variables)
@@ -70,9 +70,10 @@ json environment_json(const start_container& wish) {
   return result;
 }
 
-json labels_json(const start_container& wish, const container_setting& node) {
+json labels_json(const start_container& request,
+                 const container_setting& node) {
   json result{{"roscell.node", node.node_uuid}};
-  for (const auto& [name, value] : wish.labels)
+  for (const auto& [name, value] : request.labels)
     result["roscell." + name] = value;
   return result;
 }
@@ -91,7 +92,7 @@ void limit_resources(json& host, const resource_request& limits) {
         static_cast<int64_t>(std::clamp(limits.cpu, 0.01, cores) * 1e9);
 }
 
-json host_json(const start_container& wish, const container_files& files,
+json host_json(const start_container& request, const container_files& files,
                const container_setting& setting,
                const std::string& notify_dir) {
   // Shared memory and the discovery server's address work as for a process.
@@ -108,40 +109,40 @@ json host_json(const start_container& wish, const container_files& files,
                          {"Config",
                           {{"max-size", std::to_string(setting.log_bytes / 2)},
                            {"max-file", "2"}}}};
-  limit_resources(result, wish.limits);
-  bound_powers(result, wish, setting.rootless);
-  if (wish.gpu >= 0)
+  limit_resources(result, request.limits);
+  bound_powers(result, request, setting.rootless);
+  if (request.gpu >= 0)
     result["DeviceRequests"].push_back(
         {{"Driver", "nvidia"},
-         {"DeviceIDs", json::array({std::to_string(wish.gpu)})},
+         {"DeviceIDs", json::array({std::to_string(request.gpu)})},
          {"Capabilities", json::array({json::array({"gpu"})})}});
   return result;
 }
 
-bool is_fenced(const start_container& wish) {
-  return wish.fence_boot_ms != 0;
+bool is_fenced(const start_container& request) {
+  return request.fence_boot_ms != 0;
 }
 
 /// Whether it is a program of the base image; else it is the skill's.
-bool is_of_base(const start_container& wish) {
-  return !wish.command.empty() && wish.command.front().front() == '/';
+bool is_of_base(const start_container& request) {
+  return !request.command.empty() && request.command.front().front() == '/';
 }
 
 /// The shim runs what the image would have run.
-std::vector<std::string> shim_command(const start_container& wish,
+std::vector<std::string> shim_command(const start_container& request,
                                       bool rootless) {
   std::vector<std::string> result{shim_inside, "--exit", exit_file_inside,
                                   "--stop-signal",
-                                  std::to_string(wish.stop_signal)};
-  if (is_fenced(wish))
+                                  std::to_string(request.stop_signal)};
+  if (is_fenced(request))
     result.insert(result.end(), {"--fence", fence_inside});
-  if (const auto word = scheduling_word(wish.scheduling); !word.empty())
+  if (const auto word = scheduling_word(request.scheduling); !word.empty())
     result.insert(result.end(), {"--scheduling", word});
-  const auto who = identity_words(wish, rootless);
+  const auto who = identity_options(request, rootless);
   result.insert(result.end(), who.begin(), who.end());
   result.push_back("--");
-  auto program = wish.command;
-  if (!is_of_base(wish))
+  auto program = request.command;
+  if (!is_of_base(request))
     program.at(0) = std::string{image_skill_dir} + '/' + program.at(0);
   result.insert(result.end(), program.begin(), program.end());
   return result;
@@ -153,7 +154,7 @@ std::string container_name(const std::string& instance) {
   return "roscell-" + instance;
 }
 
-json container_document(const start_container& wish,
+json container_document(const start_container& request,
                         const container_files& files,
                         const container_setting& setting,
                         const std::string& notify_dir,
@@ -161,20 +162,20 @@ json container_document(const start_container& wish,
   auto seen = files;
   seen.mounts.push_back({shim.program, shim_inside, true});
   seen.mounts.push_back({shim.exit_file, exit_file_inside, false});
-  if (is_fenced(wish))
+  if (is_fenced(request))
     seen.mounts.push_back({shim.fence, fence_inside, true});
-  return json{{"Image", wish.image},
-              {"User", container_user(wish, setting.rootless)},
-              {"Env", environment_json(wish)},
-              {"Labels", labels_json(wish, setting)},
+  return json{{"Image", request.image},
+              {"User", container_user(request, setting.rootless)},
+              {"Env", environment_json(request)},
+              {"Labels", labels_json(request, setting)},
               // Signs of life come by the NOTIFY_SOCKET; the base image's own
               // check would only cost.
               {"Healthcheck", {{"Test", json::array({"NONE"})}}},
-              {"HostConfig", host_json(wish, seen, setting, notify_dir)},
+              {"HostConfig", host_json(request, seen, setting, notify_dir)},
               // The shim is asked to end in one way, and passes it on in the
               // skill's.
               {"StopSignal", std::to_string(SIGTERM)},
-              {"Entrypoint", shim_command(wish, setting.rootless)}};
+              {"Entrypoint", shim_command(request, setting.rootless)}};
 }
 
 } // namespace roscell

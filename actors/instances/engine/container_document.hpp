@@ -33,8 +33,8 @@ struct container_shim {
 std::string container_name(const std::string& instance);
 
 /// The body of POST /containers/create. `notify_dir` is the host's folder with
-/// the instance's NOTIFY_SOCKET; a fence counts where the wish has one.
-json container_document(const start_container& wish,
+/// the instance's NOTIFY_SOCKET; a fence counts where the request has one.
+json container_document(const start_container& request,
                         const container_files& files,
                         const container_setting& setting,
                         const std::string& notify_dir,

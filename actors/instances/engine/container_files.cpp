@@ -111,18 +111,18 @@ void add_volume(container_files& files, std::string volume) {
 
 } // namespace
 
-edge_result<container_files> files_of(const start_container& wish) {
+edge_result<container_files> files_of(const start_container& request) {
   container_files result;
-  for (const auto& x : wish.input)
+  for (const auto& x : request.input)
     if (is_path(x))
       add_input(result, x.endpoint);
-  for (const auto& x : wish.output)
+  for (const auto& x : request.output)
     if (is_path(x))
       if (auto error = add_output(result, x.endpoint))
         return *error;
-  for (const auto& x : wish.devices)
+  for (const auto& x : request.devices)
     result.devices.push_back(x);
-  for (const auto& x : wish.volumes)
+  for (const auto& x : request.volumes)
     add_volume(result, x);
   return result;
 }

@@ -26,6 +26,6 @@ struct container_files {
 /// read-only; an input that is not there yet is seen by way of its folder; an
 /// output that is not there is made, as the skill itself would. Blocks on the
 /// disk. Errors: engine_failed (an output cannot be made).
-edge_result<container_files> files_of(const start_container& wish);
+edge_result<container_files> files_of(const start_container& request);
 
 } // namespace roscell

@@ -16,22 +16,23 @@ namespace {
 constexpr const char* shim_powers[] = {"SETUID", "SETGID", "SETPCAP", "KILL",
                                        "DAC_OVERRIDE"};
 
-bool wants_more_of_cores(const scheduling_wish& x) {
+bool wants_more_of_cores(const scheduling_request& x) {
   return x.policy == "fifo" || x.policy == "rr" || x.nice < 0;
 }
 
-bool is_empowered(const start_container& wish) {
-  return !wish.capabilities.empty() || wants_more_of_cores(wish.scheduling);
+bool is_empowered(const start_container& request) {
+  return !request.capabilities.empty()
+         || wants_more_of_cores(request.scheduling);
 }
 
 /// Of the container, its shim included.
-std::set<std::string> powers_of(const start_container& wish) {
+std::set<std::string> powers_of(const start_container& request) {
   std::set<std::string> result;
-  if (!is_empowered(wish))
+  if (!is_empowered(request))
     return result;
   result.insert(std::begin(shim_powers), std::end(shim_powers));
-  result.insert(wish.capabilities.begin(), wish.capabilities.end());
-  if (wants_more_of_cores(wish.scheduling))
+  result.insert(request.capabilities.begin(), request.capabilities.end());
+  if (wants_more_of_cores(request.scheduling))
     result.insert("SYS_NICE");
   return result;
 }
@@ -51,32 +52,32 @@ std::string own_user() {
 
 } // namespace
 
-void bound_powers(json& host, const start_container& wish, bool rootless) {
+void bound_powers(json& host, const start_container& request, bool rootless) {
   host["CapDrop"] = json::array({"ALL"});
-  host["CapAdd"] = powers_of(wish);
+  host["CapAdd"] = powers_of(request);
   host["SecurityOpt"] = json::array({"no-new-privileges"});
   host["GroupAdd"] = json::array();
   if (!rootless)
     for (const auto group : own_groups())
       host["GroupAdd"].push_back(std::to_string(group));
-  host["ReadonlyRootfs"] = wish.read_only;
-  if (wish.read_only)
+  host["ReadonlyRootfs"] = request.read_only;
+  if (request.read_only)
     host["Tmpfs"] = {{"/tmp", "rw,nosuid,nodev,mode=1777"}};
 }
 
-std::string container_user(const start_container& wish, bool rootless) {
-  return rootless || is_empowered(wish) ? "0:0" : own_user();
+std::string container_user(const start_container& request, bool rootless) {
+  return rootless || is_empowered(request) ? "0:0" : own_user();
 }
 
-std::vector<std::string> identity_words(const start_container& wish,
-                                        bool rootless) {
+std::vector<std::string> identity_options(const start_container& request,
+                                          bool rootless) {
   std::array<char, 24> mask;
   const int size = std::snprintf(
       mask.data(), mask.size(), "%llx",
-      static_cast<unsigned long long>(to_capabilities(wish.capabilities)));
+      static_cast<unsigned long long>(to_capabilities(request.capabilities)));
   std::vector<std::string> result{"--capabilities",
                                   {mask.data(), static_cast<size_t>(size)}};
-  if (rootless || !is_empowered(wish) || ::geteuid() == 0)
+  if (rootless || !is_empowered(request) || ::geteuid() == 0)
     return result;
   auto user = own_user();
   for (const auto group : own_groups())

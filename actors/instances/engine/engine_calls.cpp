@@ -1,9 +1,9 @@
 #include "actors/instances/engine/engine_calls.hpp"
 
-#include "actors/edge/engine/engine_words.hpp"
+#include "actors/core/edge_failure.hpp"
+#include "actors/core/limits.hpp"
+#include "actors/edge/engine/engine_text.hpp"
 #include "actors/edge/io/line_splitter.hpp"
-#include "actors/house/edge_failure.hpp"
-#include "actors/house/limits.hpp"
 #include "messages/failure.hpp"
 
 #include <caf/send.hpp>

@@ -1,12 +1,12 @@
 #include "actors/instances/engine/engine_containers.hpp"
 
+#include "actors/core/edge_failure.hpp"
 #include "actors/edge/http/http_target.hpp"
 #include "actors/edge/io/crypto.hpp"
 #include "actors/edge/process/child_watch.hpp"
 #include "actors/edge/process/fence_file.hpp"
 #include "actors/edge/process/notify_socket.hpp"
-#include "actors/house/edge_failure.hpp"
-#include "actors/instances/life/told_words.hpp"
+#include "actors/instances/life/status_notification.hpp"
 #include "messages/failure.hpp"
 
 #include <caf/send.hpp>
@@ -55,8 +55,8 @@ fs::path shim_file(engine_runtime_pointer self) {
   return self->state.config.data_dir / "instance-shim";
 }
 
-caf::error open_words(engine_runtime_pointer self, const std::string& instance,
-                      engine_container& x) {
+caf::error open_status(engine_runtime_pointer self, const std::string& instance,
+                       engine_container& x) {
   const auto dir = notify_dir(self, instance);
   std::error_code problem;
   fs::create_directories(dir, problem);
@@ -69,20 +69,21 @@ caf::error open_words(engine_runtime_pointer self, const std::string& instance,
   x.words = watch_notifications(
       self->state.config.io, x.notify_socket,
       [listener = self->state.listener, instance](const notification& n) {
-        caf::anon_send(listener, told_words(instance, n, false));
+        caf::anon_send(listener, status_notification(instance, n, false));
       });
   return {};
 }
 
 void hear(engine_runtime_pointer self, const std::string& instance) {
   const auto& st = self->state;
-  const auto tell = [listener = st.listener, instance](const notification& n) {
-    caf::anon_send(listener, told_words(instance, n, true));
+  const auto forward_notification = [listener = st.listener,
+                                     instance](const notification& n) {
+    caf::anon_send(listener, status_notification(instance, n, true));
   };
   const auto* x = find_container(self, instance);
   if (x == nullptr || !x->notify_socket)
-    return tell({});
-  hear_notifications(st.config.io, x->notify_socket, tell);
+    return forward_notification({});
+  hear_notifications(st.config.io, x->notify_socket, forward_notification);
 }
 
 void forget(engine_runtime_pointer self, const std::string& instance) {
@@ -151,8 +152,9 @@ end_cause cause_of(const json& container,
 
 namespace {
 
-void tell_end(engine_runtime_pointer self, const std::string& instance,
-              const std::string& id, int exit_code, const json& inspected) {
+void publish_transfer_end(engine_runtime_pointer self,
+                          const std::string& instance, const std::string& id,
+                          int exit_code, const json& inspected) {
   auto& st = self->state;
   auto* x = find_container(self, instance);
   if (x == nullptr || (!x->id.empty() && x->id != id))
@@ -160,7 +162,7 @@ void tell_end(engine_runtime_pointer self, const std::string& instance,
   // What the program said last must not come after its end.
   const auto words = receive_notifications(x->notify_socket->get());
   if (words.ready || words.stopping || !words.status.empty())
-    self->send(st.listener, told_words(instance, words, false));
+    self->send(st.listener, status_notification(instance, words, false));
   const auto end = read_exit_record(notify_dir(self, instance));
   self->send(st.listener,
              container_exited{instance, id, exit_code, end && end->terminated,
@@ -182,11 +184,12 @@ void on_container_ended(engine_runtime_pointer self,
     return;
   }
   if (exit_code == 0)
-    return tell_end(self, instance, id, exit_code, {});
+    return publish_transfer_end(self, instance, id, exit_code, {});
   // Why it was killed stands nowhere but there.
   ask_engine(self, to_container("GET", id, "/json"),
              [=](const engine_answered& answer) {
-               tell_end(self, instance, id, exit_code, object_of(answer));
+               publish_transfer_end(self, instance, id, exit_code,
+                                    object_of(answer));
              });
 }
 

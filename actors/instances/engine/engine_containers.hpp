@@ -1,7 +1,7 @@
 #pragma once
 
+#include "actors/core/limits.hpp"
 #include "actors/edge/process/process_identity.hpp"
-#include "actors/house/limits.hpp"
 #include "actors/instances/engine/engine_calls.hpp"
 
 #include <chrono>
@@ -35,8 +35,8 @@ std::filesystem::path exit_file(engine_runtime_pointer self,
 std::filesystem::path shim_file(engine_runtime_pointer self);
 
 /// Makes the NOTIFY_SOCKET and listens to it. Errors: engine_failed.
-caf::error open_words(engine_runtime_pointer self, const std::string& instance,
-                      engine_container& x);
+caf::error open_status(engine_runtime_pointer self, const std::string& instance,
+                       engine_container& x);
 
 /// Has the listener told what waits at its NOTIFY_SOCKET.
 void hear(engine_runtime_pointer self, const std::string& instance);

@@ -1,10 +1,10 @@
-#include "actors/edge/engine/engine_words.hpp"
+#include "actors/core/limits.hpp"
+#include "actors/edge/engine/engine_text.hpp"
 #include "actors/edge/engine/file_marks.hpp"
 #include "actors/edge/http/http_target.hpp"
-#include "actors/house/limits.hpp"
 #include "actors/instances/engine/engine_parts.hpp"
 #include "actors/instances/engine/image_packer.hpp"
-#include "actors/instances/life/told_words.hpp"
+#include "actors/instances/life/status_notification.hpp"
 #include "messages/failure.hpp"
 
 #include <caf/send.hpp>
@@ -18,8 +18,8 @@ namespace roscell {
 
 namespace {
 
-std::string key_of(const prepare_image& wish) {
-  return wish.skill + ' ' + wish.base_image;
+std::string key_of(const prepare_image& request) {
+  return request.skill + ' ' + request.base_image;
 }
 
 image_work* find_work(engine_runtime_pointer self, const std::string& key) {
@@ -64,11 +64,11 @@ std::string joined(const std::deque<std::string>& lines) {
 caf::error build_failure(const engine_runtime_state& st, const image_work& work,
                          const std::string& why, std::string hint) {
   const auto what =
-      "the image of '" + work.wish.operation + "' cannot be built: " + why;
+      "the image of '" + work.request.operation + "' cannot be built: " + why;
   if (!work.has_base && hint.empty())
     hint = "the base image must be on this host or in a registry that it "
            "reaches: "
-           + st.config.setting.engine + " pull " + work.wish.base_image;
+           + st.config.setting.engine + " pull " + work.request.base_image;
   const json details{{"log_tail", joined(work.log)}};
   return to_error(
       {error_code::engine_failed,
@@ -78,7 +78,7 @@ caf::error build_failure(const engine_runtime_state& st, const image_work& work,
        details.dump(-1, ' ', false, json::error_handler_t::replace)});
 }
 
-void look_for_image(engine_runtime_pointer self, const std::string& key);
+void find_image(engine_runtime_pointer self, const std::string& key);
 
 void on_built(engine_runtime_pointer self, const std::string& key,
               const engine_answered& x) {
@@ -99,9 +99,9 @@ void on_built(engine_runtime_pointer self, const std::string& key,
   }
   const auto spent = std::chrono::duration_cast<std::chrono::milliseconds>(
       self->clock().now() - work->began);
-  self->state.config.context.tell(
+  self->state.config.context.publish_event(
       "image_built", work->image,
-      {{"operation", work->wish.operation}, {"ms", spent.count()}});
+      {{"operation", work->request.operation}, {"ms", spent.count()}});
   conclude(self, key, image_prepared{work->image});
 }
 
@@ -151,15 +151,15 @@ void plan(engine_runtime_pointer self, const std::string& key) {
   work.packer = spawn_blocking(self->system(), st.config.context, image_packer,
                                st.config.data_dir / "build",
                                caf::actor_cast<engine_runtime_actor>(self));
-  ask_packer<image_planned>(self, key, limits::engine::plan, work.wish,
+  ask_packer<image_planned>(self, key, limits::engine::plan, work.request,
                             [=](image_work&, const image_planned& x) {
                               self->state.plans[key] = {x.image, x.made_of};
-                              look_for_image(self, key);
+                              find_image(self, key);
                             });
 }
 
 /// Takes the image if it is there, and makes it if it is not.
-void look_for_image(engine_runtime_pointer self, const std::string& key) {
+void find_image(engine_runtime_pointer self, const std::string& key) {
   auto& work = *find_work(self, key);
   work.image = self->state.plans.at(key).image;
   engine_request request;
@@ -187,37 +187,38 @@ std::string step_of(const json& line) {
   return text.substr(0, limits::engine::build_line_bytes);
 }
 
-/// Whether a line tells of more than the engine's own book-keeping.
+/// Whether a line tells of more than the engine's own bookkeeping.
 bool is_step(const std::string& line) {
   return line.rfind(" --->", 0) != 0 && line.rfind("Removing ", 0) != 0;
 }
 
-void tell_step(engine_runtime_pointer self, image_work& work) {
+void report_build_step(engine_runtime_pointer self, image_work& work) {
   auto& st = self->state;
   const auto step = std::exchange(work.step, {});
-  work.next_words = self->clock().now() + limits::engine::build_words;
-  st.config.context.tell("image_building", work.image, {{"step", step}});
+  work.next_status = self->clock().now() + limits::engine::build_status;
+  st.config.context.publish_event("image_building", work.image,
+                                  {{"step", step}});
   notification words;
   words.status = step;
   for (const auto& x : work.waiters)
-    self->send(st.listener, told_words(x.instance, words, false));
+    self->send(st.listener, status_notification(x.instance, words, false));
 }
 
 } // namespace
 
 caf::result<image_prepared> prepare(engine_runtime_pointer self,
-                                    const prepare_image& wish) {
-  const auto key = key_of(wish);
+                                    const prepare_image& request) {
+  const auto key = key_of(request);
   auto promise = self->make_response_promise<image_prepared>();
   auto* work = find_work(self, key);
   const bool is_first = work == nullptr;
   if (is_first) {
     work = &self->state.works[key];
-    work->wish = wish;
+    work->request = request;
   }
-  work->waiters.push_back({wish.instance, promise});
+  work->waiters.push_back({request.instance, promise});
   if (is_first && has_plan(self->state, key))
-    look_for_image(self, key);
+    find_image(self, key);
   else if (is_first)
     plan(self, key);
   return promise;
@@ -242,16 +243,16 @@ void on_build_lines(engine_runtime_pointer self, image_work& work,
     if (is_step(step))
       work.step = step;
   }
-  tell_steps(self);
+  report_build_steps(self);
 }
 
-void tell_steps(engine_runtime_pointer self) {
+void report_build_steps(engine_runtime_pointer self) {
   const auto now = self->clock().now();
   for (auto& [key, work] : self->state.works) {
-    if (!work.step.empty() && now >= work.next_words)
-      tell_step(self, work);
+    if (!work.step.empty() && now >= work.next_status)
+      report_build_step(self, work);
     else if (!work.step.empty())
-      self->state.timer.set(self, work.next_words);
+      self->state.timer.set(self, work.next_status);
   }
 }
 

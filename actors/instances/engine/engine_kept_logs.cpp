@@ -1,6 +1,6 @@
+#include "actors/core/limits.hpp"
 #include "actors/edge/engine/engine_log.hpp"
 #include "actors/edge/history/kept_log_folder.hpp"
-#include "actors/house/limits.hpp"
 #include "actors/instances/engine/engine_containers.hpp"
 #include "actors/instances/engine/engine_parts.hpp"
 #include "schemas/base64.hpp"
@@ -66,10 +66,10 @@ std::function<void()> finish_reading(engine_runtime_pointer self,
 
 } // namespace
 
-void keep_log(engine_runtime_pointer self, const remove_container& wish,
+void keep_log(engine_runtime_pointer self, const remove_container& request,
               std::function<void()> then) {
   auto& st = self->state;
-  if (wish.about.empty() || st.config.kept_logs.empty())
+  if (request.about.empty() || st.config.kept_logs.empty())
     return then();
   const auto number = std::make_shared<uint64_t>(0);
   const auto call = expect_answer(self, [self, number](const engine_answered&) {
@@ -77,9 +77,9 @@ void keep_log(engine_runtime_pointer self, const remove_container& wish,
       next();
   });
   *number = call;
-  const auto target = target_of(wish.container, wish.instance);
+  const auto target = target_of(request.container, request.instance);
   auto& reading = st.readings[call];
-  reading.about = wish.about.front();
+  reading.about = request.about.front();
   reading.then = std::move(then);
   reading.stream =
       st.client->stream(to_container("GET", target, all_of_it, log_limit),

@@ -1,6 +1,6 @@
+#include "actors/core/limits.hpp"
 #include "actors/edge/engine/engine_log.hpp"
 #include "actors/edge/http/http_target.hpp"
-#include "actors/house/limits.hpp"
 #include "actors/instances/engine/engine_containers.hpp"
 #include "actors/instances/engine/engine_parts.hpp"
 #include "actors/instances/instance_id.hpp"

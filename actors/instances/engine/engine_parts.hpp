@@ -11,23 +11,23 @@ namespace roscell {
 
 // Images: engine_images.cpp.
 caf::result<image_prepared> prepare(engine_runtime_pointer self,
-                                    const prepare_image& wish);
+                                    const prepare_image& request);
 void on_build_lines(engine_runtime_pointer self, image_work& work,
                     const std::vector<std::string>& lines);
 
 /// Tells of the steps of builds that were kept back, as far as it is time, and
 /// sets the alarm for the others.
-void tell_steps(engine_runtime_pointer self);
+void report_build_steps(engine_runtime_pointer self);
 
 // Containers: engine_start.cpp, engine_stop.cpp, engine_adoption.cpp.
 caf::result<container_started> start(engine_runtime_pointer self,
-                                     const start_container& wish);
+                                     const start_container& request);
 caf::result<container_stopped> stop(engine_runtime_pointer self,
-                                    const stop_container& wish);
+                                    const stop_container& request);
 caf::result<container_removed> remove(engine_runtime_pointer self,
-                                      const remove_container& wish);
+                                      const remove_container& request);
 caf::result<container_adopted> adopt(engine_runtime_pointer self,
-                                     const adopt_container& wish);
+                                     const adopt_container& request);
 
 /// Ends by force what belongs to the instance, and asks nobody.
 void discard(engine_runtime_pointer self, const std::string& instance);
@@ -46,7 +46,7 @@ void on_log_read(engine_runtime_pointer self, const engine_log_read& part);
 
 /// Puts the end of a container's log into the history, if it is wanted there
 /// and can be read, and then goes on.
-void keep_log(engine_runtime_pointer self, const remove_container& wish,
+void keep_log(engine_runtime_pointer self, const remove_container& request,
               std::function<void()> then);
 
 /// False: it is no such log.

@@ -1,7 +1,7 @@
 #include "actors/instances/engine/engine_runtime.hpp"
 
+#include "actors/core/watching.hpp"
 #include "actors/edge/engine/build_context.hpp"
-#include "actors/house/watching.hpp"
 #include "actors/instances/engine/engine_containers.hpp"
 #include "actors/instances/engine/engine_parts.hpp"
 #include "actors/instances/fence_keeping.hpp"
@@ -40,7 +40,7 @@ void on_alarm(engine_runtime_pointer self) {
   else if (st.next_attempt)
     st.timer.set(self, *st.next_attempt);
   release_followers(self);
-  tell_steps(self);
+  report_build_steps(self);
 }
 
 /// Null where the container is not the present one of its instance, or is not
@@ -53,30 +53,32 @@ engine_container* present_container(engine_runtime_pointer self,
 }
 
 /// Needs no engine: it may be away while its containers go on.
-void fence(engine_runtime_pointer self, const fence_container& wish) {
-  if (auto* x = present_container(self, wish.instance, wish.container))
-    keep_fence(self->state.config.context, fence_file(self, wish.instance),
-               wish, x->fence_fails);
+void fence(engine_runtime_pointer self, const fence_container& request) {
+  if (auto* x = present_container(self, request.instance, request.container))
+    keep_fence(self->state.config.context, fence_file(self, request.instance),
+               request, x->fence_fails);
 }
 
-void ask_to_be_safe(engine_runtime_pointer self, const ask_for_safety& wish) {
-  const auto& instance = wish.instance;
-  if (present_container(self, instance, wish.container) == nullptr)
+void ask_to_become_stop_safe(engine_runtime_pointer self,
+                             const ask_for_safety& request) {
+  const auto& instance = request.instance;
+  if (present_container(self, instance, request.container) == nullptr)
     return;
-  ask_engine(self, to_container("POST", wish.container, "/kill?signal=SIGUSR1"),
+  ask_engine(self,
+             to_container("POST", request.container, "/kill?signal=SIGUSR1"),
              [=](const engine_answered& x) {
                if (is_good(x))
                  return;
                const auto why =
                    to_failure(engine_failure("it cannot be signalled", x));
-               self->state.config.context.tell("safety_not_asked", instance,
-                                               {{"reason", why.message}});
+               self->state.config.context.publish_event(
+                   "safety_not_asked", instance, {{"reason", why.message}});
              });
 }
 
 json describe(const engine_runtime_state& st) {
   return {{"engine", st.config.socket}, {"connected", st.connected},
-          {"trouble", st.trouble},      {"containers", st.containers.size()},
+          {"trouble", st.problem},      {"containers", st.containers.size()},
           {"builds", st.works.size()},  {"followed_logs", st.followers.size()},
           {"calls", st.calls.size()},   {"unwanted", st.unwanted.size()}};
 }
@@ -103,7 +105,7 @@ engine_runtime(engine_runtime_pointer self, const engine_runtime_config& config,
       [self](const remove_container& x) { return remove(self, x); },
       [self](const adopt_container& x) { return adopt(self, x); },
       [self](const fence_container& x) { fence(self, x); },
-      [self](const ask_for_safety& x) { ask_to_be_safe(self, x); },
+      [self](const ask_for_safety& x) { ask_to_become_stop_safe(self, x); },
       [self](const hear_container& x) { hear(self, x.instance); },
       [self](const log_query& x) { return read_log(self, x); },
       [self](const engine_answered& x) { on_answered(self, x); },

@@ -1,11 +1,11 @@
 #pragma once
 
+#include "actors/core/actor_context.hpp"
+#include "actors/core/alarm.hpp"
+#include "actors/core/backoff.hpp"
 #include "actors/edge/engine/engine_client.hpp"
 #include "actors/edge/engine/file_marks.hpp"
 #include "actors/edge/io/fd_watch.hpp"
-#include "actors/house/alarm.hpp"
-#include "actors/house/backoff.hpp"
-#include "actors/house/house.hpp"
 #include "actors/instances/engine/container_document.hpp"
 #include "messages/messages.hpp"
 
@@ -26,7 +26,7 @@
 namespace roscell {
 
 struct engine_runtime_config {
-  house context;
+  actor_context context;
   std::string socket; ///< The engine's Unix socket.
   container_setting setting;
   std::filesystem::path shim; ///< tools/instance_shim, for fences.
@@ -58,18 +58,18 @@ struct image_work {
     caf::typed_response_promise<image_prepared> promise;
   };
 
-  prepare_image wish; ///< The first one.
+  prepare_image request; ///< The first one.
   std::vector<waiter> waiters;
   image_packer_actor packer; ///< Null: not needed so far.
   std::string image;
   std::string context; ///< Tar file of the build; empty: none.
   engine_stream build;
-  uint64_t call = 0;            ///< Of `build`.
-  std::deque<std::string> log;  ///< The last lines of the build.
-  std::string error;            ///< What the engine says went wrong.
-  bool has_base = false;        ///< The base image was found.
-  std::string step;             ///< How it gets on, not told yet.
-  alarm::time_point next_words; ///< Not before is it told.
+  uint64_t call = 0;             ///< Of `build`.
+  std::deque<std::string> log;   ///< The last lines of the build.
+  std::string error;             ///< What the engine says went wrong.
+  bool has_base = false;         ///< The base image was found.
+  std::string step;              ///< How it gets on, not told yet.
+  alarm::time_point next_status; ///< Not before is it told.
   alarm::time_point began;
 };
 
@@ -114,7 +114,7 @@ struct engine_runtime_state {
   engine_stream events;
   uint64_t events_call = 0;
   bool connected = false; ///< `events` is open.
-  std::string trouble; ///< Why it is not; empty: it is, or was not yet tried.
+  std::string problem; ///< Why it is not; empty: it is, or was not yet tried.
   backoff pause;
   std::optional<alarm::time_point> next_attempt;
 

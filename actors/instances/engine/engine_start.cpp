@@ -1,9 +1,9 @@
+#include "actors/core/edge_failure.hpp"
+#include "actors/core/limits.hpp"
 #include "actors/edge/http/http_target.hpp"
 #include "actors/edge/io/unique_fd.hpp"
 #include "actors/edge/process/environment_file.hpp"
 #include "actors/edge/process/fence_file.hpp"
-#include "actors/house/edge_failure.hpp"
-#include "actors/house/limits.hpp"
 #include "actors/instances/engine/engine_containers.hpp"
 #include "actors/instances/engine/engine_parts.hpp"
 #include "actors/instances/engine/podman_document.hpp"
@@ -42,7 +42,7 @@ caf::error runs_already(const std::string& instance) {
 
 /// One start from its request to its answer.
 struct start_attempt {
-  start_container wish;
+  start_container request;
   std::string body;
   caf::typed_response_promise<container_started> promise;
   bool name_was_taken = false;
@@ -53,7 +53,7 @@ using shared_attempt = std::shared_ptr<start_attempt>;
 /// Whether there is a container is not known if the engine went away.
 void give_up(engine_runtime_pointer self, const shared_attempt& x, bool lost,
              const caf::error& why) {
-  const auto& instance = x->wish.instance;
+  const auto& instance = x->request.instance;
   if (lost)
     self->state.unwanted.insert(instance);
   x->promise.deliver(why);
@@ -73,7 +73,7 @@ void on_started(engine_runtime_pointer self, const shared_attempt& x,
                 const std::string& id, const engine_answered& answer) {
   if (is_good(answer) || answer.status == 304) {
     x->promise.deliver(container_started{id});
-    return settle(self, x->wish.instance, id);
+    return settle(self, x->request.instance, id);
   }
   const auto why = engine_failure("the container cannot be started", answer);
   if (is_lost(answer))
@@ -86,14 +86,14 @@ void on_started(engine_runtime_pointer self, const shared_attempt& x,
 
 /// A container that has ended makes room for its successor.
 void make_room(engine_runtime_pointer self, const shared_attempt& x) {
-  const auto name = container_name(x->wish.instance);
+  const auto name = container_name(x->request.instance);
   ask_engine(
       self, to_container("GET", name, "/json"), [=](const engine_answered& y) {
         if (is_lost(y))
           return give_up(self, x, false,
                          engine_failure("the container cannot be created", y));
         if (is_running(object_of(y)))
-          return give_up(self, x, false, runs_already(x->wish.instance));
+          return give_up(self, x, false, runs_already(x->request.instance));
         ask_engine(self, to_container("DELETE", name, "?force=true&v=true"),
                    [=](const engine_answered&) { create(self, x); });
       });
@@ -107,7 +107,7 @@ void on_created(engine_runtime_pointer self, const shared_attempt& x,
   if (!is_good(answer) || id.empty())
     return give_up(self, x, is_lost(answer),
                    engine_failure("the container cannot be created", answer));
-  if (auto* container = find_container(self, x->wish.instance))
+  if (auto* container = find_container(self, x->request.instance))
     container->id = id;
   ask_engine(self, to_container("POST", id, "/start", limits::engine::start),
              [=](const engine_answered& y) { on_started(self, x, id, y); });
@@ -116,25 +116,27 @@ void on_created(engine_runtime_pointer self, const shared_attempt& x,
 void create(engine_runtime_pointer self, const shared_attempt& x) {
   engine_request request;
   request.method = "POST";
-  request.target = is_podman(self)
-                       ? std::string{podman_create}
-                       : "/containers/create?name="
-                             + percent_encode(container_name(x->wish.instance));
+  request.target =
+      is_podman(self)
+          ? std::string{podman_create}
+          : "/containers/create?name="
+                + percent_encode(container_name(x->request.instance));
   request.body = x->body;
   request.limit = limits::engine::create;
   ask_engine(self, std::move(request),
              [=](const engine_answered& y) { on_created(self, x, y); });
 }
 
-json body_of(engine_runtime_pointer self, const start_container& wish,
+json body_of(engine_runtime_pointer self, const start_container& request,
              const container_files& files) {
   const auto& config = self->state.config;
   auto document = container_document(
-      wish, files, config.setting, notify_dir(self, wish.instance).string(),
-      {shim_file(self).string(), exit_file(self, wish.instance).string(),
-       fence_file(self, wish.instance).string()});
+      request, files, config.setting,
+      notify_dir(self, request.instance).string(),
+      {shim_file(self).string(), exit_file(self, request.instance).string(),
+       fence_file(self, request.instance).string()});
   return is_podman(self)
-             ? podman_document(container_name(wish.instance), document)
+             ? podman_document(container_name(request.instance), document)
              : document;
 }
 
@@ -162,11 +164,12 @@ caf::error copy_shim(engine_runtime_pointer self) {
 }
 
 /// Nothing where there is no fence to be set up.
-caf::error set_fence(engine_runtime_pointer self, const start_container& wish) {
-  if (wish.fence_boot_ms == 0)
+caf::error set_fence(engine_runtime_pointer self,
+                     const start_container& request) {
+  if (request.fence_boot_ms == 0)
     return {};
   const auto why =
-      make_fence(fence_file(self, wish.instance), wish.fence_boot_ms);
+      make_fence(fence_file(self, request.instance), request.fence_boot_ms);
   return why ? to_caf(*why) : caf::error{};
 }
 
@@ -190,33 +193,33 @@ caf::error make_exit_file(engine_runtime_pointer self,
 } // namespace
 
 caf::result<container_started> start(engine_runtime_pointer self,
-                                     const start_container& wish) {
-  if (!is_instance_id(wish.instance) || wish.command.empty())
-    return bad_id(wish.instance);
-  if (find_container(self, wish.instance) != nullptr)
-    return runs_already(wish.instance);
-  const auto files = files_of(wish);
+                                     const start_container& request) {
+  if (!is_instance_id(request.instance) || request.command.empty())
+    return bad_id(request.instance);
+  if (find_container(self, request.instance) != nullptr)
+    return runs_already(request.instance);
+  const auto files = files_of(request);
   if (const auto* error = std::get_if<edge_error>(&files))
     return to_caf(*error);
   if (auto error = copy_shim(self))
     return error;
-  if (auto error = set_fence(self, wish))
+  if (auto error = set_fence(self, request))
     return error;
   engine_container fresh;
-  if (auto error = open_words(self, wish.instance, fresh))
+  if (auto error = open_status(self, request.instance, fresh))
     return error;
-  if (auto error = make_exit_file(self, wish.instance))
+  if (auto error = make_exit_file(self, request.instance))
     return error;
   make_environment_file(environment_file_of(
-      container_notify_path(self->state.config.data_dir, wish.instance)));
+      container_notify_path(self->state.config.data_dir, request.instance)));
   fresh.settling = true;
   auto& st = self->state;
-  st.unwanted.erase(wish.instance);
-  st.containers[wish.instance] = std::move(fresh);
+  st.unwanted.erase(request.instance);
+  st.containers[request.instance] = std::move(fresh);
   auto attempt = std::make_shared<start_attempt>();
-  attempt->wish = wish;
+  attempt->request = request;
   attempt->promise = self->make_response_promise<container_started>();
-  attempt->body = body_of(self, wish, std::get<container_files>(files))
+  attempt->body = body_of(self, request, std::get<container_files>(files))
                       .dump(-1, ' ', false, json::error_handler_t::replace);
   create(self, attempt);
   return attempt->promise;

@@ -1,4 +1,4 @@
-#include "actors/edge/engine/engine_words.hpp"
+#include "actors/edge/engine/engine_text.hpp"
 #include "actors/edge/http/http_target.hpp"
 #include "actors/instances/engine/engine_containers.hpp"
 #include "actors/instances/engine/engine_parts.hpp"
@@ -20,20 +20,20 @@ std::string filter(const engine_runtime_state& st, json more) {
   return "filters=" + percent_encode(more.dump());
 }
 
-void trouble(engine_runtime_pointer self, const std::string& why) {
+void problem(engine_runtime_pointer self, const std::string& why) {
   auto& st = self->state;
-  if (std::exchange(st.trouble, why) == why)
+  if (std::exchange(st.problem, why) == why)
     return;
-  st.config.context.tell(why.empty() ? "engine_found" : "engine_lost",
-                         st.config.socket, {{"message", why}});
-  self->send(st.listener, runtime_troubled{why});
+  st.config.context.publish_event(why.empty() ? "engine_found" : "engine_lost",
+                                  st.config.socket, {{"message", why}});
+  self->send(st.listener, runtime_problem_changed{why});
 }
 
 void on_events_ended(engine_runtime_pointer self, const engine_answered& x) {
   auto& st = self->state;
   st.connected = false;
   st.events = {};
-  trouble(self,
+  problem(self,
           is_lost(x) ? x.why.message
           : is_good(x)
               ? "the container engine on '" + st.config.socket + "' has ended"
@@ -95,7 +95,7 @@ void on_events_opened(engine_runtime_pointer self) {
   ask_engine(self, std::move(request),
              [self, expected = running_containers(st)](
                  const engine_answered& x) { reconcile(self, expected, x); });
-  trouble(self, {});
+  problem(self, {});
   for (const auto& adoption : std::exchange(st.waiting_adoptions, {}))
     adoption();
 }

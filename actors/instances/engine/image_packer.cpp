@@ -1,8 +1,8 @@
 #include "actors/instances/engine/image_packer.hpp"
 
+#include "actors/core/edge_failure.hpp"
+#include "actors/core/watching.hpp"
 #include "actors/edge/engine/file_marks.hpp"
-#include "actors/house/edge_failure.hpp"
-#include "actors/house/watching.hpp"
 #include "actors/instances/engine/dockerfile.hpp"
 #include "actors/instances/skill_folder.hpp"
 #include "actors/instances/skill_program.hpp"
@@ -22,13 +22,13 @@ using image_packer_self =
 
 /// What the base image may lack of what the skill's own program needs.
 edge_result<std::vector<shared_library>>
-libraries_for(const prepare_image& wish) {
-  if (wish.entry_point.empty())
+libraries_for(const prepare_image& request) {
+  if (request.entry_point.empty())
     return std::vector<shared_library>{};
-  const auto program = find_program(wish.skill_dir, wish.entry_point);
+  const auto program = find_program(request.skill_dir, request.entry_point);
   if (const auto* error = std::get_if<edge_error>(&program))
     return *error;
-  return find_libraries(wish.skill_dir,
+  return find_libraries(request.skill_dir,
                         std::get<std::filesystem::path>(program));
 }
 
@@ -52,22 +52,22 @@ void add_marks(file_marks& marks,
 }
 
 caf::result<image_planned> plan(image_packer_self self,
-                                const prepare_image& wish) {
+                                const prepare_image& request) {
   auto marks = marks_before_search();
-  auto libraries = libraries_for(wish);
+  auto libraries = libraries_for(request);
   if (const auto* error = std::get_if<edge_error>(&libraries))
     return to_caf(*error);
   image_recipe recipe{
-      wish.operation, wish.skill, wish.base_image, wish.entry_point,
+      request.operation, request.skill, request.base_image, request.entry_point,
       std::get<std::vector<shared_library>>(std::move(libraries))};
   auto& content = self->state.content;
   content.dockerfile = dockerfile_of(recipe);
-  content.skill_dir = wish.skill_dir;
+  content.skill_dir = request.skill_dir;
   content.libraries = std::move(recipe.libraries);
-  self->state.wish = wish;
+  self->state.request = request;
   add_marks(marks, content.libraries);
   self->state.made_of = marks;
-  return image_planned{image_name(wish.operation, content.dockerfile),
+  return image_planned{image_name(request.operation, content.dockerfile),
                        content.dockerfile, std::move(marks)};
 }
 
@@ -80,7 +80,7 @@ caf::result<image_packed> pack(image_packer_self self) {
     return to_caf(*error);
   const auto& packed = std::get<std::filesystem::path>(file);
   // Afterwards: an edit in the middle of it is seen, too.
-  const auto same = check_build(st.wish);
+  const auto same = check_build(st.request);
   const auto* error = std::get_if<edge_error>(&same);
   if (error == nullptr && are_unchanged(st.made_of))
     return image_packed{packed.string()};

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "actors/core/actor_context.hpp"
 #include "actors/edge/engine/build_context.hpp"
 #include "actors/edge/engine/file_marks.hpp"
-#include "actors/house/house.hpp"
 #include "messages/messages.hpp"
 
 #include <filesystem>
@@ -17,7 +17,7 @@ struct image_packer_state {
 
   std::filesystem::path work_dir;
   image_content content; ///< Of the image that was planned last.
-  prepare_image wish;    ///< For which it was planned.
+  prepare_image request; ///< For which it was planned.
   file_marks made_of;    ///< The same.
 };
 

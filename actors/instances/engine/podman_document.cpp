@@ -18,7 +18,7 @@ json environment_of(const json& docker) {
   return result;
 }
 
-json words_of(const std::string& list) {
+json mount_options_of(const std::string& list) {
   json result = json::array();
   for (size_t at = 0; at < list.size();) {
     const auto comma = std::min(list.find(',', at), list.size());
@@ -39,10 +39,11 @@ json mounts_of(const json& host) {
           json::array({"rbind", x.at("ReadOnly") == true ? "ro" : "rw"})}});
   const auto memory = host.value("Tmpfs", json::object());
   for (const auto& [folder, options] : memory.items())
-    result.push_back({{"type", "tmpfs"},
-                      {"source", "tmpfs"},
-                      {"destination", folder},
-                      {"options", words_of(options.get<std::string>())}});
+    result.push_back(
+        {{"type", "tmpfs"},
+         {"source", "tmpfs"},
+         {"destination", folder},
+         {"options", mount_options_of(options.get<std::string>())}});
   return result;
 }
 

@@ -11,7 +11,7 @@ bool quiet_notice::hear(const instance_row& row, time_point now) {
     if (row.spec.input[i].protocol != "ros2")
       continue;
     const auto end = "input:" + std::to_string(i);
-    const auto& all = row.figures.streams;
+    const auto& all = row.metrics.streams;
     const auto count = std::find_if(
         all.begin(), all.end(), [&](const auto& x) { return x.end == end; });
     if (count == all.end())
@@ -19,10 +19,10 @@ bool quiet_notice::hear(const instance_row& row, time_point now) {
     auto& known = inputs_[end];
     const bool is_quiet = count->quiet_s >= enough_s;
     if (is_quiet == known.quiet
-        || (is_quiet && known.told && now - *known.told < pause))
+        || (is_quiet && known.reported && now - *known.reported < pause))
       continue;
     known.quiet = is_quiet;
-    known.told = is_quiet ? now : known.told;
+    known.reported = is_quiet ? now : known.reported;
     result = true;
   }
   return result;

@@ -31,7 +31,7 @@ public:
 private:
   struct notice {
     bool quiet = false; ///< As it was told last.
-    std::optional<time_point> told;
+    std::optional<time_point> reported;
   };
 
   std::map<std::string, notice> inputs_; ///< By their ends.

@@ -1,9 +1,9 @@
 #include "actors/instances/life/skill_instance.hpp"
 
-#include "actors/house/limits.hpp"
-#include "actors/house/watching.hpp"
+#include "actors/core/limits.hpp"
+#include "actors/core/watching.hpp"
 #include "actors/instances/instance_environment.hpp"
-#include "actors/instances/instance_words.hpp"
+#include "actors/instances/instance_text.hpp"
 #include "actors/instances/life/skill_instance_steps.hpp"
 
 #include <utility>
@@ -25,9 +25,9 @@ void on_exited(skill_instance_pointer self, const container_exited& x) {
     return;
   st.row.exit_code = x.exit_code;
   st.row.out_of_memory = x.cause == end_cause::memory;
-  const auto why = end_words(st.row, x.cause, x.most_memory_mib);
+  const auto why = end_reason_text(st.row, x.cause, x.most_memory_mib);
   if (x.terminated && st.row.state != instance_state::stopping)
-    interrupt(self, told_to_end);
+    interrupt(self, ordered_to_end);
   else if (st.row.state == instance_state::running && x.exit_code == 0)
     conclude(self, instance_state::stopped, "finished");
   else if (st.row.state == instance_state::running)
@@ -144,7 +144,7 @@ void on_notified(skill_instance_pointer self, const instance_notified& x) {
   }
   if (x.alive && st.row.state == instance_state::running)
     on_sign_of_life(self);
-  look_after_health(self, x);
+  follow_health(self, x);
   if (x.heard && st.listening)
     judge(self);
 }

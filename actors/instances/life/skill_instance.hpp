@@ -1,10 +1,10 @@
 #pragma once
 
+#include "actors/core/actor_context.hpp"
+#include "actors/core/alarm.hpp"
 #include "actors/edge/process/environment_file.hpp"
 #include "actors/edge/process/skill_grants.hpp"
-#include "actors/house/alarm.hpp"
-#include "actors/house/house.hpp"
-#include "actors/instances/life/health_book.hpp"
+#include "actors/instances/life/health_table.hpp"
 #include "actors/instances/life/server_sight.hpp"
 #include "actors/instances/skill_catalogue.hpp"
 #include "messages/messages.hpp"
@@ -18,7 +18,7 @@
 namespace roscell {
 
 struct skill_instance_config {
-  house context;
+  actor_context context;
   container_supervisor_actor supervisor; ///< Told of every change.
   runtime_actor runtime;
   state_store_actor store;
@@ -45,7 +45,7 @@ struct skill_instance_config {
   /// Why one that is adopted is to be started again, unless its program goes on
   /// when it is told; empty: it goes on.
   std::string renewal;
-  environment_teller tell_environment; ///< Empty: it cannot be told.
+  environment_writer write_environment_update; ///< Empty: it cannot be told.
   shared_skill_grants grants; ///< Null: nothing is granted to any skill.
   std::string node;           ///< Its name, for what it says.
 };
@@ -93,7 +93,7 @@ struct skill_instance_state {
   std::optional<alarm::time_point> ready_since;
 
   /// What the streams of this run say; none before its skill has told of them.
-  std::optional<health_book> health;
+  std::optional<health_table> health;
 
   /// Whether the node's discovery server knows this run; none: nobody looks.
   std::optional<server_sight> sight;
@@ -109,9 +109,9 @@ struct skill_instance_state {
   bool renewing = false;
 
   /// When its program was told that its cell is elsewhere.
-  std::optional<alarm::time_point> told_at;
+  std::optional<alarm::time_point> ordered_at;
 
-  /// When one that is to end, and is not safe yet, ends all the same.
+  /// When one that is to end, and is not stop-safe yet, ends all the same.
   std::optional<alarm::time_point> patience;
 
   /// The coordinator has been out of reach, and not told yet what it wants.

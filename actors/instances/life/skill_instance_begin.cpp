@@ -1,7 +1,7 @@
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 #include "actors/instances/actor_skills/runtime_switch.hpp"
 #include "actors/instances/instance_environment.hpp"
-#include "actors/instances/instance_words.hpp"
+#include "actors/instances/instance_text.hpp"
 #include "actors/instances/life/skill_instance_steps.hpp"
 #include "actors/instances/ros2/ros2_program_start.hpp"
 
@@ -40,19 +40,18 @@ std::string not_granted(const skill_instance_state& st,
   const auto granted = st.config.grants ? *st.config.grants : skill_grants{};
   const auto& skill = st.row.spec.operation;
   const auto missing = granted.missing(skill, option);
-  return missing.empty()
-             ? std::string{}
-             : refusal_words(skill, st.config.node, missing.front());
+  return missing.empty() ? std::string{}
+                         : refusal_text(skill, st.config.node, missing.front());
 }
 
 /// Passes on what the deployment asks for, of which all is granted.
 void grant(const skill_instance_state& st, const deployment_option& option,
-           start_container& wish) {
-  wish.capabilities = option.capabilities;
-  wish.scheduling = option.scheduling;
-  wish.read_only = option.read_only;
+           start_container& request) {
+  request.capabilities = option.capabilities;
+  request.scheduling = option.scheduling;
+  request.read_only = option.read_only;
   if (st.config.grants)
-    wish.user = st.config.grants->user_of(st.row.spec.operation);
+    request.user = st.config.grants->user_of(st.row.spec.operation);
 }
 
 void on_built(skill_instance_pointer self, const std::string& image,
@@ -65,26 +64,27 @@ void on_built(skill_instance_pointer self, const std::string& image,
   if (!may_start(self))
     return wait_for_contact(self);
   enter(self, instance_state::starting);
-  start_container wish;
-  wish.instance = spec.instance;
-  wish.image = image;
-  wish.command = program.command;
-  wish.stop_signal = program.stop_signal;
-  wish.environment = instance_environment(spec, option, st.config.environment);
-  wish.environment.insert(program.environment.begin(),
-                          program.environment.end());
-  wish.labels = {
+  start_container request;
+  request.instance = spec.instance;
+  request.image = image;
+  request.command = program.command;
+  request.stop_signal = program.stop_signal;
+  request.environment =
+      instance_environment(spec, option, st.config.environment);
+  request.environment.insert(program.environment.begin(),
+                             program.environment.end());
+  request.labels = {
       {"task", spec.task}, {"instance", spec.instance}, {"cell", spec.cell}};
-  wish.limits = spec.resources;
-  wish.gpu = spec.gpu;
-  wish.input = spec.input;
-  wish.output = spec.output;
-  wish.devices = option.devices;
-  wish.volumes = option.volumes;
-  grant(st, option, wish);
-  wish.fence_boot_ms = st.fence_boot_ms = fence_of(st);
+  request.limits = spec.resources;
+  request.gpu = spec.gpu;
+  request.input = spec.input;
+  request.output = spec.output;
+  request.devices = option.devices;
+  request.volumes = option.volumes;
+  grant(st, option, request);
+  request.fence_boot_ms = st.fence_boot_ms = fence_of(st);
   ask<container_started>(
-      self, st.config.runtime, limits::instance::start, wish,
+      self, st.config.runtime, limits::instance::start, request,
       [=](const container_started& x) { on_started(self, x.container); },
       [=](const caf::error& error) {
         take_down(self, instance_state::failed, sentence(error));
@@ -234,7 +234,7 @@ void on_found_ended(skill_instance_pointer self, const container_adopted& x) {
     conclude(self, instance_state::stopped, "finished");
   else
     conclude(self, instance_state::failed,
-             end_words(st.row, x.cause, x.most_memory_mib)
+             end_reason_text(st.row, x.cause, x.most_memory_mib)
                  + " while the node was away");
 }
 

@@ -1,6 +1,6 @@
-#include "actors/house/limits.hpp"
-#include "actors/house/wall_clock.hpp"
-#include "actors/instances/instance_words.hpp"
+#include "actors/core/limits.hpp"
+#include "actors/core/wall_clock.hpp"
+#include "actors/instances/instance_text.hpp"
 #include "actors/instances/life/restart_delay.hpp"
 #include "actors/instances/life/skill_instance_steps.hpp"
 #include "schemas/utf8.hpp"
@@ -44,7 +44,7 @@ void forget_run(skill_instance_state& st) {
   st.config.adopt = false;
   st.concluding = st.ready = st.renewing = st.awaits_place = false;
   st.ready_since.reset();
-  st.told_at.reset();
+  st.ordered_at.reset();
   st.endpoints.reset();
   st.missing.clear();
   st.fence_boot_ms = 0;
@@ -85,10 +85,10 @@ std::string with_last_word(const instance_row& row, const std::string& reason,
 
 /// What could not go on when it was told of another address ends with an error,
 /// or hangs, and is no worse off than what cannot be told.
-bool failed_when_told(skill_instance_pointer self, const run_end& end) {
-  const auto& told = self->state.told_at;
-  return end.failed && told
-         && self->clock().now() - *told < 2 * limits::instance::watchdog;
+bool failed_when_ordered(skill_instance_pointer self, const run_end& end) {
+  const auto& reported = self->state.ordered_at;
+  return end.failed && reported
+         && self->clock().now() - *reported < 2 * limits::instance::watchdog;
 }
 
 void back_to_cell(skill_instance_pointer self, const std::string& reason) {
@@ -115,7 +115,7 @@ void go_on(skill_instance_pointer self, instance_state last,
     keep_run(row, reason, log);
     return await_start(self, reason);
   }
-  if ((st.renewing || failed_when_told(self, end)) && !st.farewell) {
+  if ((st.renewing || failed_when_ordered(self, end)) && !st.farewell) {
     keep_run(row, reason, log);
     return back_off(self, reason, milliseconds{0});
   }

@@ -1,4 +1,4 @@
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 #include "actors/instances/life/skill_instance_steps.hpp"
 #include "actors/instances/ros2/engine_ends.hpp"
 #include "schemas/utf8.hpp"
@@ -12,21 +12,21 @@ namespace roscell {
 namespace {
 
 /// What writes an input, as far as its node has been told.
-std::string feeder_of(const io_endpoint& input) {
+std::string upstream_step_of(const io_endpoint& input) {
   if (input.external)
     return "a program that no task has started is to write it";
   return input.from.empty() ? "" : "it is fed by step '" + input.from + "'";
 }
 
-health_book book_of(const skill_instance_state& st) {
-  std::vector<std::string> feeders;
+health_table health_table_of(const skill_instance_state& st) {
+  std::vector<std::string> upstream_steps;
   for (const auto& input : st.row.spec.input)
-    feeders.push_back(feeder_of(input));
-  return {st.row.spec, *st.ready_since, std::move(feeders),
+    upstream_steps.push_back(upstream_step_of(input));
+  return {st.row.spec, *st.ready_since, std::move(upstream_steps),
           health_verdict{st.row.health, st.row.health_reason}};
 }
 
-const char* fact_of(instance_health health) {
+const char* health_event_name(instance_health health) {
   switch (health) {
   case instance_health::starved:
     return "instance_starved";
@@ -37,24 +37,25 @@ const char* fact_of(instance_health health) {
   }
 }
 
-void tell(skill_instance_pointer self) {
+void report_change(skill_instance_pointer self) {
   const auto& st = self->state;
   const auto& spec = st.row.spec;
   json data{{"task", spec.task}, {"step", spec.step}};
   if (!st.row.health_reason.empty())
     data["reason"] = st.row.health_reason;
-  st.config.context.tell(fact_of(st.row.health), spec.instance, data);
+  st.config.context.publish_event(health_event_name(st.row.health),
+                                  spec.instance, data);
 }
 
 /// Whether its streams are to be spoken of in another way now.
 bool hear_streams(skill_instance_pointer self,
-                  const std::vector<stream_figure>& told) {
+                  const std::vector<stream_metrics>& reported) {
   auto& st = self->state;
-  if (told.empty() || !has_bounds(st.row.spec.life.health))
+  if (reported.empty() || !has_bounds(st.row.spec.life.health))
     return false;
   if (!st.health)
-    st.health = book_of(st);
-  return st.health->hear(told, self->clock().now());
+    st.health = health_table_of(st);
+  return st.health->hear(reported, self->clock().now());
 }
 
 /// Whoever counts frames is of our engine, which names its participant.
@@ -90,7 +91,7 @@ void say(skill_instance_pointer self, const health_verdict& x) {
     return;
   st.row.health = x.health;
   st.row.health_reason = reason;
-  tell(self);
+  report_change(self);
   if (st.row.health == instance_health::unhealthy)
     return take_down(self, instance_state::failed,
                      "it is unhealthy: " + st.row.health_reason);
@@ -100,10 +101,10 @@ void say(skill_instance_pointer self, const health_verdict& x) {
 
 } // namespace
 
-void look_after_health(skill_instance_pointer self,
-                       const instance_notified& x) {
+void follow_health(skill_instance_pointer self, const instance_notified& x) {
   auto& st = self->state;
-  // What is to end for good, and only waits to be safe, is not started again.
+  // What is to end for good, and only waits to be stop-safe, is not started
+  // again.
   if (st.row.state != instance_state::running || st.farewell)
     return;
   const bool heard = hear_streams(self, x.streams);

@@ -1,4 +1,4 @@
-#include "actors/house/wall_clock.hpp"
+#include "actors/core/wall_clock.hpp"
 #include "actors/instances/life/restart_delay.hpp"
 #include "actors/instances/life/skill_instance_steps.hpp"
 
@@ -37,7 +37,7 @@ bool is_of_other_boot(const skill_instance_state& st) {
 const char* interruption_of(const skill_instance_state& st,
                             const container_adopted& found) {
   if (found.terminated)
-    return told_to_end;
+    return ordered_to_end;
   if (found.recorded || is_of_this_boot(st))
     return nullptr;
   // Of a container that an earlier version has started its engine knows how it

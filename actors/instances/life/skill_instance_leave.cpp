@@ -1,5 +1,5 @@
-#include "actors/house/limits.hpp"
-#include "actors/house/wall_clock.hpp"
+#include "actors/core/limits.hpp"
+#include "actors/core/wall_clock.hpp"
 #include "actors/instances/life/restart_delay.hpp"
 #include "actors/instances/life/skill_instance_steps.hpp"
 
@@ -39,14 +39,14 @@ void set_patience(skill_instance_pointer self, milliseconds patience) {
   st.timer.set(self, *st.patience);
 }
 
-/// The wish outlives this process: nobody may repeat it.
+/// The request outlives this process: nobody may repeat it.
 void wait_for_safety(skill_instance_pointer self) {
   auto& st = self->state;
   const auto patience = span_of(st.row.spec.life.safe_timeout_s);
   st.row.unsafe_since_unix_ms = unix_now_ms();
   st.row.unsafe_until_unix_ms =
       patience.count() > 0 ? st.row.unsafe_since_unix_ms + patience.count() : 0;
-  st.row.waits = "waits to be safe";
+  st.row.waits = "waits to be stop-safe";
   st.row.reason = *st.farewell;
   record_event(self, "instance_awaited");
   note(self);
@@ -82,25 +82,25 @@ bool moves_on_loss(const skill_instance_state& st) {
 
 } // namespace
 
-void on_stop(skill_instance_pointer self, const stop_instance& wish) {
+void on_stop(skill_instance_pointer self, const stop_instance& request) {
   auto& st = self->state;
   const auto state = st.row.state;
   const auto before_container = !st.config.adopt && st.row.container.empty()
                                 && (state < instance_state::starting
                                     || state == instance_state::backing_off);
   if (!st.farewell)
-    st.farewell = wish.reason;
+    st.farewell = request.reason;
   if (!st.concluding && st.begun && state == instance_state::stopping
-      && wish.force)
+      && request.force)
     return hasten(self);
   if (st.concluding || (st.begun && state == instance_state::stopping))
     return;
   st.begun = true;
   if (before_container)
     conclude(self, instance_state::stopped, *st.farewell);
-  else if (is_waiting(st) && wish.force)
+  else if (is_waiting(st) && request.force)
     stop_waiting(self);
-  else if (must_wait(st) && !wish.force && !is_waiting(st))
+  else if (must_wait(st) && !request.force && !is_waiting(st))
     wait_for_safety(self);
   else if (!is_waiting(st))
     take_down(self, instance_state::stopped, *st.farewell);
@@ -137,18 +137,18 @@ place_of_cell(const skill_instance_state& st) {
 }
 
 /// A skill of the engine makes its connections anew, and goes on.
-bool tell_program(skill_instance_pointer self) {
+bool notify_program(skill_instance_pointer self) {
   auto& st = self->state;
   const auto& spec = st.row.spec;
-  if (!st.config.tell_environment
-      || !st.config.tell_environment(spec.instance, place_of_cell(st)))
+  if (!st.config.write_environment_update
+      || !st.config.write_environment_update(spec.instance, place_of_cell(st)))
     return false;
-  st.told_at = self->clock().now();
-  st.config.context.tell("instance_address_changed", spec.instance,
-                         {{"task", spec.task},
-                          {"step", spec.step},
-                          {"from", st.started_at},
-                          {"to", st.config.address}});
+  st.ordered_at = self->clock().now();
+  st.config.context.publish_event("instance_address_changed", spec.instance,
+                                  {{"task", spec.task},
+                                   {"step", spec.step},
+                                   {"from", st.started_at},
+                                   {"to", st.config.address}});
   st.started_at = st.config.address;
   note(self);
   return true;
@@ -158,12 +158,12 @@ bool tell_program(skill_instance_pointer self) {
 
 void renew(skill_instance_pointer self) {
   auto& st = self->state;
-  if (st.config.renewal.empty() || st.farewell || tell_program(self))
+  if (st.config.renewal.empty() || st.farewell || notify_program(self))
     return;
   st.renewing = true;
   if (!must_wait(st))
     return take_down(self, instance_state::failed, st.config.renewal);
-  st.row.waits = "waits to be safe";
+  st.row.waits = "waits to be stop-safe";
   st.row.reason = st.config.renewal;
   report(self);
   ask_it(self);
@@ -186,7 +186,7 @@ void on_safety(skill_instance_pointer self, safe_word word) {
 
 void on_patience_over(skill_instance_pointer self) {
   auto& st = self->state;
-  constexpr const char* late = "; it was not safe in time";
+  constexpr const char* late = "; it was not stop-safe in time";
   st.patience.reset();
   if (!st.farewell)
     return take_down(self, instance_state::failed, st.config.renewal + late);
@@ -220,9 +220,9 @@ bool was_fenced(skill_instance_pointer self) {
                               : !st.config.confirmed;
 }
 
-void on_contact(skill_instance_pointer self, const contact_proven& fact) {
+void on_contact(skill_instance_pointer self, const contact_proven& event) {
   auto& st = self->state;
-  const auto& kept = fact.kept;
+  const auto& kept = event.kept;
   const bool named =
       std::find(kept.begin(), kept.end(), st.row.spec.instance) != kept.end();
   // The first word after a loss tells what is wanted; the others tell nothing.
@@ -230,7 +230,8 @@ void on_contact(skill_instance_pointer self, const contact_proven& fact) {
     st.config.confirmed = named;
   if (!st.config.confirmed)
     return;
-  st.config.contact_boot_ms = std::max(st.config.contact_boot_ms, fact.boot_ms);
+  st.config.contact_boot_ms =
+      std::max(st.config.contact_boot_ms, event.boot_ms);
   if (waits_for_contact(st))
     return start_again(self);
   if (!moves_on_loss(st))
@@ -246,7 +247,7 @@ void on_contact(skill_instance_pointer self, const contact_proven& fact) {
 void on_contact_lost(skill_instance_pointer self) {
   auto& st = self->state;
   st.out_of_contact = true;
-  // It may have to end soon, and has this long to become safe.
+  // It may have to end soon, and has this long to become stop-safe.
   if (moves_on_loss(st) && must_wait(st))
     ask_it(self);
 }

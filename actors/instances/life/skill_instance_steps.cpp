@@ -1,9 +1,9 @@
 #include "actors/instances/life/skill_instance_steps.hpp"
 
-#include "actors/house/limits.hpp"
-#include "actors/house/wall_clock.hpp"
+#include "actors/core/limits.hpp"
+#include "actors/core/wall_clock.hpp"
 #include "actors/instances/instance_environment.hpp"
-#include "actors/instances/instance_words.hpp"
+#include "actors/instances/instance_text.hpp"
 #include "messages/failure.hpp"
 #include "schemas/utf8.hpp"
 
@@ -21,7 +21,7 @@ std::string log_tail_of(const caf::error& error) {
   return details.is_object() ? details.value("log_tail", "") : std::string{};
 }
 
-void record_event(skill_instance_pointer self, const char* fact) {
+void record_event(skill_instance_pointer self, const char* event) {
   const auto& st = self->state;
   const auto& row = st.row;
   json data{{"task", row.spec.task},
@@ -35,7 +35,7 @@ void record_event(skill_instance_pointer self, const char* fact) {
     data["restarts"] = row.restarts;
   if (row.state == instance_state::backing_off && row.next_start_unix_ms > 0)
     data["next_start_unix_ms"] = row.next_start_unix_ms;
-  st.config.context.tell(fact, row.spec.instance, data);
+  st.config.context.publish_event(event, row.spec.instance, data);
 }
 
 void report(skill_instance_pointer self) {
@@ -90,8 +90,8 @@ void note(skill_instance_pointer self) {
   self->request(st.config.store, limits::instance::disk, record)
       .then([](const record_stored&) {},
             [=](const caf::error& error) {
-              context.tell("store_failed", instance,
-                           {{"message", valid_utf8(sentence(error))}});
+              context.publish_event("store_failed", instance,
+                                    {{"message", valid_utf8(sentence(error))}});
             });
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 #include "actors/instances/life/skill_instance.hpp"
 
 #include <caf/send.hpp>
@@ -40,8 +40,8 @@ std::string sentence(const caf::error& error);
 /// The end of a build's log, which goes along with its failure.
 std::string log_tail_of(const caf::error& error);
 
-/// Records a fact about the instance.
-void record_event(skill_instance_pointer self, const char* fact);
+/// Records an event about the instance.
+void record_event(skill_instance_pointer self, const char* event);
 
 /// Tells the supervisor how things stand.
 void report(skill_instance_pointer self);
@@ -90,7 +90,7 @@ void start_again(skill_instance_pointer self);
 // ----
 
 /// Why a program has ended whose shim was told to end it.
-constexpr const char* told_to_end =
+constexpr const char* ordered_to_end =
     "it was interrupted: something outside its cell told it to end, as a host "
     "does that shuts down";
 
@@ -113,21 +113,21 @@ bool waits_for_contact(const skill_instance_state& st);
 
 // -- skill_instance_leave.cpp: safe before it ends, gone before it is elsewhere
 
-/// Takes it down for good, once it is safe.
-void on_stop(skill_instance_pointer self, const stop_instance& wish);
+/// Takes it down for good, once it is stop-safe.
+void on_stop(skill_instance_pointer self, const stop_instance& request);
 
 /// Goes on with what an earlier run of the node was asked.
 void resume_leaving(skill_instance_pointer self);
 
 /// What has been adopted, and is bound to an address that is gone, is told of
-/// it and goes on, or is started again, once it is safe. Its policy is not
+/// it and goes on, or is started again, once it is stop-safe. Its policy is not
 /// asked, for it has done nothing wrong.
 void renew(skill_instance_pointer self);
 
 /// Its skill has told whether it may be ended.
 void on_safety(skill_instance_pointer self, safe_word word);
 
-/// The patience with one that is not safe is over.
+/// The patience with one that is not stop-safe is over.
 void on_patience_over(skill_instance_pointer self);
 
 /// Whether it may be started as far as its cell is concerned: not while another
@@ -140,7 +140,7 @@ int64_t fence_of(const skill_instance_state& st);
 /// Whether it was the fence that has ended it.
 bool was_fenced(skill_instance_pointer self);
 
-void on_contact(skill_instance_pointer self, const contact_proven& fact);
+void on_contact(skill_instance_pointer self, const contact_proven& event);
 void on_contact_lost(skill_instance_pointer self);
 
 // -- skill_instance_health.cpp ------------------------------------------------
@@ -148,7 +148,7 @@ void on_contact_lost(skill_instance_pointer self);
 /// Its skill has given a sign of life, and maybe told what it has measured of
 /// its streams. What is unhealthy is taken down, so that its policy starts it
 /// again.
-void look_after_health(skill_instance_pointer self, const instance_notified& x);
+void follow_health(skill_instance_pointer self, const instance_notified& x);
 
 /// The node's discovery server knows all of its topics but these.
 void on_sight(skill_instance_pointer self, const endpoints_missing& x);

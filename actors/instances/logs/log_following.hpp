@@ -1,6 +1,6 @@
 #pragma once
 
-#include "actors/house/alarm.hpp"
+#include "actors/core/alarm.hpp"
 #include "messages/instance.hpp"
 
 #include <caf/error.hpp>

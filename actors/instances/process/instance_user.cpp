@@ -32,12 +32,12 @@ std::string hexadecimal(capability_set x) {
 }
 
 /// Root without its way around permissions could do less than anybody else.
-capability_set kept_by(const start_container& wish, bool is_root) {
-  return to_capabilities(wish.capabilities)
+capability_set kept_by(const start_container& request, bool is_root) {
+  return to_capabilities(request.capabilities)
          | (is_root ? file_capabilities() : 0);
 }
 
-std::string user_words(const user_account& x) {
+std::string user_text(const user_account& x) {
   auto result = std::to_string(x.user) + ':' + std::to_string(x.group);
   for (const auto group : x.groups)
     result += ',' + std::to_string(group);
@@ -46,35 +46,35 @@ std::string user_words(const user_account& x) {
 
 } // namespace
 
-std::optional<edge_error> add_identity(const start_container& wish,
+std::optional<edge_error> add_identity(const start_container& request,
                                        program& shim) {
   auto& words = shim.arguments;
   auto user = ::geteuid();
-  if (!wish.user.empty()) {
-    const auto account = find_account(wish.user);
+  if (!request.user.empty()) {
+    const auto account = find_account(request.user);
     if (!account)
-      return no_such_user(wish.user);
+      return no_such_user(request.user);
     if (account->user != user)
-      words.insert(words.begin(), {"--user", user_words(*account)});
+      words.insert(words.begin(), {"--user", user_text(*account)});
     user = account->user;
     // What the step says counts more.
-    if (wish.environment.count("HOME") == 0)
+    if (request.environment.count("HOME") == 0)
       shim.environment["HOME"] = account->home;
     shim.environment.emplace("USER", account->name);
     shim.environment.emplace("LOGNAME", account->name);
   }
   words.insert(words.begin(),
-               {"--capabilities", hexadecimal(kept_by(wish, user == 0))});
+               {"--capabilities", hexadecimal(kept_by(request, user == 0))});
   return std::nullopt;
 }
 
-std::optional<edge_error> let_in(const start_container& wish,
+std::optional<edge_error> let_in(const start_container& request,
                                  const std::filesystem::path& instance_dir) {
-  if (wish.user.empty())
+  if (request.user.empty())
     return std::nullopt;
-  const auto account = find_account(wish.user);
+  const auto account = find_account(request.user);
   if (!account)
-    return no_such_user(wish.user);
+    return no_such_user(request.user);
   if (account->user == ::geteuid() || account->user == 0)
     return std::nullopt;
   const auto socket = notify_path(instance_dir);
@@ -85,14 +85,14 @@ std::optional<edge_error> let_in(const start_container& wish,
   for (const auto& x : folders)
     if (!let_user(x, account->user, access_right::pass))
       return edge_error{error_code::engine_failed,
-                        "cannot let the user '" + wish.user + "' into '"
+                        "cannot let the user '" + request.user + "' into '"
                             + x.string() + "': " + std::strerror(errno),
                         {}};
   for (const auto& x : {socket, environment_file_of(socket)})
     if (!let_user(x, account->user, access_right::read_and_write)
         && errno != ENOENT)
       return edge_error{error_code::engine_failed,
-                        "cannot give the user '" + wish.user + "' '"
+                        "cannot give the user '" + request.user + "' '"
                             + x.string() + "': " + std::strerror(errno),
                         {}};
   return std::nullopt;

@@ -1,12 +1,12 @@
 #include "actors/instances/process/process_instance.hpp"
 
+#include "actors/core/limits.hpp"
 #include "actors/edge/history/kept_log_folder.hpp"
 #include "actors/edge/process/environment_file.hpp"
 #include "actors/edge/process/fence_file.hpp"
 #include "actors/edge/process/marked_processes.hpp"
 #include "actors/edge/process/notify_socket.hpp"
 #include "actors/edge/process/process_spawner.hpp"
-#include "actors/house/limits.hpp"
 #include "actors/instances/process/instance_user.hpp"
 #include "actors/instances/process/process_limits.hpp"
 #include "actors/instances/process/shim_program.hpp"
@@ -126,26 +126,26 @@ std::map<std::string, std::string> basic_environment() {
 }
 
 edge_result<process_instance> launch(const process_runtime_config& config,
-                                     const start_container& wish) {
-  const auto dir = config.instances_dir / wish.instance;
+                                     const start_container& request) {
+  const auto dir = config.instances_dir / request.instance;
   auto socket = ready_folder(dir);
   if (auto* error = std::get_if<edge_error>(&socket))
     return *error;
-  if (wish.fence_boot_ms != 0)
-    if (auto error = make_fence(fence_path(dir), wish.fence_boot_ms))
+  if (request.fence_boot_ms != 0)
+    if (auto error = make_fence(fence_path(dir), request.fence_boot_ms))
       return *error;
-  const auto cgroup =
-      instance_cgroup::make(config.cgroups, wish.instance, bounds_of(wish));
+  const auto cgroup = instance_cgroup::make(config.cgroups, request.instance,
+                                            bounds_of(request));
   cgroup.record(dir);
-  auto shim = shim_for(config, dir, wish, cgroup);
-  if (auto error = add_identity(wish, shim))
+  auto shim = shim_for(config, dir, request, cgroup);
+  if (auto error = add_identity(request, shim))
     return *error;
-  if (auto error = let_in(wish, dir))
+  if (auto error = let_in(request, dir))
     return *error;
   auto started = spawn_program(shim, limits::instance::shim);
   if (auto* error = std::get_if<edge_error>(&started)) {
     clear_up_after_killed_shim(dir, cgroup);
-    drop_cgroup(config, wish.instance, cgroup);
+    drop_cgroup(config, request.instance, cgroup);
     return *error;
   }
   auto& child = std::get<spawned_program>(started);

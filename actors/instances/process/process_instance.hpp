@@ -1,10 +1,10 @@
 #pragma once
 
+#include "actors/core/actor_context.hpp"
 #include "actors/edge/cgroup/instance_cgroup.hpp"
 #include "actors/edge/io/edge_error.hpp"
 #include "actors/edge/process/child_watch.hpp"
 #include "actors/edge/process/process_identity.hpp"
-#include "actors/house/house.hpp"
 #include "messages/inside/runtime.hpp"
 
 #include <cstdint>
@@ -18,7 +18,7 @@
 namespace roscell {
 
 struct process_runtime_config {
-  house context;
+  actor_context context;
   std::filesystem::path instances_dir; ///< One folder per instance goes here.
   std::filesystem::path shim;          ///< tools/instance_shim.
   uint64_t log_bytes = 1024 * 1024;    ///< Bound of one instance's log.
@@ -55,7 +55,7 @@ struct process_instance {
 /// folder, of which only the log of its earlier runs is left. Errors:
 /// engine_failed.
 edge_result<process_instance> launch(const process_runtime_config& config,
-                                     const start_container& wish);
+                                     const start_container& request);
 
 /// Finds what an earlier run of the node has started last, by the records in
 /// the instance's folder or, where they are gone, by the container's id.

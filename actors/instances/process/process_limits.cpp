@@ -9,8 +9,9 @@ namespace roscell {
 void drop_cgroup(const process_runtime_config& config,
                  const std::string& instance, const instance_cgroup& cgroup) {
   if (!cgroup.remove())
-    config.context.tell("cgroup_left", instance,
-                        {{"folder", cgroup.folders().front().string()}});
+    config.context.publish_event(
+        "cgroup_left", instance,
+        {{"folder", cgroup.folders().front().string()}});
 }
 
 instance_cgroup cgroup_of(const process_runtime_config& config,
@@ -21,9 +22,9 @@ instance_cgroup cgroup_of(const process_runtime_config& config,
              : noted;
 }
 
-instance_bounds bounds_of(const start_container& wish) {
-  const auto& policy = wish.scheduling.policy;
-  return {wish.limits.memory_mib, wish.limits.cpu,
+instance_bounds bounds_of(const start_container& request) {
+  const auto& policy = request.scheduling.policy;
+  return {request.limits.memory_mib, request.limits.cpu,
           policy == "fifo" || policy == "rr"};
 }
 
@@ -34,7 +35,7 @@ void clear_cgroups(const process_runtime_config& config) {
        !error && i != end; i.increment(error))
     known.insert(i->path().filename().native());
   for (const auto& x : remove_other_cgroups(config.cgroups, known))
-    config.context.tell("cgroup_left", x);
+    config.context.publish_event("cgroup_left", x);
 }
 
 } // namespace roscell

@@ -7,7 +7,7 @@
 /// INTERNAL to the process runtime: the cgroups of its instances.
 namespace roscell {
 
-instance_bounds bounds_of(const start_container& wish);
+instance_bounds bounds_of(const start_container& request);
 
 /// What its folder says of its cgroup, or else its name.
 instance_cgroup cgroup_of(const process_runtime_config& config,

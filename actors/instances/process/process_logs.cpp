@@ -1,8 +1,8 @@
 #include "actors/instances/process/process_logs.hpp"
 
+#include "actors/core/limits.hpp"
 #include "actors/edge/process/instance_log.hpp"
 #include "actors/edge/process/log_watch.hpp"
-#include "actors/house/limits.hpp"
 #include "actors/instances/instance_id.hpp"
 #include "messages/failure.hpp"
 

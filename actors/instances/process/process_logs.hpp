@@ -12,7 +12,7 @@ using process_runtime_pointer =
 caf::result<log_excerpt> read_log(process_runtime_pointer self,
                                   const log_query& query);
 
-/// Looks whether the followers of an instance's log can be answered.
+/// Checks whether the followers of an instance's log can be answered.
 void serve_followers(process_runtime_pointer self, const std::string& instance);
 
 /// Answers the followers whose time is over, and sets the alarm for the others.

@@ -1,13 +1,13 @@
 #include "actors/instances/process/process_runtime.hpp"
 
+#include "actors/core/edge_failure.hpp"
+#include "actors/core/limits.hpp"
+#include "actors/core/watching.hpp"
 #include "actors/edge/process/fence_file.hpp"
 #include "actors/edge/process/pidfd.hpp"
-#include "actors/house/edge_failure.hpp"
-#include "actors/house/limits.hpp"
-#include "actors/house/watching.hpp"
 #include "actors/instances/fence_keeping.hpp"
 #include "actors/instances/instance_id.hpp"
-#include "actors/instances/life/told_words.hpp"
+#include "actors/instances/life/status_notification.hpp"
 #include "actors/instances/process/process_logs.hpp"
 #include "actors/instances/skill_folder.hpp"
 #include "actors/instances/skill_program.hpp"
@@ -35,7 +35,7 @@ child_watch watch(process_runtime_pointer self, const std::string& instance,
   const auto listener = self->state.listener;
   child_watch::callbacks calls;
   calls.on_notification = [listener, instance](const notification& n) {
-    caf::anon_send(listener, told_words(instance, n, false));
+    caf::anon_send(listener, status_notification(instance, n, false));
   };
   calls.on_end = [target, instance, container = x.container] {
     caf::anon_send(target, program_ended{instance, container});
@@ -71,42 +71,42 @@ bool is_outdated(const running_process& x, const std::string& container) {
   return !container.empty() && x.process.container != container;
 }
 
-caf::result<image_prepared> prepare(const prepare_image& wish) {
-  if (!wish.entry_point.empty()) {
-    const auto found = find_program(wish.skill_dir, wish.entry_point);
+caf::result<image_prepared> prepare(const prepare_image& request) {
+  if (!request.entry_point.empty()) {
+    const auto found = find_program(request.skill_dir, request.entry_point);
     if (const auto* error = std::get_if<edge_error>(&found))
       return to_caf(*error);
   }
-  const auto same = check_build(wish);
+  const auto same = check_build(request);
   if (const auto* error = std::get_if<edge_error>(&same))
     return to_caf(*error);
-  return image_prepared{wish.skill_dir};
+  return image_prepared{request.skill_dir};
 }
 
 caf::result<container_started> start(process_runtime_pointer self,
-                                     const start_container& wish) {
-  if (!is_instance_id(wish.instance) || wish.command.empty())
-    return bad_id(wish.instance);
+                                     const start_container& request) {
+  if (!is_instance_id(request.instance) || request.command.empty())
+    return bad_id(request.instance);
   // Whatever an earlier run of the node has left must not run twice.
-  const auto before = known(self, wish.instance, {});
+  const auto before = known(self, request.instance, {});
   if (const auto* error = std::get_if<edge_error>(&before))
     return to_caf(*error);
   if (std::get<running_process*>(before)->process.runs())
     return fail(error_code::engine_failed,
-                "the instance '" + wish.instance + "' runs already");
-  auto launched = launch(self->state.config, wish);
+                "the instance '" + request.instance + "' runs already");
+  auto launched = launch(self->state.config, request);
   if (const auto* error = std::get_if<edge_error>(&launched))
     return to_caf(*error);
-  const auto& x = keep(self, wish.instance,
+  const auto& x = keep(self, request.instance,
                        std::move(std::get<process_instance>(launched)));
   return container_started{x.process.container};
 }
 
 caf::result<container_adopted> adopt(process_runtime_pointer self,
-                                     const adopt_container& wish) {
-  if (!is_instance_id(wish.instance))
-    return bad_id(wish.instance);
-  const auto found = known(self, wish.instance, wish.container);
+                                     const adopt_container& request) {
+  if (!is_instance_id(request.instance))
+    return bad_id(request.instance);
+  const auto found = known(self, request.instance, request.container);
   if (const auto* error = std::get_if<edge_error>(&found))
     return to_caf(*error);
   const auto& x = std::get<running_process*>(found)->process;
@@ -119,13 +119,15 @@ caf::result<container_adopted> adopt(process_runtime_pointer self,
 /// another.
 void hear(process_runtime_pointer self, const std::string& instance) {
   const auto& st = self->state;
-  const auto tell = [listener = st.listener, instance](const notification& n) {
-    caf::anon_send(listener, told_words(instance, n, true));
+  const auto forward_notification = [listener = st.listener,
+                                     instance](const notification& n) {
+    caf::anon_send(listener, status_notification(instance, n, true));
   };
   const auto i = st.processes.find(instance);
   if (i == st.processes.end() || !i->second.process.runs())
-    return tell({});
-  hear_notifications(st.config.io, i->second.process.notify_socket, tell);
+    return forward_notification({});
+  hear_notifications(st.config.io, i->second.process.notify_socket,
+                     forward_notification);
 }
 
 void signal(const running_process& x, int number) {
@@ -133,22 +135,24 @@ void signal(const running_process& x, int number) {
     ::pidfd_send_signal(x.process.pidfd->get(), number, nullptr, 0);
 }
 
-void ask_to_be_safe(process_runtime_pointer self, const ask_for_safety& wish) {
-  const auto i = self->state.processes.find(wish.instance);
+void ask_to_become_stop_safe(process_runtime_pointer self,
+                             const ask_for_safety& request) {
+  const auto i = self->state.processes.find(request.instance);
   // The shim passes it on to its command.
   if (i != self->state.processes.end()
-      && !is_outdated(i->second, wish.container))
+      && !is_outdated(i->second, request.container))
     signal(i->second, SIGUSR1);
 }
 
-void fence(process_runtime_pointer self, const fence_container& wish) {
+void fence(process_runtime_pointer self, const fence_container& request) {
   const auto& config = self->state.config;
-  const auto i = self->state.processes.find(wish.instance);
+  const auto i = self->state.processes.find(request.instance);
   if (i == self->state.processes.end() || !i->second.process.runs()
-      || is_outdated(i->second, wish.container))
+      || is_outdated(i->second, request.container))
     return;
-  keep_fence(config.context, fence_path(config.instances_dir / wish.instance),
-             wish, i->second.fence_fails);
+  keep_fence(config.context,
+             fence_path(config.instances_dir / request.instance), request,
+             i->second.fence_fails);
 }
 
 /// Goes to the next stage of ending and says when the one after that begins.
@@ -202,19 +206,19 @@ void advance(process_runtime_pointer self, const std::string& instance,
 }
 
 caf::result<container_stopped> stop(process_runtime_pointer self,
-                                    const stop_container& wish) {
-  if (!is_instance_id(wish.instance))
-    return bad_id(wish.instance);
-  const auto found = known(self, wish.instance, wish.container);
+                                    const stop_container& request) {
+  if (!is_instance_id(request.instance))
+    return bad_id(request.instance);
+  const auto found = known(self, request.instance, request.container);
   if (const auto* error = std::get_if<edge_error>(&found))
     return to_caf(*error);
   auto& x = *std::get<running_process*>(found);
-  if (is_outdated(x, wish.container))
+  if (is_outdated(x, request.container))
     return container_stopped{};
   if (!x.process.runs())
     return container_stopped{x.process.exit_code};
   const auto grace = std::clamp<int64_t>(
-      wish.grace_ms, 0, limits::instance::most_stop_grace.count());
+      request.grace_ms, 0, limits::instance::most_stop_grace.count());
   if (x.stage == ending::none)
     end(self, x, ending::asked, std::chrono::milliseconds{grace});
   else if (x.stage == ending::asked)
@@ -246,19 +250,19 @@ caf::error forget(process_runtime_pointer self, const std::string& instance) {
 }
 
 caf::result<container_removed> remove(process_runtime_pointer self,
-                                      const remove_container& wish) {
-  if (!is_instance_id(wish.instance))
-    return bad_id(wish.instance);
-  const auto found = known(self, wish.instance, wish.container);
+                                      const remove_container& request) {
+  if (!is_instance_id(request.instance))
+    return bad_id(request.instance);
+  const auto found = known(self, request.instance, request.container);
   if (const auto* error = std::get_if<edge_error>(&found))
     return to_caf(*error);
   auto& x = *std::get<running_process*>(found);
-  if (is_outdated(x, wish.container))
+  if (is_outdated(x, request.container))
     return container_removed{};
-  x.goes_on = wish.restarts;
-  x.about = wish.about;
+  x.goes_on = request.restarts;
+  x.about = request.about;
   if (!x.process.runs()) {
-    if (auto error = forget(self, wish.instance))
+    if (auto error = forget(self, request.instance))
       return error;
     return container_removed{};
   }
@@ -269,29 +273,29 @@ caf::result<container_removed> remove(process_runtime_pointer self,
   return promise;
 }
 
-void on_end(process_runtime_pointer self, const program_ended& fact) {
+void on_end(process_runtime_pointer self, const program_ended& event) {
   auto& st = self->state;
-  const auto i = st.processes.find(fact.instance);
+  const auto i = st.processes.find(event.instance);
   if (i == st.processes.end() || !i->second.process.runs()
-      || i->second.process.container != fact.container)
+      || i->second.process.container != event.container)
     return;
   auto& x = i->second;
   x.watch = {};
-  conclude(st.config, fact.instance, x.process);
+  conclude(st.config, event.instance, x.process);
   x.stage = ending::none;
   x.next_stage.reset();
   const auto code = x.process.exit_code;
   self->send(st.listener,
-             container_exited{fact.instance, fact.container, code,
+             container_exited{event.instance, event.container, code,
                               x.process.terminated, x.process.cause,
                               x.process.most_memory_mib});
   for (auto& promise : std::exchange(x.stoppers, {}))
     promise.deliver(container_stopped{code});
-  serve_followers(self, fact.instance);
+  serve_followers(self, event.instance);
   auto removers = std::exchange(x.removers, {});
   if (removers.empty())
     return;
-  const auto error = forget(self, fact.instance);
+  const auto error = forget(self, event.instance);
   for (auto& promise : removers)
     if (error)
       promise.deliver(error);
@@ -341,7 +345,7 @@ process_runtime(process_runtime_pointer self,
       [self](const remove_container& x) { return remove(self, x); },
       [self](const adopt_container& x) { return adopt(self, x); },
       [self](const fence_container& x) { fence(self, x); },
-      [self](const ask_for_safety& x) { ask_to_be_safe(self, x); },
+      [self](const ask_for_safety& x) { ask_to_become_stop_safe(self, x); },
       [self](const hear_container& x) { hear(self, x.instance); },
       [self](const log_query& x) { return read_log(self, x); },
       [self](const program_ended& x) { on_end(self, x); },

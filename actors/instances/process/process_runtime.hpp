@@ -1,7 +1,7 @@
 #pragma once
 
-#include "actors/house/alarm.hpp"
-#include "actors/house/house.hpp"
+#include "actors/core/actor_context.hpp"
+#include "actors/core/alarm.hpp"
 #include "actors/instances/logs/log_following.hpp"
 #include "actors/instances/process/process_instance.hpp"
 #include "messages/messages.hpp"

@@ -13,7 +13,7 @@ constexpr const char* folder_variable = "ROSCELL_INSTANCE_DIR";
 
 /// The shim of an instance, whose records go to `dir`.
 program shim_for(const process_runtime_config& config,
-                 const std::filesystem::path& dir, const start_container& wish,
-                 const instance_cgroup& cgroup);
+                 const std::filesystem::path& dir,
+                 const start_container& request, const instance_cgroup& cgroup);
 
 } // namespace roscell

@@ -1,5 +1,5 @@
 #include "actors/instances/ros2/graph_watch.hpp"
-#include "actors/house/watching.hpp"
+#include "actors/core/watching.hpp"
 
 #include <caf/actor_cast.hpp>
 #include <caf/send.hpp>
@@ -37,44 +37,44 @@ bool has(const ends_by_program& ends, const std::string& program,
 }
 
 std::vector<std::string> missing_in(const ends_by_program& ends,
-                                    const watch_endpoints& wish) {
+                                    const watch_endpoints& request) {
   std::vector<std::string> result;
-  for (const auto& topic : wish.written)
-    if (!has(ends, wish.program, topic, true))
+  for (const auto& topic : request.written)
+    if (!has(ends, request.program, topic, true))
       result.push_back("a writer of " + topic);
-  for (const auto& topic : wish.read)
-    if (!has(ends, wish.program, topic, false))
+  for (const auto& topic : request.read)
+    if (!has(ends, request.program, topic, false))
       result.push_back("a reader of " + topic);
   return result;
 }
 
 void look(graph_watch_self self, watched_program& x,
           const ends_by_program& ends) {
-  auto missing = missing_in(ends, x.wish);
+  auto missing = missing_in(ends, x.request);
   if (x.missing == missing)
     return;
   x.missing = missing;
   self->send(x.listener,
-             endpoints_missing{x.wish.instance, std::move(missing)});
+             endpoints_missing{x.request.instance, std::move(missing)});
 }
 
-void watch(graph_watch_self self, const watch_endpoints& wish) {
+void watch(graph_watch_self self, const watch_endpoints& request) {
   auto& st = self->state;
   auto listener =
       caf::actor_cast<endpoint_listener_actor>(self->current_sender());
   if (!listener)
     return;
-  auto& x = st.programs[wish.instance];
+  auto& x = st.programs[request.instance];
   // Whoever is started again asks again.
   if (x.listener != listener)
     watch_until_its_end(self, listener);
-  x = {wish, listener, std::nullopt};
+  x = {request, listener, std::nullopt};
   const auto ends = st.graph->endpoints();
   if (st.graph->is_served())
     look(self, x, sorted(ends));
 }
 
-void look_at_all(graph_watch_self self) {
+void check_all(graph_watch_self self) {
   auto& st = self->state;
   // Nobody is told again before somebody looks.
   if (st.programs.empty())
@@ -110,8 +110,8 @@ graph_watch_actor::behavior_type graph_watch(graph_watch_self self,
       [self](const state_query&) {
         return state_of({{"programs", self->state.programs.size()}});
       },
-      [self](const watch_endpoints& wish) { watch(self, wish); },
-      [self](const graph_changed&) { look_at_all(self); },
+      [self](const watch_endpoints& request) { watch(self, request); },
+      [self](const graph_changed&) { check_all(self); },
   };
 }
 

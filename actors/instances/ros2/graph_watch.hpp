@@ -1,7 +1,7 @@
 #pragma once
 
+#include "actors/core/actor_context.hpp"
 #include "actors/edge/dds/ros_graph.hpp"
-#include "actors/house/house.hpp"
 #include "messages/messages.hpp"
 
 #include <map>
@@ -14,7 +14,7 @@ namespace roscell {
 
 /// A program that is looked after.
 struct watched_program {
-  watch_endpoints wish;
+  watch_endpoints request;
   endpoint_listener_actor listener;
   /// As it was told last; none: nothing yet.
   std::optional<std::vector<std::string>> missing;

@@ -1,8 +1,8 @@
 #include "actors/node/history/node_history.hpp"
 
-#include "actors/house/delay.hpp"
-#include "actors/house/edge_failure.hpp"
-#include "actors/house/told_times.hpp"
+#include "actors/core/delay.hpp"
+#include "actors/core/edge_failure.hpp"
+#include "actors/core/shifted_times.hpp"
 #include "actors/node/history/kept_log_reading.hpp"
 
 #include <caf/result.hpp>

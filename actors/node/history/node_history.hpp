@@ -1,7 +1,7 @@
 #pragma once
 
+#include "actors/core/actor_context.hpp"
 #include "actors/edge/history/history_folder.hpp"
-#include "actors/house/house.hpp"
 #include "messages/messages.hpp"
 
 #include <chrono>

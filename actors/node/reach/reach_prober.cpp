@@ -1,9 +1,9 @@
 #include "actors/node/reach/reach_prober.hpp"
 
+#include "actors/core/edge_failure.hpp"
+#include "actors/core/limits.hpp"
+#include "actors/core/program_version.hpp"
 #include "actors/edge/reach/reach_tries.hpp"
-#include "actors/house/edge_failure.hpp"
-#include "actors/house/limits.hpp"
-#include "actors/house/program_version.hpp"
 #include "messages/failure.hpp"
 
 #include <caf/send.hpp>
@@ -81,11 +81,11 @@ caf::result<reach_opened> open(reach_prober_self self) {
   self->request(membership, limits::local::part, membership_query{})
       .then(
           [self, promise](const membership_state& x) mutable {
-            auto told = opened(self, x.environment);
-            if (told)
-              promise.deliver(std::move(*told));
+            auto reported = opened(self, x.environment);
+            if (reported)
+              promise.deliver(std::move(*reported));
             else
-              promise.deliver(std::move(told.error()));
+              promise.deliver(std::move(reported.error()));
           },
           [promise](caf::error& why) mutable {
             promise.deliver(std::move(why));
@@ -114,9 +114,9 @@ caf::result<reach_report> look(reach_prober_self self,
   return promise;
 }
 
-void on_settled(reach_prober_self self, const reach_settled& fact) {
-  if (auto asked = self->state.questions.extract(fact.question))
-    asked.mapped().deliver(reach_report{self->state.config.node, fact.rows});
+void on_settled(reach_prober_self self, const reach_settled& event) {
+  if (auto asked = self->state.questions.extract(event.question))
+    asked.mapped().deliver(reach_report{self->state.config.node, event.rows});
 }
 
 } // namespace

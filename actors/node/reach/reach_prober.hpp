@@ -1,9 +1,9 @@
 #pragma once
 
+#include "actors/core/actor_context.hpp"
+#include "actors/core/alarm.hpp"
 #include "actors/edge/reach/reach_port.hpp"
 #include "actors/edge/site/site_secret.hpp"
-#include "actors/house/alarm.hpp"
-#include "actors/house/house.hpp"
 #include "messages/messages.hpp"
 
 #include <caf/typed_response_promise.hpp>

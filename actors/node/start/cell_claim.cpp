@@ -1,12 +1,12 @@
 #include "actors/node/start/cell_claim.hpp"
 
+#include "actors/core/edge_failure.hpp"
+#include "actors/core/limits.hpp"
 #include "actors/edge/dds/announcement.hpp"
 #include "actors/edge/dds/site_survey.hpp"
 #include "actors/edge/io/name_lookup.hpp"
 #include "actors/edge/io/socket_address.hpp"
 #include "actors/edge/session/session_link.hpp"
-#include "actors/house/edge_failure.hpp"
-#include "actors/house/limits.hpp"
 #include "messages/failure.hpp"
 
 #include <algorithm>
@@ -104,7 +104,7 @@ std::vector<bool> ask_for_proofs(const std::vector<announcement>& claims,
 }
 
 caf::expected<std::vector<announcement>>
-look_around(const node_config& config, std::chrono::milliseconds span) {
+seek_coordinators(const node_config& config, std::chrono::milliseconds span) {
   presence_options options;
   options.address = config.address;
   options.domain_id = config.public_domain_id;
@@ -147,7 +147,7 @@ std::vector<announcement> claims_among(const std::vector<announcement>& seen,
 /// The refusal where one of them proves its claim; the others are told of.
 caf::error refuse_owner(const std::vector<announcement>& claims,
                         const node_config& config, const node_data& data,
-                        node_edges& edges, const house& context) {
+                        node_edges& edges, const actor_context& context) {
   const auto& own = data.identity.uuid;
   const auto proven = ask_for_proofs(claims, config, data, edges);
   for (size_t i = 0; i < claims.size(); ++i) {
@@ -156,8 +156,9 @@ caf::error refuse_owner(const std::vector<announcement>& claims,
                                    : name_in_use(claims[i]);
     // What it was itself, at an address that it has left, is no news.
     if (claims[i].uuid != own)
-      context.tell("claim_ignored", claims[i].node,
-                   {{"cell", claims[i].cell}, {"address", claims[i].session}});
+      context.publish_event(
+          "claim_ignored", claims[i].node,
+          {{"cell", claims[i].cell}, {"address", claims[i].session}});
   }
   return caf::none;
 }
@@ -166,16 +167,16 @@ caf::error refuse_owner(const std::vector<announcement>& claims,
 
 caf::expected<uint8_t> claim_cell(const node_config& config,
                                   const node_data& data, node_edges& edges,
-                                  const house& context) {
+                                  const actor_context& context) {
   using namespace limits::discovery;
   const auto& own = data.identity.uuid;
   std::set<std::string> asked;
   std::vector<announcement> seen;
   // Who is heard first may claim what it cannot prove, where the owner of the
-  // name, who is slower, can. More than two looks would let strangers hold up
-  // the start for ever.
+  // name, who is slower, can. More than two looks would let unauthenticated
+  // peers hold up the start for ever.
   for (const auto span : {survey, second_survey}) {
-    auto around = look_around(config, span);
+    auto around = seek_coordinators(config, span);
     if (!around)
       return around.error();
     seen = std::move(*around);

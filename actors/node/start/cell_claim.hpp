@@ -1,6 +1,6 @@
 #pragma once
 
-#include "actors/house/house.hpp"
+#include "actors/core/actor_context.hpp"
 #include "actors/node/node_data.hpp"
 #include "actors/node/node_edges.hpp"
 #include "roscell/node_config.hpp"
@@ -22,6 +22,6 @@ namespace roscell {
 /// Errors: conflict (somebody who proves it coordinates that cell).
 caf::expected<uint8_t> claim_cell(const node_config& config,
                                   const node_data& data, node_edges& edges,
-                                  const house& context);
+                                  const actor_context& context);
 
 } // namespace roscell

@@ -1,8 +1,8 @@
 #include "actors/node/start/config_checks.hpp"
 
+#include "actors/core/edge_failure.hpp"
 #include "actors/edge/host/interfaces.hpp"
 #include "actors/edge/io/socket_address.hpp"
-#include "actors/house/edge_failure.hpp"
 #include "messages/failure.hpp"
 #include "messages/messages.hpp"
 #include "schemas/message_catalogue.hpp"

@@ -65,7 +65,7 @@ void exclude_ungranted(allocation::problem& from, size_t node,
       for (const auto& what :
            granted.missing(ways[step].skill(), ways[step].option(way)))
         exclude_way(from, step, way, node,
-                    refusal_words(ways[step].skill(), host.name, what));
+                    refusal_text(ways[step].skill(), host.name, what));
 }
 
 /// Position of what a name is of; the size of the list if of none.

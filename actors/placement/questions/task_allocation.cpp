@@ -1,6 +1,6 @@
 #include "actors/placement/questions/task_allocation.hpp"
 
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 #include "actors/placement/questions/search_problem.hpp"
 #include "actors/placement/questions/task_eviction.hpp"
 #include "actors/placement/reading/task_reading.hpp"
@@ -168,7 +168,7 @@ void add_eviction(const task_eviction& way, task_plan& plan) {
   plan.preempted = way.preempted;
   if (!way.optimal)
     plan.warnings.emplace_back(
-        "the search for what has to make way was stopped: less may do");
+        "the search for what to preempt was stopped: less may do");
 }
 
 failure refusal(const allocate_task& asked, const std::vector<step_ways>& ways,

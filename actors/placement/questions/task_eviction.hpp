@@ -8,7 +8,7 @@
 
 namespace roscell {
 
-/// What makes way for a task, and the problem without it.
+/// What is preempted for a task, and the problem without it.
 struct task_eviction {
   allocation::problem problem;
   std::vector<preempted_instance> preempted;

@@ -197,22 +197,22 @@ private:
     result_.steps[i].input_at.push_back(at);
   }
 
-  void join(size_t reader, const io_endpoint& wish, const std::string& at) {
-    if (!wish.endpoint.empty() || !wish.protocol.empty())
+  void join(size_t reader, const io_endpoint& request, const std::string& at) {
+    if (!request.endpoint.empty() || !request.protocol.empty())
       return refuse(at, "expected either \"from\" or an endpoint, got both");
-    auto [from, output] = split(wish.from);
+    auto [from, output] = split(request.from);
     if (from == size())
-      return refuse(at + "/from", unknown_step(wish.from));
+      return refuse(at + "/from", unknown_step(request.from));
     if (from == reader)
       return refuse(at + "/from", "a step cannot read what it writes");
     if (skills_[from] == nullptr || skills_[reader] == nullptr)
-      return add_input(reader, wish, at);
+      return add_input(reader, request, at);
     auto found = outputs_for(from, reader, output);
     if (found.empty())
       return refuse(at + "/from", no_output(from, reader, output));
     add_outputs(from, found);
     for (auto& end : found) {
-      end.external = wish.external;
+      end.external = request.external;
       add_input(reader, end, at);
     }
   }

@@ -9,11 +9,11 @@ namespace roscell {
 
 namespace {
 
-std::vector<peer_traffic> session_traffic(const metric_book& book) {
+std::vector<peer_traffic> session_traffic(const metric_table& table) {
   std::map<std::string, peer_traffic> peers;
-  for (const auto& x : book.samples(metric::session_sent_bytes))
+  for (const auto& x : table.samples(metric::session_sent_bytes))
     peers[x.labels.front()].sent_bytes = x.sum;
-  for (const auto& x : book.samples(metric::session_received_bytes))
+  for (const auto& x : table.samples(metric::session_received_bytes))
     peers[x.labels.front()].received_bytes = x.sum;
   std::vector<peer_traffic> result;
   for (auto& [name, traffic] : peers) {
@@ -25,11 +25,11 @@ std::vector<peer_traffic> session_traffic(const metric_book& book) {
 
 } // namespace
 
-cost_reading read_cost(const std::shared_ptr<metric_book>& book) {
+cost_reading read_cost(const std::shared_ptr<metric_table>& table) {
   const auto own = read_own_cost();
   cost_reading result{own.cpu_seconds, own.pss_bytes, own.written_bytes, {}};
-  if (book)
-    result.peers = session_traffic(*book);
+  if (table)
+    result.peers = session_traffic(*table);
   return result;
 }
 

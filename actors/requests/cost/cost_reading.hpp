@@ -1,6 +1,6 @@
 #pragma once
 
-#include "actors/house/metric_book.hpp"
+#include "actors/core/metric_table.hpp"
 #include "messages/insight/node_cost.hpp"
 
 #include <memory>
@@ -16,8 +16,8 @@ struct cost_reading {
   std::vector<peer_traffic> peers;
 };
 
-/// Reads the process, and from the book what went over sessions; null: nothing
+/// Reads the process, and from the table what went over sessions; null: nothing
 /// did.
-cost_reading read_cost(const std::shared_ptr<metric_book>& book);
+cost_reading read_cost(const std::shared_ptr<metric_table>& table);
 
 } // namespace roscell

@@ -83,18 +83,18 @@ size_t cost_ring::place_of(const std::string& peer) {
 
 /// The counters of each place, those that are not told with 0.
 std::vector<peer_traffic>
-cost_ring::by_place(const std::vector<peer_traffic>& told) {
+cost_ring::by_place(const std::vector<peer_traffic>& reported) {
   std::vector<size_t> places;
-  places.reserve(told.size());
-  for (const auto& x : told)
+  places.reserve(reported.size());
+  for (const auto& x : reported)
     places.push_back(place_of(x.peer));
   std::vector<peer_traffic> result;
   for (const auto& x : last_.peers)
     result.push_back({x.peer});
-  for (size_t i = 0; i < told.size(); ++i) {
+  for (size_t i = 0; i < reported.size(); ++i) {
     auto& sum = result[places[i]];
-    sum.sent_bytes += told[i].sent_bytes;
-    sum.received_bytes += told[i].received_bytes;
+    sum.sent_bytes += reported[i].sent_bytes;
+    sum.received_bytes += reported[i].received_bytes;
   }
   return result;
 }

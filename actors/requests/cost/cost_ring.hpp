@@ -63,7 +63,7 @@ private:
   };
 
   size_t place_of(const std::string& peer);
-  std::vector<peer_traffic> by_place(const std::vector<peer_traffic>& told);
+  std::vector<peer_traffic> by_place(const std::vector<peer_traffic>& reported);
   slice slice_until(time_point now, const cost_reading& reading) const;
   cost_window window_of(const track& x) const;
 

@@ -1,6 +1,6 @@
 #include "actors/requests/handlers/actor_inspecting.hpp"
 
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 
 #include <memory>
 #include <utility>

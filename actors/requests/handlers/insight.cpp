@@ -1,14 +1,15 @@
 #include "actors/requests/handlers/insight.hpp"
 
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 
 #include <map>
 #include <utility>
 
 namespace roscell {
 
-void tell_placement(const request_context& context, task_placement_query query,
-                    outcome<task_placement> done) {
+void report_placement(const request_context& context,
+                      task_placement_query query,
+                      outcome<task_placement> done) {
   if (auto known = context.history().placement(query.task))
     return done.deliver(*std::move(known));
   done.fail(
@@ -38,8 +39,8 @@ void read_resources(const request_context& context, fresh_cell_query,
                       [done](const cell_resources&) { done.deliver({}); });
 }
 
-void tell_cell(const request_context& context, cell_query query,
-               outcome<cell_description> done) {
+void report_cell(const request_context& context, cell_query query,
+                 outcome<cell_description> done) {
   ask<cell_description>(
       context, context.services->coordinator, limits::local::answer, query,
       done, [done](cell_description cell) { done.deliver(std::move(cell)); });

@@ -7,8 +7,8 @@
 namespace roscell {
 
 /// `unknown_task` when no decision about the task is kept.
-void tell_placement(const request_context& context, task_placement_query query,
-                    outcome<task_placement> done);
+void report_placement(const request_context& context,
+                      task_placement_query query, outcome<task_placement> done);
 
 void list_traces(const request_context& context, request_trace_query query,
                  outcome<request_traces> done);
@@ -16,7 +16,7 @@ void list_traces(const request_context& context, request_trace_query query,
 /// A node that does not answer keeps what it has reported last.
 void read_resources(const request_context& context, fresh_cell_query,
                     outcome<cell_query> done);
-void tell_cell(const request_context& context, cell_query query,
-               outcome<cell_description> done);
+void report_cell(const request_context& context, cell_query query,
+                 outcome<cell_description> done);
 
 } // namespace roscell

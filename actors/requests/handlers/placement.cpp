@@ -1,4 +1,4 @@
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 #include "actors/placement/instance_specs.hpp"
 #include "actors/requests/handlers/task_pipeline.hpp"
 
@@ -55,7 +55,8 @@ private:
     done_.fail(std::move(why));
   }
 
-  /// Whether something runs that could make way, and nobody has asked for it.
+  /// Whether something runs that could be preempted, and nobody has asked for
+  /// it.
   bool could_preempt() const {
     int64_t least = std::numeric_limits<int64_t>::max();
     for (const auto& x : task_.steps)
@@ -89,9 +90,7 @@ private:
       names += (names.empty() ? "'" : ", '") + x.task + "/" + x.step + "' on '"
                + x.node + "' (priority " + std::to_string(x.priority) + ")";
     failure result{error_code::no_feasible_allocation,
-                   "it fits only if " + names
-                       + (all.size() == 1 ? " makes way" : " make way"),
-                   "/pipeline",
+                   "it fits only by preempting " + names, "/pipeline",
                    "`--preempt --yes` ends them, and starts them elsewhere "
                    "where there is room"};
     result.details = json{{"preempted", all}}.dump();
@@ -109,35 +108,35 @@ private:
 
   /// One request per node, all at once.
   void reserve() {
-    wishes_.clear();
+    requests_.clear();
     for (size_t i = 0; i < held_.specs.size(); ++i) {
       held_.specs[i].cell = task_.cell.cell;
       const auto& node = held_.task.plan.allocations[i].node;
-      auto& wish = wishes_[node];
-      wish.agent = agent_of(node);
-      wish.message.task = task_.request.task;
-      wish.message.cpu_floor = held_.task.plan.cpu_floor;
-      wish.message.specs.push_back(held_.specs[i]);
+      auto& request = requests_[node];
+      request.agent = agent_of(node);
+      request.message.task = task_.request.task;
+      request.message.cpu_floor = held_.task.plan.cpu_floor;
+      request.message.specs.push_back(held_.specs[i]);
     }
     new_refusals_ = 0;
-    open_ = wishes_.size();
-    for (const auto& [node, wish] : wishes_)
-      reserve_on(node, wish.agent, wish.message);
+    open_ = requests_.size();
+    for (const auto& [node, request] : requests_)
+      reserve_on(node, request.agent, request.message);
   }
 
   void reserve_on(const std::string& node, const node_agent_actor& agent,
-                  const instance_reservation& wish) {
+                  const instance_reservation& request) {
     auto self = shared_from_this();
     context_.call<instances_reserved>(
-        agent, limits::task::reservation, wish,
+        agent, limits::task::reservation, request,
         [self](const instances_reserved& reply) {
           for (const auto& x : reply.refused)
             self->add_refusal(x.instance, x.reason);
           self->finish_one();
         },
-        [self, node, wish](const caf::error& error) {
+        [self, node, request](const caf::error& error) {
           const auto why = to_failure(error);
-          for (const auto& spec : wish.specs)
+          for (const auto& spec : request.specs)
             self->add_refusal(spec.instance,
                               "node '" + node + "': " + why.message);
           self->finish_one();
@@ -153,11 +152,11 @@ private:
       held_.refused.push_back({x.step, x.node, x.deployment, x.gpu,
                                "refused by the node: " + reason,
                                held_.task.plan.cpu_floor});
-      context_.home().tell("allocation_refused", task_.request.task,
-                           {{"step", x.step},
-                            {"node", x.node},
-                            {"deployment", x.deployment},
-                            {"reason", reason}});
+      context_.home().publish_event("allocation_refused", task_.request.task,
+                                    {{"step", x.step},
+                                     {"node", x.node},
+                                     {"deployment", x.deployment},
+                                     {"reason", reason}});
       ++new_refusals_;
     }
   }
@@ -189,17 +188,17 @@ private:
   }
 
   void give_up_room(const std::function<void()>& next) {
-    auto wishes = std::exchange(wishes_, {});
-    auto open = std::make_shared<size_t>(wishes.size());
+    auto requests = std::exchange(requests_, {});
+    auto open = std::make_shared<size_t>(requests.size());
     if (*open == 0)
       return next();
     auto finish = [open, next] {
       if (--*open == 0)
         next();
     };
-    for (const auto& [node, wish] : wishes)
+    for (const auto& [node, request] : requests)
       context_.self
-          ->request(wish.agent, limits::task::reservation,
+          ->request(request.agent, limits::task::reservation,
                     instance_removal{task_.request.task, ""})
           .then([finish](const instances_removed&) { finish(); },
                 [finish](const caf::error&) { finish(); });
@@ -216,7 +215,7 @@ private:
     return text;
   }
 
-  struct wish {
+  struct request {
     node_agent_actor agent;
     instance_reservation message;
   };
@@ -225,7 +224,7 @@ private:
   resolved_task task_;
   outcome<reserved_task> done_;
   reserved_task held_;
-  std::map<std::string, wish> wishes_; ///< By node.
+  std::map<std::string, request> requests_; ///< By node.
   size_t open_ = 0;
   size_t new_refusals_ = 0;
   int rounds_ = 0;

@@ -1,10 +1,10 @@
 #include "actors/requests/handlers/registry.hpp"
 
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 #include "actors/requests/handlers/actor_inspecting.hpp"
-#include "actors/requests/handlers/cost_telling.hpp"
-#include "actors/requests/handlers/examining.hpp"
+#include "actors/requests/handlers/cost_reporting.hpp"
 #include "actors/requests/handlers/forwarding.hpp"
+#include "actors/requests/handlers/host_checking.hpp"
 #include "actors/requests/handlers/insight.hpp"
 #include "actors/requests/handlers/local_skills.hpp"
 #include "actors/requests/handlers/task_change_waiting.hpp"
@@ -28,12 +28,12 @@ void add_node_requests(request_registry& registry) {
       forward_within<node_query, node_description>(soon, &services::node));
   registry.add(forward_within<hello_query, node_hello>(soon, &services::node));
   registry.add(inspect_actors);
-  registry.add(tell_cost);
+  registry.add(report_cost);
   registry.add(
       forward_within<reach_opening, reach_opened>(soon, &services::prober));
   registry.add(
       forward_within<reach_query, reach_report>(soon, &services::prober));
-  registry.add(examine_host);
+  registry.add(check_host);
 }
 
 void add_primary_requests(request_registry& registry) {
@@ -59,8 +59,8 @@ void add_cell_queries(request_registry& registry) {
   registry.add(await_task_change);
   registry.add(forward_within<task_history_query, task_history>(soon, whom));
   registry.add(start_with("read_resources", read_resources)
-                   .then("tell_cell", tell_cell));
-  registry.add(tell_placement);
+                   .then("tell_cell", report_cell));
+  registry.add(report_placement);
   registry.add(list_traces);
   registry.add(
       forward_within<instance_query, instance_description>(soon, whom));
@@ -94,7 +94,7 @@ void add_task_pipelines(request_registry& registry) {
                    .then("resolve_skills", resolve_skills)
                    .then("reserve", place_with_room)
                    .then("record_intent", record_plan)
-                   .then("make_way", have_way_made)
+                   .then("make_way", have_instances_preempted)
                    .then("deploy", deploy)
                    .then("record_outcome", record_result));
   registry.add(start_with("collect_resources", adopt_plan_query)

@@ -1,8 +1,8 @@
 #include "actors/requests/handlers/task_change_waiting.hpp"
 
-#include "actors/house/alarm.hpp"
-#include "actors/house/limits.hpp"
-#include "actors/house/watching.hpp"
+#include "actors/core/alarm.hpp"
+#include "actors/core/limits.hpp"
+#include "actors/core/watching.hpp"
 #include "messages/event.hpp"
 
 #include <caf/send.hpp>

@@ -14,7 +14,7 @@ void await_task_change(const request_context& context, task_change_query query,
                        outcome<task_change> done);
 
 /// What of a task makes an asker of its changes hear of it: the states and
-/// places of its instances, not their figures.
+/// places of its instances, not their metrics.
 std::string mark_of(const task_description& task);
 
 } // namespace roscell

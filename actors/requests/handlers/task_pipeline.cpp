@@ -1,8 +1,8 @@
 #include "actors/requests/handlers/task_pipeline.hpp"
 
-#include "actors/house/limits.hpp"
-#include "actors/house/wall_clock.hpp"
-#include "actors/house/watching.hpp"
+#include "actors/core/limits.hpp"
+#include "actors/core/wall_clock.hpp"
+#include "actors/core/watching.hpp"
 #include "actors/placement/instance_specs.hpp"
 #include "actors/placement/reading/start_order.hpp"
 #include "actors/placement/reading/task_reading.hpp"
@@ -67,12 +67,12 @@ std::optional<failure> think_otherwise(const what_if& other,
 
 void claim(const request_context& context, task_request request,
            outcome<claimed_task> done) {
-  claim_task wish{request.task, text_of(request), request.request_id,
-                  request.force};
+  claim_task claim_request{request.task, text_of(request), request.request_id,
+                           request.force};
   // Without the coordinator nobody wants what is deployed.
   watch_until_own_end(context.self, context.services->coordinator);
   ask<task_claimed>(context, context.services->coordinator, limits::task::claim,
-                    std::move(wish), done,
+                    std::move(claim_request), done,
                     [self = context.self, done, request](task_claimed claimed) {
                       if (claimed.known)
                         return done.conclude(message_json(claimed.accepted));
@@ -152,7 +152,7 @@ void record_plan(const request_context& context, reserved_task held,
                         task.plan.preempted}};
   for (const auto& x : task.plan.allocations)
     intent.nodes.push_back(x.node);
-  context.home().tell(
+  context.home().publish_event(
       "allocation_chosen", task.request.task,
       {{"score", task.plan.score}, {"allocations", task.plan.allocations}});
   context.history().decide(
@@ -277,11 +277,11 @@ void undo_placement(const request_context& context, const std::string& task,
                     failure why,
                     const std::function<void(const failure&)>& done) {
   context.self->state.claimed.clear();
-  record_failure fact{task, why.message};
+  record_failure event{task, why.message};
   why.hint = "the other steps were rolled back"
              + (why.hint.empty() ? "" : "; " + why.hint);
   context.call<task_rolled_back>(
-      context.services->coordinator, limits::task::rollback, std::move(fact),
+      context.services->coordinator, limits::task::rollback, std::move(event),
       [done, why](const task_rolled_back&) { done(why); },
       [done](const caf::error& error) { done(to_failure(error)); });
 }

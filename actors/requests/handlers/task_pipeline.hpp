@@ -48,7 +48,7 @@ struct intended_task {
   std::vector<std::string> nodes;            ///< Node of each spec.
   std::vector<node_agent_actor> agents;      ///< The same.
   std::vector<preempted_instance> preempted; ///< They have to go before.
-  bool force = false;     ///< They are not waited for to be safe.
+  bool force = false;     ///< They are not waited for to be stop-safe.
   bool cpu_floor = false; ///< As in the plan.
 };
 
@@ -58,7 +58,8 @@ struct deployed_task {
   std::optional<failure> problem; ///< Of the first step that did not come up.
 };
 
-/// Waits for the turn. The same request again ends here with the first reply.
+/// Waits for the placement lock. The same request again ends here with the
+/// first reply.
 void claim(const request_context&, task_request, outcome<claimed_task>);
 /// A plan takes no turn: it holds nothing.
 void adopt_plan_query(const request_context&, task_plan_query,
@@ -73,9 +74,9 @@ void place_with_room(const request_context&, resolved_task,
                      outcome<reserved_task>);
 void record_plan(const request_context&, reserved_task, outcome<intended_task>);
 /// Has instances of lower priority go where the plan says so, and the members
-/// keep the room. In way_making.cpp.
-void have_way_made(const request_context&, intended_task,
-                   outcome<intended_task>);
+/// keep the room. In preempting.cpp.
+void have_instances_preempted(const request_context&, intended_task,
+                              outcome<intended_task>);
 /// Starts the steps, each once those run whose files it reads, and waits until
 /// all run or one has failed.
 void deploy(const request_context&, intended_task, outcome<deployed_task>);

@@ -1,6 +1,6 @@
 #include "actors/requests/metrics/cell_metrics.hpp"
 
-#include "actors/house/program_version.hpp"
+#include "actors/core/program_version.hpp"
 
 #include <string>
 #include <string_view>
@@ -101,8 +101,8 @@ void write_inputs(const std::vector<labelled_instance>& rows, exposition& to) {
   to.counter("roscell_instance_failed_frames",
              "Frames at which its skill has failed, of all inputs.");
   write_each(rows, to, [](const auto& x) {
-    int64_t failed = x.figures.streams.empty() ? -1 : 0;
-    for (const auto& stream : x.figures.streams)
+    int64_t failed = x.metrics.streams.empty() ? -1 : 0;
+    for (const auto& stream : x.metrics.streams)
       failed += stream.failed;
     return static_cast<double>(failed);
   });
@@ -117,8 +117,8 @@ void write_latencies(const std::vector<labelled_instance>& rows,
   to.histogram("roscell_instance_latency_seconds",
                "Time in which its skill processes a frame.", bounds_s);
   for (const auto& x : rows) {
-    const auto& counts = x.row->figures.latency_counts;
-    const auto sum_ms = x.row->figures.latency_sum_ms;
+    const auto& counts = x.row->metrics.latency_counts;
+    const auto sum_ms = x.row->metrics.latency_sum_ms;
     if (counts.size() == bounds_s.size() + 1 && sum_ms >= 0)
       to.buckets(x.labels, {counts.begin(), counts.end()}, sum_ms / ms_in_s);
   }
@@ -128,19 +128,19 @@ void write_use(const std::vector<labelled_instance>& rows, exposition& to) {
   to.gauge("roscell_instance_memory_bytes",
            "Memory that it takes, without what the kernel can drop.");
   write_each(rows, to,
-             [](const auto& x) { return x.figures.use.memory_mib * mib; });
+             [](const auto& x) { return x.metrics.use.memory_mib * mib; });
   to.gauge("roscell_instance_memory_limit_bytes",
            "More memory the kernel does not give it.");
   write_each(rows, to, [](const auto& x) {
-    return x.figures.use.memory_limit_mib * mib;
+    return x.metrics.use.memory_limit_mib * mib;
   });
   to.counter("roscell_instance_cpu_seconds",
              "CPU time since its program was started.");
-  write_each(rows, to, [](const auto& x) { return x.figures.use.cpu_s; });
+  write_each(rows, to, [](const auto& x) { return x.metrics.use.cpu_s; });
   to.counter("roscell_instance_memory_kills",
              "Processes of it that the kernel has ended for memory.");
   write_each(rows, to, [](const auto& x) {
-    const auto& use = x.figures.use;
+    const auto& use = x.metrics.use;
     return use.memory_mib < 0 ? -1.0 : static_cast<double>(use.memory_kills);
   });
 }
@@ -201,24 +201,24 @@ void write_instances(const std::vector<instance_measures>& instances,
              [](const auto& x) { return static_cast<double>(x.restarts); });
   to.counter("roscell_instance_frames", "Frames that its skill has processed.");
   write_each(rows, to, [](const auto& x) {
-    return static_cast<double>(x.figures.frames);
+    return static_cast<double>(x.metrics.frames);
   });
   to.counter("roscell_instance_dropped_frames",
              "Frames that came too fast for it.");
   write_each(rows, to, [](const auto& x) {
-    return static_cast<double>(x.figures.dropped);
+    return static_cast<double>(x.metrics.dropped);
   });
   write_inputs(rows, to);
   to.gauge("roscell_instance_median_latency_seconds",
            "Median time in which its skill processes a frame.");
   write_each(rows, to,
-             [](const auto& x) { return x.figures.latency_ms / ms_in_s; });
+             [](const auto& x) { return x.metrics.latency_ms / ms_in_s; });
   write_latencies(rows, to);
   to.gauge(
       "roscell_instance_median_age_seconds",
       "Median time from a frame's stamp to the output of what came of it.");
   write_each(rows, to,
-             [](const auto& x) { return x.figures.age_ms / ms_in_s; });
+             [](const auto& x) { return x.metrics.age_ms / ms_in_s; });
   write_use(rows, to);
 }
 

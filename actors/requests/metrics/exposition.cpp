@@ -132,14 +132,14 @@ void exposition::buckets(const sample_labels& of,
   line("_sum", shared, sum);
 }
 
-void exposition::write(metric which, const metric_book& book) {
+void exposition::write(metric which, const metric_table& table) {
   const auto& family = metric_families()[static_cast<size_t>(which)];
   const bool is_counter = family.buckets.empty();
   if (is_counter)
     counter(family.name, family.help);
   else
     histogram(family.name, family.help, family.buckets);
-  for (const auto& x : book.samples(which)) {
+  for (const auto& x : table.samples(which)) {
     sample_labels of;
     for (size_t i = 0; i < x.labels.size(); ++i)
       of.add(family.labels[i], x.labels[i]);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "actors/house/metric_book.hpp"
+#include "actors/core/metric_table.hpp"
 
 #include <cstdint>
 #include <initializer_list>
@@ -58,8 +58,8 @@ public:
   void buckets(const sample_labels& of, const std::vector<uint64_t>& counts,
                double sum);
 
-  /// All of what a book has of a family.
-  void write(metric which, const metric_book& book);
+  /// All of what a table has of a family.
+  void write(metric which, const metric_table& table);
 
   /// The whole text; nothing may follow.
   std::string finish();

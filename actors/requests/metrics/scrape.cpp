@@ -1,7 +1,7 @@
 #include "actors/requests/metrics/scrape.hpp"
 
+#include "actors/core/limits.hpp"
 #include "actors/edge/host/own_cost.hpp"
-#include "actors/house/limits.hpp"
 #include "actors/requests/metrics/cell_metrics.hpp"
 
 #include <optional>
@@ -50,9 +50,9 @@ std::string text_of(scrape_pointer self) {
     write_node(st.node->resources, result);
   if (st.instances)
     write_instances(measures_of(*st.instances), result);
-  if (const auto& book = st.services->context.metrics)
+  if (const auto& table = st.services->context.metrics)
     for (size_t i = 0; i < metric_count; ++i)
-      result.write(static_cast<metric>(i), *book);
+      result.write(static_cast<metric>(i), *table);
   return result.finish();
 }
 
@@ -96,8 +96,8 @@ void ask_cell(scrape_pointer self, const responder& answer) {
                        [self](auto& x) { self->state.cell = std::move(x); });
   };
   self->request(coordinator, limits::resource::scrape_collection,
-                collect_figures{})
-      .then([measure](const figures_collected&) { measure(); },
+                collect_metrics{})
+      .then([measure](const metrics_collected&) { measure(); },
             [measure](const caf::error&) { measure(); });
 }
 

@@ -1,8 +1,8 @@
 #include "actors/session/member/member.hpp"
 
-#include "actors/house/limits.hpp"
-#include "actors/house/relayed_requests.hpp"
-#include "actors/house/watching.hpp"
+#include "actors/core/limits.hpp"
+#include "actors/core/relayed_requests.hpp"
+#include "actors/core/watching.hpp"
 #include "actors/session/member/member_steps.hpp"
 #include "schemas/document.hpp"
 
@@ -18,7 +18,7 @@ namespace member_steps {
 namespace {
 
 /// Since the node's last word.
-std::chrono::milliseconds silence_of(self_pointer self) {
+std::chrono::milliseconds missed_heartbeats_of(self_pointer self) {
   return std::chrono::duration_cast<std::chrono::milliseconds>(
       self->clock().now() - self->state.life.last_heard());
 }
@@ -44,7 +44,7 @@ void end_member(self_pointer self, const std::string& reason) {
   if (st.announced && st.phase != member_phase::departed)
     self->send(st.coordinator,
                member_lost{st.peer.uuid, caf::actor_cast<member_actor>(self),
-                           reason, silence_of(self).count()});
+                           reason, missed_heartbeats_of(self).count()});
   self->send(st.session, close_session{reason});
   self->quit();
 }
@@ -78,9 +78,9 @@ void on_frame(self_pointer self, const frame_received& frame) {
   set_timer(self);
 }
 
-void on_beat(self_pointer self, const beat_received& beat) {
+void on_heartbeat(self_pointer self, const heartbeat_received& heartbeat) {
   if (!self->state.ended && is_from_session(self))
-    hear_beat(self, beat);
+    hear_heartbeat(self, heartbeat);
 }
 
 void on_tick(self_pointer self, uint64_t number) {
@@ -92,7 +92,7 @@ void on_tick(self_pointer self, uint64_t number) {
     return end_member(self, "it did not register in time");
   st.frames.calls().expire(time);
   if (!keep_lease(self))
-    return end_member(self, silence_of_a_lease());
+    return end_member(self, missed_heartbeats_text());
   set_timer(self);
 }
 
@@ -186,7 +186,7 @@ member_actor::behavior_type member(self_pointer self, session_admitted accepted,
             });
       },
       [self](const figures_query& x) {
-        return ask_node<figures_report>(self, x, limits::session::figures);
+        return ask_node<figures_report>(self, x, limits::session::metrics);
       },
       [self](const instance_reservation& x) {
         return ask_node<instances_reserved>(self, x,
@@ -221,12 +221,16 @@ member_actor::behavior_type member(self_pointer self, session_admitted accepted,
                                    });
       },
       [self](const frame_received& frame) { on_frame(self, frame); },
-      [self](const beat_received& beat) { on_beat(self, beat); },
-      [self](const session_closed& fact) {
-        if (is_from_session(self))
-          end_member(self, fact.reason);
+      [self](const heartbeat_received& heartbeat) {
+        on_heartbeat(self, heartbeat);
       },
-      [self](const close_session& wish) { end_member(self, wish.reason); },
+      [self](const session_closed& event) {
+        if (is_from_session(self))
+          end_member(self, event.reason);
+      },
+      [self](const close_session& request) {
+        end_member(self, request.reason);
+      },
       [self](caf::tick_atom, uint64_t number) { on_tick(self, number); },
   };
 }

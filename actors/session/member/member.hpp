@@ -1,7 +1,7 @@
 #pragma once
 
-#include "actors/house/alarm.hpp"
-#include "actors/house/house.hpp"
+#include "actors/core/actor_context.hpp"
+#include "actors/core/alarm.hpp"
 #include "actors/session/held_session.hpp"
 #include "messages/messages.hpp"
 

@@ -1,5 +1,5 @@
-#include "actors/house/limits.hpp"
-#include "actors/house/wall_clock.hpp"
+#include "actors/core/limits.hpp"
+#include "actors/core/wall_clock.hpp"
 #include "actors/session/forwarded_requests.hpp"
 #include "actors/session/long_starts.hpp"
 #include "actors/session/member/member_steps.hpp"
@@ -44,13 +44,13 @@ void on_late_start_failed(self_pointer self, const instance_spec& spec,
   const auto why = to_failure(error);
   if (why.code == error_code::unreachable)
     return;
-  instance_changed fact;
-  fact.instance.spec = spec;
-  fact.instance.node = self->state.peer.name;
-  fact.instance.state = instance_state::failed;
-  fact.instance.since_unix_ms = unix_now_ms();
-  fact.instance.reason = why.message;
-  self->send(self->state.coordinator, std::move(fact));
+  instance_changed event;
+  event.instance.spec = spec;
+  event.instance.node = self->state.peer.name;
+  event.instance.state = instance_state::failed;
+  event.instance.since_unix_ms = unix_now_ms();
+  event.instance.reason = why.message;
+  self->send(self->state.coordinator, std::move(event));
 }
 
 void start_late(self_pointer self, const instance_spec& spec) {
@@ -75,14 +75,14 @@ void on_row(self_pointer self, uint64_t id, node_registered reply) {
     start_late(self, spec);
 }
 
-void ask_for_row(self_pointer self, uint64_t id, node_registration wish) {
+void ask_for_row(self_pointer self, uint64_t id, node_registration request) {
   auto& st = self->state;
   st.phase = phase::registering;
   st.announced = true;
-  set_name(wish, st.peer.name);
-  self->request(
-          st.coordinator, limits::membership::row,
-          register_node{std::move(wish), caf::actor_cast<member_actor>(self)})
+  set_name(request, st.peer.name);
+  self->request(st.coordinator, limits::membership::row,
+                register_node{std::move(request),
+                              caf::actor_cast<member_actor>(self)})
       .then(
           [self, id](node_registered& reply) {
             on_row(self, id, std::move(reply));
@@ -92,13 +92,13 @@ void ask_for_row(self_pointer self, uint64_t id, node_registration wish) {
 
 void on_registration(self_pointer self, uint64_t id, const json& body) {
   auto& st = self->state;
-  auto wish = decode<node_registration>(body);
-  if (auto* why = std::get_if<failure>(&wish))
+  auto request = decode<node_registration>(body);
+  if (auto* why = std::get_if<failure>(&request))
     return refuse_call(self, id, *why);
   if (st.phase != phase::awaiting)
     return refuse_call(
         self, id, {error_code::conflict, "this session is registered already"});
-  auto& registration = std::get<node_registration>(wish);
+  auto& registration = std::get<node_registration>(request);
   if (is_proven(registration.identity, st.peer))
     return ask_for_row(self, id, std::move(registration));
   refuse_call(self, id,
@@ -125,12 +125,12 @@ void on_departure(self_pointer self, uint64_t id, const json& body) {
 
 /// A node that is in no cell wants a place. It ends the session when it has
 /// been told.
-void on_place_request(self_pointer self, uint64_t id, const json& body) {
+void on_slot_request(self_pointer self, uint64_t id, const json& body) {
   auto& st = self->state;
-  auto wish = decode<place_request>(body);
-  if (auto* why = std::get_if<failure>(&wish))
+  auto request = decode<place_request>(body);
+  if (auto* why = std::get_if<failure>(&request))
     return refuse_call(self, id, *why);
-  auto& x = std::get<place_request>(wish);
+  auto& x = std::get<place_request>(request);
   x.name = st.peer.name;
   x.uuid = st.peer.uuid;
   self->request(st.coordinator, limits::membership::place, x)
@@ -163,7 +163,7 @@ void on_forwarded(self_pointer self, uint64_t id, const json& body,
 void on_request(self_pointer self, uint64_t id, const session_inquiry& x) {
   const auto type = x.type();
   if (type == place_request::type && self->state.phase == phase::awaiting)
-    return on_place_request(self, id, x.body);
+    return on_slot_request(self, id, x.body);
   if (type == node_registration::type)
     return on_registration(self, id, x.body);
   if (type == node_departure::type && self->state.phase == phase::registering)
@@ -189,8 +189,8 @@ void on_notice(self_pointer self, const json& body) {
   if (body.value("type", "") != instance_changed::type
       || st.phase != phase::active)
     return;
-  auto fact = decode<instance_changed>(body);
-  if (auto* x = std::get_if<instance_changed>(&fact)) {
+  auto event = decode<instance_changed>(body);
+  if (auto* x = std::get_if<instance_changed>(&event)) {
     x->instance.node = st.peer.name;
     self->send(st.coordinator, *x);
   }

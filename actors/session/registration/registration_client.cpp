@@ -1,12 +1,12 @@
 #include "actors/session/registration/registration_client.hpp"
 
+#include "actors/core/edge_failure.hpp"
+#include "actors/core/limits.hpp"
 #include "actors/edge/http/client/http_call.hpp"
 #include "actors/edge/http/http_paths.hpp"
 #include "actors/edge/io/socket_address.hpp"
 #include "actors/edge/session/registration_proof.hpp"
 #include "actors/edge/session/session_handshake.hpp"
-#include "actors/house/edge_failure.hpp"
-#include "actors/house/limits.hpp"
 #include "actors/session/registration/node_answer.hpp"
 #include "actors/session/registration/registration_order.hpp"
 #include "messages/failure.hpp"
@@ -76,7 +76,7 @@ void end_registration_call(registration_client_self self, uint64_t call,
 /// Whether the node that answers has the site token, too.
 bool is_proven(const registration_challenge& x, const std::string& nonce,
                const std::string& site_token) {
-  return proves(standing_claim{nonce, x.node, x.uuid, x.epoch, x.state},
+  return proves(status_claim{nonce, x.node, x.uuid, x.epoch, x.state},
                 site_token, x.proof);
 }
 
@@ -92,23 +92,23 @@ void on_challenge(registration_client_self self, uint64_t call,
                   const registration_challenge& challenge) {
   auto& st = self->state;
   auto& x = st.calls.at(call);
-  auto& order = x.wish.order;
+  auto& order = x.request.order;
   if (challenge.uuid != order.uuid || challenge.node != order.node)
     return end_registration_call(
         self, call,
         failure{error_code::unknown_node,
-                "at " + x.wish.address + " there is node '" + challenge.node
+                "at " + x.request.address + " there is node '" + challenge.node
                     + "' with UUID " + challenge.uuid + ", not '" + order.node
                     + "'"});
   if (!is_proven(challenge, x.nonce, st.config.site.text()))
     return end_registration_call(
-        self, call, unproven(x.wish.address, order.node, order.uuid));
+        self, call, unproven(x.request.address, order.node, order.uuid));
   // What the node announces may be a little older than what it says now.
   order.epoch = challenge.epoch;
   order.nonce = challenge.nonce;
   order.proof = prove(order_of(order), st.config.site.text());
   x.proven = true;
-  send_to_node(self, call, x.wish.address, "POST", registration_path,
+  send_to_node(self, call, x.request.address, "POST", registration_path,
                message_json(order).dump());
 }
 
@@ -126,76 +126,78 @@ std::optional<caf::error> address_refusal(const registration_client_state& st,
               "this node has no site token: " + lack.message, "", lack.hint);
 }
 
-/// Where a node tells its standing, to one that proves to be of its site.
+/// Where a node tells its status, to one that proves to be of its site.
 std::string question_target(const registration_client_state& st,
                             const std::string& nonce) {
   return std::string{registration_path} + "?nonce=" + nonce
-         + "&proof=" + prove(standing_question{nonce}, st.config.site.text());
+         + "&proof=" + prove(status_question{nonce}, st.config.site.text());
 }
 
 caf::result<switch_accepted> call_node(registration_client_self self,
-                                       const switch_node& wish) {
+                                       const switch_node& request) {
   auto& st = self->state;
-  if (auto why = address_refusal(st, wish.address))
+  if (auto why = address_refusal(st, request.address))
     return *why;
   auto promise = self->make_response_promise<switch_accepted>();
   const auto call = ++st.last_call;
   const auto nonce = make_nonce();
-  st.calls.emplace(call, registration_call{wish, nonce, false, promise});
-  send_to_node(self, call, wish.address, "GET", question_target(st, nonce), "");
+  st.calls.emplace(call, registration_call{request, nonce, false, promise});
+  send_to_node(self, call, request.address, "GET", question_target(st, nonce),
+               "");
   return promise;
 }
 
 // -- where a node stands ------------------------------------------------------
 
-/// What a node's answer proves of its standing, or why it does not.
-std::variant<standing_proved, failure>
-judge_standing(const node_answered& answer, const standing_call& call,
-               const std::string& site_token) {
+/// What a node's answer proves of its status, or why it does not.
+std::variant<status_proved, failure>
+judge_status(const node_answered& answer, const status_call& call,
+             const std::string& site_token) {
   const auto challenge = read<registration_challenge>(answer);
   if (const auto* why = std::get_if<failure>(&challenge))
     return *why;
   const auto& x = std::get<registration_challenge>(challenge);
-  if (x.uuid != call.wish.uuid || x.node != call.wish.node
+  if (x.uuid != call.request.uuid || x.node != call.request.node
       || !is_proven(x, call.nonce, site_token))
-    return unproven(call.wish.address, call.wish.node, call.wish.uuid);
-  standing_proved result;
-  result.identity = {x.node, x.uuid, x.epoch, call.wish.address};
+    return unproven(call.request.address, call.request.node, call.request.uuid);
+  status_proved result;
+  result.identity = {x.node, x.uuid, x.epoch, call.request.address};
   // The schema knows the words.
   result.state = json(x.state).get<node_state>();
   return result;
 }
 
-void on_standing(registration_client_self self, const node_answered& answer) {
+void on_status(registration_client_self self, const node_answered& answer) {
   auto node = self->state.questions.extract(answer.call);
   if (node.empty())
     return;
   auto& call = node.mapped();
   const auto verdict =
-      judge_standing(answer, call, self->state.config.site.text());
+      judge_status(answer, call, self->state.config.site.text());
   if (const auto* why = std::get_if<failure>(&verdict))
     call.promise.deliver(to_error(*why));
   else
-    call.promise.deliver(std::get<standing_proved>(verdict));
+    call.promise.deliver(std::get<status_proved>(verdict));
 }
 
-caf::result<standing_proved> ask_standing(registration_client_self self,
-                                          const prove_standing& wish) {
+caf::result<status_proved> ask_status(registration_client_self self,
+                                      const prove_status& request) {
   auto& st = self->state;
-  if (auto why = address_refusal(st, wish.address))
+  if (auto why = address_refusal(st, request.address))
     return *why;
-  auto promise = self->make_response_promise<standing_proved>();
+  auto promise = self->make_response_promise<status_proved>();
   const auto call = ++st.last_call;
   const auto nonce = make_nonce();
-  st.questions.emplace(call, standing_call{wish, nonce, promise});
-  send_to_node(self, call, wish.address, "GET", question_target(st, nonce), "");
+  st.questions.emplace(call, status_call{request, nonce, promise});
+  send_to_node(self, call, request.address, "GET", question_target(st, nonce),
+               "");
   return promise;
 }
 
 void on_answer(registration_client_self self, const node_answered& answer) {
   auto i = self->state.calls.find(answer.call);
   if (i == self->state.calls.end())
-    return on_standing(self, answer);
+    return on_status(self, answer);
   if (i->second.proven)
     return end_registration_call(self, answer.call,
                                  read<switch_accepted>(answer));
@@ -219,8 +221,8 @@ registration_client(registration_client_self self,
                          {"pending", self->state.calls.size()
                                          + self->state.questions.size()}});
       },
-      [self](const switch_node& wish) { return call_node(self, wish); },
-      [self](const prove_standing& x) { return ask_standing(self, x); },
+      [self](const switch_node& request) { return call_node(self, request); },
+      [self](const prove_status& x) { return ask_status(self, x); },
       [self](const node_answered& x) { on_answer(self, x); },
   };
 }

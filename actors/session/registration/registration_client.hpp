@@ -1,8 +1,8 @@
 #pragma once
 
+#include "actors/core/actor_context.hpp"
 #include "actors/edge/io/io_thread.hpp"
 #include "actors/edge/site/site_secret.hpp"
-#include "actors/house/house.hpp"
 #include "messages/messages.hpp"
 
 #include <caf/typed_response_promise.hpp>
@@ -20,17 +20,17 @@ struct registration_client_config {
 
 /// A node that is being told to switch.
 struct registration_call {
-  switch_node wish;
+  switch_node request;
   std::string nonce;   ///< Over which the node proves where it stands.
   bool proven = false; ///< The switch has been sent; else the nonce is awaited.
   caf::typed_response_promise<switch_accepted> promise;
 };
 
 /// A node that is being asked to prove where it stands.
-struct standing_call {
-  prove_standing wish;
+struct status_call {
+  prove_status request;
   std::string nonce;
-  caf::typed_response_promise<standing_proved> promise;
+  caf::typed_response_promise<status_proved> promise;
 };
 
 struct registration_client_state {
@@ -39,11 +39,11 @@ struct registration_client_state {
   registration_client_config config;
   uint64_t last_call = 0;
   std::map<uint64_t, registration_call> calls;
-  std::map<uint64_t, standing_call> questions; ///< Numbered like the calls.
+  std::map<uint64_t, status_call> questions; ///< Numbered like the calls.
 };
 
 /// The REGISTRATION CLIENT. Messages: messages/peer.hpp. It asks a node for a
-/// nonce and sends it the switch with a proof, or has it prove its standing.
+/// nonce and sends it the switch with a proof, or has it prove its status.
 registration_client_actor::behavior_type registration_client(
     registration_client_actor::stateful_pointer<registration_client_state> self,
     const registration_client_config& config);

@@ -66,10 +66,10 @@ void control_loop::prepare(std::optional<unsigned> core) {
     CPU_SET(*core, &set);
     ::pthread_setaffinity_np(::pthread_self(), sizeof(set), &set);
   }
-  sched_param wish{};
-  wish.sched_priority = 80;
+  sched_param request{};
+  request.sched_priority = 80;
   real_time_ =
-      ::pthread_setschedparam(::pthread_self(), SCHED_FIFO, &wish) == 0;
+      ::pthread_setschedparam(::pthread_self(), SCHED_FIFO, &request) == 0;
 }
 
 void control_loop::run() {

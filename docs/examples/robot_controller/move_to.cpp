@@ -49,7 +49,7 @@ public:
       return;
     const auto& to = message.transforms.front().transform.translation;
     loop_.go_to({to.x, to.y, to.z + height_m_});
-    tell(message.transforms.front().header);
+    report(message.transforms.front().header);
   }
 
   /// The arm stays where it is.
@@ -59,7 +59,7 @@ public:
   }
 
 private:
-  void tell(const ros2::std_msgs::header& header) {
+  void report(const ros2::std_msgs::header& header) {
     if (context_.environment().outputs.empty())
       return;
     const auto at = loop_.wrist();

@@ -64,7 +64,7 @@ public:
   /// `process`, while the outputs are still open.
   virtual void release() = 0;
 
-  /// Somebody waits for the skill to be safe, to end it or to move it: it
+  /// Somebody waits for the skill to be stop-safe, to end it or to move it: it
   /// should come to rest, begin nothing new that must not be broken off, and
   /// call `set_safe(true)`. Called each time the node asks, between two frames,
   /// and only for skills whose descriptor says "safe_state". An exception is

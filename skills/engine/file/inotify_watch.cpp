@@ -24,13 +24,13 @@ constexpr const char* remedy =
 inotify_watch::inotify_watch(const say_function& say)
     : fd_(::inotify_init1(IN_CLOEXEC | IN_NONBLOCK)) {
   if (!fd_ && errno == EMFILE)
-    look_instead(say);
+    poll_instead(say);
   if (!fd_)
     throw start_error(std::string{"cannot follow files: "}
                       + std::strerror(errno) + "; " + remedy);
 }
 
-void inotify_watch::look_instead(const say_function& say) {
+void inotify_watch::poll_instead(const say_function& say) {
   fd_ =
       unique_fd{::timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC | TFD_NONBLOCK)};
   if (!fd_)

@@ -50,7 +50,7 @@ public:
   }
 
 private:
-  void look_instead(const say_function& say);
+  void poll_instead(const say_function& say);
 
   unique_fd fd_;
   bool looks_ = false;

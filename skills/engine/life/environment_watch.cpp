@@ -80,9 +80,9 @@ void environment_watch::take() {
 }
 
 void environment_watch::obey(const std::string& line) {
-  auto told = read_variables(line);
-  if (!told.empty())
-    on_change_(std::move(told));
+  auto reported = read_variables(line);
+  if (!reported.empty())
+    on_change_(std::move(reported));
 }
 
 } // namespace roscell::engine

@@ -28,10 +28,11 @@ int milliseconds_until(liveness::clock::time_point then,
       std::chrono::ceil<milliseconds>(std::max(then - now, {})).count());
 }
 
-liveness::clock::duration beat_interval(const liveness& alive, bool measures) {
-  constexpr std::chrono::seconds most_with_figures{1};
+liveness::clock::duration heartbeat_interval(const liveness& alive,
+                                             bool measures) {
+  constexpr std::chrono::seconds most_with_metrics{1};
   const auto half = alive.period() / 2;
-  return measures ? std::min<liveness::clock::duration>(half, most_with_figures)
+  return measures ? std::min<liveness::clock::duration>(half, most_with_metrics)
                   : half;
 }
 
@@ -52,16 +53,16 @@ unique_fd checked(int fd) {
 } // namespace
 
 heartbeat::heartbeat(const notify_socket& socket, liveness& alive,
-                     safe_state& safety, words told)
-    : socket_(socket), alive_(alive), safety_(safety), words_(std::move(told)),
-      last_status_(liveness::clock::now()), last_streams_(last_status_),
-      safety_quiet_until_(last_status_),
+                     safe_state& safety, words reported)
+    : socket_(socket), alive_(alive), safety_(safety),
+      words_(std::move(reported)), last_status_(liveness::clock::now()),
+      last_streams_(last_status_), safety_quiet_until_(last_status_),
       timer_(checked(
           ::timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC | TFD_NONBLOCK))),
       wake_(checked(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK))) {
   itimerspec every{};
-  every.it_interval =
-      to_timespec(beat_interval(alive_, static_cast<bool>(words_.streams)));
+  every.it_interval = to_timespec(
+      heartbeat_interval(alive_, static_cast<bool>(words_.streams)));
   every.it_value = every.it_interval;
   ::timerfd_settime(timer_.get(), 0, &every, nullptr);
   thread_ = std::thread{[this] { run(); }};
@@ -72,7 +73,7 @@ heartbeat::~heartbeat() {
   thread_.join();
 }
 
-void heartbeat::beat_now() noexcept {
+void heartbeat::send_now() noexcept {
   std::uint64_t one = 1;
   [[maybe_unused]] auto n = ::write(wake_.get(), &one, sizeof(one));
 }
@@ -93,34 +94,34 @@ void heartbeat::run() {
       return;
     const auto now = liveness::clock::now();
     if (waited[3].revents != 0)
-      tell_safety(now);
+      report_safety(now);
     if (waited[1].revents != 0 || waited[2].revents != 0)
-      beat(now);
+      send_heartbeat(now);
   }
 }
 
 std::string heartbeat::safety_line() {
   // What changes after this is readable again.
   drain(safety_.fd());
-  told_safety_ = safety_.get();
-  if (!told_safety_)
+  reported_safety_ = safety_.get();
+  if (!reported_safety_)
     return {};
-  return *told_safety_ ? "ROSCELL_SAFE=1" : "ROSCELL_SAFE=0";
+  return *reported_safety_ ? "ROSCELL_SAFE=1" : "ROSCELL_SAFE=0";
 }
 
-void heartbeat::tell_safety(time_point now) {
-  const auto before = told_safety_;
+void heartbeat::report_safety(time_point now) {
+  const auto before = reported_safety_;
   const auto line = safety_line();
-  if (told_safety_ == before)
+  if (reported_safety_ == before)
     return;
   safety_quiet_until_ = now + least_word_pause;
   socket_.send(line);
 }
 
-void heartbeat::beat(time_point now) {
+void heartbeat::send_heartbeat(time_point now) {
   drain(timer_.get());
   drain(wake_.get());
-  if (!alive_.allows_beat(now))
+  if (!alive_.allows_heartbeat(now))
     return;
   std::string state = "READY=1\nWATCHDOG=1";
   if (safety_.get())

@@ -17,41 +17,42 @@ namespace roscell::engine {
 /// for as long as its liveness allows. READY=1 is repeated so that a node
 /// that was restarted learns of it, and so is what the author has said of the
 /// skill's safety. At most once a second the skill's status goes along. Owns
-/// one thread, which only wakes for a beat or for a word on safety.
+/// one thread, which only wakes for a heartbeat or for a word on safety.
 class heartbeat {
 public:
-  /// What goes along with a beat; each is called from the heartbeat's thread.
+  /// What goes along with a heartbeat; each is called from the heartbeat's
+  /// thread.
   struct words {
     /// "STATUS=..." for people and for the node, and lines that go along.
     std::function<std::string()> status;
     /// What the streams do, see stream_meters; empty: nobody wants to know.
-    /// With it there is a beat at least every second.
+    /// With it there is a heartbeat at least every second.
     std::function<std::string(liveness::clock::time_point now)> streams;
   };
 
-  /// A skill that says more often whether it is safe is not heard more often:
-  /// of what it says meanwhile the last word is sent.
+  /// A skill that says more often whether it is stop-safe is not heard more
+  /// often: of what it says meanwhile the last word is sent.
   static constexpr std::chrono::milliseconds least_word_pause{50};
 
-  /// Figures are not taken over a shorter time.
+  /// Metrics are not taken over a shorter time.
   static constexpr std::chrono::milliseconds least_stream_pause{500};
 
   /// The references must outlive this object.
   heartbeat(const notify_socket& socket, liveness& alive, safe_state& safety,
-            words told);
+            words reported);
 
-  /// Ends the beat.
+  /// Ends the heartbeat.
   ~heartbeat();
 
-  /// Makes up for a beat that was withheld, see liveness::work_ends.
-  void beat_now() noexcept;
+  /// Makes up for a heartbeat that was withheld, see liveness::work_ends.
+  void send_now() noexcept;
 
 private:
   using time_point = liveness::clock::time_point;
 
   void run();
-  void beat(time_point now);
-  void tell_safety(time_point now);
+  void send_heartbeat(time_point now);
+  void report_safety(time_point now);
   std::string safety_line();
 
   const notify_socket& socket_;
@@ -60,7 +61,7 @@ private:
   const words words_;
   time_point last_status_;
   time_point last_streams_;
-  std::optional<bool> told_safety_;
+  std::optional<bool> reported_safety_;
   time_point safety_quiet_until_;
   unique_fd timer_;
   unique_fd wake_;

@@ -15,7 +15,7 @@ bool liveness::work_ends() {
   return std::exchange(withheld_, false);
 }
 
-bool liveness::allows_beat(clock::time_point now) {
+bool liveness::allows_heartbeat(clock::time_point now) {
   std::lock_guard guard{mutex_};
   withheld_ = busy_since_ && now - *busy_since_ >= period_ / 2;
   return !withheld_;

@@ -8,9 +8,9 @@ namespace roscell::engine {
 
 /// Decides whether a skill may still say that it is alive. It may while the
 /// executor waits for a frame or began the current one less than half a
-/// watchdog period ago. With beats at every half period this means: work that
-/// takes less than one period never looks hung, work that takes more than one
-/// and a half always does. All members may be called from any thread.
+/// watchdog period ago. With heartbeats at every half period this means: work
+/// that takes less than one period never looks hung, work that takes more than
+/// one and a half always does. All members may be called from any thread.
 class liveness {
 public:
   using clock = std::chrono::steady_clock;
@@ -22,12 +22,12 @@ public:
 
   void work_begins(clock::time_point now);
 
-  /// Returns true when a beat was withheld during this work; it is to be sent
-  /// at once, because the next regular one may come too late.
+  /// Returns true when a heartbeat was withheld during this work; it is to be
+  /// sent at once, because the next regular one may come too late.
   bool work_ends();
 
-  /// Whether the beat that is due `now` may be sent.
-  bool allows_beat(clock::time_point now);
+  /// Whether the heartbeat that is due `now` may be sent.
+  bool allows_heartbeat(clock::time_point now);
 
   clock::duration period() const noexcept {
     return period_;

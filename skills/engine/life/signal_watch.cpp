@@ -46,10 +46,10 @@ signal_watch::~signal_watch() {
 
 void signal_watch::run() {
   while (stop_.wait_readable(signals_.get())) {
-    signalfd_siginfo told{};
-    if (::read(signals_.get(), &told, sizeof(told)) != sizeof(told))
+    signalfd_siginfo reported{};
+    if (::read(signals_.get(), &reported, sizeof(reported)) != sizeof(reported))
       continue;
-    if (told.ssi_signo != SIGUSR1)
+    if (reported.ssi_signo != SIGUSR1)
       return on_stop_();
     on_safety_wanted_();
   }

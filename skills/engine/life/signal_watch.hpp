@@ -14,9 +14,9 @@ void block_signals();
 
 /// Waits, on a thread of its own, for what a skill is told by signals. SIGTERM
 /// and SIGINT: it is to end; `on_stop` is called once, and nothing after it.
-/// SIGUSR1: somebody waits for it to be safe; `on_safety_wanted` is called each
-/// time. Signals since block_signals() count. Once the destructor has returned
-/// there are no more calls.
+/// SIGUSR1: somebody waits for it to be stop-safe; `on_safety_wanted` is called
+/// each time. Signals since block_signals() count. Once the destructor has
+/// returned there are no more calls.
 class signal_watch {
 public:
   signal_watch(std::function<void()> on_stop,

@@ -10,7 +10,7 @@ namespace {
 
 using std::chrono::duration;
 
-constexpr std::size_t most_told = 16;
+constexpr std::size_t most_reported = 16;
 
 /// Frames that come in less than this are as good as one.
 constexpr std::chrono::milliseconds least_span{1};
@@ -30,10 +30,10 @@ std::string decimal(double value) {
   return {std::begin(text), end};
 }
 
-void add_figures(std::string& text, const char* direction,
+void add_metrics(std::string& text, const char* direction,
                  std::deque<stream_meter>& meters,
                  stream_meter::clock::time_point now) {
-  for (std::size_t i = 0; i < std::min(meters.size(), most_told); ++i) {
+  for (std::size_t i = 0; i < std::min(meters.size(), most_reported); ++i) {
     const auto x = meters[i].take(now);
     text += (text.empty() ? "" : ";") + std::string{direction} + ":"
             + std::to_string(i) + " " + decimal(x.rate_hz) + " "
@@ -55,11 +55,11 @@ std::uint64_t stream_meter::total() const {
   return total_;
 }
 
-stream_meter::figure stream_meter::take(clock::time_point now) {
+stream_meter::measured stream_meter::take(clock::time_point now) {
   std::lock_guard guard{mutex_};
   if (!last_)
     return {};
-  figure result;
+  measured result;
   // A frame may have been counted since `now` was taken.
   result.age = std::max(now - *last_, clock::duration::zero());
   if (frames_ == 0) {
@@ -83,8 +83,8 @@ stream_meters::stream_meters(std::size_t inputs, std::size_t outputs,
 
 std::string stream_meters::take_text(clock::time_point now) {
   std::string result;
-  add_figures(result, "input", inputs_, now);
-  add_figures(result, "output", outputs_, now);
+  add_metrics(result, "input", inputs_, now);
+  add_metrics(result, "output", outputs_, now);
   return result;
 }
 

@@ -16,7 +16,7 @@ class stream_meter {
 public:
   using clock = std::chrono::steady_clock;
 
-  struct figure {
+  struct measured {
     double rate_hz = 0;
     std::optional<clock::duration> age; ///< None: there was no frame.
   };
@@ -31,17 +31,17 @@ public:
   /// All frames.
   std::uint64_t total() const;
 
-  /// The rate of the frames since the figure before. It is taken from one frame
+  /// The rate of the frames since the value before. It is taken from one frame
   /// to another, so that a slow stream has one rate whenever it is asked for;
   /// where no frame has come the rate is what it can be at most, given the age.
-  figure take(clock::time_point now);
+  measured take(clock::time_point now);
 
 private:
   mutable std::mutex mutex_;
   std::uint64_t total_ = 0;
-  std::uint64_t frames_ = 0; ///< Since the figure before.
+  std::uint64_t frames_ = 0; ///< Since the value before.
   std::optional<clock::time_point> last_;
-  clock::time_point counted_to_; ///< The last frame of the figure before.
+  clock::time_point counted_to_; ///< The last frame of the value before.
 };
 
 /// One for each stream of a step.

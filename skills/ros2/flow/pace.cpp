@@ -31,7 +31,7 @@ writer_pace::clock::duration writer_pace::next_gap(clock::time_point now,
   }
   last_ = now;
   const auto parts = static_cast<int>(bytes / datagram_bytes) + 1;
-  if (frail_readers_ == 0 || parts < 3)
+  if (best_effort_readers_ == 0 || parts < 3)
     return {};
   if (interval_ == clock::duration{})
     return longest_gap;

@@ -20,8 +20,8 @@ public:
   using clock = std::chrono::steady_clock;
 
   /// So many best-effort readers of stock programs there are now.
-  void set_frail_readers(int count) {
-    frail_readers_ = count;
+  void set_best_effort_readers(int count) {
+    best_effort_readers_ = count;
   }
 
   /// A message of that size is about to leave. Returns the distance of its
@@ -29,14 +29,14 @@ public:
   clock::duration next_gap(clock::time_point now, std::size_t bytes);
 
 private:
-  int frail_readers_ = 0;
+  int best_effort_readers_ = 0;
   clock::time_point last_{};
   clock::duration interval_{}; ///< Between messages, smoothed.
 };
 
-/// Holds datagrams back, as the writers of a participant wish; for all of them
-/// the shortest wish counts, so that none falls behind. May be used by several
-/// threads.
+/// Holds datagrams back, as the writers of a participant ask; for all of them
+/// the shortest request counts, so that none falls behind. May be used by
+/// several threads.
 class datagram_pacer {
 public:
   void set_gap(const void* writer, writer_pace::clock::duration gap);
@@ -48,7 +48,7 @@ public:
 private:
   void choose();
 
-  std::mutex mutex_; // Guards the wishes.
+  std::mutex mutex_; // Guards the requests.
   std::map<const void*, writer_pace::clock::duration> gaps_;
   std::atomic<writer_pace::clock::duration> gap_{};
   writer_pace::clock::time_point due_{}; // Of Fast DDS's sending lock.

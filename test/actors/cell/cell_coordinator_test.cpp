@@ -1,4 +1,4 @@
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 #include "test/actors/fakes/coordinator_fakes.hpp"
 
 namespace roscell::test {
@@ -62,14 +62,14 @@ struct cell_with_stream : paper_cell {
   cell_with_stream() {
     writer.spec.output = {{"ros2", "/a", "std_msgs/msg/String"}};
     reader.spec.input = writer.spec.output;
-    arm.tell(reader);
-    belt.tell(writer);
+    arm.report_row(reader);
+    belt.report_row(writer);
     time.settle();
-    writer.figures.streams.resize(1);
-    writer.figures.streams[0].end = "output:0";
-    writer.figures.streams[0].steady_s = 20;
-    reader.figures.streams.resize(1);
-    reader.figures.streams[0].end = "input:0";
+    writer.metrics.streams.resize(1);
+    writer.metrics.streams[0].end = "output:0";
+    writer.metrics.streams[0].steady_s = 20;
+    reader.metrics.streams.resize(1);
+    reader.metrics.streams[0].end = "input:0";
   }
 };
 
@@ -307,14 +307,14 @@ TEST_CASE_METHOD(paper_cell,
   broken.state = instance_state::failed;
   broken.exit_code = 3;
   broken.reason = "it exited with code 3";
-  arm.tell(broken);
+  arm.report_row(broken);
   time.settle();
   CHECK(state_of_task(*this, "t") == "degraded");
   const auto shown =
       request({{"type", "instance_query"}, {"instance", broken.spec.instance}});
   CHECK(shown.at("instances")[0].at("exit_code") == 3);
   REQUIRE(count("instance_changed") >= 1);
-  CHECK(facts.back().data.at("reason") == "it exited with code 3");
+  CHECK(events.back().data.at("reason") == "it exited with code 3");
 }
 
 TEST_CASE_METHOD(paper_cell,
@@ -324,7 +324,7 @@ TEST_CASE_METHOD(paper_cell,
   request(echo_task("t", {echo_step("s0", 1, "arm")}));
   auto& known = arm.running.begin()->second;
   known.status = "frames=120";
-  known.figures = {120, 2.5, 3, 0.85};
+  known.metrics = {120, 2.5, 3, 0.85};
   const auto shown = [&] {
     return request({{"type", "instance_query"}}).at("instances").at(0);
   };
@@ -334,9 +334,9 @@ TEST_CASE_METHOD(paper_cell,
                 {"rate_hz", 2.5},
                 {"dropped", 3},
                 {"latency_ms", 0.85}});
-  SECTION("a node that is silent has no figures, and holds up nobody") {
+  SECTION("a node that is silent has no metrics, and holds up nobody") {
     arm.mute = true;
-    arm.tell(known);
+    arm.report_row(known);
     const auto reply = post({{"type", "instance_query"}});
     time.advance(limits::resource::collection);
     const auto row = reply_of(reply).at("instances").at(0);
@@ -344,14 +344,14 @@ TEST_CASE_METHOD(paper_cell,
     CHECK(row.at("state") == "running");
   }
   SECTION("a node that is away has none") {
-    arm.tell(known);
+    arm.report_row(known);
     lose(arm);
     CHECK_FALSE(shown().contains("figures"));
     CHECK(shown().contains("unknown_since_unix_ms"));
   }
   SECTION("what has ended keeps its last ones") {
     known.state = instance_state::stopped;
-    arm.tell(known);
+    arm.report_row(known);
     time.settle();
     CHECK(shown().at("figures").at("frames") == 120);
   }
@@ -361,7 +361,7 @@ TEST_CASE_METHOD(cell_with_stream,
                  "A reader that gets nothing although its writer sends is "
                  "starved, without a bound",
                  "[cell_coordinator]") {
-  reader.figures.streams[0].quiet_s = 20;
+  reader.metrics.streams[0].quiet_s = 20;
   CHECK(state_of_task(*this, "t") == "running");
   const auto shown =
       request({{"type", "instance_query"}, {"instance", reader.spec.instance}});
@@ -376,7 +376,7 @@ TEST_CASE_METHOD(cell_with_stream,
   CHECK(state_of_task(*this, "t") == "degraded");
   CHECK(count("instance_starved") == 1);
   CHECK(count("instance_recovered") == 0);
-  reader.figures.streams[0].quiet_s = 0;
+  reader.metrics.streams[0].quiet_s = 0;
   request({{"type", "instance_query"}});
   CHECK(state_of_task(*this, "t") == "running");
   CHECK(count("instance_starved") == 1);
@@ -386,15 +386,15 @@ TEST_CASE_METHOD(cell_with_stream,
 TEST_CASE_METHOD(cell_with_stream,
                  "A node that tells of a silent input has its writer asked",
                  "[cell_coordinator]") {
-  reader.figures.streams[0].quiet_s = 30;
+  reader.metrics.streams[0].quiet_s = 30;
   const auto before = count("instance_changed");
-  arm.tell(reader);
+  arm.report_row(reader);
   time.settle();
   CHECK(count("instance_starved") == 1);
   // The words of a skill are no change, the judgement is one.
   CHECK(count("instance_changed") == before + 1);
-  reader.figures.streams[0].quiet_s = 0;
-  arm.tell(reader);
+  reader.metrics.streams[0].quiet_s = 0;
+  arm.report_row(reader);
   time.settle();
   CHECK(count("instance_recovered") == 1);
   CHECK(state_of_task(*this, "t") == "running");
@@ -407,13 +407,13 @@ TEST_CASE_METHOD(cell_with_stream,
   request(echo_task("u", {echo_step("camera", 1, "eye")}));
   auto& camera = eye.running.begin()->second;
   camera.spec.output = writer.spec.output;
-  camera.figures = writer.figures;
-  writer.figures.streams[0].steady_s = -1;
-  eye.tell(camera);
+  camera.metrics = writer.metrics;
+  writer.metrics.streams[0].steady_s = -1;
+  eye.report_row(camera);
   time.settle();
-  reader.figures.streams[0].quiet_s = 30;
+  reader.metrics.streams[0].quiet_s = 30;
   SECTION("when its node has told that its input is silent") {
-    arm.tell(reader);
+    arm.report_row(reader);
     time.settle();
   }
   SECTION("when somebody asks for it") {
@@ -425,7 +425,7 @@ TEST_CASE_METHOD(cell_with_stream,
   CHECK(count("instance_starved") == 1);
   CHECK(state_of_task(*this, "t") == "degraded");
   CHECK(state_of_task(*this, "u") == "running");
-  CHECK(facts.back()
+  CHECK(events.back()
             .data.at("health_reason")
             .get<std::string>()
             .find("step 'camera' of task 'u' on node 'eye' goes on sending")
@@ -447,11 +447,11 @@ TEST_CASE_METHOD(paper_cell, "An ended instance that no task wants is dropped",
                  "[cell_coordinator]") {
   auto& arm = add("arm");
   auto row_on_arm = row_of(some_spec("x", "gone"), "arm");
-  arm.tell(row_on_arm);
+  arm.report_row(row_on_arm);
   time.settle();
   CHECK(row("arm").instances.size() == 1);
   row_on_arm.state = instance_state::stopped;
-  arm.tell(row_on_arm);
+  arm.report_row(row_on_arm);
   time.settle();
   CHECK(row("arm").instances.empty());
   CHECK(arm.removals.empty());
@@ -509,7 +509,7 @@ TEST_CASE("A restarted coordinator takes its running tasks up again",
   const auto second = cell.enter(leg);
   REQUIRE(second);
   CHECK(verdict_of(*second, "t-on-leg") == "start");
-  leg.tell(row_of(some_spec("t-on-leg", "t"), "leg"));
+  leg.report_row(row_of(some_spec("t-on-leg", "t"), "leg"));
   cell.time.settle();
   CHECK(state_of_task(cell, "t") == "running");
   CHECK(error_of(cell.request(echo_task("t", {echo_step("s0", 1)})))

@@ -1,6 +1,6 @@
 #include "test/actors/fakes/crowded_cell.hpp"
 
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 #include "test/words.hpp"
 
 /// Nodes that are to be empty.
@@ -115,20 +115,20 @@ TEST_CASE_METHOD(absent_node,
 }
 
 TEST_CASE_METHOD(crowded_cell,
-                 "A node is drained when what it waits for is safe",
+                 "A node is drained when what it waits for is stop-safe",
                  "[drain]") {
   const auto instance = left.running.begin()->first;
-  left.unsafe.insert(instance);
+  left.not_stop_safe.insert(instance);
   request(drain("left"));
   time.advance(60s);
   CHECK(count("node_drained") == 0);
   SECTION("by itself") {
-    left.become_safe(instance);
+    left.become_stop_safe(instance);
   }
   SECTION("by force") {
-    auto wish = drain("left");
-    wish["force"] = true;
-    request(wish);
+    auto asked = drain("left");
+    asked["force"] = true;
+    request(asked);
   }
   time.advance(limits::retry::longest + 1s);
   CHECK(left.running.empty());

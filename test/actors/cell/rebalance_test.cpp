@@ -1,6 +1,6 @@
 #include "test/actors/fakes/crowded_cell.hpp"
 
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 
 /// Running steps that move to where the cell is better balanced.
 namespace roscell::test {
@@ -82,18 +82,18 @@ TEST_CASE_METHOD(uneven_cell,
   SECTION("unhealthy") {
     row.health = instance_health::unhealthy;
     row.health_reason = "output 'o' goes at 0 Hz";
-    right.tell(row);
+    right.report_row(row);
     time.settle();
   }
   SECTION("backing off") {
     row.state = instance_state::backing_off;
-    right.tell(row);
+    right.report_row(row);
     time.settle();
   }
   SECTION("starved when it should have settled") {
     row.health = instance_health::starved;
     row.health_reason = "input 'i' has no frames";
-    right.tell(row);
+    right.report_row(row);
     time.settle();
     CHECK(count("rebalance_ended") == 0);
     time.advance(limits::task::healthy_for);
@@ -140,9 +140,10 @@ TEST_CASE_METHOD(uneven_cell, "Nonsense is refused with its place",
   }
 }
 
-TEST_CASE("A step that has to be safe ends before its successor starts, in a "
-          "rebalance too",
-          "[rebalance]") {
+TEST_CASE(
+    "A step that has to be stop-safe ends before its successor starts, in a "
+    "rebalance too",
+    "[rebalance]") {
   paper_cell cell;
   cell.base.has.cpu.used = 4;
   auto& left = cell.make_agent("left");
@@ -160,12 +161,12 @@ TEST_CASE("A step that has to be safe ends before its successor starts, in a "
   }
   right.has.cpu.used = 0;
   for (const auto& [instance, row] : left.running)
-    left.unsafe.insert(instance);
+    left.not_stop_safe.insert(instance);
   const auto reply = cell.request({{"type", "cell_rebalance"}});
   REQUIRE(reply.at("moves").size() == 1);
   cell.time.advance(5min);
   CHECK(right.running.empty());
-  left.become_safe(reply.at("moves")[0].at("instance").get<std::string>());
+  left.become_stop_safe(reply.at("moves")[0].at("instance").get<std::string>());
   cell.time.settle();
   CHECK(right.running.size() == 1);
 }

@@ -1,4 +1,4 @@
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 #include "test/actors/fakes/coordinator_fakes.hpp"
 
 namespace roscell::test {
@@ -223,7 +223,7 @@ TEST_CASE_METHOD(two_nodes,
   REQUIRE(row("right").instances.size() == 1);
   auto ended = row("right").instances[0];
   ended.state = instance_state::stopped;
-  right.tell(ended);
+  right.report_row(ended);
   time.settle();
   CHECK(row("right").instances.empty());
 }

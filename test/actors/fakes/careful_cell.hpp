@@ -6,7 +6,7 @@
 
 namespace roscell::test {
 
-/// A step that has to be safe before it may be ended.
+/// A step that has to be stop-safe before it may be ended.
 inline json grasp_step(const std::string& id, const std::string& node = "") {
   auto result = echo_step(id, 1, node);
   result["operation"] = "grasp";
@@ -44,7 +44,7 @@ struct careful_cell : paper_cell {
     node.running.erase(instance);
     row.state = instance_state::stopped;
     row.exit_code = 0;
-    node.tell(row);
+    node.report_row(row);
     time.settle();
   }
 };

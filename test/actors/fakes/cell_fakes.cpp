@@ -11,9 +11,9 @@ constexpr auto sessions = "10.0.0.1:8420";
 
 // -- the coordination node ---------------------------------------------------
 
-void accept(fake_site* site, const session_admitted& fact) {
+void accept(fake_site* site, const session_admitted& event) {
   site->base.members.push_back(roscell::spawn(site->time.system, site->context,
-                                              member, fact, site->base.actor));
+                                              member, event, site->base.actor));
 }
 
 caf::result<node_registered> enter(fake_site* site, const register_node& x) {
@@ -45,19 +45,19 @@ node_departed drop(fake_site* site, const depart_node& x) {
   return {};
 }
 
-void lose(fake_site* site, const member_lost& fact) {
-  site->base.losses.push_back(fact);
+void lose(fake_site* site, const member_lost& event) {
+  site->base.losses.push_back(event);
   for (auto& [name, row] : site->base.rows) {
-    if (row.member == fact.member) {
+    if (row.member == event.member) {
       row.active = false;
-      row.reason = fact.reason;
+      row.reason = event.reason;
     }
   }
 }
 
 caf::behavior coordinator(caf::event_based_actor* self, fake_site* site) {
   return {
-      [=](const session_admitted& fact) { accept(site, fact); },
+      [=](const session_admitted& event) { accept(site, event); },
       [=](const register_node& x) -> caf::result<node_registered> {
         if (!site->base.mute)
           return enter(site, x);
@@ -73,7 +73,7 @@ caf::behavior coordinator(caf::event_based_actor* self, fake_site* site) {
                                           base.cell_uuid, base.discovery});
       },
       [=](const depart_node& x) { return drop(site, x); },
-      [=](const member_lost& fact) { lose(site, fact); },
+      [=](const member_lost& event) { lose(site, event); },
       [=](const instance_changed& x) { site->base.changes.push_back(x); },
       [=](const route_request& x) {
         site->base.asked.push_back(json::parse(x.text));
@@ -144,21 +144,21 @@ caf::behavior local_parts(caf::event_based_actor* self, fake_site* site,
                           fake_node* node) {
   return {
       [=](const resolve_host& x) { return look_up(node, x); },
-      [=](const scout_address&) {
+      [=](const probe_server&) {
         ++node->looks;
-        return node->scouted;
+        return node->probed;
       },
       [=](const find_coordinator& x) {
         node->sought.push_back(x.address);
         node->searching = true;
         ++node->searches;
-        if (site->base.actor && x.address != site->strangers_server)
+        if (site->base.actor && x.address != site->unauthenticated_server)
           self->delayed_send(self, 100ms, caf::tick_atom_v);
         return caf::ok_atom_v;
       },
       [=](caf::tick_atom) {
         if (node->searching && site->base.actor
-            && node->sought.back() != site->strangers_server)
+            && node->sought.back() != site->unauthenticated_server)
           self->send(node->membership, announcement(site->base));
       },
       [=](const forget_coordinator&) { node->searching = false; },
@@ -232,20 +232,20 @@ caf::behavior local_parts(caf::event_based_actor* self, fake_site* site,
 
 fake_site::fake_site(virtual_time& clock, uint32_t seed)
     : time(clock), random(seed), context(clock.context) {
-  fact_keeper =
+  event_collector =
       time.system.spawn([this](caf::event_based_actor*) -> caf::behavior {
         return {[this](const record_event& x) {
-          facts.push_back({x.what, x.subject, json::parse(x.data)});
+          events.push_back({x.what, x.subject, json::parse(x.data)});
         }};
       });
-  context.events = caf::actor_cast<event_log_actor>(fact_keeper);
+  context.events = caf::actor_cast<event_log_actor>(event_collector);
 }
 
 fake_site::~fake_site() {
   for (auto& node : nodes)
     kill(*node);
   kill_coordinator();
-  time.kill(fact_keeper);
+  time.kill(event_collector);
   time.scheduler.clock().cancel_all();
 }
 
@@ -296,7 +296,7 @@ void fake_site::start(fake_node& x) {
   parts.agent = caf::actor_cast<node_agent_actor>(x.local);
   parts.supervisor = caf::actor_cast<container_supervisor_actor>(x.local);
   parts.store = caf::actor_cast<state_store_actor>(x.local);
-  parts.scout = caf::actor_cast<join_scout_actor>(x.local);
+  parts.diagnoser = caf::actor_cast<join_diagnoser_actor>(x.local);
   membership_config config{x.identity, {}};
   config.site = site_token;
   config.claim_address = [&x] { ++x.claims; };
@@ -321,16 +321,16 @@ void fake_site::join(fake_node& x) {
   caf::anon_send(x.membership, join_cell{server});
 }
 
-membership_state fake_site::standing(fake_node& x) {
+membership_state fake_site::status(fake_node& x) {
   auto result = time.ask<membership_state>(x.membership, membership_query{});
   time.settle();
   return *result->value();
 }
 
-size_t fake_site::count(const std::string& fact) const {
+size_t fake_site::count(const std::string& event) const {
   return static_cast<size_t>(
-      std::count_if(facts.begin(), facts.end(),
-                    [&](const auto& x) { return x.what == fact; }));
+      std::count_if(events.begin(), events.end(),
+                    [&](const auto& x) { return x.what == event; }));
 }
 
 // -- samples -----------------------------------------------------------------

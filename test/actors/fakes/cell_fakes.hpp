@@ -65,9 +65,9 @@ struct fake_node {
   size_t environments = 0;        ///< How often they were told one.
   wire_ptr link;                  ///< The latest.
   std::optional<failure> refusal; ///< Of sessions.
-  address_scouted scouted;        ///< What the scout sees; nothing answers.
-  size_t looks = 0;               ///< Of the scout.
-  size_t claims = 0;              ///< Of its address.
+  server_probed probed; ///< What the join diagnoser sees; nothing answers.
+  size_t looks = 0;     ///< Of the join diagnoser.
+  size_t claims = 0;    ///< Of its address.
   std::map<std::string, std::string> names; ///< Of hosts, to addresses.
   std::vector<std::string> sought;          ///< Discovery servers.
   size_t announcements = 0;                 ///< Of itself.
@@ -82,8 +82,8 @@ struct fake_node {
   std::deque<std::pair<caf::response_promise, instance_row>> deploying;
 };
 
-/// A fact that an actor of the site has told.
-struct told_fact {
+/// An event that an actor of the site has told.
+struct published_event {
   std::string what;
   std::string subject;
   json data;
@@ -96,11 +96,11 @@ struct fake_site {
   wire_faults faults;
   fake_coordinator base;
   std::vector<std::unique_ptr<fake_node>> nodes;
-  std::vector<told_fact> facts;
-  caf::actor fact_keeper;
+  std::vector<published_event> events;
+  caf::actor event_collector;
   size_t timers_fired = 0;
-  std::string strangers_server; ///< Where no coordinator answers.
-  house context;
+  std::string unauthenticated_server; ///< Where no coordinator answers.
+  actor_context context;
 
   fake_site(virtual_time& clock, uint32_t seed);
   ~fake_site();
@@ -129,8 +129,8 @@ struct fake_site {
   /// As if the coordinator's announcement had changed.
   void announce_to(fake_node& x);
 
-  membership_state standing(fake_node& x);
-  size_t count(const std::string& fact) const;
+  membership_state status(fake_node& x);
+  size_t count(const std::string& event) const;
 };
 
 /// A site with a coordinator and one node, "arm-1", that is not started.
@@ -154,7 +154,7 @@ struct cell_fixture {
   }
 
   node_state state() {
-    return site.standing(node).state;
+    return site.status(node).state;
   }
 };
 

@@ -10,10 +10,10 @@ namespace roscell::test {
 
 namespace {
 
-figures_report figures_of(const fake_agent& x) {
+figures_report metrics_of(const fake_agent& x) {
   figures_report result;
   for (const auto& [id, row] : x.running)
-    result.instances.push_back({id, row.status, row.figures});
+    result.instances.push_back({id, row.status, row.metrics});
   return result;
 }
 
@@ -22,9 +22,9 @@ resource_report report_of(const fake_agent& x) {
   for (const auto& [id, row] : x.running)
     reserve(result, row.spec.resources, row.spec.gpu);
   resource_report report{result, {}};
-  for (const auto& wish : x.reservations)
-    for (const auto& spec : wish.specs)
-      if (x.tells_reserved && x.running.count(spec.instance) == 0) {
+  for (const auto& request : x.reservations)
+    for (const auto& spec : request.specs)
+      if (x.reports_reserved && x.running.count(spec.instance) == 0) {
         reserve(report.resources, spec.resources, spec.gpu);
         report.reserved.push_back(spec.instance);
       }
@@ -45,7 +45,7 @@ void on_deployment(caf::event_based_actor* self, fake_agent* x,
   // It is known from the beginning, as with a real supervisor.
   auto row = row_of(spec, x->identity.name, instance_state::starting);
   x->running[spec.instance] = row;
-  x->tell(row);
+  x->report_row(row);
   x->starting.emplace_back(promise, spec);
 }
 
@@ -62,18 +62,18 @@ void on_resource_query(caf::event_based_actor* self, fake_agent* x) {
 caf::behavior agent(caf::event_based_actor* self, fake_agent* x) {
   return {
       [=](const resource_query&) { on_resource_query(self, x); },
-      [=](const instance_reservation& wish) {
-        x->reservations.push_back(wish);
+      [=](const instance_reservation& request) {
+        x->reservations.push_back(request);
         instances_reserved reply;
         if (x->reluctance > 0) {
           --x->reluctance;
-          for (const auto& spec : wish.specs)
+          for (const auto& spec : request.specs)
             reply.refused.push_back({spec.instance, "too busy now"});
         }
         return reply;
       },
-      [=](const instance_deployment& wish) {
-        on_deployment(self, x, wish.spec);
+      [=](const instance_deployment& request) {
+        on_deployment(self, x, request.spec);
       },
       [=](const instance_removal& what) {
         x->removals.push_back(what);
@@ -89,10 +89,10 @@ caf::behavior agent(caf::event_based_actor* self, fake_agent* x) {
           result.instances.push_back(row);
         return result;
       },
-      [=](const contact_proven& fact) { x->kept = fact.kept; },
+      [=](const contact_proven& event) { x->kept = event.kept; },
       [=](const figures_query&) -> caf::result<figures_report> {
         if (!x->mute)
-          return figures_of(*x);
+          return metrics_of(*x);
         x->unanswered.push_back(self->make_response_promise());
         return caf::delegated<figures_report>{};
       },
@@ -115,7 +115,9 @@ caf::behavior agent(caf::event_based_actor* self, fake_agent* x) {
         x->orders.push_back(order);
         return switch_accepted{order.epoch + 1};
       },
-      [=](const close_session& wish) { x->closed.push_back(wish.reason); },
+      [=](const close_session& request) {
+        x->closed.push_back(request.reason);
+      },
       [=](caf::tick_atom) {
         for (const auto& work : std::exchange(x->todo, {}))
           work();
@@ -158,7 +160,7 @@ caf::behavior disk_of(caf::event_based_actor* self, paper_cell* cell) {
 caf::behavior keeper(paper_cell* cell) {
   return {
       [=](const record_event& x) {
-        cell->facts.push_back(
+        cell->events.push_back(
             {x.what, x.subject,
              x.data.empty() ? json::object() : json::parse(x.data)});
       },
@@ -169,7 +171,7 @@ caf::behavior keeper(paper_cell* cell) {
 
 // -- a node ------------------------------------------------------------------
 
-void fake_agent::tell(const instance_row& row) {
+void fake_agent::report_row(const instance_row& row) {
   caf::send_as(actor, coordinator, instance_changed{row});
 }
 
@@ -177,7 +179,7 @@ void fake_agent::bring_up(caf::response_promise promise,
                           const instance_spec& spec) {
   const auto row = row_of(spec, identity.name);
   running[spec.instance] = row;
-  tell(row);
+  report_row(row);
   promise.deliver(instance_deployed{row});
 }
 
@@ -191,7 +193,7 @@ void fake_agent::take_down(caf::response_promise promise,
       ++i;
       continue;
     }
-    if (unsafe.count(i->first) > 0 && !what.force) {
+    if (not_stop_safe.count(i->first) > 0 && !what.force) {
       reply.waiting.push_back(
           {i->first, row.spec.task, row.spec.step, identity.name, 1000, 0});
       ++i;
@@ -199,7 +201,7 @@ void fake_agent::take_down(caf::response_promise promise,
     }
     reply.instances.push_back(i->first);
     row.state = instance_state::stopped;
-    tell(row);
+    report_row(row);
     i = running.erase(i);
   }
   for (auto& [waiting, spec] : std::exchange(starting, {}))
@@ -210,12 +212,12 @@ void fake_agent::take_down(caf::response_promise promise,
   promise.deliver(reply);
 }
 
-void fake_agent::become_safe(const std::string& instance) {
-  unsafe.erase(instance);
+void fake_agent::become_stop_safe(const std::string& instance) {
+  not_stop_safe.erase(instance);
   auto row = running.at(instance);
   row.state = instance_state::stopped;
   running.erase(instance);
-  tell(row);
+  report_row(row);
 }
 
 namespace {
@@ -243,10 +245,10 @@ void fake_agent::fail_starting(const std::string& reason) {
   });
 }
 
-void fake_agent::tell_figures() {
+void fake_agent::report_metrics() {
   inside(*this, [this] {
     for (auto& promise : std::exchange(unanswered, {}))
-      promise.deliver(figures_of(*this));
+      promise.deliver(metrics_of(*this));
   });
 }
 
@@ -276,10 +278,10 @@ void fake_agent::fail_removals() {
 paper_cell::paper_cell(const std::vector<task_record>& tasks,
                        const std::vector<instance_row>& on_base)
     : base(make_agent("base")) {
-  fact_keeper = time.system.spawn([this] { return keeper(this); });
+  event_collector = time.system.spawn([this] { return keeper(this); });
   store = time.system.spawn(disk_of, this);
   context = time.context;
-  context.events = caf::actor_cast<event_log_actor>(fact_keeper);
+  context.events = caf::actor_cast<event_log_actor>(event_collector);
   searches = std::make_shared<search_guard>();
   planner = spawn_planner(time.system, context, searches);
   start_parts(setup(tasks, on_base));
@@ -335,7 +337,7 @@ paper_cell::~paper_cell() {
   time.kill(coordinator);
   time.kill(planner);
   time.kill(store);
-  time.kill(fact_keeper);
+  time.kill(event_collector);
 }
 
 coordinator_setup paper_cell::setup(const std::vector<task_record>& tasks,
@@ -456,10 +458,10 @@ void paper_cell::finish_writes() {
   caf::anon_send(store, caf::tick_atom_v);
 }
 
-size_t paper_cell::count(const std::string& fact) const {
+size_t paper_cell::count(const std::string& event) const {
   return static_cast<size_t>(
-      std::count_if(facts.begin(), facts.end(),
-                    [&](const auto& x) { return x.what == fact; }));
+      std::count_if(events.begin(), events.end(),
+                    [&](const auto& x) { return x.what == event; }));
 }
 
 // -- what is said ------------------------------------------------------------

@@ -30,7 +30,7 @@ struct fake_agent {
   temper mood = temper::happy;
   std::vector<installed_skill> skills; ///< `echo_skill()` unless changed.
   bool silent = false;                 ///< Answers nothing about resources.
-  bool mute = false;                   ///< Answers nothing about figures.
+  bool mute = false;                   ///< Answers nothing about metrics.
   std::vector<kept_log> logs_kept;
   bool slow_reports = false;  ///< Measures at once, answers when told to.
   bool slow_removals = false; ///< Removes when told to.
@@ -40,9 +40,9 @@ struct fake_agent {
   cell_coordinator_actor coordinator;
 
   std::map<std::string, instance_row> running;
-  std::set<std::string> unsafe; ///< Instances that do not end yet.
+  std::set<std::string> not_stop_safe; ///< Instances that do not end yet.
   std::vector<instance_reservation> reservations;
-  bool tells_reserved = false; ///< Its reports count what it has reserved.
+  bool reports_reserved = false; ///< Its reports count what it has reserved.
   int reluctance = 0; ///< How many reservations it refuses from now on.
   std::vector<instance_spec> deployments;
   std::vector<instance_removal> removals;
@@ -58,26 +58,26 @@ struct fake_agent {
   std::vector<std::function<void()>> todo; ///< For the actor itself.
 
   /// Tells the coordinator of an instance, as this node.
-  void tell(const instance_row& row);
+  void report_row(const instance_row& row);
 
   void bring_up(caf::response_promise promise, const instance_spec& spec);
   void take_down(caf::response_promise promise, const instance_removal& what);
 
-  /// An instance that was to end is safe, and ends.
-  void become_safe(const std::string& instance);
+  /// An instance that was to end is stop-safe, and ends.
+  void become_stop_safe(const std::string& instance);
 
   /// End what has been kept waiting, once messages are handled: a promise can
   /// only be kept by its actor.
   void finish_starting();
   void fail_starting(const std::string& reason);
-  void tell_figures(); ///< Of what it was asked while it was mute.
+  void report_metrics(); ///< Of what it was asked while it was mute.
   void finish_reports();
   void finish_removals();
   void fail_removals(); ///< As of a member that is lost.
 };
 
-/// A fact that somebody has told.
-struct cell_fact {
+/// An event that somebody has told.
+struct cell_event {
   std::string what;
   std::string subject;
   json data;
@@ -96,11 +96,11 @@ struct paper_cell {
   bool disk_full = false;
   bool slow_disk = false; ///< Writes when told to.
   std::vector<std::pair<caf::response_promise, store_records>> writes;
-  std::vector<cell_fact> facts;
+  std::vector<cell_event> events;
   std::vector<std::unique_ptr<fake_agent>> agents;
-  caf::actor fact_keeper;
+  caf::actor event_collector;
   caf::actor store;
-  house context;
+  actor_context context;
   std::shared_ptr<search_guard> searches;
   scheduler_actor planner;
   cell_coordinator_actor coordinator;
@@ -137,7 +137,7 @@ struct paper_cell {
 
   registry_row row(const std::string& node);
   json tasks();
-  size_t count(const std::string& fact) const;
+  size_t count(const std::string& event) const;
 
 private:
   void start_parts(const coordinator_setup& how);

@@ -12,7 +12,7 @@ namespace roscell::test {
 struct instance_bench : virtual_time {
   instance_bench() {
     config.context = context;
-    config.supervisor = fake_supervisor(system, told);
+    config.supervisor = fake_supervisor(system, reported);
     config.runtime = fake_runtime(system, runtime);
     config.store = fake_store(system, store);
     config.skills = catalogue.skills;
@@ -88,15 +88,16 @@ struct instance_bench : virtual_time {
   }
 
   instance_state state() const {
-    return told->last().state;
+    return reported->last().state;
   }
 
   std::string reason() const {
-    return told->last().reason;
+    return reported->last().reason;
   }
 
   echo_catalogue catalogue;
-  std::shared_ptr<told_changes> told = std::make_shared<told_changes>();
+  std::shared_ptr<reported_changes> reported =
+      std::make_shared<reported_changes>();
   std::shared_ptr<runtime_script> runtime = std::make_shared<runtime_script>();
   std::shared_ptr<store_script> store = std::make_shared<store_script>();
   skill_instance_config config;

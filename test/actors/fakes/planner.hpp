@@ -10,7 +10,7 @@ namespace roscell::test {
 
 /// A SCHEDULER whose searchers run on the test's own coordinator of actors.
 inline scheduler_actor spawn_planner(caf::actor_system& system,
-                                     const house& context,
+                                     const actor_context& context,
                                      std::shared_ptr<search_guard> guard) {
   scheduler_config config;
   config.guard = std::move(guard);

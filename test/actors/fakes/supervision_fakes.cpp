@@ -201,17 +201,18 @@ state_store_actor fake_store(caf::actor_system& system,
       });
 }
 
-std::vector<std::string> told_changes::states() const {
+std::vector<std::string> reported_changes::states() const {
   std::vector<std::string> result;
   for (const auto& x : rows)
     result.push_back(to_string(x.state));
   return result;
 }
 
-container_supervisor_actor fake_supervisor(caf::actor_system& system,
-                                           std::shared_ptr<told_changes> told) {
+container_supervisor_actor
+fake_supervisor(caf::actor_system& system,
+                std::shared_ptr<reported_changes> reported) {
   using handle = container_supervisor_actor;
-  return system.spawn([told](handle::pointer) -> handle::behavior_type {
+  return system.spawn([reported](handle::pointer) -> handle::behavior_type {
     return {
         [](const state_query&) { return state_of(json::object()); },
         [](const instance_deployment&) { return instance_deployed{}; },
@@ -226,18 +227,21 @@ container_supervisor_actor fake_supervisor(caf::actor_system& system,
         [](const contact_lost&) {},
         [](const container_exited&) {},
         [](const instance_notified&) {},
-        [](const runtime_troubled&) {},
-        [told](const instance_changed& x) { told->rows.push_back(x.instance); },
+        [](const runtime_problem_changed&) {},
+        [reported](const instance_changed& x) {
+          reported->rows.push_back(x.instance);
+        },
     };
   });
 }
 
-instance_listener_actor fake_listener(caf::actor_system& system,
-                                      std::shared_ptr<told_changes> told) {
+instance_listener_actor
+fake_listener(caf::actor_system& system,
+              std::shared_ptr<reported_changes> reported) {
   using handle = instance_listener_actor;
-  return system.spawn([told](handle::pointer) -> handle::behavior_type {
-    return {[told](const instance_changed& x) {
-      told->rows.push_back(x.instance);
+  return system.spawn([reported](handle::pointer) -> handle::behavior_type {
+    return {[reported](const instance_changed& x) {
+      reported->rows.push_back(x.instance);
     }};
   });
 }

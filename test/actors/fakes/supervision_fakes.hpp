@@ -102,7 +102,7 @@ state_store_actor fake_store(caf::actor_system& system,
                              std::shared_ptr<store_script> script);
 
 /// Keeps what it is told of instances.
-struct told_changes {
+struct reported_changes {
   std::vector<instance_row> rows;
 
   std::vector<std::string> states() const;
@@ -112,10 +112,12 @@ struct told_changes {
 };
 
 /// A supervisor of which only the ears are real.
-container_supervisor_actor fake_supervisor(caf::actor_system& system,
-                                           std::shared_ptr<told_changes> told);
+container_supervisor_actor
+fake_supervisor(caf::actor_system& system,
+                std::shared_ptr<reported_changes> reported);
 
-instance_listener_actor fake_listener(caf::actor_system& system,
-                                      std::shared_ptr<told_changes> told);
+instance_listener_actor
+fake_listener(caf::actor_system& system,
+              std::shared_ptr<reported_changes> reported);
 
 } // namespace roscell::test

@@ -1,6 +1,6 @@
 #include "test/actors/fakes/trial_node.hpp"
 
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 #include "actors/placement/reservation.hpp"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ using std::chrono::milliseconds;
 
 namespace {
 
-constexpr milliseconds beat{4000};
+constexpr milliseconds heartbeat{4000};
 
 caf::error out_of_reach(const std::string& node) {
   return fail(error_code::unreachable, "node '" + node + "' is out of reach");
@@ -35,17 +35,17 @@ caf::behavior trial_node::act(caf::event_based_actor* self) {
         if (is_reached_by(promise))
           promise.deliver(report());
       },
-      [=](const instance_reservation& wish) {
+      [=](const instance_reservation& request) {
         auto promise = self->make_response_promise();
         if (!is_reached_by(promise))
           return;
         instances_reserved reply;
         if (site_.chance(4))
-          reply.refused.push_back({wish.specs.front().instance, "too busy"});
+          reply.refused.push_back({request.specs.front().instance, "too busy"});
         promise.deliver(reply);
       },
-      [=](const instance_deployment& wish) {
-        on_deployment(self->make_response_promise(), wish.spec);
+      [=](const instance_deployment& request) {
+        on_deployment(self->make_response_promise(), request.spec);
       },
       [=](const instance_removal& what) {
         on_removal(self->make_response_promise(), what);
@@ -108,7 +108,7 @@ instance_row trial_node::row(const trial_program& x) const {
   return result;
 }
 
-void trial_node::tell(const instance_row& row) {
+void trial_node::report_row(const instance_row& row) {
   if (takes_order())
     caf::send_as(actor_, site_.cell.coordinator, instance_changed{row});
   else if (!is_live(row.state))
@@ -128,7 +128,7 @@ void trial_node::begin(const instance_spec& spec,
   if (site_.chance(15))
     x.ready_at += std::chrono::milliseconds{site_.pick(90'000)};
   x.deployed = std::move(deployed);
-  tell(row(x));
+  report_row(row(x));
   programs_[spec.instance] = std::move(x);
 }
 
@@ -140,11 +140,11 @@ void trial_node::end(const std::string& instance, instance_state state,
   auto x = std::move(known->second);
   programs_.erase(known);
   site_.note(identity_.name + ": " + instance + " ends: " + reason);
-  auto told = row(x);
-  told.state = state;
-  told.exit_code = state == instance_state::stopped ? 0 : 3;
-  told.reason = reason;
-  tell(told);
+  auto reported = row(x);
+  reported.state = state;
+  reported.exit_code = state == instance_state::stopped ? 0 : 3;
+  reported.reason = reason;
+  report_row(reported);
   if (x.deployed)
     x.deployed->deliver(fail(error_code::engine_failed, reason));
   settle_removals();
@@ -242,7 +242,7 @@ void trial_node::on_switch(caf::response_promise promise,
 void trial_node::join() {
   ++identity_.epoch;
   session_ = linked_ = true;
-  told_lost_ = false;
+  reported_lost_ = false;
   departing_ = false;
   lost_at_ = trial_program::never;
   node_registration registration;
@@ -269,7 +269,7 @@ void trial_node::join() {
     session_ = linked_ = false;
     return;
   }
-  inside([this, told = ***reply] { obey(told); });
+  inside([this, reported = ***reply] { obey(reported); });
   site_.cell.time.settle();
 }
 
@@ -284,7 +284,7 @@ void trial_node::obey(const node_registered& reply) {
       if (x.what == verdict::keep)
         begin(spec, std::nullopt);
       else
-        tell(row_of(spec, identity_.name, instance_state::stopped));
+        report_row(row_of(spec, identity_.name, instance_state::stopped));
       continue;
     }
     const auto known = programs_.find(x.instance);
@@ -307,8 +307,8 @@ void trial_node::cut(bool is_broken) {
   linked_ = false;
   // The last word that was heard, and the last one of which the node knows
   // that it was.
-  const auto heard = site_.now() - milliseconds{site_.pick(beat.count())};
-  proven_ = heard - milliseconds{site_.pick(beat.count())};
+  const auto heard = site_.now() - milliseconds{site_.pick(heartbeat.count())};
+  proven_ = heard - milliseconds{site_.pick(heartbeat.count())};
   lost_at_ = is_broken ? site_.now() : heard + limits::lease::span;
   silent_ms_ =
       std::chrono::duration_cast<milliseconds>(lost_at_ - heard).count();
@@ -336,13 +336,13 @@ void trial_node::lose_session() {
   const bool at_once = site_.chance(50);
   if (!at_once)
     site_.cell.time.settle();
-  told_lost_ = !at_once;
-  tell_loss();
+  reported_lost_ = !at_once;
+  report_loss();
   site_.cell.time.settle();
-  told_lost_ = true;
+  reported_lost_ = true;
 }
 
-void trial_node::tell_loss() {
+void trial_node::report_loss() {
   inside([this] {
     caf::send_as(actor_, site_.cell.coordinator,
                  member_lost{identity_.uuid,
@@ -399,7 +399,7 @@ void trial_node::work() {
         } else if (x.ready_at <= now) {
           x.ready_at = trial_program::never;
           x.is_ready = true;
-          tell(row(x));
+          report_row(row(x));
           if (auto promise = std::exchange(x.deployed, std::nullopt))
             promise->deliver(instance_deployed{row(x)});
         }
@@ -418,8 +418,8 @@ void trial_node::drop_promises() {
 
 // -- the site ----------------------------------------------------------------
 
-trial_site::trial_site(paper_cell& where, uint32_t seed, bool tells)
-    : cell(where), random_(seed + 1), begun_(now()), tells_(tells) {}
+trial_site::trial_site(paper_cell& where, uint32_t seed, bool reports)
+    : cell(where), random_(seed + 1), begun_(now()), reports_(reports) {}
 
 trial_node& trial_site::add(const std::string& name) {
   nodes.push_back(std::make_unique<trial_node>(*this, name));
@@ -456,8 +456,8 @@ void trial_site::watch_start(const trial_node& on, const instance_spec& spec) {
       const auto two = id + " on " + node->name() + " and " + spec.instance
                        + " on " + on.name();
       if (spec.life.safe_state)
-        fault = "two that have to be safe: " + two;
-      else if (node->is_told_lost())
+        fault = "two that have to be stop-safe: " + two;
+      else if (node->is_reported_lost())
         fault = "one runs where nobody can end it: " + two;
       else if (++others > 1)
         fault = "three at once: " + two;
@@ -465,7 +465,7 @@ void trial_site::watch_start(const trial_node& on, const instance_spec& spec) {
 }
 
 void trial_site::note(const std::string& what) {
-  if (!tells_)
+  if (!reports_)
     return;
   const auto at = std::chrono::duration_cast<milliseconds>(now() - begun_);
   std::cerr << static_cast<double>(at.count()) / 1000 << " s: " << what << "\n";

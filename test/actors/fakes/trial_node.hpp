@@ -57,8 +57,8 @@ public:
   }
 
   /// Whether the coordinator has been told that nothing is heard of it.
-  bool is_told_lost() const {
-    return told_lost_;
+  bool is_reported_lost() const {
+    return reported_lost_;
   }
 
   const std::string& name() const {
@@ -85,7 +85,7 @@ private:
              std::optional<caf::response_promise> deployed);
   void end(const std::string& instance, instance_state state,
            const std::string& reason);
-  void tell(const instance_row& row);
+  void report_row(const instance_row& row);
   void on_deployment(caf::response_promise promise, const instance_spec& spec);
   void on_removal(caf::response_promise promise, const instance_removal& what);
   void on_switch(caf::response_promise promise,
@@ -93,7 +93,7 @@ private:
   void settle_removals();
   void obey(const node_registered& reply);
   void lose_session();
-  void tell_loss();
+  void report_loss();
   void set_fences(time_point proven);
   resource_report report() const;
   instance_row row(const trial_program& x) const;
@@ -103,7 +103,7 @@ private:
   trial_site& site_;
   node_identity identity_;
   caf::actor actor_;
-  bool told_lost_ = false;
+  bool reported_lost_ = false;
   bool session_ = false;   ///< The coordinator has it.
   bool linked_ = false;    ///< Packets pass.
   bool departing_ = false; ///< It was told to go.
@@ -123,7 +123,7 @@ private:
 /// The nodes of a trial, and what was seen on them.
 class trial_site {
 public:
-  trial_site(paper_cell& cell, uint32_t seed, bool tells);
+  trial_site(paper_cell& cell, uint32_t seed, bool reports);
 
   trial_node& add(const std::string& name);
 
@@ -131,7 +131,8 @@ public:
   void live(std::chrono::milliseconds span);
 
   /// A program begins: nothing else of its step may run, but the one whose
-  /// place it takes, on a node that is there, where nothing has to be safe.
+  /// place it takes, on a node that is there, where nothing has to be
+  /// stop-safe.
   void watch_start(const trial_node& on, const instance_spec& spec);
 
   uint32_t pick(uint32_t end) {
@@ -157,7 +158,7 @@ public:
 private:
   std::minstd_rand random_;
   trial_program::time_point begun_;
-  bool tells_;
+  bool reports_;
 };
 
 } // namespace roscell::test

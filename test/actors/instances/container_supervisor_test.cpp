@@ -1,4 +1,4 @@
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 #include "actors/instances/container_supervisor.hpp"
 
 #include "messages/failure.hpp"
@@ -26,7 +26,7 @@ struct supervisor_bench : virtual_time {
       runtimes.push_back(fake_runtime(system, runtime));
       return runtimes.back();
     };
-    listener = fake_listener(system, told);
+    listener = fake_listener(system, reported);
   }
 
   ~supervisor_bench() {
@@ -93,7 +93,8 @@ struct supervisor_bench : virtual_time {
   }
 
   echo_catalogue catalogue;
-  std::shared_ptr<told_changes> told = std::make_shared<told_changes>();
+  std::shared_ptr<reported_changes> reported =
+      std::make_shared<reported_changes>();
   std::shared_ptr<runtime_script> runtime = std::make_shared<runtime_script>();
   std::shared_ptr<store_script> store = std::make_shared<store_script>();
   std::vector<runtime_actor> runtimes;
@@ -341,7 +342,7 @@ TEST_CASE("an actor that dies again and again takes its program along") {
   CHECK(refusal(answer).code == error_code::engine_failed);
   CHECK(b.row("i").reason == "its supervision has failed");
   CHECK(b.runtime->stopped.size() == 1);
-  CHECK(b.told->last().state == instance_state::failed);
+  CHECK(b.reported->last().state == instance_state::failed);
 }
 
 TEST_CASE("a runtime that dies is spawned anew and adopts what runs") {
@@ -428,17 +429,17 @@ TEST_CASE("programs of a coordinator at another address are told its server "
           "there and no other") {
   moved_bench b;
   b.config.environment = {{"ROS_DISCOVERY_SERVER", "10.0.0.9:11812"}};
-  std::vector<std::string> told;
-  b.config.tell_environment =
-      [&told](const std::string&,
-              const std::map<std::string, std::string>& place) {
-        told.push_back(place.at("ROS_DISCOVERY_SERVER"));
+  std::vector<std::string> reported;
+  b.config.write_environment_update =
+      [&reported](const std::string&,
+                  const std::map<std::string, std::string>& place) {
+        reported.push_back(place.at("ROS_DISCOVERY_SERVER"));
         return true;
       };
   b.start();
   caf::anon_send(b.supervisor, contact_proven{1, {"moved"}});
   b.settle();
-  CHECK(told == words{"10.0.0.9:11812"});
+  CHECK(reported == words{"10.0.0.9:11812"});
   CHECK(b.row("moved").state == instance_state::running);
   CHECK(b.runtime->stopped.empty());
 }
@@ -465,13 +466,13 @@ TEST_CASE("the listener hears of each state once") {
   b.deploy("i");
   b.say("i", "loading");
   b.say("i", "12 frames/s");
-  CHECK(b.told->states()
+  CHECK(b.reported->states()
         == words{"pending", "building", "starting", "running"});
   CHECK(b.row("i").status == "12 frames/s");
   b.say("i", "frames=12 dropped=1");
-  CHECK(b.row("i").figures.frames == 12);
-  CHECK(b.row("i").figures.dropped == 1);
-  CHECK(b.told->states()
+  CHECK(b.row("i").metrics.frames == 12);
+  CHECK(b.row("i").metrics.dropped == 1);
+  CHECK(b.reported->states()
         == words{"pending", "building", "starting", "running"});
 }
 
@@ -493,15 +494,15 @@ TEST_CASE("the listener hears once that an input is silent, and of its end") {
     }
   };
   say(4s);
-  const auto begun = b.told->states().size();
+  const auto begun = b.reported->states().size();
   say(24s);
-  CHECK(b.told->states().size() == begun);
+  CHECK(b.reported->states().size() == begun);
   say(60s);
-  CHECK(b.told->states().size() == begun + 1);
-  CHECK(b.row("i").figures.streams.at(0).quiet_s >= 30);
+  CHECK(b.reported->states().size() == begun + 1);
+  CHECK(b.row("i").metrics.streams.at(0).quiet_s >= 30);
   said.frames[0].frames = 1;
   say(60s);
-  CHECK(b.told->states().size() == begun + 2);
+  CHECK(b.reported->states().size() == begun + 2);
 }
 
 TEST_CASE("the log of an instance is the runtime's, of others there is none") {
@@ -678,22 +679,22 @@ TEST_CASE("what nobody acknowledges is bounded, and so are its bytes") {
   }));
 }
 
-TEST_CASE("an engine's trouble is told of every live instance, and its end") {
+TEST_CASE("an engine's problem is told of every live instance, and its end") {
   supervisor_bench b;
   b.start();
   b.deploy("i");
   b.say("i");
-  caf::anon_send(b.supervisor, runtime_troubled{"the engine is away"});
+  caf::anon_send(b.supervisor, runtime_problem_changed{"the engine is away"});
   b.settle();
-  CHECK(b.row("i").trouble == "the engine is away");
+  CHECK(b.row("i").problem == "the engine is away");
   CHECK(b.row("i").state == instance_state::running);
-  CHECK(b.told->last().trouble == "the engine is away");
+  CHECK(b.reported->last().problem == "the engine is away");
   b.deploy("j");
-  CHECK(b.row("j").trouble == "the engine is away");
-  caf::anon_send(b.supervisor, runtime_troubled{});
+  CHECK(b.row("j").problem == "the engine is away");
+  caf::anon_send(b.supervisor, runtime_problem_changed{});
   b.settle();
-  CHECK(b.row("i").trouble.empty());
-  CHECK(b.row("j").trouble.empty());
+  CHECK(b.row("i").problem.empty());
+  CHECK(b.row("j").problem.empty());
 }
 
 TEST_CASE("what an earlier run has left and no record knows is ended") {

@@ -285,5 +285,5 @@ TEST_CASE("what is told of problems to others is bounded") {
   scratch_folder folder;
   for (int i = 0; i < 40; ++i)
     folder.write("bad" + std::to_string(i) + "/skill.json", "{");
-  CHECK(scan(folder).told_problems().size() == 32);
+  CHECK(scan(folder).published_problems().size() == 32);
 }

@@ -10,29 +10,29 @@ using namespace roscell::test;
 namespace {
 
 /// The build of the echo skill, as its catalogue has read it.
-prepare_image wish_of(const echo_catalogue& echo) {
+prepare_image image_request_of(const echo_catalogue& echo) {
   const auto& folder = *echo.skills->find(echo.hash);
-  prepare_image wish;
-  wish.skill_dir = folder.path.string();
-  wish.skill = echo.hash;
-  wish.look = folder.look;
-  return wish;
+  prepare_image request;
+  request.skill_dir = folder.path.string();
+  request.skill = echo.hash;
+  request.look = folder.look;
+  return request;
 }
 
-bool is_same(const prepare_image& wish) {
-  return std::holds_alternative<bool>(check_build(wish));
+bool is_same(const prepare_image& request) {
+  return std::holds_alternative<bool>(check_build(request));
 }
 
 } // namespace
 
 TEST_CASE("a folder that was not touched holds its build") {
   const echo_catalogue echo;
-  CHECK(is_same(wish_of(echo)));
+  CHECK(is_same(image_request_of(echo)));
 }
 
 TEST_CASE("an edited folder does not run under the hash that it had") {
   const echo_catalogue echo;
-  const auto wish = wish_of(echo);
+  const auto request = image_request_of(echo);
   SECTION("a program that was replaced") {
     echo.folder.write("echo/bin/echo", "#!/bin/sh\nexit 1\n", true);
   }
@@ -45,7 +45,7 @@ TEST_CASE("an edited folder does not run under the hash that it had") {
   SECTION("a file less") {
     std::filesystem::remove(echo.folder.path() / "echo/bin/echo");
   }
-  const auto result = check_build(wish);
+  const auto result = check_build(request);
   REQUIRE(std::holds_alternative<edge_error>(result));
   const auto& why = std::get<edge_error>(result);
   CHECK(why.code == error_code::engine_failed);
@@ -55,9 +55,9 @@ TEST_CASE("an edited folder does not run under the hash that it had") {
 
 TEST_CASE("a folder that only looks otherwise still holds its build") {
   const echo_catalogue echo;
-  auto wish = wish_of(echo);
+  auto request = image_request_of(echo);
   echo.folder.write("echo/bin/echo", "#!/bin/sh\n", true);
-  CHECK(is_same(wish));
-  wish.look = "nothing like it";
-  CHECK(is_same(wish));
+  CHECK(is_same(request));
+  request.look = "nothing like it";
+  CHECK(is_same(request));
 }

@@ -1,4 +1,4 @@
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 #include "test/actors/fakes/cell_fakes.hpp"
 
 #include <algorithm>
@@ -17,16 +17,16 @@ TEST_CASE_METHOD(orphan_test, "a killed coordinator orphans its members at "
   site.pass(20s);
   site.kill_coordinator();
   site.pass(0s);
-  auto standing = site.standing(node);
-  CHECK(standing.state == node_state::orphaned);
-  CHECK(standing.cell == "cell-1");
+  auto status = site.status(node);
+  CHECK(status.state == node_state::orphaned);
+  CHECK(status.cell == "cell-1");
   CHECK_FALSE(node.searching);
   REQUIRE(site.count("coordinator_lost") == 1);
   site.pass(20s);
   site.start_coordinator();
   site.pass(15s);
-  standing = site.standing(node);
-  CHECK(standing.state == node_state::member);
+  status = site.status(node);
+  CHECK(status.state == node_state::member);
   CHECK(site.count("cell_joined") == 2);
   CHECK(site.base.rows.at("arm-1").registration.incarnation == 2);
 }
@@ -47,16 +47,16 @@ TEST_CASE_METHOD(orphan_test, "a silent coordinator is lost within a "
   site.pass(21s);
   node.link->silent = true;
   node.refusal = {error_code::unreachable, "no route to host"};
-  site.pass(limits::lease::span - limits::lease::beat_period - 1s);
+  site.pass(limits::lease::span - limits::lease::heartbeat_period - 1s);
   CHECK(state() == node_state::member);
-  site.pass(limits::lease::beat_period + 1s);
+  site.pass(limits::lease::heartbeat_period + 1s);
   CHECK(state() == node_state::orphaned);
-  const auto& facts = site.facts;
-  const auto lost = std::find_if(facts.begin(), facts.end(), [](const auto& x) {
-    return x.what == "coordinator_lost";
-  });
-  REQUIRE(lost != facts.end());
-  CHECK(lost->data["reason"] == "silent for 8 s");
+  const auto& events = site.events;
+  const auto lost =
+      std::find_if(events.begin(), events.end(),
+                   [](const auto& x) { return x.what == "coordinator_lost"; });
+  REQUIRE(lost != events.end());
+  CHECK(lost->data["reason"] == "no heartbeat for 8 s");
 }
 
 TEST_CASE_METHOD(orphan_test, "an orphan claims its address whenever it looks "
@@ -95,7 +95,7 @@ struct moved_test : cell_fixture {
       caf::anon_send(node.membership, presence_seen{said});
       site.pass(250ms);
     }
-    for (const auto& x : site.facts)
+    for (const auto& x : site.events)
       if (x.what == "coordinator_lost")
         return x.data["reason"];
     return "";
@@ -121,7 +121,7 @@ TEST_CASE_METHOD(moved_test, "an earlier life of a silent coordinator is not "
   form_cell();
   site.pass(21s);
   node.link->silent = true;
-  CHECK(loss_by(seen_elsewhere(1)) == "silent for 8 s");
+  CHECK(loss_by(seen_elsewhere(1)) == "no heartbeat for 8 s");
 }
 
 TEST_CASE_METHOD(orphan_test, "whoever announces an orphan's cell elsewhere "
@@ -131,7 +131,7 @@ TEST_CASE_METHOD(orphan_test, "whoever announces an orphan's cell elsewhere "
   site.kill_coordinator();
   site.pass(1s);
   REQUIRE(state() == node_state::orphaned);
-  site.strangers_server = "10.0.0.7:11811";
+  site.unauthenticated_server = "10.0.0.7:11811";
   // A new one each time, ten times a second.
   int64_t said = 100;
   const auto announce_for = [&](std::chrono::seconds span) {

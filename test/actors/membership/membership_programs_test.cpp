@@ -24,7 +24,7 @@ TEST_CASE_METHOD(programs_test, "a member runs the discovery server that its "
   CHECK(node.environment.at("ROS_DOMAIN_ID") == "7");
   CHECK(node.environment.at("ROS_DISCOVERY_SERVER")
         == std::string(254, ';') + "10.0.0.9:11811");
-  CHECK(site.standing(node).environment == node.environment);
+  CHECK(site.status(node).environment == node.environment);
   // The coordinator's server is heard by the own one.
   CHECK_FALSE(node.searching);
 }
@@ -34,10 +34,10 @@ TEST_CASE_METHOD(programs_test, "a member that comes back tells which server "
   form_cell();
   cut(*node.link);
   site.pass(30s);
-  REQUIRE(site.standing(node).state == node_state::member);
-  const auto& told = site.base.rows.at("arm-1").registration;
-  CHECK(told.server_id == 254);
-  CHECK(told.server_cell == "c-1");
+  REQUIRE(site.status(node).state == node_state::member);
+  const auto& reported = site.base.rows.at("arm-1").registration;
+  CHECK(reported.server_id == 254);
+  CHECK(reported.server_cell == "c-1");
 }
 
 TEST_CASE_METHOD(programs_test, "an orphan's programs keep their server") {
@@ -46,7 +46,7 @@ TEST_CASE_METHOD(programs_test, "an orphan's programs keep their server") {
   site.kill_coordinator();
   cut(*node.link);
   site.pass(60s);
-  REQUIRE(site.standing(node).state == node_state::orphaned);
+  REQUIRE(site.status(node).state == node_state::orphaned);
   REQUIRE(node.served);
   // Fast DDS would ask the dead coordinator's server 44 times a second.
   CHECK_FALSE(node.served->remote_is_there);
@@ -60,7 +60,7 @@ TEST_CASE_METHOD(programs_test, "a node that leaves its cell ends its server "
   site.pass(100ms);
   CHECK_FALSE(node.served);
   CHECK(node.environment.empty());
-  CHECK(site.standing(node).environment.empty());
+  CHECK(site.status(node).environment.empty());
 }
 
 TEST_CASE_METHOD(cell_fixture, "a member of a cell without places runs no "

@@ -1,9 +1,9 @@
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 #include "test/actors/fakes/cell_fakes.hpp"
 
 #include <iostream>
 
-/// Random trouble, then calm: whatever happened, node and coordinator agree in
+/// Random faults, then calm: whatever happened, node and coordinator agree in
 /// the end. A failure prints its seed; ROSCELL_SEED=N runs that one alone.
 namespace {
 
@@ -12,10 +12,10 @@ using namespace roscell::test;
 
 constexpr unsigned runs = 2000;
 
-/// One run of trouble on one site.
-class trouble {
+/// One run of faults on one site.
+class problem {
 public:
-  trouble(virtual_time& clock, uint32_t seed)
+  problem(virtual_time& clock, uint32_t seed)
       : site_(clock, seed), hostile_(seed % 2 == 0) {
     const auto nodes = 1 + pick(2);
     for (size_t i = 0; i < nodes; ++i) {
@@ -23,13 +23,13 @@ public:
       site_.add_node("arm-" + digit, "a-" + digit);
     }
     auto& x = site_.faults;
-    x.lose_beat = 0.1 * static_cast<double>(pick(4));
-    x.repeat_beat = 0.1 * static_cast<double>(pick(4));
+    x.drop_heartbeat = 0.1 * static_cast<double>(pick(4));
+    x.repeat_heartbeat = 0.1 * static_cast<double>(pick(4));
     x.longest_delay = std::chrono::milliseconds{pick(3) * 40};
     x.repeat_frame = 0.1 * static_cast<double>(pick(4));
     x.cut = 0.02 * static_cast<double>(pick(4));
     // What TCP never does: a frame is lost, and what follows arrives.
-    x.lose_frame = hostile_ ? 0.1 * static_cast<double>(pick(4)) : 0;
+    x.drop_frame = hostile_ ? 0.1 * static_cast<double>(pick(4)) : 0;
     x.reorder = hostile_ && pick(2) == 0;
   }
 
@@ -47,7 +47,7 @@ public:
     }
   }
 
-  /// Ends all trouble and gives the protocol the time that it may take: two
+  /// Ends all faults and gives the protocol the time that it may take: two
   /// leases, and the longest pause twice.
   void calm_down() {
     site_.faults = {};
@@ -72,10 +72,10 @@ public:
   /// Nobody is missing, and nobody is there who should not be.
   bool agreed() {
     for (auto& node : site_.nodes) {
-      const auto standing = site_.standing(*node);
+      const auto status = site_.status(*node);
       auto row = site_.base.rows.find(node->identity.name);
-      if (standing.state != node_state::member || row == site_.base.rows.end()
-          || !row->second.active || row->second.identity != standing.identity)
+      if (status.state != node_state::member || row == site_.base.rows.end()
+          || !row->second.active || row->second.identity != status.identity)
         return false;
     }
     return site_.base.rows.size() == site_.nodes.size();
@@ -173,8 +173,7 @@ private:
   void watch(fake_node& x) {
     auto row = site_.base.rows.find(x.identity.name);
     const bool active = row != site_.base.rows.end() && row->second.active;
-    const bool member =
-        x.local && site_.standing(x).state == node_state::member;
+    const bool member = x.local && site_.status(x).state == node_state::member;
     if (!active || member) {
       lies_.erase(&x);
       return;
@@ -193,7 +192,7 @@ private:
 
 /// True if the run ended well; else its seed has been printed.
 bool ends_well(virtual_time& clock, uint32_t seed) {
-  trouble x{clock, seed};
+  problem x{clock, seed};
   x.run();
   x.calm_down();
   const bool agreed = x.agreed();
@@ -208,7 +207,7 @@ bool ends_well(virtual_time& clock, uint32_t seed) {
   return works && honest;
 }
 
-TEST_CASE("after any trouble node and coordinator agree") {
+TEST_CASE("after any fault node and coordinator agree") {
   virtual_time clock;
   if (const auto* seed = std::getenv("ROSCELL_SEED")) {
     CHECK(ends_well(clock, static_cast<uint32_t>(std::stoul(seed))));

@@ -1,4 +1,4 @@
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 #include "test/actors/fakes/cell_fakes.hpp"
 
 namespace {
@@ -10,18 +10,18 @@ using membership_test = cell_fixture;
 
 TEST_CASE_METHOD(membership_test, "a node joins the cell of a given server") {
   form_cell();
-  const auto standing = site.standing(node);
-  CHECK(standing.state == node_state::member);
-  CHECK(standing.cell == "cell-1");
-  CHECK(standing.coordinator == "10.0.0.1:8420");
+  const auto status = site.status(node);
+  CHECK(status.state == node_state::member);
+  CHECK(status.cell == "cell-1");
+  CHECK(status.coordinator == "10.0.0.1:8420");
   const auto& row = site.base.rows.at("arm-1");
   CHECK(row.active);
-  CHECK(row.identity == standing.identity);
+  CHECK(row.identity == status.identity);
   CHECK(row.registration.incarnation == 1);
-  REQUIRE(site.facts.size() == 1);
-  CHECK(site.facts[0].what == "cell_joined");
-  CHECK(site.facts[0].subject == "arm-1");
-  CHECK(site.facts[0].data["cell"] == "cell-1");
+  REQUIRE(site.events.size() == 1);
+  CHECK(site.events[0].what == "cell_joined");
+  CHECK(site.events[0].subject == "arm-1");
+  CHECK(site.events[0].data["cell"] == "cell-1");
 }
 
 TEST_CASE_METHOD(membership_test, "a node joins within 200 ms") {
@@ -58,7 +58,7 @@ TEST_CASE_METHOD(membership_test, "a node with a wrong token stays independent "
   site.pass(1s);
   CHECK(state() == node_state::independent);
   REQUIRE(site.count("join_refused") == 1);
-  CHECK(site.facts[0].data["reason"] == "the site tokens differ");
+  CHECK(site.events[0].data["reason"] == "the site tokens differ");
   CHECK_FALSE(node.searching);
   site.pass(28s);
   CHECK(node.searches == 1);
@@ -78,9 +78,9 @@ TEST_CASE_METHOD(membership_test, "a node whose name is taken stays "
   site.start(twin);
   site.join(twin);
   site.pass(1s);
-  CHECK(site.standing(twin).state == node_state::independent);
+  CHECK(site.status(twin).state == node_state::independent);
   REQUIRE(site.count("join_refused") == 1);
-  CHECK(site.facts.back().data["reason"]
+  CHECK(site.events.back().data["reason"]
         == "the name 'arm-1' belongs to another node");
   // Its session is gone, the other one's is not.
   CHECK_FALSE(twin.link->open);
@@ -249,7 +249,7 @@ TEST_CASE_METHOD(membership_test, "leaving no cell is answered at once") {
   site.pass(0s);
   REQUIRE(*reply);
   CHECK((*reply)->engaged());
-  CHECK(site.facts.empty());
+  CHECK(site.events.empty());
 }
 
 TEST_CASE_METHOD(membership_test, "a node may leave in every phase of joining "
@@ -267,14 +267,14 @@ TEST_CASE_METHOD(membership_test, "a node may leave in every phase of joining "
     auto reply = clock.ask<node_departed>(x.membership, leave_cell{"bye"});
     place.pass(3s);
     REQUIRE(*reply);
-    CHECK(place.standing(x).state == node_state::independent);
+    CHECK(place.status(x).state == node_state::independent);
     CHECK_FALSE(x.searching);
     CHECK((!x.link || !x.link->open));
     CHECK(place.base.rows.empty());
     CHECK(place.base.losses.empty());
     place.join(x);
     place.pass(1s);
-    CHECK(place.standing(x).state == node_state::member);
+    CHECK(place.status(x).state == node_state::member);
   }
 }
 
@@ -284,7 +284,7 @@ TEST_CASE_METHOD(membership_test, "joining another cell leaves the first one") {
   caf::anon_send(node.membership, join_cell{"10.0.0.2:11811"});
   site.pass(1s);
   CHECK(site.count("cell_left") == 1);
-  CHECK(site.standing(node).cell == "cell-2");
+  CHECK(site.status(node).cell == "cell-2");
   CHECK(state() == node_state::member);
 }
 
@@ -326,15 +326,15 @@ TEST_CASE_METHOD(membership_test, "a session that dies without a word is "
 }
 
 TEST_CASE_METHOD(membership_test, "an idle member and its coordinator wake for "
-                                  "the beat only") {
+                                  "the heartbeat only") {
   form_cell();
   site.pass(20s);
   const auto frames = node.link->frames;
-  const auto beats = node.link->beats;
+  const auto heartbeats = node.link->heartbeats;
   const auto timers = site.timers_fired;
   site.pass(400s);
   CHECK(node.link->frames == frames);
-  CHECK(node.link->beats - beats == 200);
+  CHECK(node.link->heartbeats - heartbeats == 200);
   // Two of the member, one of the coordinator, and the wire's own two.
   CHECK(site.timers_fired - timers <= 100 * (2 + 1 + 2));
 }

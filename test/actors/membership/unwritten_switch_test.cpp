@@ -12,7 +12,7 @@ using namespace roscell::test;
 struct unwritten_switch_test : cell_fixture {
   /// Starts to switch the node by the REST API.
   auto begin_switch() {
-    const standing_question question{"nonce-of-the-asker"};
+    const status_question question{"nonce-of-the-asker"};
     auto asked = site.time.ask<registration_challenge>(
         node.membership,
         registration_query{question.nonce, prove(question, site_token)});

@@ -1,4 +1,4 @@
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 #include "actors/node/event_log.hpp"
 #include "messages/failure.hpp"
 #include "test/fixture.hpp"
@@ -27,8 +27,9 @@ struct log_fixture {
     time.kill(log);
   }
 
-  void tell(const std::string& what, const std::string& subject = "arm") {
-    house{nullptr, log}.tell(what, subject, {{"n", 1}});
+  void publish_event(const std::string& what,
+                     const std::string& subject = "arm") {
+    actor_context{nullptr, log}.publish_event(what, subject, {{"n", 1}});
     time.settle();
   }
 
@@ -48,11 +49,11 @@ struct log_fixture {
 
 } // namespace
 
-TEST_CASE_METHOD(log_fixture, "Facts are numbered from 1 without a gap",
+TEST_CASE_METHOD(log_fixture, "Events are numbered from 1 without a gap",
                  "[event_log]") {
   listen(ear);
   for (int i = 0; i < 5; ++i)
-    tell("node_joined");
+    publish_event("node_joined");
   REQUIRE(seen.size() == 5);
   for (size_t i = 0; i < 5; ++i)
     CHECK(seen[i].sequence == i + 1);
@@ -65,7 +66,7 @@ TEST_CASE_METHOD(log_fixture, "Facts are numbered from 1 without a gap",
 TEST_CASE_METHOD(log_fixture, "What is kept is told without listening on",
                  "[event_log]") {
   for (const auto* what : {"node_joined", "node_lost", "node_left"})
-    tell(what);
+    publish_event(what);
   auto reply = time.ask<kept_events>(log, kept_events_query{1});
   time.settle();
   const auto& events = (*reply)->value().events;
@@ -78,18 +79,19 @@ TEST_CASE_METHOD(log_fixture, "What is kept is told without listening on",
 TEST_CASE_METHOD(log_fixture, "A late listener first gets what it has not seen",
                  "[event_log]") {
   for (int i = 0; i < 5; ++i)
-    tell("node_joined");
+    publish_event("node_joined");
   listen(ear, 3);
-  tell("node_left");
+  publish_event("node_left");
   REQUIRE(seen.size() == 3);
   CHECK(seen[0].sequence == 4);
   CHECK(seen[1].sequence == 5);
   CHECK(seen[2].what == "node_left");
 }
 
-TEST_CASE_METHOD(log_fixture, "The newest 1000 facts are kept", "[event_log]") {
+TEST_CASE_METHOD(log_fixture, "The newest 1000 events are kept",
+                 "[event_log]") {
   for (int i = 0; i < 1200; ++i)
-    tell("node_joined", "arm-" + std::to_string(i));
+    publish_event("node_joined", "arm-" + std::to_string(i));
   CHECK(state().at("kept") == 1000);
   listen(ear);
   REQUIRE(seen.size() == 1000);
@@ -97,12 +99,13 @@ TEST_CASE_METHOD(log_fixture, "The newest 1000 facts are kept", "[event_log]") {
   CHECK(seen.back().sequence == 1200);
 }
 
-TEST_CASE_METHOD(log_fixture, "Refusals without end leave room for other facts",
+TEST_CASE_METHOD(log_fixture,
+                 "Refusals without end leave room for other events",
                  "[event_log]") {
   listen(ear);
-  tell("node_joined");
+  publish_event("node_joined");
   for (int i = 0; i < 1300; ++i)
-    tell("session_refused");
+    publish_event("session_refused");
   CHECK(seen.size() == 1 + limits::event::refusals);
   time.advance(limits::event::refusal_window);
   REQUIRE(seen.size() == 2 + limits::event::refusals);
@@ -117,7 +120,7 @@ TEST_CASE_METHOD(log_fixture, "A listener that ends is forgotten",
   CHECK(state().at("listeners") == 1);
   time.kill(ear);
   CHECK(state().at("listeners") == 0);
-  tell("node_joined");
+  publish_event("node_joined");
   CHECK(seen.empty());
 }
 
@@ -129,9 +132,9 @@ TEST_CASE_METHOD(log_fixture,
   CHECK(state().at("listeners") == 0);
 }
 
-TEST_CASE_METHOD(log_fixture, "Without a log, facts go nowhere",
+TEST_CASE_METHOD(log_fixture, "Without a log, events go nowhere",
                  "[event_log]") {
-  house{nullptr, {}}.tell("node_joined", "arm");
+  actor_context{nullptr, {}}.publish_event("node_joined", "arm");
   CHECK(state().at("last_sequence") == 0);
 }
 
@@ -176,8 +179,9 @@ struct kept_log_fixture {
     time.kill(history);
   }
 
-  void tell(const std::string& what, const std::string& subject = "arm") {
-    house{nullptr, log}.tell(what, subject);
+  void publish_event(const std::string& what,
+                     const std::string& subject = "arm") {
+    actor_context{nullptr, log}.publish_event(what, subject);
     time.settle();
   }
 
@@ -198,9 +202,9 @@ struct kept_log_fixture {
 
 TEST_CASE_METHOD(kept_log_fixture, "Events are written together, soon, once",
                  "[event_log]") {
-  tell("node_joined");
+  publish_event("node_joined");
   time.advance(limits::history::batch_span / 2);
-  tell("node_lost");
+  publish_event("node_lost");
   CHECK(disk.batches.empty());
   time.advance(limits::history::batch_span / 2);
   REQUIRE(disk.batches.size() == 1);
@@ -215,22 +219,22 @@ TEST_CASE_METHOD(kept_log_fixture, "Events are written together, soon, once",
 TEST_CASE_METHOD(kept_log_fixture, "Many events do not wait", "[event_log]") {
   const auto many = limits::history::batch;
   for (size_t i = 0; i < many - 1; ++i)
-    tell("node_joined", std::to_string(i));
+    publish_event("node_joined", std::to_string(i));
   CHECK(written() == 0);
-  tell("node_joined", "last");
+  publish_event("node_joined", "last");
   CHECK(written() == many);
 }
 
 TEST_CASE_METHOD(kept_log_fixture, "A node that ends has written all",
                  "[event_log]") {
   SECTION("what waits") {
-    tell("node_stopping");
+    publish_event("node_stopping");
     end();
     CHECK(written() == 1);
   }
   SECTION("what was only counted") {
     for (size_t i = 0; i < 3 * limits::event::repetitions; ++i)
-      tell("instance_changed");
+      publish_event("instance_changed");
     end();
     REQUIRE(written() == limits::event::repetitions + 1);
     const auto& last = disk.batches.back().events.back();
@@ -248,7 +252,7 @@ TEST_CASE_METHOD(kept_log_fixture,
                  "What finds no room is told once and written later",
                  "[event_log]") {
   disk.is_full = true;
-  tell("node_joined");
+  publish_event("node_joined");
   time.advance(20 * limits::history::batch_span);
   CHECK(written() == 0);
   disk.is_full = false;
@@ -263,7 +267,7 @@ TEST_CASE_METHOD(kept_log_fixture,
                  "[event_log]") {
   disk.is_full = true;
   for (size_t i = 0; i < 3 * limits::event::kept; ++i)
-    tell("node_joined", std::to_string(i));
+    publish_event("node_joined", std::to_string(i));
   disk.is_full = false;
   end();
   CHECK(written() <= limits::event::kept);
@@ -273,9 +277,9 @@ TEST_CASE_METHOD(kept_log_fixture,
 TEST_CASE_METHOD(log_fixture, "A loop of restarts pushes nothing else out",
                  "[event_log]") {
   listen(ear);
-  tell("node_joined");
+  publish_event("node_joined");
   for (int i = 0; i < 3000; ++i)
-    tell("instance_changed", "looping");
+    publish_event("instance_changed", "looping");
   // Who listens knows at each moment what is true.
   CHECK(seen.size() == 3001);
   CHECK(seen.back().passing);
@@ -291,7 +295,7 @@ TEST_CASE_METHOD(log_fixture,
                  "Who comes late to a series hears what is true now",
                  "[event_log]") {
   for (int i = 0; i < 30; ++i)
-    tell("instance_changed", "looping");
+    publish_event("instance_changed", "looping");
   listen(ear, limits::event::repetitions);
   REQUIRE(seen.size() == 1);
   CHECK(seen[0].passing);

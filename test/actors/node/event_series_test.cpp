@@ -1,4 +1,4 @@
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 #include "actors/node/event_series.hpp"
 
 #include "test/time_zero.hpp"

@@ -1,6 +1,6 @@
 #include "actors/node/node_agent.hpp"
 
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 #include "test/fixture.hpp"
 
 #include <algorithm>
@@ -143,14 +143,14 @@ TEST_CASE_METHOD(agent_fixture, "What live instances say is told when asked",
   add_instance("10:5", instance_state::running);
   instances.back().spec.instance = "t-a-1";
   instances.back().status = "frames=7";
-  instances.back().figures.frames = 7;
+  instances.back().metrics.frames = 7;
   add_instance("11:5", instance_state::failed);
-  const auto told = ask<figures_report>(figures_query{});
-  REQUIRE(told);
-  REQUIRE(told->instances.size() == 1);
-  CHECK(told->instances[0].instance == "t-a-1");
-  CHECK(told->instances[0].status == "frames=7");
-  CHECK(told->instances[0].figures.frames == 7);
+  const auto reported = ask<figures_report>(figures_query{});
+  REQUIRE(reported);
+  REQUIRE(reported->instances.size() == 1);
+  CHECK(reported->instances[0].instance == "t-a-1");
+  CHECK(reported->instances[0].status == "frames=7");
+  CHECK(reported->instances[0].metrics.frames == 7);
 }
 
 TEST_CASE_METHOD(agent_fixture,
@@ -162,14 +162,14 @@ TEST_CASE_METHOD(agent_fixture,
   add_instance("11:5", instance_state::failed);
   use.instances = {{"t-a-1", {61.5, 64, 0.5, 12, 0}}, {"unknown", {}}};
   CHECK(measured.empty());
-  const auto told = ask<figures_report>(figures_query{});
-  REQUIRE(told);
+  const auto reported = ask<figures_report>(figures_query{});
+  REQUIRE(reported);
   REQUIRE(measured.size() == 1);
   CHECK(measured[0].instance == "t-a-1");
   CHECK(measured[0].container == "10:5");
-  REQUIRE(told->instances.size() == 2);
-  CHECK(told->instances[0].figures.use.memory_mib == 61.5);
-  CHECK(told->instances[0].figures.use.memory_limit_mib == 64);
+  REQUIRE(reported->instances.size() == 2);
+  CHECK(reported->instances[0].metrics.use.memory_mib == 61.5);
+  CHECK(reported->instances[0].metrics.use.memory_limit_mib == 64);
 }
 
 TEST_CASE_METHOD(agent_fixture,
@@ -177,14 +177,14 @@ TEST_CASE_METHOD(agent_fixture,
                  "[node_agent]") {
   add_instance("10:5", instance_state::running);
   instances.back().spec.instance = "t-a-1";
-  instances.back().figures.frames = 7;
+  instances.back().metrics.frames = 7;
   probe_is_mute = true;
   const auto reply = time.ask<figures_report>(agent, figures_query{});
   time.advance(limits::local::part);
   time.settle();
   REQUIRE(*reply);
   REQUIRE(**reply);
-  CHECK((**reply)->instances.at(0).figures.frames == 7);
+  CHECK((**reply)->instances.at(0).metrics.frames == 7);
 }
 
 TEST_CASE_METHOD(agent_fixture, "What live instances have reserved is in use",
@@ -243,12 +243,12 @@ TEST_CASE_METHOD(agent_fixture,
 TEST_CASE_METHOD(agent_fixture,
                  "Deployments, removals and logs are the supervisor's",
                  "[node_agent]") {
-  instance_deployment wish;
-  wish.spec.instance = "t-1";
-  wish.spec.operation = "echo";
-  CHECK(ask<instance_deployed>(wish)->instance.spec.instance == "t-1");
-  wish.spec.operation = "dance";
-  const auto refused = ask<instance_deployed>(wish);
+  instance_deployment request;
+  request.spec.instance = "t-1";
+  request.spec.operation = "echo";
+  CHECK(ask<instance_deployed>(request)->instance.spec.instance == "t-1");
+  request.spec.operation = "dance";
+  const auto refused = ask<instance_deployed>(request);
   REQUIRE_FALSE(refused);
   CHECK(to_failure(refused.error()).code == error_code::unknown_operation);
   CHECK(ask<instances_removed>(instance_removal{"t", ""})->instances
@@ -317,10 +317,10 @@ TEST_CASE_METHOD(agent_fixture,
                  "placed with",
                  "[node_agent]") {
   host.cpu.used = 4;
-  instance_reservation wish{"t", {wanted("t-a-1", 1)}, false};
-  CHECK(ask<instances_reserved>(wish)->refused.size() == 1);
-  wish.cpu_floor = true;
-  CHECK(ask<instances_reserved>(wish)->refused.empty());
+  instance_reservation request{"t", {wanted("t-a-1", 1)}, false};
+  CHECK(ask<instances_reserved>(request)->refused.size() == 1);
+  request.cpu_floor = true;
+  CHECK(ask<instances_reserved>(request)->refused.empty());
   // Room that is kept is a reservation, and never floored.
   auto other = wanted("u-a-1", 0.1);
   other.task = "u";
@@ -368,27 +368,27 @@ TEST_CASE_METHOD(agent_fixture,
 
 TEST_CASE_METHOD(agent_fixture,
                  "Room is given up by a removal, a failure, a "
-                 "repeated wish, and after a minute",
+                 "repeated request, and after a minute",
                  "[node_agent]") {
-  const instance_reservation wish{"t", {wanted("t-a-1", 3)}};
+  const instance_reservation request{"t", {wanted("t-a-1", 3)}};
   SECTION("removal") {
-    ask<instances_reserved>(wish);
+    ask<instances_reserved>(request);
     ask<instances_removed>(instance_removal{"t", ""});
   }
   SECTION("failure") {
-    ask<instances_reserved>(wish);
-    auto spec = wish.specs[0];
+    ask<instances_reserved>(request);
+    auto spec = request.specs[0];
     spec.operation = "dance";
     CHECK_FALSE(ask<instance_deployed>(instance_deployment{spec}));
   }
   SECTION("repetition") {
-    ask<instances_reserved>(wish);
-    CHECK(ask<instances_reserved>(wish)->refused.empty());
+    ask<instances_reserved>(request);
+    CHECK(ask<instances_reserved>(request)->refused.empty());
     CHECK(report().cpu.used == Approx(3.5));
     ask<instances_reserved>(instance_reservation{"t", {}});
   }
   SECTION("time") {
-    ask<instances_reserved>(wish);
+    ask<instances_reserved>(request);
     time.advance(59s);
     CHECK(report().cpu.used == Approx(3.5));
     time.advance(2s);

@@ -67,15 +67,15 @@ struct probe_fixture {
                "MemTotal: 4194304 kB\nMemAvailable: 2097152 kB\n");
   }
 
-  node_resources resources(const measure_host& wish) {
-    const auto reply = time.ask<host_measured>(probe, wish);
+  node_resources resources(const measure_host& request) {
+    const auto reply = time.ask<host_measured>(probe, request);
     time.settle();
     REQUIRE(*reply);
     REQUIRE(**reply);
     return (***reply).resources;
   }
 
-  void beat() {
+  void heartbeat() {
     caf::anon_send(probe, mark_sample{});
     time.settle();
   }
@@ -106,11 +106,11 @@ TEST_CASE_METHOD(probe_fixture,
   CHECK(cpu_at_once() == Approx(3.0));
 }
 
-TEST_CASE_METHOD(probe_fixture, "Beats keep the CPU rate one of now",
+TEST_CASE_METHOD(probe_fixture, "Heartbeats keep the CPU rate one of now",
                  "[resource_probe]") {
   for (int i = 0; i < 30; ++i) {
     time.pass(4s);
-    beat();
+    heartbeat();
   }
   time.pass(2s);
   use_cpu(104);
@@ -137,7 +137,7 @@ TEST_CASE_METHOD(probe_fixture,
 TEST_CASE_METHOD(probe_fixture, "A resting probe sets no alarm",
                  "[resource_probe]") {
   REQUIRE(cpu_at_once());
-  beat();
+  heartbeat();
   CHECK_FALSE(time.scheduler.clock().has_pending_timeout());
 }
 

@@ -1,6 +1,6 @@
 #include "actors/node/state_store.hpp"
 
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 #include "messages/failure.hpp"
 #include "test/actors/fakes/supervision_fakes.hpp"
 
@@ -41,7 +41,7 @@ struct store_on_disk {
   store_on_disk& operator=(const store_on_disk&) = delete;
 
   template <class Message>
-  caf::expected<record_stored> tell(const Message& x) {
+  caf::expected<record_stored> write_record(const Message& x) {
     const auto answer = time.ask<record_stored>(actor, x);
     time.settle();
     REQUIRE(*answer);
@@ -88,35 +88,37 @@ store_record patient(const std::string& key, const std::string& value) {
 
 TEST_CASE("the state store writes records and removes them when empty") {
   store_on_disk store;
-  CHECK(store.tell(store_record{"tasks", "t", R"({"a":1})"}));
+  CHECK(store.write_record(store_record{"tasks", "t", R"({"a":1})"}));
   CHECK(store.tasks() == records{{"t", R"({"a":1})"}});
-  CHECK(store.tell(store_record{"tasks", "t", ""}));
+  CHECK(store.write_record(store_record{"tasks", "t", ""}));
   CHECK(store.tasks().empty());
 }
 
 TEST_CASE("the state store writes several records at once") {
   store_on_disk store;
-  CHECK(store.tell(store_records{{{"tasks", "a", "1"}, {"tasks", "b", "2"}}}));
-  CHECK(store.tell(store_records{{{"tasks", "a", ""}, {"tasks", "c", "3"}}}));
+  CHECK(store.write_record(
+      store_records{{{"tasks", "a", "1"}, {"tasks", "b", "2"}}}));
+  CHECK(store.write_record(
+      store_records{{{"tasks", "a", ""}, {"tasks", "c", "3"}}}));
   CHECK(store.tasks() == records{{"b", "2"}, {"c", "3"}});
 }
 
 TEST_CASE("no records are stored at once") {
   store_on_disk store;
-  CHECK(store.tell(store_records{}));
+  CHECK(store.write_record(store_records{}));
   CHECK(store.tasks().empty());
 }
 
 TEST_CASE("what may not wait is refused while the disk is full") {
   store_on_disk store;
   full_disk disk;
-  const auto answer = store.tell(store_record{"tasks", "t", "1"});
+  const auto answer = store.write_record(store_record{"tasks", "t", "1"});
   REQUIRE_FALSE(answer);
   INFO(to_failure(answer.error()).message);
   CHECK(to_failure(answer.error()).message.find("no room is left")
         != std::string::npos);
-  CHECK_FALSE(
-      store.tell(store_records{{patient("a", "1"), {"tasks", "b", "2"}}}));
+  CHECK_FALSE(store.write_record(
+      store_records{{patient("a", "1"), {"tasks", "b", "2"}}}));
   disk.make_room();
   store.time.advance(std::chrono::minutes{1});
   CHECK(store.tasks().empty());
@@ -125,9 +127,9 @@ TEST_CASE("what may not wait is refused while the disk is full") {
 TEST_CASE("what may wait is written when there is room") {
   store_on_disk store;
   full_disk disk;
-  CHECK(store.tell(patient("a", "1")));
-  CHECK(store.tell(patient("a", "2")));
-  CHECK(store.tell(patient("b", "3")));
+  CHECK(store.write_record(patient("a", "1")));
+  CHECK(store.write_record(patient("a", "2")));
+  CHECK(store.write_record(patient("b", "3")));
   store.time.advance(std::chrono::minutes{1});
   CHECK(store.tasks().empty());
   disk.make_room();
@@ -140,10 +142,10 @@ TEST_CASE("the next record takes along what waits") {
   store_on_disk store;
   {
     full_disk disk;
-    CHECK(store.tell(patient("a", "1")));
-    CHECK(store.tell(patient("b", "2")));
+    CHECK(store.write_record(patient("a", "1")));
+    CHECK(store.write_record(patient("b", "2")));
   }
-  CHECK(store.tell(store_record{"tasks", "a", "3"}));
+  CHECK(store.write_record(store_record{"tasks", "a", "3"}));
   CHECK(store.tasks() == records{{"a", "3"}, {"b", "2"}});
 }
 
@@ -151,6 +153,6 @@ TEST_CASE("not more than a bound of records waits") {
   store_on_disk store;
   full_disk disk;
   for (size_t i = 0; i < limits::store::waiting; ++i)
-    CHECK(store.tell(patient(std::to_string(i), "1")));
-  CHECK_FALSE(store.tell(patient("one more", "1")));
+    CHECK(store.write_record(patient(std::to_string(i), "1")));
+  CHECK_FALSE(store.write_record(patient("one more", "1")));
 }

@@ -41,7 +41,7 @@ TEST_CASE(
   SECTION("it runs once") {
     x.step.restart = R"({"policy": "never"})";
   }
-  SECTION("it has to be safe before it ends") {
+  SECTION("it has to be stop-safe before it ends") {
     x.descriptor.safe_state = true;
   }
   CHECK(boot_action_of(x.life()) == boot_action::stay);

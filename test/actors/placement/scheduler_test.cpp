@@ -51,10 +51,10 @@ struct bench : virtual_time {
   }
 
   auto question(const std::string& task, bool trial) {
-    allocate_task wish;
-    wish.task = task;
-    wish.trial = trial;
-    auto answer = ask<task_plan>(scheduler, wish);
+    allocate_task request;
+    request.task = task;
+    request.trial = trial;
+    auto answer = ask<task_plan>(scheduler, request);
     settle();
     return answer;
   }

@@ -72,9 +72,9 @@ TEST_CASE("A step is resolved to its skill, model and all its deployments",
 }
 
 TEST_CASE("A named deployment is the only one left", "[skill_resolution]") {
-  auto wish = step("see", "tag");
-  wish.deployment = "gpu";
-  const auto steps = resolved({wish});
+  auto request = step("see", "tag");
+  request.deployment = "gpu";
+  const auto steps = resolved({request});
   const auto& options = steps[0].builds[0].model.deployments;
   REQUIRE(options.size() == 1);
   CHECK(options[0].name == "gpu");
@@ -118,9 +118,9 @@ TEST_CASE("An unknown model is refused with those there are",
 
 TEST_CASE("An unknown deployment is refused with those there are",
           "[skill_resolution]") {
-  auto wish = step("see", "tag");
-  wish.deployment = "tpu";
-  const auto why = refusal({wish});
+  auto request = step("see", "tag");
+  request.deployment = "tpu";
+  const auto why = refusal({request});
   CHECK(why.code == error_code::unknown_deployment);
   CHECK(why.where == "/pipeline/0/deployment");
   CHECK(why.hint == "its deployment options are: cpu, gpu");
@@ -128,22 +128,22 @@ TEST_CASE("An unknown deployment is refused with those there are",
 
 TEST_CASE("A protocol or data type that a skill does not take is refused",
           "[skill_resolution]") {
-  auto wish = step("see", "tag");
-  wish.input = {{"video", "/dev/video0", "image/png"}};
-  auto why = refusal({wish});
+  auto request = step("see", "tag");
+  request.input = {{"video", "/dev/video0", "image/png"}};
+  auto why = refusal({request});
   CHECK(why.code == error_code::schema_violation);
   CHECK(why.where == "/pipeline/0/input/protocol");
   CHECK(why.hint == "it takes: file, ros2");
 
-  wish.input = {{"file", "/a", "image/png"}, {"ros2", "/b", "image/jpeg"}};
-  why = refusal({wish});
+  request.input = {{"file", "/a", "image/png"}, {"ros2", "/b", "image/jpeg"}};
+  why = refusal({request});
   CHECK(why.where == "/pipeline/0/input/1/data_type");
   CHECK(why.hint == "it takes: image/png");
 
   // An output has words of its own.
-  wish.input.clear();
-  wish.output = {{"ros2", "/t", "text/plain"}};
-  CHECK(refusal({wish}).where == "/pipeline/0/output/protocol");
+  request.input.clear();
+  request.output = {{"ros2", "/t", "text/plain"}};
+  CHECK(refusal({request}).where == "/pipeline/0/output/protocol");
 }
 
 TEST_CASE("Every node offers its own build, however few have that one",
@@ -188,14 +188,14 @@ TEST_CASE("A step that names a build gets it, also where there is a newer one",
   auto old = row("0123456789abcdef", "see", {"tag"}, {"a"});
   auto later = row("fedcba9876543210", "see", {"tag"}, {"a", "b"});
   later.added_unix_ms = {20, 20};
-  auto wish = step("see", "tag");
-  wish.build = "01234567";
-  const auto builds = resolved({wish}, {old, later})[0].builds;
+  auto request = step("see", "tag");
+  request.build = "01234567";
+  const auto builds = resolved({request}, {old, later})[0].builds;
   REQUIRE(builds.size() == 1);
   CHECK(builds[0].hash == old.skill.hash);
   CHECK(builds[0].nodes == std::vector<std::string>{"a"});
-  wish.build = "89abcdef";
-  const auto why = refusal({wish}, {old, later});
+  request.build = "89abcdef";
+  const auto why = refusal({request}, {old, later});
   CHECK(why.code == error_code::unknown_operation);
   CHECK(why.where == "/pipeline/0/build");
   CHECK(why.hint == "its builds are: fedcba987654, 0123456789ab");
@@ -206,19 +206,19 @@ TEST_CASE("A build without the model, deployment or protocol does not count",
   const auto right = row("h1", "see", {"yolo"}, {"a"});
   auto other = row("h2", "see", {"tag"}, {"a", "b"});
   other.added_unix_ms = {20, 20};
-  auto wish = step("see", "yolo");
+  auto request = step("see", "yolo");
   SECTION("model") {}
   SECTION("deployment") {
-    wish.deployment = "gpu";
+    request.deployment = "gpu";
     other.skill.descriptor.models[0].name = "yolo";
     other.skill.descriptor.models[0].deployments.pop_back();
   }
   SECTION("protocol") {
-    wish.input = {{"file", "/a", "image/png"}};
+    request.input = {{"file", "/a", "image/png"}};
     other.skill.descriptor.models[0].name = "yolo";
     other.skill.descriptor.input.protocols = {"ros2"};
   }
-  const auto builds = resolved({wish}, {other, right})[0].builds;
+  const auto builds = resolved({request}, {other, right})[0].builds;
   REQUIRE(builds.size() == 1);
   CHECK(builds[0].hash == "h1");
 }

@@ -112,8 +112,8 @@ TEST_CASE("A node is no place for what it does not grant to the skill",
   auto& see = document["skills"][1]["models"][0]["deployments"][0];
   see["capabilities"] = {"NET_RAW"};
   see["scheduling"] = {{"policy", "fifo"}, {"priority", 10}};
-  const auto told = refusal(document);
-  const auto rejected = json::parse(told.details).at("rejected");
+  const auto reported = refusal(document);
+  const auto rejected = json::parse(reported.details).at("rejected");
   std::vector<std::string> reasons;
   for (const auto& x : rejected)
     if (x.at("node") == "g" && x.at("step") == "s1")

@@ -16,21 +16,22 @@ struct second_output {
 
 struct handler_fixture {
   virtual_time time;
-  std::vector<record_event> facts;
-  caf::actor fact_keeper;
+  std::vector<record_event> events;
+  caf::actor event_collector;
   std::shared_ptr<node_services> services = std::make_shared<node_services>();
   request_history::ticket ticket = 0;
 
   handler_fixture() {
-    fact_keeper = time.system.spawn([this]() -> caf::behavior {
-      return {[this](const record_event& x) { facts.push_back(x); }};
+    event_collector = time.system.spawn([this]() -> caf::behavior {
+      return {[this](const record_event& x) { events.push_back(x); }};
     });
     services->context = time.context;
-    services->context.events = caf::actor_cast<event_log_actor>(fact_keeper);
+    services->context.events =
+        caf::actor_cast<event_log_actor>(event_collector);
   }
 
   ~handler_fixture() {
-    time.kill(fact_keeper);
+    time.kill(event_collector);
   }
 
   handler_pipeline_actor start(const request_registry& registry,
@@ -93,7 +94,7 @@ TEST_CASE_METHOD(handler_fixture,
   const auto document = json::parse(reply->text);
   CHECK(document.at("type") == "task_description");
   CHECK(document.at("tasks")[0].at("task") == "t>first>second>third");
-  CHECK(facts.empty());
+  CHECK(events.empty());
 }
 
 TEST_CASE_METHOD(handler_fixture,
@@ -102,10 +103,10 @@ TEST_CASE_METHOD(handler_fixture,
   const auto reply = run(chain(), "stop later");
   REQUIRE_FALSE(reply);
   CHECK(to_failure(reply.error()).code == error_code::timeout);
-  REQUIRE(facts.size() == 1);
-  CHECK(facts[0].what == "request_refused");
-  CHECK(facts[0].subject == "task_query");
-  CHECK(json::parse(facts[0].data).at("handler") == "second");
+  REQUIRE(events.size() == 1);
+  CHECK(events[0].what == "request_refused");
+  CHECK(events[0].subject == "task_query");
+  CHECK(json::parse(events[0].data).at("handler") == "second");
   CHECK(to_failure(run(chain(), "stop at once").error()).where == "/task");
 }
 
@@ -171,9 +172,9 @@ TEST_CASE_METHOD(handler_fixture,
   auto state = time.ask<actor_state>(worker, state_query{});
   time.settle();
   CHECK_FALSE(*reply);
-  const auto told = json::parse((*state)->value().json_text);
-  CHECK(told.at("request") == "task_query");
-  CHECK(told.at("handler") == "wait");
+  const auto reported = json::parse((*state)->value().json_text);
+  CHECK(reported.at("request") == "task_query");
+  CHECK(reported.at("handler") == "wait");
   time.kill(worker);
 }
 

@@ -140,7 +140,7 @@ TEST_CASE_METHOD(
     "Room that a member keeps and the coordinator holds counts once",
     "[placement]") {
   right.has.cpu.used = 4;
-  left.tells_reserved = true;
+  left.reports_reserved = true;
   // The second one asks when the intent of the first one is held, but not
   // deployed yet.
   slow_disk = true;

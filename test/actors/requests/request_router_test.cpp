@@ -1,4 +1,4 @@
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 #include "actors/requests/request_router.hpp"
 #include "test/actors/fakes/coordinator_fakes.hpp"
 
@@ -22,7 +22,7 @@ struct router_fixture {
   /// The one type that is taken, from coordinators, whose members may be newer.
   std::string only;
   std::shared_ptr<request_history> history;
-  std::shared_ptr<metric_book> metrics = std::make_shared<metric_book>();
+  std::shared_ptr<metric_table> metrics = std::make_shared<metric_table>();
 
   router_fixture() {
     gate = time.system.spawn([this](caf::event_based_actor* self) {

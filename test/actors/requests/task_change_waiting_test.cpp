@@ -1,6 +1,6 @@
 #include "actors/requests/handlers/task_change_waiting.hpp"
 
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 #include "test/actors/requests/processing.hpp"
 
 #include <vector>
@@ -58,8 +58,8 @@ struct change_fixture {
     known.tasks = {row};
   }
 
-  void tell(const std::string& what, const std::string& subject,
-            const std::string& data = {}, bool passing = false) {
+  void publish_event(const std::string& what, const std::string& subject,
+                     const std::string& data = {}, bool passing = false) {
     event e;
     e.passing = passing;
     e.what = what;
@@ -75,7 +75,7 @@ struct change_fixture {
                    message_json(task_change_query{"t", mark, wait.count()}));
   }
 
-  static task_change told(const processed_reply& reply) {
+  static task_change reported(const processed_reply& reply) {
     REQUIRE(*reply);
     REQUIRE(**reply);
     return json::parse((**reply)->text).get<task_change>();
@@ -87,11 +87,11 @@ struct change_fixture {
 TEST_CASE_METHOD(change_fixture, "Who knows nothing of a task is told at once",
                  "[task_change]") {
   put(task_state::running);
-  const auto first = told(ask("", limits::task::change_wait));
+  const auto first = reported(ask("", limits::task::change_wait));
   REQUIRE(first.tasks.size() == 1);
   CHECK(first.tasks[0].state == task_state::running);
   known.tasks.clear();
-  const auto gone = told(ask(first.mark, limits::task::change_wait));
+  const auto gone = reported(ask(first.mark, limits::task::change_wait));
   CHECK(gone.tasks.empty());
   CHECK(gone.mark != first.mark);
 }
@@ -106,38 +106,38 @@ TEST_CASE_METHOD(change_fixture,
   asked = 0;
   SECTION("what concerns others is not asked for") {
     put(task_state::running);
-    tell("instance_changed", "x", R"({"task":"other"})");
-    tell("task_accepted", "other");
+    publish_event("instance_changed", "x", R"({"task":"other"})");
+    publish_event("task_accepted", "other");
     CHECK(asked == 0);
     CHECK_FALSE(*reply);
   }
   SECTION("what changes nothing is no answer") {
-    tell("instance_changed", "x", R"({"task":"t"})");
+    publish_event("instance_changed", "x", R"({"task":"t"})");
     CHECK(asked == 1);
     CHECK_FALSE(*reply);
   }
   SECTION("a task") {
     put(task_state::running);
-    tell("task_accepted", "t");
-    CHECK(told(reply).tasks[0].state == task_state::running);
+    publish_event("task_accepted", "t");
+    CHECK(reported(reply).tasks[0].state == task_state::running);
   }
   SECTION("an instance of it") {
     put(task_state::running);
-    tell("instance_changed", "x", R"({"task":"t"})");
-    CHECK(told(reply).mark != mark);
+    publish_event("instance_changed", "x", R"({"task":"t"})");
+    CHECK(reported(reply).mark != mark);
   }
   SECTION("an instance that starts again and again, which is only counted") {
     put(task_state::degraded);
-    tell("instance_changed", "x", R"({"task":"t"})", true);
-    CHECK(told(reply).mark != mark);
+    publish_event("instance_changed", "x", R"({"task":"t"})", true);
+    CHECK(reported(reply).mark != mark);
   }
   SECTION("a node") {
     put(task_state::degraded);
-    tell("node_lost", "arm");
-    CHECK(told(reply).tasks[0].state == task_state::degraded);
+    publish_event("node_lost", "arm");
+    CHECK(reported(reply).tasks[0].state == task_state::degraded);
   }
   SECTION("data that is no JSON") {
-    tell("instance_changed", "x", "{");
+    publish_event("instance_changed", "x", "{");
     CHECK_FALSE(*reply);
   }
 }
@@ -155,7 +155,7 @@ TEST_CASE_METHOD(change_fixture,
     CHECK_FALSE(*reply);
   }
   time.pass(1ms);
-  CHECK(told(reply).mark == mark);
+  CHECK(reported(reply).mark == mark);
 }
 
 TEST_CASE_METHOD(change_fixture,
@@ -174,7 +174,7 @@ TEST_CASE_METHOD(change_fixture,
   CHECK(to_failure((*refused)->error()).code == error_code::conflict);
   time.pass(20s);
   for (const auto& x : waiting)
-    CHECK(told(x).mark == mark);
+    CHECK(reported(x).mark == mark);
   listeners.clear();
   CHECK_FALSE(*ask(mark, 20s));
   time.pass(20s);

@@ -1,4 +1,4 @@
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 #include "actors/session/lease.hpp"
 
 #include "test/time_zero.hpp"
@@ -21,7 +21,7 @@ using time_point = lease::time_point;
 struct pair_of_leases {
   struct packet {
     bool to_member;
-    beat_kind kind;
+    heartbeat_kind kind;
   };
 
   lease member{lease_side::member, time_zero};
@@ -40,7 +40,7 @@ struct pair_of_leases {
 
   explicit pair_of_leases(unsigned seed) : random(seed) {}
 
-  void send(bool to_member, beat_kind kind) {
+  void send(bool to_member, heartbeat_kind kind) {
     ++packets;
     if (std::uniform_real_distribution<double>{}(random) < loss)
       return;
@@ -52,7 +52,7 @@ struct pair_of_leases {
     if (x.to_member ? member_dead : coordinator_dead)
       return;
     auto& receiver = x.to_member ? member : coordinator;
-    if (auto answer = receiver.heard_beat(x.kind, now))
+    if (auto answer = receiver.heard_heartbeat(x.kind, now))
       send(!x.to_member, *answer);
   }
 
@@ -100,15 +100,15 @@ struct pair_of_leases {
   }
 };
 
-TEST_CASE("an idle pair wakes for its beat only") {
+TEST_CASE("an idle pair wakes for its heartbeat only") {
   pair_of_leases x{1};
   x.run(time_zero + 400s);
   CHECK_FALSE(x.member_lost);
   CHECK_FALSE(x.coordinator_lost);
-  // One beat and one ack each 4 s.
+  // One heartbeat and one ack each 4 s.
   CHECK(x.packets <= 200);
   CHECK(x.packets >= 196);
-  // The member sends a beat and looks once whether it was answered.
+  // The member sends a heartbeat and looks once whether it was answered.
   CHECK(x.member_ticks <= 2 * 100);
   CHECK(x.coordinator_ticks <= 100);
 }
@@ -125,7 +125,7 @@ TEST_CASE("a silent member is lost one lease after it was last heard") {
     // What flew when it died still counts.
     CHECK(x.now - died <= limits::lease::span + 40ms);
     CHECK(x.now - died
-          >= limits::lease::span - limits::lease::beat_period - 40ms);
+          >= limits::lease::span - limits::lease::heartbeat_period - 40ms);
   }
 }
 
@@ -140,17 +140,18 @@ TEST_CASE("a silent coordinator is lost one lease after it was last heard") {
     CHECK(x.coordinator_lost);
     CHECK(x.now - died <= limits::lease::span + 40ms);
     CHECK(x.now - died
-          >= limits::lease::span - limits::lease::beat_period - 90ms);
+          >= limits::lease::span - limits::lease::heartbeat_period - 90ms);
   }
 }
 
-TEST_CASE("an outage of less than the lease without a beat is not noticed") {
+TEST_CASE(
+    "an outage of less than the lease without a heartbeat is not noticed") {
   for (unsigned seed = 1; seed <= 200; ++seed) {
     CAPTURE(seed);
     pair_of_leases x{seed};
     x.run(time_zero + std::chrono::milliseconds{x.random() % 30'000});
     x.loss = 1;
-    x.run(x.now + limits::lease::span - limits::lease::beat_period
+    x.run(x.now + limits::lease::span - limits::lease::heartbeat_period
           - 2 * limits::lease::urgent_probe_interval);
     x.loss = 0;
     x.run(x.now + 60s);
@@ -172,11 +173,13 @@ TEST_CASE("a loss of 20 % in each direction never costs a member") {
   CHECK_FALSE(x.coordinator_lost);
 }
 
-TEST_CASE("a probe is answered with a beat and a beat with an ack") {
+TEST_CASE("a probe is answered with a heartbeat and a heartbeat with an ack") {
   lease x{lease_side::coordinator, time_zero};
-  CHECK(x.heard_beat(beat_kind::beat, time_zero) == beat_kind::ack);
-  CHECK(x.heard_beat(beat_kind::probe, time_zero) == beat_kind::beat);
-  CHECK(x.heard_beat(beat_kind::ack, time_zero) == std::nullopt);
+  CHECK(x.heard_heartbeat(heartbeat_kind::heartbeat, time_zero)
+        == heartbeat_kind::ack);
+  CHECK(x.heard_heartbeat(heartbeat_kind::probe, time_zero)
+        == heartbeat_kind::heartbeat);
+  CHECK(x.heard_heartbeat(heartbeat_kind::ack, time_zero) == std::nullopt);
 }
 
 TEST_CASE("after a miss the peer is asked until the lease is over") {
@@ -187,12 +190,13 @@ TEST_CASE("after a miss the peer is asked until the lease is over") {
   while (!todo.over) {
     now = x.next();
     todo = x.due(now);
-    if (todo.send == beat_kind::probe)
+    if (todo.send == heartbeat_kind::probe)
       asked.push_back(std::chrono::duration_cast<std::chrono::milliseconds>(
           now - time_zero));
   }
   REQUIRE(asked.size() > 2);
-  CHECK(asked[0] == limits::lease::beat_period + limits::lease::probe_interval);
+  CHECK(asked[0]
+        == limits::lease::heartbeat_period + limits::lease::probe_interval);
   CHECK(asked[1] == asked[0] + limits::lease::probe_interval);
   CHECK(asked.back()
         == limits::lease::span - limits::lease::urgent_probe_interval);

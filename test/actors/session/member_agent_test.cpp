@@ -1,4 +1,4 @@
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 #include "test/actors/fakes/cell_fakes.hpp"
 
 /// Members with a real membership at the other end of the wire.
@@ -42,7 +42,7 @@ TEST_CASE_METHOD(cell_fixture, "a member is a node agent") {
     auto reply = time.ask<figures_report>(member(), figures_query{});
     site.pass(1s);
     REQUIRE((*reply)->value().instances.size() == 1);
-    CHECK((*reply)->value().instances[0].figures.rate_hz == 2.5);
+    CHECK((*reply)->value().instances[0].metrics.rate_hz == 2.5);
     CHECK((*reply)->value().instances[0].status == "frames=7");
   }
   SECTION("for logs") {
@@ -148,12 +148,12 @@ TEST_CASE_METHOD(cell_fixture, "frames that come twice are done once") {
 TEST_CASE_METHOD(cell_fixture, "a lost request times out and the session goes "
                                "on") {
   form_cell();
-  site.faults.lose_frame = 1;
+  site.faults.drop_frame = 1;
   auto reply = time.ask<resource_report>(member(), resource_query{});
   site.pass(limits::session::resource_query);
   REQUIRE(*reply);
   CHECK(to_failure((*reply)->error()).code == error_code::timeout);
-  site.faults.lose_frame = 0;
+  site.faults.drop_frame = 0;
   auto again = time.ask<resource_report>(member(), resource_query{});
   site.pass(1s);
   CHECK((*again)->engaged());
@@ -174,10 +174,11 @@ TEST_CASE_METHOD(cell_fixture, "a killed node is lost at once and is the same "
   CHECK(site.base.rows.at("arm-1").identity.epoch == 2);
 }
 
-TEST_CASE_METHOD(cell_fixture, "an hour with 20 % of the beats lost changes "
-                               "nothing") {
-  site.faults.lose_beat = 0.2;
-  site.faults.repeat_beat = 0.1;
+TEST_CASE_METHOD(cell_fixture,
+                 "an hour with 20 % of the heartbeats lost changes "
+                 "nothing") {
+  site.faults.drop_heartbeat = 0.2;
+  site.faults.repeat_heartbeat = 0.1;
   site.faults.longest_delay = 50ms;
   form_cell();
   const auto link = node.link;

@@ -10,7 +10,7 @@ struct member_test : cell_fixture {
   wire_ptr link;
   member_actor it;
   std::vector<session_envelope> heard;
-  std::vector<beat_kind> beats;
+  std::vector<heartbeat_kind> heartbeats;
   std::string closed;
   caf::actor peer;
 
@@ -24,7 +24,7 @@ struct member_test : cell_fixture {
           [this](const frame_received& x) {
             heard.push_back(*read_envelope(x.text));
           },
-          [this](const beat_received& x) { beats.push_back(x.kind); },
+          [this](const heartbeat_received& x) { heartbeats.push_back(x.kind); },
           [this](const session_closed& x) { closed = x.reason; },
       };
     });
@@ -51,8 +51,8 @@ struct member_test : cell_fixture {
     say(write_envelope(envelope_kind::notice, 0, body));
   }
 
-  void beat(beat_kind kind) {
-    caf::anon_send(link->ends[1], send_beat{kind});
+  void heartbeat(heartbeat_kind kind) {
+    caf::anon_send(link->ends[1], send_heartbeat{kind});
     site.pass(0s);
   }
 
@@ -152,7 +152,7 @@ TEST_CASE_METHOD(member_test, "a session without a registration ends after "
                               "15 s") {
   for (auto i = 0; i < 14; ++i) {
     site.pass(1s);
-    beat(beat_kind::beat);
+    heartbeat(heartbeat_kind::heartbeat);
   }
   CHECK(closed.empty());
   site.pass(1s);
@@ -175,29 +175,30 @@ TEST_CASE_METHOD(member_test, "nothing is told of a node that has not "
   CHECK(to_failure((*reply)->error()).code == error_code::unreachable);
 }
 
-TEST_CASE_METHOD(member_test, "beats are acked and keep a member alive") {
+TEST_CASE_METHOD(member_test, "heartbeats are acked and keep a member alive") {
   request(1, registration());
   for (auto i = 0; i < 10; ++i) {
     site.pass(4s);
-    beat(beat_kind::beat);
+    heartbeat(heartbeat_kind::heartbeat);
   }
   CHECK(closed.empty());
-  CHECK(beats == std::vector<beat_kind>(10, beat_kind::ack));
+  CHECK(heartbeats == std::vector<heartbeat_kind>(10, heartbeat_kind::ack));
 }
 
 TEST_CASE_METHOD(member_test, "a silent member is asked and then lost within a "
                               "lease") {
   request(1, registration());
   site.pass(4200ms);
-  CHECK(beats.empty());
+  CHECK(heartbeats.empty());
   site.pass(3700ms);
-  CHECK(beats.size() > 10);
-  CHECK(beats[0] == beat_kind::probe);
+  CHECK(heartbeats.size() > 10);
+  CHECK(heartbeats[0] == heartbeat_kind::probe);
   CHECK(closed.empty());
   site.pass(100ms);
-  CHECK(closed == "silent for 8 s");
+  CHECK(closed == "no heartbeat for 8 s");
   REQUIRE(site.base.losses.size() == 1);
-  CHECK(site.base.losses[0] == member_lost{"a-1", it, "silent for 8 s", 8000});
+  CHECK(site.base.losses[0]
+        == member_lost{"a-1", it, "no heartbeat for 8 s", 8000});
 }
 
 TEST_CASE_METHOD(member_test, "a broken connection loses the member at once") {
@@ -264,7 +265,7 @@ TEST_CASE_METHOD(member_test, "a question that the node does not answer times "
   auto reply = time.ask<resource_report>(it, resource_query{});
   for (auto i = 0; i < 5; ++i) {
     site.pass(1s);
-    beat(beat_kind::beat);
+    heartbeat(heartbeat_kind::heartbeat);
   }
   CHECK_FALSE(*reply);
   site.pass(1s);
@@ -277,7 +278,7 @@ TEST_CASE_METHOD(member_test, "a log that is followed may take longer") {
   auto reply = time.ask<log_excerpt>(it, log_query{"t-a-1", -1, 0, 9'000'000});
   for (auto i = 0; i < 29; ++i) {
     site.pass(1s);
-    beat(beat_kind::beat);
+    heartbeat(heartbeat_kind::heartbeat);
   }
   CHECK_FALSE(*reply);
   site.pass(1s);

@@ -23,7 +23,7 @@ struct recorded_peer : cell_fixture {
           [this](const frame_received& x) {
             heard.push_back(*read_envelope(x.text));
           },
-          [](const beat_received&) {},
+          [](const heartbeat_received&) {},
           [](const session_closed&) {},
       };
     });

@@ -1,4 +1,4 @@
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 #include "actors/session/session_calls.hpp"
 
 #include "actors/session/session_answers.hpp"
@@ -59,9 +59,9 @@ TEST_CASE("a reply that comes again, or to nothing, is refused") {
   CHECK(calls.finish(reply));
   CHECK_FALSE(calls.finish(reply));
   CHECK(it.results.size() == 1);
-  auto stranger = reply;
-  stranger.id = 4711;
-  CHECK_FALSE(calls.finish(stranger));
+  auto unauthenticated_peer = reply;
+  unauthenticated_peer.id = 4711;
+  CHECK_FALSE(calls.finish(unauthenticated_peer));
 }
 
 TEST_CASE("an error reply becomes the error that it tells of") {

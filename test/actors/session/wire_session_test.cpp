@@ -1,6 +1,6 @@
 #include "actors/session/wire_session.hpp"
 
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 #include "test/fixture.hpp"
 
 #include <catch2/catch.hpp>
@@ -27,27 +27,27 @@ struct dead_link : session_link {
   }
 };
 
-struct dead_beats : beat_link {
-  void send(beat_kind, uint32_t) override {}
+struct dead_heartbeats : heartbeat_link {
+  void send(heartbeat_kind, uint32_t) override {}
 };
 
-/// A session with arm, from which no beat comes back.
+/// A session with arm, from which no heartbeat comes back.
 struct silent_session {
   virtual_time time;
-  std::shared_ptr<metric_book> metrics = std::make_shared<metric_book>();
+  std::shared_ptr<metric_table> metrics = std::make_shared<metric_table>();
   session_actor session;
 
   silent_session() {
     auto wire = std::make_shared<session_wire>();
     wire->link = std::make_shared<dead_link>();
-    wire->beats = std::make_unique<dead_beats>();
+    wire->heartbeats = std::make_unique<dead_heartbeats>();
     auto context = time.context;
     context.metrics = metrics;
     session = spawn(time.system, context, wire_session, context, wire, "arm");
   }
 
-  void beat() {
-    caf::anon_send(session, send_beat{beat_kind::beat, 0});
+  void heartbeat() {
+    caf::anon_send(session, send_heartbeat{heartbeat_kind::heartbeat, 0});
     time.settle();
   }
 
@@ -57,7 +57,7 @@ struct silent_session {
   }
 
   double lost() const {
-    const auto samples = metrics->samples(metric::beats_lost);
+    const auto samples = metrics->samples(metric::heartbeats_lost);
     return samples.empty() ? 0 : samples.at(0).sum;
   }
 };
@@ -65,23 +65,23 @@ struct silent_session {
 } // namespace
 
 TEST_CASE_METHOD(silent_session,
-                 "beats that nobody answered before the end are lost",
+                 "heartbeats that nobody answered before the end are lost",
                  "[session][metrics]") {
-  beat();
-  time.advance(limits::lease::beat_period);
-  beat();
+  heartbeat();
+  time.advance(limits::lease::heartbeat_period);
+  heartbeat();
   time.advance(limits::lease::probe_interval + 1ms);
   CHECK(lost() == 0);
   // Its answer may be on its way.
-  beat();
+  heartbeat();
   end();
   CHECK(lost() == 2);
 }
 
-TEST_CASE_METHOD(silent_session, "beats too old to be remembered are lost",
+TEST_CASE_METHOD(silent_session, "heartbeats too old to be remembered are lost",
                  "[session][metrics]") {
-  for (size_t i = 0; i < limits::session::remembered_beats + 3; ++i)
-    beat();
+  for (size_t i = 0; i < limits::session::remembered_heartbeats + 3; ++i)
+    heartbeat();
   CHECK(lost() == 3);
   end();
 }

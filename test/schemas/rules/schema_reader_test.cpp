@@ -170,7 +170,7 @@ TEST_CASE("a schema that the rules cannot express is refused") {
 }
 
 TEST_CASE("a rule says in words what it asks for") {
-  auto words = [](const char* text) { return rule_words(rule_of(text)); };
+  auto words = [](const char* text) { return rule_text(rule_of(text)); };
   CHECK(words("{}") == "any value");
   CHECK(words(R"({"type":"string"})") == "a string");
   CHECK(words(R"({"type":"string","maxLength":63})")

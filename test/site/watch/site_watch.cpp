@@ -28,7 +28,7 @@ bool believes(const site_party& node, const site_party& coordinator) {
   if (!node.alive())
     return false;
   const auto& st = node.status();
-  return st.standing == node_state::member && st.cell == coordinator.cell;
+  return st.state == node_state::member && st.cell == coordinator.cell;
 }
 
 /// Whether the two have told each other how they stand, and hear each other.
@@ -38,7 +38,7 @@ bool are_connected(const site& place, const site_party& x,
     return false;
   const auto knows = [](const site_party& a, const site_party& b) {
     const auto* entry = a.cell_state().peers.find(b.uuid);
-    return entry && entry->told;
+    return entry && entry->reported;
   };
   if (!knows(x, y) || !knows(y, x))
     return false;
@@ -52,7 +52,7 @@ bool are_connected(const site& place, const site_party& x,
 }
 
 std::string state_word(const site_party& node) {
-  return std::string{to_word(node.status().standing)} + "/"
+  return std::string{to_word(node.status().state)} + "/"
          + std::string{to_word(node.status().phase)} + " of '"
          + node.status().cell + "' at epoch "
          + std::to_string(node.status().config.identity.epoch);
@@ -82,10 +82,10 @@ std::string node_complaint(const site& place, const site_party& node) {
   const auto add = [&](const std::string& what) {
     result += node.name + " (" + state_word(node) + ") " + what + "; ";
   };
-  if (st.standing != node_state::member
-      && (st.standing != node_state::independent || st.seeking))
+  if (st.state != node_state::member
+      && (st.state != node_state::independent || st.seeking))
     add("has not come to rest");
-  const bool belongs = st.standing == node_state::member;
+  const bool belongs = st.state == node_state::member;
   if (belongs == node.announced.has_value())
     add(belongs ? "announces itself" : "announces nothing");
   for (const auto& c : place.parties) {
@@ -149,7 +149,7 @@ std::string old_registrations(const site& place) {
   std::string result;
   // By coordinator, its life and the node.
   std::map<std::tuple<size_t, unsigned, std::string>, int64_t> newest;
-  for (const auto& x : place.facts) {
+  for (const auto& x : place.events) {
     const std::tuple key{x.party, x.life, x.subject};
     if (x.what == "node_left")
       newest.erase(key);
@@ -177,7 +177,7 @@ bool stays_calm(site& place) {
 
 std::string calm_down(site& place) {
   place.faults = {};
-  place.lose_call = 0;
+  place.drop_call = 0;
   place.judge = nullptr;
   place.heal_all();
   // TCP delivers in the end, or the connection breaks.
@@ -258,8 +258,8 @@ void site_watch::live(duration span) {
   }
 }
 
-void print_facts(const site& place) {
-  for (const auto& x : place.facts)
+void print_events(const site& place) {
+  for (const auto& x : place.events)
     std::cerr << x.when.count() << " ms " << place.parties[x.party]->name
               << ": " << x.what << " '" << x.subject << "' " << x.data.dump()
               << '\n';

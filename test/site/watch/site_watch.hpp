@@ -18,7 +18,7 @@ std::string complaint(const site& place);
 /// of the same node; empty if there is none.
 std::string old_registrations(const site& place);
 
-/// Ends all trouble, lets time pass until there is no complaint, and looks
+/// Ends all faults, lets time pass until there is no complaint, and looks
 /// whether it stays so. Gives what is left of it.
 std::string calm_down(site& place);
 
@@ -26,7 +26,7 @@ std::string calm_down(site& place);
 /// behind must not stand in the way. Gives what does.
 std::string release_retired(site& place);
 
-/// Watches the invariants while there is trouble.
+/// Watches the invariants while there are faults.
 class site_watch {
 public:
   using duration = std::chrono::milliseconds;
@@ -70,7 +70,7 @@ private:
   duration longest_double_{0};
 };
 
-/// Prints the facts that were told, and when.
-void print_facts(const site& place);
+/// Prints the events that were told, and when.
+void print_events(const site& place);
 
 } // namespace roscell::test

@@ -138,7 +138,7 @@ std::string task_complaint(const site& place) {
 
 namespace {
 
-size_t rooms_kept(const site_party& x) {
+size_t reservations_kept(const site_party& x) {
   using pointer = node_agent_actor::stateful_pointer<node_agent_state>;
   auto* actor =
       dynamic_cast<pointer>(caf::actor_cast<caf::abstract_actor*>(x.agent));
@@ -159,12 +159,12 @@ std::string remains(const site& place, site_party& x) {
   };
   // A node outside all cells keeps what has ended, for whoever looks at it,
   // until it is in a cell again.
-  if (x.coordinates || x.status().standing == node_state::member) {
+  if (x.coordinates || x.status().state == node_state::member) {
     add(x.programs.size(), "programs");
     add(x.disk["instances"].size(), "records of instances");
   }
   add(running_programs(place, x), "programs that run");
-  add(rooms_kept(x), "rooms that it keeps");
+  add(reservations_kept(x), "rooms that it keeps");
   if (!x.coordinates)
     return result;
   add(tasks_of(x).size(), "tasks");

@@ -6,7 +6,7 @@ namespace {
 
 /// Whether the node has told that it starts the instance once more.
 bool starts_again(const cell_coordinator_state& st, const deployment& x) {
-  const auto* row = st.deployments.told(x.node, x.spec.instance);
+  const auto* row = st.deployments.reported(x.node, x.spec.instance);
   return row && is_live(row->state) && row->state != instance_state::running
          && (row->restarts > 0 || row->state == instance_state::backing_off);
 }
@@ -42,7 +42,7 @@ bool are_cell(const site_party& coordinator, const site_party& node) {
     return false;
   const auto& st = node.status();
   const auto* row = coordinator.cell_state().registry.find_uuid(node.uuid);
-  return st.standing == node_state::member && st.cell == coordinator.cell && row
+  return st.state == node_state::member && st.cell == coordinator.cell && row
          && row->row.state == row_state::active;
 }
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 /// What a coordinator of a site believes of tasks. The only place of the site's
-/// tests that looks into its books of tasks.
+/// tests that looks into its tables of tasks.
 namespace roscell::test {
 
 struct step_view {

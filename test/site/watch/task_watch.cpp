@@ -36,7 +36,7 @@ bool moves_by_itself(const site_task* task, const std::string& step) {
 
 } // namespace
 
-void task_watch::span_book::update(const std::set<key>& present, moment now) {
+void task_watch::span_table::update(const std::set<key>& present, moment now) {
   for (auto i = since.begin(); i != since.end();)
     i = present.count(i->first) == 0 ? since.erase(i) : std::next(i);
   for (const auto& x : present) {
@@ -49,12 +49,12 @@ void task_watch::span_book::update(const std::set<key>& present, moment now) {
 void task_watch::look() {
   std::set<key> doubled, stray;
   std::map<size_t, snapshot> now;
-  look_at_facts();
+  check_events();
   for (const auto& c : place_.parties) {
     if (!c->coordinates || !c->alive())
       continue;
     const auto tasks = tasks_of(*c);
-    look_at_programs(*c, tasks, doubled, stray);
+    check_programs(*c, tasks, doubled, stray);
     auto& x = now[c->index];
     x.life = c->life;
     for (const auto& task : tasks) {
@@ -65,7 +65,7 @@ void task_watch::look() {
         if (!step.ended && task.state != task_state::terminating)
           x.placed.emplace(task.task, step.node);
     }
-    look_at_ends(*c, x);
+    check_ends(*c, x);
   }
   seen_ = std::move(now);
   doubles_.update(doubled, place_.now());
@@ -75,10 +75,10 @@ void task_watch::look() {
       answered_.insert(i);
 }
 
-void task_watch::look_at_programs(const site_party& coordinator,
-                                  const std::vector<task_view>& tasks,
-                                  std::set<key>& doubled,
-                                  std::set<key>& stray) const {
+void task_watch::check_programs(const site_party& coordinator,
+                                const std::vector<task_view>& tasks,
+                                std::set<key>& doubled,
+                                std::set<key>& stray) const {
   std::map<key, size_t> nodes; ///< On which a step runs.
   for (const auto& node : place_.parties) {
     if (node->programs.empty() || !are_cell(coordinator, *node))
@@ -115,8 +115,8 @@ bool task_watch::is_wanted(instance_policy policy, size_t coordinator) const {
 }
 
 /// A task that runs ends only if somebody wants it.
-void task_watch::look_at_ends(const site_party& coordinator,
-                              const snapshot& now) {
+void task_watch::check_ends(const site_party& coordinator,
+                            const snapshot& now) {
   const auto i = seen_.find(coordinator.index);
   if (i == seen_.end() || i->second.life != now.life)
     return;
@@ -131,47 +131,47 @@ void task_watch::look_at_ends(const site_party& coordinator,
   }
 }
 
-void task_watch::look_at_facts() {
-  for (; facts_seen_ < place_.facts.size(); ++facts_seen_) {
-    const auto& fact = place_.facts[facts_seen_];
-    if (fact.what == "node_departing")
-      look_at_departure(fact);
-    else if (fact.what == "instance_moved")
-      look_at_move(fact);
-    else if (fact.what == "transfer_ended"
+void task_watch::check_events() {
+  for (; events_seen_ < place_.events.size(); ++events_seen_) {
+    const auto& event = place_.events[events_seen_];
+    if (event.what == "node_departing")
+      check_departure(event);
+    else if (event.what == "instance_moved")
+      check_moved_step(event);
+    else if (event.what == "transfer_ended"
              && !ended_transfers_
-                     .emplace(fact.party, fact.data.at("transfer"),
-                              std::to_string(fact.life))
+                     .emplace(event.party, event.data.at("transfer"),
+                              std::to_string(event.life))
                      .second)
       place_.report_violation("transfer "
-                              + fact.data.at("transfer").get<std::string>()
+                              + event.data.at("transfer").get<std::string>()
                               + " has ended twice");
   }
 }
 
 /// A node that has something to do, or will have, is not let go unless somebody
 /// has said what shall become of it.
-void task_watch::look_at_departure(const told_at& fact) {
-  const auto quoted = '"' + fact.subject + '"';
+void task_watch::check_departure(const site_event& event) {
+  const auto quoted = '"' + event.subject + '"';
   for (const auto& x : place_.requests)
     if (x.policy != instance_policy::refuse
         && x.text.find(quoted) != std::string::npos)
       return;
-  const auto& c = *place_.parties[fact.party];
+  const auto& c = *place_.parties[event.party];
   const auto before = seen_.find(c.index);
   if (!c.alive() || before == seen_.end() || before->second.life != c.life)
     return;
   for (const auto& task : tasks_of(c))
     for (const auto& step : task.steps)
-      if (step.node == fact.subject && !step.ended
+      if (step.node == event.subject && !step.ended
           && before->second.placed.count({task.task, step.node}) > 0)
         place_.report_violation("'" + step.instance + "' is on node '"
-                                + fact.subject + "', which is let go");
+                                + event.subject + "', which is let go");
 }
 
 /// One that was lost has ended on its node, wherever that is and whatever it
 /// believes, before it runs elsewhere.
-void task_watch::look_at_loss(const std::string& old, const std::string& from) {
+void task_watch::check_loss(const std::string& old, const std::string& from) {
   const auto* node = find_party(place_, from);
   if (!node)
     return;
@@ -183,36 +183,37 @@ void task_watch::look_at_loss(const std::string& old, const std::string& from) {
 
 /// A task that is asked for once more has started again what had failed, as its
 /// coordinator knew.
-bool task_watch::is_healed(const told_at& fact) const {
-  const auto* task = find_task(place_, fact.party, fact.data.at("task"));
+bool task_watch::is_healed(const site_event& event) const {
+  const auto* task = find_task(place_, event.party, event.data.at("task"));
   const auto asked = [](const auto& x) { return !x.ends; };
   if (!task || std::count_if(task->calls.begin(), task->calls.end(), asked) < 2)
     return false;
-  const auto end = place_.facts.begin() + static_cast<ptrdiff_t>(facts_seen_);
-  return std::any_of(place_.facts.begin(), end, [&](const auto& x) {
-    return x.what == "instance_changed" && x.party == fact.party
-           && x.subject == fact.data.at("replaces")
+  const auto end = place_.events.begin() + static_cast<ptrdiff_t>(events_seen_);
+  return std::any_of(place_.events.begin(), end, [&](const auto& x) {
+    return x.what == "instance_changed" && x.party == event.party
+           && x.subject == event.data.at("replaces")
            && x.data.value("state", "") == "failed";
   });
 }
 
-void task_watch::look_at_move(const told_at& fact) {
-  const auto old = fact.data.at("replaces").get<std::string>();
-  const auto* task = find_task(place_, fact.party, fact.data.at("task"));
+void task_watch::check_moved_step(const site_event& event) {
+  const auto old = event.data.at("replaces").get<std::string>();
+  const auto* task = find_task(place_, event.party, event.data.at("task"));
   // One that is wanted to go runs until the new one does.
-  const bool is_asked = is_wanted(instance_policy::reschedule, fact.party);
+  const bool is_asked = is_wanted(instance_policy::reschedule, event.party);
   if (!is_asked
-      && (moves_by_itself(task, fact.data.at("step")) || is_healed(fact)))
-    look_at_loss(old, fact.data.at("from"));
+      && (moves_by_itself(task, event.data.at("step")) || is_healed(event)))
+    check_loss(old, event.data.at("from"));
   else if (!is_asked)
-    place_.report_violation("'" + fact.subject
+    place_.report_violation("'" + event.subject
                             + "' is moved, and nobody wants that");
-  const auto end = place_.facts.begin() + static_cast<ptrdiff_t>(facts_seen_);
-  const bool known = std::any_of(place_.facts.begin(), end, [&](const auto& x) {
-    return x.what == "instance_changed" && x.party == fact.party
-           && x.subject == old && x.data.value("state", "") == "stopped"
-           && x.data.value("exit_code", -1) == 0;
-  });
+  const auto end = place_.events.begin() + static_cast<ptrdiff_t>(events_seen_);
+  const bool known =
+      std::any_of(place_.events.begin(), end, [&](const auto& x) {
+        return x.what == "instance_changed" && x.party == event.party
+               && x.subject == old && x.data.value("state", "") == "stopped"
+               && x.data.value("exit_code", -1) == 0;
+      });
   if (known && place_.finished.count(old) > 0)
     place_.report_violation("'" + old + "' has finished and is moved");
 }

@@ -12,7 +12,7 @@
 
 namespace roscell::test {
 
-/// Watches the invariants of tasks while there is trouble. What must never
+/// Watches the invariants of tasks while there are faults. What must never
 /// happen goes to the site's violations.
 class task_watch {
 public:
@@ -37,7 +37,7 @@ private:
   using key = std::tuple<size_t, std::string, std::string>;
 
   /// Since when what holds, and for how long something held at most.
-  struct span_book {
+  struct span_table {
     std::map<key, moment> since;
     duration longest{0};
 
@@ -51,23 +51,23 @@ private:
     std::set<std::pair<std::string, std::string>> placed; ///< Task, node.
   };
 
-  void look_at_programs(const site_party& coordinator,
-                        const std::vector<task_view>& tasks,
-                        std::set<key>& doubled, std::set<key>& stray) const;
-  void look_at_ends(const site_party& coordinator, const snapshot& now);
-  void look_at_facts();
-  void look_at_departure(const told_at& fact);
-  void look_at_move(const told_at& fact);
-  void look_at_loss(const std::string& old, const std::string& from);
-  bool is_healed(const told_at& fact) const;
+  void check_programs(const site_party& coordinator,
+                      const std::vector<task_view>& tasks,
+                      std::set<key>& doubled, std::set<key>& stray) const;
+  void check_ends(const site_party& coordinator, const snapshot& now);
+  void check_events();
+  void check_departure(const site_event& event);
+  void check_moved_step(const site_event& event);
+  void check_loss(const std::string& old, const std::string& from);
+  bool is_healed(const site_event& event) const;
   bool may_still_act(const site_request& x, size_t coordinator) const;
   bool is_wanted(instance_policy policy, size_t coordinator) const;
 
   site& place_;
-  span_book doubles_; ///< By cell, task and step.
-  span_book strays_;  ///< By machine and instance.
+  span_table doubles_; ///< By cell, task and step.
+  span_table strays_;  ///< By machine and instance.
   std::map<size_t, snapshot> seen_;
-  size_t facts_seen_ = 0;
+  size_t events_seen_ = 0;
   std::set<size_t> answered_; ///< Requests that were at the last look.
   std::set<key> ended_transfers_;
 };

@@ -19,7 +19,7 @@ of_matrix() {
 }
 
 . test/system/scenes/bad_days.sh
-. test/system/scenes/day_figures.sh
+. test/system/scenes/day_metrics.sh
 
 # After so long the camera that may move is placed elsewhere, and ends 8 s before: in
 # the suite no day is so long, in the whole matrix the long ones are.

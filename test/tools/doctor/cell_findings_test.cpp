@@ -55,7 +55,7 @@ TEST_CASE("who is reached by all ways is told once", "[doctor]") {
 TEST_CASE("what the coordinator and its members need of each other is broken "
           "without it",
           "[doctor]") {
-  for (const auto way : {reach_way::session, reach_way::beat,
+  for (const auto way : {reach_way::session, reach_way::heartbeat,
                          reach_way::discovery, reach_way::data}) {
     CHECK(only_finding("arm", row_to("head", way, port_answer::silent)).how
           == judgement::broken);
@@ -66,7 +66,7 @@ TEST_CASE("what the coordinator and its members need of each other is broken "
 
 TEST_CASE("members need each other's data, and nothing else now", "[doctor]") {
   for (const auto way :
-       {reach_way::session, reach_way::beat, reach_way::discovery})
+       {reach_way::session, reach_way::heartbeat, reach_way::discovery})
     CHECK(only_finding("arm", row_to("leg", way, port_answer::silent)).how
           == judgement::warning);
   for (const auto way : {reach_way::data, reach_way::large})
@@ -78,7 +78,7 @@ TEST_CASE("members need each other's data, and nothing else now", "[doctor]") {
         == judgement::warning);
 }
 
-TEST_CASE("what is in the way is told with the command that mends it",
+TEST_CASE("what is in the way is told with the command that fixes it",
           "[doctor]") {
   auto x =
       only_finding("arm", row_to("leg", reach_way::data, port_answer::silent));

@@ -15,9 +15,11 @@ using Catch::Contains;
 
 namespace {
 
-check named(const char* name, std::function<findings()> look) {
+check named(const char* name, std::function<findings()> run_check) {
   return {name, "host", "something",
-          [look = std::move(look)](const examined_host&) { return look(); }};
+          [run_check = std::move(run_check)](const checked_host&) {
+            return run_check();
+          }};
 }
 
 findings two_findings() {
@@ -81,12 +83,12 @@ TEST_CASE("a check that still hangs is not begun again", "[doctor]") {
     end.wait();
     return findings{{judgement::ok, "1"}};
   });
-  const auto look = [&] {
+  const auto run_check = [&] {
     return run_checks(
         {stuck}, {}, [](auto&) {}, std::chrono::milliseconds{20});
   };
-  CHECK(look()[0].how == judgement::broken);
-  CHECK(look()[0].seen == "it did not end in time");
+  CHECK(run_check()[0].how == judgement::broken);
+  CHECK(run_check()[0].seen == "it did not end in time");
   CHECK(*begun == 1);
   forever->set_value();
   // What has ended meanwhile is told, or looked at anew.

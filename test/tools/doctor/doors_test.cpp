@@ -49,13 +49,13 @@ struct doors_fixture {
   }
 
   finding look() const {
-    const auto found = examine_site_token(host);
+    const auto found = check_site_token(host);
     REQUIRE(found.size() == 1);
     return found[0];
   }
 
   fs::path folder;
-  examined_host host;
+  checked_host host;
 };
 
 const std::string good_token(32, 'x');
@@ -90,7 +90,7 @@ TEST_CASE_METHOD(doors_fixture,
                  "Root is told of skills that others may change") {
   fs::create_directories(folder / "skills" / "echo");
   host.config.skill_dirs = {folder / "skills"};
-  const auto told = [&] {
+  const auto reported = [&] {
     for (const auto& x : find_open_skills(host.config))
       if (x.what.find((folder / "skills").string()) != std::string::npos)
         return x.what;
@@ -98,10 +98,11 @@ TEST_CASE_METHOD(doors_fixture,
   };
   REQUIRE(::chmod((folder / "skills").c_str(), 0755) == 0);
   REQUIRE(::chmod((folder / "skills" / "echo").c_str(), 0755) == 0);
-  CHECK(told().empty());
+  CHECK(reported().empty());
   REQUIRE(::chmod((folder / "skills" / "echo").c_str(), 0777) == 0);
   if (::geteuid() != 0)
-    CHECK(told().empty());
+    CHECK(reported().empty());
   else
-    CHECK(told().find("echo: everybody may write to it") != std::string::npos);
+    CHECK(reported().find("echo: everybody may write to it")
+          != std::string::npos);
 }

@@ -29,7 +29,7 @@ TEST_CASE("a clock that nothing synchronises is a warning", "[doctor]") {
 }
 
 TEST_CASE("a disk is judged by its room and by its files", "[doctor]") {
-  disk_facts disk{"/data", "/data", 0, 50ULL << 30, 1'000'000, true};
+  disk_readings disk{"/data", "/data", 0, 50ULL << 30, 1'000'000, true};
   CHECK(judge_disk(disk).front().how == judgement::ok);
   disk.free_files = 0;
   CHECK(judge_disk(disk).front().remedy == "df -i /data");
@@ -41,7 +41,7 @@ TEST_CASE("a disk is judged by its room and by its files", "[doctor]") {
 }
 
 TEST_CASE("a folder that is there is given to nobody else", "[doctor]") {
-  disk_facts disk{"/run/x", "/run/x", EACCES, 50ULL << 30, 1'000'000, true};
+  disk_readings disk{"/run/x", "/run/x", EACCES, 50ULL << 30, 1'000'000, true};
   CHECK(judge_disk(disk).front().remedy == "ls -ld /run/x && id");
   disk.data_dir = "/run/x/$(id)";
   CHECK_THAT(judge_disk(disk).front().remedy,
@@ -90,17 +90,17 @@ TEST_CASE("inotify instances are judged by how many are left", "[doctor]") {
 }
 
 TEST_CASE("the inotify instances of this user are counted", "[doctor]") {
-  const auto before = look_at_inotify("/proc", ::geteuid());
+  const auto before = read_inotify("/proc", ::geteuid());
   CHECK(before.most > 0);
   const unique_fd one{::inotify_init1(IN_CLOEXEC)};
   // Others of this user come and go meanwhile.
   if (one)
-    CHECK(look_at_inotify("/proc", ::geteuid()).used > 0);
-  CHECK(look_at_inotify("/nowhere", ::geteuid()).most < 0);
+    CHECK(read_inotify("/proc", ::geteuid()).used > 0);
+  CHECK(read_inotify("/nowhere", ::geteuid()).most < 0);
 }
 
 TEST_CASE("what of a GPU is missing is named", "[doctor]") {
-  gpu_facts gpu;
+  gpu_readings gpu;
   CHECK(judge_gpu(gpu).how == judgement::skipped);
   gpu.card = true;
   CHECK_THAT(judge_gpu(gpu).remedy, Contains("modprobe nvidia"));
@@ -123,9 +123,9 @@ TEST_CASE("what of a GPU is missing is named", "[doctor]") {
 }
 
 TEST_CASE("the real library is asked for its GPUs", "[doctor]") {
-  examined_host host;
+  checked_host host;
   host.nvml = test::fake_nvml();
-  const auto gpu = look_at_gpu(host);
+  const auto gpu = read_gpu(host);
   CHECK(gpu.library);
   CHECK(gpu.library_error.empty());
   REQUIRE_FALSE(gpu.gpus.empty());
@@ -133,7 +133,7 @@ TEST_CASE("the real library is asked for its GPUs", "[doctor]") {
 }
 
 TEST_CASE("shared memory is judged by room and by who may write", "[doctor]") {
-  shared_memory_facts memory{true, true, true, 0, 8ULL << 30, 8ULL << 30};
+  shared_memory_readings memory{true, true, true, 0, 8ULL << 30, 8ULL << 30};
   const auto judge = [&] {
     return judge_shared_memory("/dev/shm", memory).how;
   };

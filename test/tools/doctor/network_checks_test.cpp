@@ -16,7 +16,7 @@ namespace {
 const interface_address eth0{"eth0", "10.0.0.5", "", false, true};
 const interface_address lo{"lo", "127.0.0.1", "", true, false};
 
-link_facts good_link() {
+link_readings good_link() {
   return {true, true, true, true, 1500};
 }
 
@@ -80,7 +80,7 @@ TEST_CASE("socket buffers are judged by what skills ask for", "[doctor]") {
 }
 
 TEST_CASE("a node cannot do without its HTTP port", "[doctor]") {
-  const port_facts taken{"tcp", 8420, EADDRINUSE, "pid 7 (nginx)", 7};
+  const port_readings taken{"tcp", 8420, EADDRINUSE, "pid 7 (nginx)", 7};
   CHECK(judge_port({"tcp", 8420, 0, "", 0}, true).how == judgement::ok);
   CHECK(judge_port(taken, true).how == judgement::broken);
   // Whose program it is, and what for, is not known here.
@@ -97,16 +97,16 @@ TEST_CASE("a node that has its ports is told by its name", "[doctor]") {
 
 TEST_CASE("ports that any program may get are reserved by the remedy",
           "[doctor]") {
-  const ephemeral_facts usual{{32768, 60999}, {}, ""};
+  const ephemeral_readings usual{{32768, 60999}, {}, ""};
   CHECK(judge_ephemeral(usual, {{8420, 8420}, {32150, 32166}}).how
         == judgement::ok);
-  const ephemeral_facts wide{
+  const ephemeral_readings wide{
       {1024, 65000}, parse_port_ranges("80,8420"), "80,8420"};
   const auto found = judge_ephemeral(wide, {{8420, 8420}, {7400, 7649}});
   CHECK(found.how == judgement::warning);
   CHECK(found.remedy
         == "sudo sysctl -w net.ipv4.ip_local_reserved_ports=80,8420,7400-7649");
-  const ephemeral_facts kept{
+  const ephemeral_readings kept{
       {1024, 65000}, parse_port_ranges("80,7400-7500,7501-7700"), ""};
   CHECK(judge_ephemeral(kept, {{7400, 7649}}).how == judgement::ok);
   CHECK(judge_ephemeral({}, {{8420, 8420}}).how == judgement::skipped);

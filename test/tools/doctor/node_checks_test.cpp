@@ -1,4 +1,4 @@
-#include "tools/roscell/doctor/node/answer_trouble.hpp"
+#include "tools/roscell/doctor/node/answer_problem.hpp"
 #include "tools/roscell/doctor/node/camera_checks.hpp"
 #include "tools/roscell/doctor/node/node_checks.hpp"
 
@@ -17,21 +17,21 @@ TEST_CASE("a node of another version is a warning", "[doctor]") {
 }
 
 TEST_CASE("what a node answers amiss is a finding", "[doctor]") {
-  const auto trouble = [](const auto& ask) {
+  const auto problem = [](const auto& ask) {
     try {
       ask();
     } catch (const std::exception& e) {
-      return trouble_of(e, judgement::broken);
+      return finding_of_failure(e, judgement::broken);
     }
     return finding{};
   };
   // As a node of another version may.
-  CHECK_THAT(trouble([] {
+  CHECK_THAT(problem([] {
                json{{"version", 7}}.get<node_description>();
              }).seen,
              Contains("the answer is not understood"));
   const json error{{"error", {{"code", "conflict"}, {"message", "it looks"}}}};
-  CHECK(trouble([&] { throw refused{error}; }).seen == "it looks");
+  CHECK(problem([&] { throw refused{error}; }).seen == "it looks");
 }
 
 TEST_CASE("a node that does not come into its cell says why", "[doctor]") {
@@ -86,12 +86,12 @@ TEST_CASE("instances that fail, starve or drop frames are told", "[doctor]") {
   instance_row row;
   row.spec.instance = "a-1";
   row.state = instance_state::running;
-  row.figures.frames = 1000;
-  row.figures.dropped = 3;
+  row.metrics.frames = 1000;
+  row.metrics.dropped = 3;
   CHECK(judge_instances({row})[0].how == judgement::ok);
-  row.figures.dropped = 300;
+  row.metrics.dropped = 300;
   CHECK_THAT(judge_instances({row})[0].seen, Contains("dropped 300 frames"));
-  row.figures.remark = "1000 frames in, none out";
+  row.metrics.remark = "1000 frames in, none out";
   CHECK_THAT(judge_instances({row})[0].seen,
              Contains("gives nothing: 1000 frames in, none out"));
   row.health = instance_health::starved;

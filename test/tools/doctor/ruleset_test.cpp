@@ -7,7 +7,7 @@ using namespace roscell::cli;
 
 namespace {
 
-const arriving_packet beat{"udp", 8420, "eth0"};
+const arriving_packet heartbeat{"udp", 8420, "eth0"};
 
 /// A chain of input with these rules, each the list of its expressions.
 json ruleset(const char* policy, const std::vector<const char*>& rules) {
@@ -31,7 +31,7 @@ json ruleset(const char* policy, const std::vector<const char*>& rules) {
 }
 
 packet_fate fate_of(const char* policy, const std::vector<const char*>& rules) {
-  return judge_packet(ruleset(policy, rules), beat).fate;
+  return judge_packet(ruleset(policy, rules), heartbeat).fate;
 }
 
 constexpr auto tcp_ports =
@@ -85,7 +85,7 @@ constexpr auto senders_map =
 } // namespace
 
 TEST_CASE("without rules every packet is let in", "[doctor]") {
-  CHECK(judge_packet(json::parse(R"({"nftables": []})"), beat).fate
+  CHECK(judge_packet(json::parse(R"({"nftables": []})"), heartbeat).fate
         == packet_fate::accepted);
   CHECK(fate_of("accept", {}) == packet_fate::accepted);
 }
@@ -94,7 +94,7 @@ TEST_CASE("a policy decides where no rule does", "[doctor]") {
   CHECK(fate_of("drop", {}) == packet_fate::dropped);
   CHECK(fate_of("drop", {tcp_ports, established, by_loopback})
         == packet_fate::dropped);
-  const auto verdict = judge_packet(ruleset("drop", {}), beat);
+  const auto verdict = judge_packet(ruleset("drop", {}), heartbeat);
   CHECK(verdict.why == "the policy of the chain");
   CHECK(verdict.chain == "c");
 }
@@ -139,7 +139,7 @@ TEST_CASE("a set is looked into, and a chain that is jumped to", "[doctor]") {
          {"chain", "more"},
          {"handle", 9},
          {"expr", json::parse(R"([{"accept": null}])")}}}});
-  CHECK(judge_packet(rules, beat).fate == packet_fate::accepted);
+  CHECK(judge_packet(rules, heartbeat).fate == packet_fate::accepted);
   CHECK(judge_packet(rules, {"udp", 8421, "eth0"}).fate
         == packet_fate::dropped);
 }
@@ -172,7 +172,7 @@ TEST_CASE("a map that has a name is looked into, and its chains", "[doctor]") {
   rules["nftables"].push_back(json::parse(
       R"({"rule": {"family": "inet", "table": "t", "chain": "hall",
         "handle": 9, "expr": [{"accept": null}]}})"));
-  CHECK(judge_packet(rules, beat).fate == packet_fate::accepted);
+  CHECK(judge_packet(rules, heartbeat).fate == packet_fate::accepted);
   CHECK(judge_packet(rules, {"udp", 8420, "eth1"}).fate
         == packet_fate::dropped);
 }
@@ -211,7 +211,7 @@ TEST_CASE("a port that is closed is told with the command that opens it",
   const command_result listed{0, ruleset("drop", {tcp_ports}).dump()};
   const auto found =
       judge_firewall(listed, {{{"tcp", 8420, "eth0"}, 8420, "requests"},
-                              {beat, 8420, "beats"}});
+                              {heartbeat, 8420, "heartbeats"}});
   REQUIRE(found.size() == 1);
   CHECK(found[0].how == judgement::broken);
   CHECK(found[0].remedy

@@ -1,6 +1,6 @@
 #include "tools/roscell/doctor/node/use_findings.hpp"
 
-#include "tools/roscell/view/instance_words.hpp"
+#include "tools/roscell/view/instance_text.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -15,8 +15,8 @@ instance_row using_of_asked(double memory_mib, double cpu) {
   row.spec.instance = "t-a-1";
   row.spec.resources = {0.5, 64, 1};
   row.state = instance_state::running;
-  row.figures.use.memory_mib = memory_mib;
-  row.figures.use.cpu = cpu;
+  row.metrics.use.memory_mib = memory_mib;
+  row.metrics.use.cpu = cpu;
   return row;
 }
 
@@ -32,13 +32,13 @@ TEST_CASE("what an instance takes is shown with what it may or has asked for",
   auto row = using_of_asked(61.4, 0.346);
   CHECK(memory_text(row) == "61 MiB of 64 MiB");
   CHECK(cpu_text(row) == "0.35 of 0.5");
-  row.figures.use.memory_limit_mib = 128;
+  row.metrics.use.memory_limit_mib = 128;
   CHECK(memory_text(row) == "61 MiB of 128 MiB");
   row.spec.resources = {};
-  row.figures.use.memory_limit_mib = -1;
+  row.metrics.use.memory_limit_mib = -1;
   CHECK(memory_text(row) == "61 MiB");
   CHECK(cpu_text(row) == "0.35");
-  row.figures = {};
+  row.metrics = {};
   CHECK(memory_text(row).empty());
   CHECK(cpu_text(row).empty());
 }
@@ -59,10 +59,10 @@ TEST_CASE("who takes more than it has asked for is named", "[doctor]") {
                  "t-a-1 uses 1.5 of 0.5 cores that it has asked for"));
   auto bound = using_of_asked(62, 0.1);
   CHECK(judge_use(bound).empty());
-  bound.figures.use.memory_limit_mib = 64;
+  bound.metrics.use.memory_limit_mib = 64;
   CHECK(warns_of(judge_use(bound), "t-a-1 takes 62 MiB of 64 MiB"));
-  bound.figures.use.memory_mib = 10;
-  bound.figures.use.memory_kills = 2;
+  bound.metrics.use.memory_mib = 10;
+  bound.metrics.use.memory_kills = 2;
   CHECK(warns_of(judge_use(bound), "has lost 2 processes"));
   auto free = using_of_asked(303, 2);
   free.spec.resources = {};

@@ -24,7 +24,7 @@ node_cost busy_node() {
           ""};
 }
 
-bool tells_of(const std::string& text, const std::string& part) {
+bool mentions(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
@@ -45,7 +45,7 @@ TEST_CASE("Each window of a node's cost is a row of rates", "[tools]") {
 TEST_CASE("Before any time has passed there is no rate", "[tools]") {
   const auto text =
       cost_view({{{"base", {{"minute", 0, 0, mib, 0, {}}}, ""}}}, {});
-  CHECK(tells_of(cells_in(text), "base|minute|0s|0|1 MiB|"));
+  CHECK(mentions(cells_in(text), "base|minute|0s|0|1 MiB|"));
 }
 
 TEST_CASE("What a node writes at its start is not told as that of a day",
@@ -54,15 +54,15 @@ TEST_CASE("What a node writes at its start is not told as that of a day",
     return cost_view({{{"base", {{"minute", span_s, 0, mib, 60, {}}}, ""}}},
                      {});
   };
-  CHECK_FALSE(tells_of(text(59), " KiB "));
-  CHECK(tells_of(text(60), " KiB "));
+  CHECK_FALSE(mentions(text(59), " KiB "));
+  CHECK(mentions(text(60), " KiB "));
 }
 
 TEST_CASE("Why a node's cost is not known is told below the others",
           "[tools]") {
   const auto text =
       cost_view({{busy_node(), {"leg", {}, "node 'leg' is\naway"}}}, {});
-  CHECK(tells_of(text, "\n\nleg: node 'leg' is?away\n"));
+  CHECK(mentions(text, "\n\nleg: node 'leg' is?away\n"));
 }
 
 } // namespace roscell::cli

@@ -13,13 +13,13 @@ const traffic_meter::clock::time_point start{};
 
 TEST_CASE("a rate needs two messages at different times", "[tools]") {
   traffic_meter meter{10, start};
-  CHECK_FALSE(meter.figures());
+  CHECK_FALSE(meter.metrics());
   meter.add(start, 100, 1ms);
-  CHECK_FALSE(meter.figures());
+  CHECK_FALSE(meter.metrics());
   meter.add(start, 100, 1ms);
-  CHECK_FALSE(meter.figures());
+  CHECK_FALSE(meter.metrics());
   meter.add(start + 1s, 100, 1ms);
-  CHECK(meter.figures());
+  CHECK(meter.metrics());
 }
 
 TEST_CASE("rate, gaps and bandwidth are those between first and last",
@@ -28,7 +28,7 @@ TEST_CASE("rate, gaps and bandwidth are those between first and last",
   meter.add(start, 5000, 9ms); // Its bytes came before the time counted.
   meter.add(start + 100ms, 1000, 1ms);
   meter.add(start + 400ms, 3000, 2ms);
-  const auto x = meter.figures().value();
+  const auto x = meter.metrics().value();
   CHECK(x.messages == 3);
   CHECK(x.rate_hz == Approx(5));
   CHECK(x.least_gap_ms == Approx(100));
@@ -45,6 +45,6 @@ TEST_CASE("only the last messages are measured, and all are counted",
   meter.add(start, 1, 0ms);
   for (int i = 0; i < 3; ++i)
     meter.add(start + 10s + i * 100ms, 1, 0ms);
-  CHECK(meter.figures().value().rate_hz == Approx(10));
+  CHECK(meter.metrics().value().rate_hz == Approx(10));
   CHECK(meter.total() == 4);
 }

@@ -93,11 +93,11 @@ TEST_CASE("Enter shows details of what is selected, q leads back, then out",
   bench x;
   x.press_name(key_name::down);
   x.press_name(key_name::enter);
-  CHECK(x.now.where == room::details);
+  CHECK(x.now.where == top_page::details);
   CHECK(x.now.subject.kind == thing_kind::node);
   CHECK(x.now.subject.name == "second");
   x.type("q");
-  CHECK(x.now.where == room::overview);
+  CHECK(x.now.where == top_page::overview);
   CHECK_FALSE(x.now.left);
   x.type("q");
   CHECK(x.now.left);
@@ -112,19 +112,19 @@ TEST_CASE("a selected thing that is gone is the first instead", "[top]") {
   x.now = {};
   x.press_name(key_name::down);
   x.press_name(key_name::enter);
-  CHECK(x.now.where == room::overview);
+  CHECK(x.now.where == top_page::overview);
   CHECK(x.now.note == "nothing is selected");
 }
 
 TEST_CASE("only an instance has a log, and others say so", "[top]") {
   bench x;
   x.type("l");
-  CHECK(x.now.where == room::overview);
+  CHECK(x.now.where == top_page::overview);
   CHECK(x.now.note.find("only instances have a log") == 0);
   x.press_name(key_name::back_tab);
   CHECK(x.now.note.empty());
   x.type("l");
-  CHECK(x.now.where == room::log);
+  CHECK(x.now.where == top_page::log);
 }
 
 TEST_CASE("a log follows its end until somebody looks back, and then again",
@@ -152,9 +152,9 @@ TEST_CASE("a text has a filter of its own", "[top]") {
   CHECK(x.now.filter == "arm");
   x.press_name(key_name::enter);
   x.press_name(key_name::escape);
-  CHECK(x.now.where == room::events);
+  CHECK(x.now.where == top_page::events);
   CHECK(x.now.text_filter.empty());
   x.press_name(key_name::escape);
-  CHECK(x.now.where == room::overview);
+  CHECK(x.now.where == top_page::overview);
   CHECK(x.now.filter == "arm");
 }

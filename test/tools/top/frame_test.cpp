@@ -12,7 +12,7 @@ namespace {
 
 /// A cell with a GPU on one of two nodes, and a task.
 struct frame_bench {
-  book known;
+  cell_model known;
   std::vector<std::string> log;
   controls now;
 
@@ -64,8 +64,8 @@ using roscell::test::has;
 TEST_CASE("a screen has as many lines as there are, none of them too wide",
           "[top]") {
   frame_bench x;
-  for (const auto where :
-       {room::overview, room::details, room::log, room::events, room::help}) {
+  for (const auto where : {top_page::overview, top_page::details, top_page::log,
+                           top_page::events, top_page::help}) {
     x.now.where = where;
     for (size_t width = 1; width < 130; width += 3)
       for (size_t height = 0; height < 30; ++height) {
@@ -128,7 +128,7 @@ TEST_CASE("a member says that it knows of itself only", "[top]") {
 TEST_CASE("the help is read on 80 columns and 24 lines without moving",
           "[top]") {
   frame_bench x;
-  x.now.where = room::help;
+  x.now.where = top_page::help;
   const auto text = x.text();
   INFO(text);
   CHECK(has(text, "Up Down PgUp PgDn Home End   move"));
@@ -139,7 +139,7 @@ TEST_CASE("the help is read on 80 columns and 24 lines without moving",
 
 TEST_CASE("details of a thing that is gone say so", "[top]") {
   frame_bench x;
-  x.now.where = room::details;
+  x.now.where = top_page::details;
   x.now.subject = {thing_kind::task, "t"};
   CHECK(has(x.text(), "Kind:           task"));
   x.now.subject.name = "u";
@@ -148,7 +148,7 @@ TEST_CASE("details of a thing that is gone say so", "[top]") {
 
 TEST_CASE("a text shows its end, or from where somebody looks", "[top]") {
   frame_bench x;
-  x.now.where = room::log;
+  x.now.where = top_page::log;
   for (int i = 0; i < 100; ++i)
     x.log.push_back("line " + std::to_string(i) + ".");
   x.now.at_end = true;

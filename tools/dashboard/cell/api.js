@@ -47,9 +47,9 @@ export async function follow(path, { signal, onOpen, onText }) {
 async function ask(path, options) {
   try {
     return await fetch(new URL(path, base), { cache: 'no-store', credentials: 'same-origin', ...options });
-  } catch (trouble) {
-    if (options.signal?.aborted && trouble.name === 'AbortError')
-      throw trouble;
+  } catch (problem) {
+    if (options.signal?.aborted && problem.name === 'AbortError')
+      throw problem;
     throw new NoAnswer('the node does not answer');
   }
 }
@@ -58,9 +58,9 @@ async function read(response) {
   let body;
   try {
     body = await response.json();
-  } catch (trouble) {
-    if (trouble.name === 'AbortError')
-      throw trouble;
+  } catch (problem) {
+    if (problem.name === 'AbortError')
+      throw problem;
     throw new NoAnswer(`the answer cannot be read (HTTP ${response.status})`);
   }
   if (body?.type === 'error')

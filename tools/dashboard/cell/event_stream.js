@@ -1,4 +1,4 @@
-// The facts of the node, as they happen. A browser's EventSource would need the
+// The events of the node, as they happen. A browser's EventSource would need the
 // name of every event in advance; a newer node may tell some that are not known
 // here, so the text of the stream is read by hand.
 import { follow, get } from './api.js';

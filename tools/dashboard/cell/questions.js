@@ -8,9 +8,9 @@ const ROUND_MS = 500;
 const MOST_TASKS = 5;
 
 export class Questions {
-  constructor(store, onTrouble) {
+  constructor(store, onProblem) {
     this.store = store;
-    this.onTrouble = onTrouble;
+    this.onProblem = onProblem;
     this.wanted = new Map();
     this.earliest = new Map();
     this.timer = null;
@@ -69,11 +69,11 @@ export class Questions {
     const begun = Date.now();
     try {
       await this.store.flights.during(() => ANSWERS[kind](this.store, name), this.want);
-    } catch (trouble) {
-      if (trouble instanceof Refusal && trouble.code === 'unknown_task')
+    } catch (problem) {
+      if (problem instanceof Refusal && problem.code === 'unknown_task')
         this.store.dropTask(name);
-      else if (trouble instanceof NoAnswer)
-        this.onTrouble(trouble);
+      else if (problem instanceof NoAnswer)
+        this.onProblem(problem);
     }
     // Large answers are asked for less often; a task's is small.
     if (kind !== 'task')

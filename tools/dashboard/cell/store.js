@@ -13,7 +13,7 @@ export class Store {
     this.nodes = new Map();
     this.tasks = new Map();
     this.instances = new Map();
-    this.figures = new Map();
+    this.metrics = new Map();
     this.free = [];
     this.cells = [];
     this.skills = [];
@@ -62,14 +62,14 @@ export class Store {
       this.placeInstances(row.instances);
     for (const row of rows)
       this.placeTask(row);
-    this.pruneFigures();
+    this.pruneMetrics();
     this.touch('tasks', 'instances');
   }
 
   /** Replaces a task, and with it what is known of its instances. */
   putTask(row) {
     this.placeTask(row);
-    this.pruneFigures();
+    this.pruneMetrics();
     this.touch('tasks', 'instances');
   }
 
@@ -91,14 +91,14 @@ export class Store {
   dropTask(task) {
     this.forgetInstances(task);
     this.tasks.delete(task);
-    this.pruneFigures();
+    this.pruneMetrics();
     this.touch('tasks', 'instances');
   }
 
-  pruneFigures() {
-    for (const instance of this.figures.keys())
+  pruneMetrics() {
+    for (const instance of this.metrics.keys())
       if (!this.instances.has(instance))
-        this.figures.delete(instance);
+        this.metrics.delete(instance);
   }
 
   /** A task that was terminated: nothing is asked of it any more. */
@@ -124,10 +124,10 @@ export class Store {
     return [...this.instances.values()].filter((x) => x.node === node);
   }
 
-  setFigures(rows) {
+  setMetrics(rows) {
     for (const row of rows)
-      this.figures.set(row.spec.instance, { ...row.figures, status: row.status });
-    this.touch('figures');
+      this.metrics.set(row.spec.instance, { ...row.figures, status: row.status });
+    this.touch('metrics');
   }
 
   addEvents(events) {

@@ -162,7 +162,7 @@ function pathBack({ from, to }) {
   return `M${from.x + from.width} ${middle(from)}C${from.x + from.width + 60} ${low} ${to.x - 60} ${low} ${to.x} ${middle(to)}`;
 }
 
-/** A line for each stream, at most three, and one for the figures. */
+/** A line for each stream, at most three, and one for the metrics. */
 export function labelHeight(arrow) {
   return LINE * (Math.min(3, arrow.streams.length) + 1);
 }

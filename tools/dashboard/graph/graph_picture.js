@@ -62,7 +62,7 @@ export class GraphPicture {
 
   makeStep({ x, y, width, height, step }) {
     const parts = {
-      mark: svg('path', {}), state: svg('tspan', {}), figures: svg('tspan', {}), title: svg('title', {}),
+      mark: svg('path', {}), state: svg('tspan', {}), metrics: svg('tspan', {}), title: svg('title', {}),
     };
     parts.box = svg('rect', { x, y, width, height, rx: 3 });
     parts.stripe = svg('rect', { x, y, width: 4, height });
@@ -71,21 +71,21 @@ export class GraphPicture {
       svg('text', { x: x + 14, y: y + 19, class: 'step-name' }, shortName(step.id, 22)),
       svg('text', { x: x + 14, y: y + 35, class: 'soft' }, shortName(`${step.row.spec.operation} / ${step.row.spec.model}`, 27)),
       svg('g', { transform: `translate(${x + 14} ${y + 43})` }, parts.mark,
-        svg('text', { x: 17, y: 10 }, parts.state, parts.figures)));
+        svg('text', { x: 17, y: 10 }, parts.state, parts.metrics)));
   }
 
   updateStep(row) {
     const parts = this.boxes.get(row.spec.step);
     const state = instanceState(row);
     const kind = kindOf(state);
-    const figures = this.store.figures.get(row.spec.instance) ?? {};
+    const metrics = this.store.metrics.get(row.spec.instance) ?? {};
     setAttribute(parts.mark, 'd', shapePath(kind));
     setAttribute(parts.mark, 'class', `mark ${kind}`);
     setAttribute(parts.stripe, 'class', `stripe ${kind}`);
     setText(parts.state, spoken(state));
-    const words = [figures.latency_ms === undefined ? '' : milliseconds(figures.latency_ms), figures.dropped ? `${figures.dropped} dropped` : ''];
-    setText(parts.figures, words.filter(Boolean).map((x) => ` · ${x}`).join(''));
-    setText(parts.title, `${row.spec.step}: ${spoken(state)} on ${row.node}. ${row.reason ?? row.health_reason ?? figures.remark ?? ''}`);
+    const words = [metrics.latency_ms === undefined ? '' : milliseconds(metrics.latency_ms), metrics.dropped ? `${metrics.dropped} dropped` : ''];
+    setText(parts.metrics, words.filter(Boolean).map((x) => ` · ${x}`).join(''));
+    setText(parts.title, `${row.spec.step}: ${spoken(state)} on ${row.node}. ${row.reason ?? row.health_reason ?? metrics.remark ?? ''}`);
   }
 
   makeArrow(arrow) {
@@ -97,13 +97,13 @@ export class GraphPicture {
   makeLabel(arrow) {
     const height = labelHeight(arrow);
     const top = arrow.label.y - height / 2;
-    const figures = svg('text', { x: arrow.label.x, y: top + height - 4, class: 'figures' });
-    this.arrows.get(arrow.key).figures = figures;
+    const metrics = svg('text', { x: arrow.label.x, y: top + height - 4, class: 'metrics' });
+    this.arrows.get(arrow.key).metrics = metrics;
     return svg('g', { class: 'flow' },
       streamTitle(arrow.streams),
       svg('rect', { x: arrow.label.x - 76, y: top, width: 152, height: height + 2, rx: 3 }),
       lines(arrow.streams).map((words, index) => svg('text', { x: arrow.label.x, y: top + 12 + 15 * index }, words)),
-      figures);
+      metrics);
   }
 
   updateArrow({ key, from, to }) {
@@ -112,10 +112,10 @@ export class GraphPicture {
     const reader = to.step && this.store.instances.get(to.step.row.spec.instance);
     const flows = [[from, writer], [to, reader]].every(([end, row]) => !end.step || row && instanceState(row) === 'running');
     setAttribute(parts.line, 'class', `arrow ${flows ? 'flows' : 'still'}`);
-    const figures = this.store.figures.get(writer?.spec.instance) ?? {};
-    const words = [hertz(figures.rate_hz), timeWords(figures)].filter(Boolean);
-    if (parts.figures)
-      setText(parts.figures, flows ? words.join(' · ') || 'no figures' : 'nothing flows');
+    const metrics = this.store.metrics.get(writer?.spec.instance) ?? {};
+    const words = [hertz(metrics.rate_hz), timeWords(metrics)].filter(Boolean);
+    if (parts.metrics)
+      setText(parts.metrics, flows ? words.join(' · ') || 'no metrics' : 'nothing flows');
   }
 }
 

@@ -2,7 +2,7 @@
 // line and a mark at each that is wrong.
 import { button, el, freshId, keyed, setAttribute, setText } from '../page/dom.js';
 import { onceAFrame } from '../page/frames.js';
-import { JsonTrouble, lineOf, placeOf, placesIn } from './json_places.js';
+import { JsonProblem, lineOf, placeOf, placesIn } from './json_places.js';
 
 export class JsonBox {
   /** `onDocument(document)` hears of what somebody writes here, when it is JSON. */
@@ -11,7 +11,7 @@ export class JsonBox {
     this.onDocument = onDocument;
     this.wrong = new Set();
     this.numbers = el('div', { class: 'numbers', 'aria-hidden': 'true' });
-    this.trouble = el('p', { class: 'state bad', role: 'status' });
+    this.problem = el('p', { class: 'state bad', role: 'status' });
     this.area = el('textarea', {
       id, spellcheck: 'false', autocomplete: 'off', autocapitalize: 'off', wrap: 'off', readonly: readOnly, rows: 6,
       on: { input: () => this.onInput(), scroll: () => { this.numbers.scrollTop = this.area.scrollTop; } },
@@ -20,7 +20,7 @@ export class JsonBox {
     this.root = el('div', { class: 'json' },
       el('p', { class: 'json-head' }, el('label', { for: id }, label), this.copied,
         button('Copy', () => this.copy(), { class: 'quiet' })),
-      el('div', { class: 'json-body' }, this.numbers, this.area), this.trouble);
+      el('div', { class: 'json-body' }, this.numbers, this.area), this.problem);
     this.drawNumbers = onceAFrame(() => this.showNumbers());
   }
 
@@ -33,7 +33,7 @@ export class JsonBox {
     if (text === this.area.value)
       return;
     this.area.value = text;
-    setText(this.trouble, '');
+    setText(this.problem, '');
     this.clearMarks();
   }
 
@@ -41,14 +41,14 @@ export class JsonBox {
     this.clearMarks();
     try {
       placesIn(this.text);
-      setText(this.trouble, '');
+      setText(this.problem, '');
       this.onDocument(JSON.parse(this.text));
-    } catch (trouble) {
-      if (!(trouble instanceof JsonTrouble))
-        throw trouble;
-      const line = lineOf(this.text, trouble.at);
+    } catch (problem) {
+      if (!(problem instanceof JsonProblem))
+        throw problem;
+      const line = lineOf(this.text, problem.at);
       this.wrong.add(line);
-      setText(this.trouble, `Line ${line}: ${trouble.message}`);
+      setText(this.problem, `Line ${line}: ${problem.message}`);
     }
   }
 

@@ -5,7 +5,7 @@ const SPACE = /[ \t\r\n]*/y;
 const STRING = /"(?:[^"\\\u0000-\u001f]|\\(?:["\\/bfnrt]|u[0-9a-fA-F]{4}))*"/y;
 const PLAIN = /-?(?:0|[1-9]\d*)(?:\.\d+)?(?:[eE][+-]?\d+)?|true|false|null/y;
 
-export class JsonTrouble extends Error {
+export class JsonProblem extends Error {
   constructor(words, at) {
     super(words);
     this.at = at;
@@ -17,7 +17,7 @@ export function placesIn(text) {
   const reader = { text, at: 0, places: new Map() };
   readValue(reader, '');
   if (reader.at < text.length)
-    throw new JsonTrouble('something stands behind the end of the document', reader.at);
+    throw new JsonProblem('something stands behind the end of the document', reader.at);
   return reader.places;
 }
 
@@ -42,7 +42,7 @@ function readValue(reader, pointer) {
   else if (first === '[')
     readList(reader, pointer);
   else if (!skip(reader, STRING) && !skip(reader, PLAIN))
-    throw new JsonTrouble('expected a value', from);
+    throw new JsonProblem('expected a value', from);
   reader.places.set(pointer, [from, reader.at]);
   skip(reader, SPACE);
 }
@@ -56,7 +56,7 @@ function readMember(reader, pointer) {
   skip(reader, SPACE);
   const from = reader.at;
   if (!skip(reader, STRING))
-    throw new JsonTrouble('expected a name in quotes', from);
+    throw new JsonProblem('expected a name in quotes', from);
   const name = JSON.parse(reader.text.slice(from, reader.at));
   skip(reader, SPACE);
   expect(reader, ':');
@@ -82,7 +82,7 @@ function readAll(reader, end, readOne) {
 
 function expect(reader, mark, other) {
   if (reader.text[reader.at] !== mark)
-    throw new JsonTrouble(`expected '${mark}'${other ? ` or '${other}'` : ''}`, reader.at);
+    throw new JsonProblem(`expected '${mark}'${other ? ` or '${other}'` : ''}`, reader.at);
   reader.at += 1;
 }
 

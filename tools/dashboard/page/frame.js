@@ -1,4 +1,4 @@
-// What stays while rooms change: the way between them, how the node is reached,
+// What stays while pages change: the way between them, how the node is reached,
 // help, theme, shortcuts.
 import { button, el, replace, setAttribute, setText } from './dom.js';
 import { openHelp } from './help.js';
@@ -22,7 +22,7 @@ export class Frame {
   constructor(app, stream) {
     this.app = app;
     this.stream = stream;
-    this.main = document.getElementById('room');
+    this.main = document.getElementById('page');
     this.links = new Map();
     document.getElementById('ways').append(...WAYS.map((way) => this.makeWay(way)));
     this.link = stateMark('connecting');
@@ -43,17 +43,17 @@ export class Frame {
     return this.app.store;
   }
 
-  makeWay([room, title]) {
+  makeWay([page, title]) {
     const amount = el('span', { class: 'amount' });
-    const link = el('a', { href: address(room) }, el('span', {}, title), amount);
-    this.links.set(room, { link, amount });
+    const link = el('a', { href: address(page) }, el('span', {}, title), amount);
+    this.links.set(page, { link, amount });
     return el('li', {}, link);
   }
 
   setUpKeys(nextTheme) {
     const keys = new Shortcuts();
-    for (const [room, , key, meaning] of WAYS)
-      keys.add(`g ${key}`, `Go to ${meaning}`, () => this.app.go(address(room)));
+    for (const [page, , key, meaning] of WAYS)
+      keys.add(`g ${key}`, `Go to ${meaning}`, () => this.app.go(address(page)));
     keys.add('/', 'Filter what is shown', () => this.main.querySelector('input[type=search]')?.focus());
     keys.add('n', 'A new task', () => this.app.go(address('plan')));
     keys.add('m', 'Change the theme', () => this.app.announcer.say(`Theme: ${nextTheme()}`));
@@ -61,18 +61,18 @@ export class Frame {
     document.getElementById('help').addEventListener('click', () => openHelp(keys));
   }
 
-  /** The address stays that of the room, which is not made anew. */
+  /** The address stays that of the page, which is not made anew. */
   skip(event) {
     event.preventDefault();
     this.main.focus();
   }
 
-  show(where, room) {
-    replace(this.main, room.root);
+  show(where, page) {
+    replace(this.main, page.root);
     this.mark(where);
     window.scrollTo(0, 0);
     // Who listens to the page hears where it is now.
-    const title = room.root.querySelector('h1');
+    const title = page.root.querySelector('h1');
     if (title && this.shown) {
       title.tabIndex = -1;
       title.focus({ preventScroll: true });
@@ -81,9 +81,9 @@ export class Frame {
   }
 
   mark(where) {
-    const here = PARENT[where.room] ?? where.room;
-    for (const [room, { link }] of this.links)
-      setAttribute(link, 'aria-current', room === here ? 'page' : null);
+    const here = PARENT[where.page] ?? where.page;
+    for (const [page, { link }] of this.links)
+      setAttribute(link, 'aria-current', page === here ? 'page' : null);
     this.links.get(here)?.link.scrollIntoView({ block: 'nearest', inline: 'nearest' });
   }
 
@@ -96,13 +96,13 @@ export class Frame {
       setText(document.getElementById('node-name'), store.me ? `by ${store.me.identity.name}` : '');
     }
     const lost = [...store.nodes.values()].filter((x) => x.state === 'lost').length;
-    const troubled = [...store.tasks.values()].filter((x) => ['failed', 'degraded'].includes(x.state)).length;
+    const withProblems = [...store.tasks.values()].filter((x) => ['failed', 'degraded'].includes(x.state)).length;
     this.showAmount('site', lost, count(lost, 'lost node'));
-    this.showAmount('tasks', troubled, `${count(troubled, 'task')} in trouble`);
+    this.showAmount('tasks', withProblems, `${count(withProblems, 'task')} with problems`);
   }
 
-  showAmount(room, amount, meaning) {
-    const element = this.links.get(room).amount;
+  showAmount(page, amount, meaning) {
+    const element = this.links.get(page).amount;
     setText(element, amount || '');
     setAttribute(element, 'title', amount ? meaning : null);
     setAttribute(element, 'aria-label', amount ? meaning : null);

@@ -12,8 +12,8 @@ const MARKS = [
 const WORDS = [
   'The page reads the cell once, then follows the node’s events. What an event says is shown at once; what it does '
   + 'not say is asked for, in at most two rounds of questions a second.',
-  'Figures that no event tells (what is used of the nodes, rates, latencies) are asked for every 5 s at most, only '
-  + 'those of the room that is open, only while the page can be seen, and more seldom where the answer takes long: a '
+  'Metrics that no event tells (what is used of the nodes, rates, latencies) are asked for every 5 s at most, only '
+  + 'those of the page that is open, only while the page can be seen, and more seldom where the answer takes long: a '
   + 'hundred times its duration lies between two questions. The lines of the last ten minutes begin when the page is opened.',
   'A page that has been hidden for a minute lets go of the node, and reads what it has missed when it is looked at again. '
   + 'If the node does not answer, the page says so and looks again, after 0.5 s at first and every 15 s at last.',

@@ -1,5 +1,5 @@
 // States are told by a shape, a colour and a word: whoever does not see one of
-// them has the others. Small pictures of figures stand here too.
+// them has the others. Small pictures of metrics stand here too.
 import { el, setAttribute, setText, svg } from './dom.js';
 import { kindOf, percent, spoken } from './words.js';
 

@@ -2,11 +2,11 @@
 // somebody, and gone back from.
 import { el } from './dom.js';
 
-/** '#/tasks/fetch?step=a' is {room: 'tasks', name: 'fetch', query}. */
+/** '#/tasks/fetch?step=a' is {page: 'tasks', name: 'fetch', query}. */
 export function place(hash = location.hash) {
   const [path, query = ''] = hash.replace(/^#\/?/, '').split('?');
-  const [room = '', ...rest] = path.split('/');
-  return { room: room || 'site', name: safelyDecoded(rest.join('/')), query: new URLSearchParams(query) };
+  const [page = '', ...rest] = path.split('/');
+  return { page: page || 'site', name: safelyDecoded(rest.join('/')), query: new URLSearchParams(query) };
 }
 
 function safelyDecoded(text) {
@@ -17,9 +17,9 @@ function safelyDecoded(text) {
   }
 }
 
-export function address(room, name = '', query = {}) {
+export function address(page, name = '', query = {}) {
   const words = new URLSearchParams(query).toString();
-  return `#/${room}${name ? `/${encodeURIComponent(name)}` : ''}${words ? `?${words}` : ''}`;
+  return `#/${page}${name ? `/${encodeURIComponent(name)}` : ''}${words ? `?${words}` : ''}`;
 }
 
 /** A link that looks like a button. */

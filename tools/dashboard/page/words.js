@@ -6,7 +6,7 @@ const KINDS = {
   done: ['finished', 'done', 'drained'],
   busy: ['pending', 'building', 'starting', 'deploying', 'reserved', 'departing', 'preparing', 'switching',
     'joining', 'stopping', 'terminating', 'expected', 'connecting'],
-  warn: ['degraded', 'backing_off', 'draining', 'starved', 'unhealthy', 'unresolved', 'returned', 'trouble',
+  warn: ['degraded', 'backing_off', 'draining', 'starved', 'unhealthy', 'unresolved', 'returned', 'problem',
     'orphaned', 'unsafe'],
   bad: ['failed', 'lost', 'away', 'refused'],
   off: ['stopped', 'independent', 'paused'],

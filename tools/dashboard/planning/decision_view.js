@@ -24,8 +24,8 @@ export class DecisionView {
   async ask(type, member, view) {
     try {
       return view(await send(JSON.stringify({ type, [member]: this.task })));
-    } catch (trouble) {
-      return el('p', { class: 'soft' }, trouble.message);
+    } catch (problem) {
+      return el('p', { class: 'soft' }, problem.message);
     }
   }
 }

@@ -1,4 +1,4 @@
-// The task that somebody is writing: it stays while they look into other rooms.
+// The task that somebody is writing: it stays while they look into other pages.
 let draft = null;
 let notes = [];
 

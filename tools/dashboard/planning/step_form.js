@@ -5,7 +5,7 @@ import { choice, field, setOrDrop, textInput } from './field.js';
 import { parameterField } from './parameter_field.js';
 import { streamFields } from './stream_fields.js';
 import { labelsOf } from './task_document.js';
-import { labelWords } from '../rooms/node_table.js';
+import { labelWords } from '../pages/node_table.js';
 
 /** `skills` are descriptors; `redo` makes the whole form again. */
 export function stepForm({ step, index, pipeline, skills, onChange, redo }) {
@@ -87,5 +87,5 @@ function lifeFields(step, { where, onChange }) {
     field(`${where}/restart`, 'Restart', choice([['', 'as the skill has it'], 'on_failure', 'always', 'never'], step.restart?.policy ?? '', policy('restart'))),
     field(`${where}/on_node_loss`, 'If its node is lost', choice([['', 'as the skill has it'], 'wait', 'move'], step.on_node_loss?.policy ?? '', policy('on_node_loss'))),
     field(`${where}/priority`, 'Priority (0 to 9)', textInput(step.priority ?? '', whole('priority'), { type: 'number', min: 0, max: 9 })),
-    field(`${where}/safe_timeout_s`, 'Waits to be safe (s)', textInput(step.safe_timeout_s ?? '', whole('safe_timeout_s'), { type: 'number', min: 0, placeholder: '0: for ever' }))));
+    field(`${where}/safe_timeout_s`, 'Waits to be stop-safe (s)', textInput(step.safe_timeout_s ?? '', whole('safe_timeout_s'), { type: 'number', min: 0, placeholder: '0: for ever' }))));
 }

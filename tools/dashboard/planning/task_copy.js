@@ -54,7 +54,7 @@ function topicWord(text) {
 function notesOf(task, specs) {
   const shared = specs.flatMap((spec) => asList(spec.output).filter((x) => !isNamedAfter(spec, x))).map((x) => x.endpoint);
   return [
-    `Copied from what runs of task ${task}. Which labels its steps asked of their nodes, and whether others were to make way, is not known there.`,
+    `Copied from what runs of task ${task}. Which labels its steps asked of their nodes, and whether others were to be preempted, is not known there.`,
     ...shared.length === 0 ? [] : [`It writes where that task does: ${[...new Set(shared)].join(', ')}. Where both are to run, one needs other places.`],
   ];
 }

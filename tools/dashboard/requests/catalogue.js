@@ -1,8 +1,8 @@
 // The requests that can be made here, and what each of them says. A field that is
-// left empty is left out of the document. New tasks have a room of their own.
+// left empty is left out of the document. New tasks have a page of their own.
 import { setOrDrop } from '../planning/field.js';
 
-const force = { name: 'force', kind: 'flag', label: 'End at once what is not safe yet' };
+const force = { name: 'force', kind: 'flag', label: 'End at once what is not stop-safe yet' };
 const instances = {
   name: 'instances', kind: 'choice', label: 'Its instances', choices: ['refuse', 'terminate', 'reschedule'],
   about: 'refuse: the node stays while it has some; terminate: their whole tasks end; reschedule: they start elsewhere first',

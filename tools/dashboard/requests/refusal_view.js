@@ -11,24 +11,24 @@ import { preemptedList, rejectedTable } from '../planning/plan_tables.js';
 const NO_ANSWER_STATUS = 502;
 
 /** Of what was to change something. `again` sends the very same once more. */
-export function openEnd(trouble, sent, again) {
+export function openEnd(problem, sent, again) {
   const look = sent.task ? ['tasks', sent.task] : sent.node ? ['nodes', sent.node] : ['events'];
-  return el('div', { class: 'refusal', role: 'alert' }, head('No answer', trouble.message),
+  return el('div', { class: 'refusal', role: 'alert' }, head('No answer', problem.message),
     el('p', {}, 'It is not known whether it was done. Sent again it is the same request, by its ', el('code', {}, 'request_id'),
       ': unless the node has been started anew meanwhile it is done once only, and its answer comes.'),
     el('p', { class: 'actions' }, button('Send it again', again),
       way(`Look at ${sent.task ?? sent.node ?? 'the events'}`, ...look)));
 }
 
-export function isOpenEnd(trouble) {
-  return !(trouble instanceof Refusal) || trouble.status === NO_ANSWER_STATUS || trouble.code === 'timeout';
+export function isOpenEnd(problem) {
+  return !(problem instanceof Refusal) || problem.status === NO_ANSWER_STATUS || problem.code === 'timeout';
 }
 
 /** `box` is the JSON that was sent; `fields`, if given, marks the places in a form too. */
-export function refusalView(trouble, box, fields) {
-  if (!(trouble instanceof Refusal))
-    return el('div', { class: 'refusal', role: 'alert' }, head('No answer', trouble.message));
-  const { error } = trouble;
+export function refusalView(problem, box, fields) {
+  if (!(problem instanceof Refusal))
+    return el('div', { class: 'refusal', role: 'alert' }, head('No answer', problem.message));
+  const { error } = problem;
   const places = placesOf(error);
   const lines = box ? box.mark(places.map((x) => x.where)) : [];
   // That nothing fits is no mistake of a field.

@@ -29,17 +29,17 @@ export class Sender {
     try {
       const reply = await send(text, this.cutter.signal);
       replace(this.reply, this.onReply?.(reply) ?? replyView(reply));
-    } catch (trouble) {
-      replace(this.reply, this.troubleView(trouble, text));
+    } catch (problem) {
+      replace(this.reply, this.problemView(problem, text));
     }
     this.busy(false);
     this.reply.scrollIntoView({ block: 'nearest' });
   }
 
-  troubleView(trouble, text) {
-    if (trouble.name === 'AbortError')
+  problemView(problem, text) {
+    if (problem.name === 'AbortError')
       return el('p', {}, 'The node goes on with it; its events tell how it ends.');
-    return isOpenEnd(trouble) ? openEnd(trouble, objectIn(text) ?? {}, () => this.send(text)) : refusalView(trouble, this.box, this.fields);
+    return isOpenEnd(problem) ? openEnd(problem, objectIn(text) ?? {}, () => this.send(text)) : refusalView(problem, this.box, this.fields);
   }
 
   busy(whether) {
@@ -76,7 +76,7 @@ export function replyView(reply) {
 
 function summary(reply) {
   if (reply.type === 'task_terminated' && reply.waiting?.length)
-    return `${reply.waiting.length} instances are waited for until they are safe`;
+    return `${reply.waiting.length} instances are waited for until they are stop-safe`;
   if (reply.type === 'node_drained')
     return reply.left.length ? `${reply.left.length} instances are still there. ${reply.trouble ?? ''}` : 'it is empty';
   if (reply.type === 'cell_rebalanced')

@@ -58,7 +58,7 @@ std::vector<kept_log> find_kept_logs(const std::vector<kept_log>& known,
                       joined(ids, ", ")};
 }
 
-std::string kept_log_words(const kept_log& log, int64_t now_unix_ms) {
+std::string kept_log_text(const kept_log& log, int64_t now_unix_ms) {
   auto result = printable(log.instance) + " on node " + printable(log.node)
                 + ": " + std::string{to_string(log.state)};
   if (log.ended_unix_ms > 0)

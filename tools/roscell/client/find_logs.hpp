@@ -16,6 +16,6 @@ std::vector<kept_log> find_kept_logs(const std::vector<kept_log>& known,
                                      const std::string& word);
 
 /// "i on node belt: stopped 5m02s ago (removed)".
-std::string kept_log_words(const kept_log& log, int64_t now_unix_ms);
+std::string kept_log_text(const kept_log& log, int64_t now_unix_ms);
 
 } // namespace roscell::cli

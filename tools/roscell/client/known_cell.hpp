@@ -14,7 +14,7 @@ namespace roscell::cli {
 struct known_cell {
   node_description asked; ///< The node that was asked.
   cell_description cell;
-  std::vector<instance_row> instances; ///< With their figures.
+  std::vector<instance_row> instances; ///< With their metrics.
   skill_list skills;
   std::vector<event> events; ///< The oldest first.
 };

@@ -1,7 +1,7 @@
 #include "tools/roscell/client/node_client.hpp"
 
 #include "messages/failure.hpp"
-#include "tools/roscell/client/event_words.hpp"
+#include "tools/roscell/client/event_text.hpp"
 #include "tools/roscell/view/format.hpp"
 
 #include <CLI/CLI.hpp>

@@ -80,8 +80,8 @@ int describe(const describe_options& options) {
 
 void add_describe_command(CLI::App& app, action& chosen) {
   auto options = std::make_shared<describe_options>();
-  auto* command =
-      app.add_subcommand("describe", "Tell all that is known of one thing.");
+  auto* command = app.add_subcommand(
+      "describe", "Describe a node, task, instance, skill or cell.");
   command->footer("KIND is node, task, instance, skill or cell; it can be left "
                   "out if only one thing\nhas the name. Of an instance the "
                   "beginning of its id is enough.\n\nExamples:\n"

@@ -1,5 +1,5 @@
 #include "messages/formation.hpp"
-#include "tools/roscell/client/event_words.hpp"
+#include "tools/roscell/client/event_text.hpp"
 #include "tools/roscell/client/node_client.hpp"
 #include "tools/roscell/commands.hpp"
 #include "tools/roscell/common_options.hpp"
@@ -40,8 +40,8 @@ void print_progress(const node_drained& x) {
     return print_note(node + " is empty and takes nothing new");
   print_note(node + " takes nothing new; " + std::to_string(x.left.size())
              + " of its instances leave: " + printable(joined(x.left, ", ")));
-  if (!x.trouble.empty())
-    print_note("they cannot at present: " + printable(x.trouble));
+  if (!x.problem.empty())
+    print_note("they cannot at present: " + printable(x.problem));
 }
 
 /// What moves, what waits and what is wrong is told on the way.
@@ -58,7 +58,7 @@ void wait_until_empty(const node_client& node, const std::string& name,
                            + " runs on " + event_text(e, "to")));
     else if (awaited)
       print_note(printable("waits for '" + event_text(e, "task") + "/"
-                           + event_text(e, "step") + "' to be safe"));
+                           + event_text(e, "step") + "' to be stop-safe"));
     else if (e.what == "node_drain_stuck" && e.subject == name)
       print_note(printable("it cannot be emptied at present: "
                            + event_text(e, "reason")));
@@ -117,7 +117,8 @@ void add_drain_commands(CLI::App& app, action& chosen) {
   auto* command = add_command(
       app, "drain",
       "Move every instance away from a node, which takes no new one.",
-      "Steps move as others have room for them; those that have to be safe "
+      "Steps move as others have room for them; those that have to be "
+      "stop-safe "
       "first are waited\nfor. It stays so over restarts, until `roscell "
       "undrain`.\n\n"
       "Examples:\n  roscell drain arm-1\n  roscell drain arm-1 --until-empty",
@@ -125,7 +126,7 @@ void add_drain_commands(CLI::App& app, action& chosen) {
   command->add_flag("--until-empty", options->until_empty,
                     "Wait until nothing is left on it");
   command->add_flag("--force", options->force,
-                    "Do not wait any longer for what is not safe");
+                    "Do not wait any longer for what is not stop-safe");
   command->callback(
       [&chosen, options] { chosen = [options] { return drain(*options); }; });
   auto again = std::make_shared<drain_options>();

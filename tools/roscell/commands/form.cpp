@@ -1,4 +1,4 @@
-#include "tools/roscell/client/event_words.hpp"
+#include "tools/roscell/client/event_text.hpp"
 #include "tools/roscell/client/node_client.hpp"
 #include "tools/roscell/commands.hpp"
 #include "tools/roscell/common_options.hpp"

@@ -15,7 +15,7 @@ namespace roscell::cli {
 namespace {
 
 /// The coordinator asks the members, and waits no longer than this.
-constexpr std::chrono::seconds figures_limit{10};
+constexpr std::chrono::seconds metrics_limit{10};
 
 struct graph_options {
   connection_options connection;
@@ -28,7 +28,7 @@ task_graph ask_for_graph(const node_client& node, const std::string& task) {
   node.get("/v1/tasks/" + percent_encode(task));
   instance_query query;
   query.task = task;
-  return graph_of(task, node.ask(message_json(query), figures_limit)
+  return graph_of(task, node.ask(message_json(query), metrics_limit)
                             .get<instance_description>()
                             .instances);
 }

@@ -9,18 +9,18 @@
 
 namespace roscell::cli {
 
-log_printer::log_printer(const log_wish& wish, const node_client& node,
+log_printer::log_printer(const log_request& request, const node_client& node,
                          log_query subject, const std::string& prefix)
-    : wish_{wish}, node_{node}, subject_{std::move(subject)},
+    : request_{request}, node_{node}, subject_{std::move(subject)},
       lines_{prefix, stdout_is_terminal() ? log_reader::terminal
                                           : log_reader::program} {
   // nop
 }
 
 void log_printer::run() {
-  if (subject_.previous && wish_.tail > 0)
+  if (subject_.previous && request_.tail > 0)
     print_end();
-  else if (subject_.previous || (wish_.tail == 0 && !wish_.follow))
+  else if (subject_.previous || (request_.tail == 0 && !request_.follow))
     print_all();
   else
     node_.follow(stream_path(), [this](std::string_view line) {
@@ -42,7 +42,7 @@ void log_printer::print_all() {
   const auto end = ask(last_line).next_offset;
   timed_log timed;
   auto next = subject_;
-  next.times = wish_.times;
+  next.times = request_.times;
   for (int64_t offset = 0; offset < end;) {
     next.offset = offset;
     const auto part = ask(next);
@@ -56,17 +56,18 @@ void log_printer::print_all() {
 /// Nothing comes after it.
 void log_printer::print_end() {
   auto query = subject_;
-  query.tail_lines = static_cast<int64_t>(wish_.tail);
-  query.times = wish_.times;
+  query.tail_lines = static_cast<int64_t>(request_.tail);
+  query.times = request_.times;
   timed_log timed;
   print(lines_.add(timed.add(ask(query))));
 }
 
 std::string log_printer::stream_path() const {
   auto path = "/v1/instances/" + percent_encode(subject_.instance) + "/logs";
-  path += wish_.tail == 0 ? "?offset=0" : "?tail=" + std::to_string(wish_.tail);
-  path += wish_.times ? "&times=1" : "";
-  return wish_.follow ? path + "&follow=1" : path;
+  path += request_.tail == 0 ? "?offset=0"
+                             : "?tail=" + std::to_string(request_.tail);
+  path += request_.times ? "&times=1" : "";
+  return request_.follow ? path + "&follow=1" : path;
 }
 
 } // namespace roscell::cli

@@ -15,7 +15,7 @@ namespace roscell::cli {
 constexpr std::chrono::seconds log_limit{30};
 
 /// What of a log is printed.
-struct log_wish {
+struct log_request {
   bool follow = false;
   bool times = false;
   uint64_t tail = 0; ///< 0: all that is there.
@@ -26,8 +26,8 @@ struct log_wish {
 class log_printer {
 public:
   /// @param subject the instance, and whose kept log.
-  log_printer(const log_wish& wish, const node_client& node, log_query subject,
-              const std::string& prefix);
+  log_printer(const log_request& request, const node_client& node,
+              log_query subject, const std::string& prefix);
 
   void run();
 
@@ -37,7 +37,7 @@ private:
   void print_end();
   std::string stream_path() const;
 
-  const log_wish& wish_;
+  const log_request& request_;
   const node_client& node_;
   log_query subject_;
   log_lines lines_;

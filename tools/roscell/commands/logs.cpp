@@ -28,7 +28,7 @@ struct logs_options {
   connection_options connection;
   std::string subject;   ///< An instance, the beginning of its id, or a task.
   bool previous = false; ///< Of an earlier run.
-  log_wish wish;
+  log_request request;
   std::string output = "table";
 };
 
@@ -74,12 +74,13 @@ int print_found(const logs_options& options, const node_client& node,
   for (const auto& log : found)
     steps.push_back(log.step);
   for (const auto& log : found) {
-    print_note(kept_log_words(log, view_style_now().now_unix_ms));
+    print_note(kept_log_text(log, view_style_now().now_unix_ms));
     log_query subject;
     subject.instance = log.instance;
     subject.node = log.node;
     subject.previous = true;
-    log_printer{options.wish, node, subject, prefix_of(log.step, steps)}.run();
+    log_printer{options.request, node, subject, prefix_of(log.step, steps)}
+        .run();
   }
   return exit_done;
 }
@@ -138,10 +139,10 @@ int show_logs(const logs_options& options) {
   for (const auto& row : found) {
     log_query subject;
     subject.instance = row.spec.instance;
-    printers.emplace_back(options.wish, node, subject,
+    printers.emplace_back(options.request, node, subject,
                           prefix_of(row.spec.step, steps));
   }
-  if (options.wish.follow)
+  if (options.request.follow)
     follow_all(printers);
   else
     for (auto& printer : printers)
@@ -167,15 +168,15 @@ void add_logs_command(CLI::App& app, action& chosen) {
   add_connection_options(*command, options->connection);
   command->add_option("INSTANCE", options->subject,
                       "Id of the instance, or name of the task");
-  command->add_flag("-f,--follow", options->wish.follow,
+  command->add_flag("-f,--follow", options->request.follow,
                     "Go on until the instance ends. Ctrl-C ends");
   command->add_flag("-p,--previous", options->previous,
                     "The log that was kept of an earlier run, or of an "
                     "instance that is gone; without INSTANCE\nlist these");
-  command->add_flag("-t,--times", options->wish.times,
+  command->add_flag("-t,--times", options->request.times,
                     "Put before each line when it was logged");
   command
-      ->add_option("--tail", options->wish.tail,
+      ->add_option("--tail", options->request.tail,
                    "Only the last LINES lines, at most 64 KiB of them; "
                    "without it all that is kept")
       ->check(CLI::Range(uint64_t{1}, uint64_t{100'000}))

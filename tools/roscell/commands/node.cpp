@@ -81,12 +81,12 @@ void add_network(CLI::App& command, node_options& options) {
       ->option_text("ID [99]");
   command.add_flag_callback(
       "--no-rebalance", [&config] { config.rebalance = false; },
-      "Keep this cell out when cells are evened out");
+      "Keep this cell out when cells are balanced");
   command.add_flag("--force", config.force,
                    "Take the cell's name although another coordinator has it");
   command
       .add_option("--port", config.http_port,
-                  "HTTP and sessions (TCP), beats (UDP); 0: any free one")
+                  "HTTP and sessions (TCP), heartbeats (UDP); 0: any free one")
       ->option_text("PORT [8420]");
   command
       .add_option("--discovery-port", config.discovery_port,
@@ -209,14 +209,14 @@ void add_files(CLI::App& command, node_options& options) {
       ->option_text("TIME [0]");
   command
       .add_option("--log-level", options.log_level,
-                  "What the node itself tells on standard error")
+                  "What the node itself logs on standard error")
       ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}))
       ->option_text("trace|debug|info|warn|error|off [info]");
   command
       .add_option(
           "--ready-fd", options.ready_fd,
           "Write a line to this file descriptor once the node is ready; "
-          "$NOTIFY_SOCKET of systemd is told as well")
+          "$NOTIFY_SOCKET of systemd is notified as well")
       ->check(CLI::Range(0, 1 << 20))
       ->option_text("NUMBER");
 }

@@ -24,7 +24,7 @@ namespace roscell::cli {
 namespace {
 
 /// A plan is the operator's own file, so it may be larger than what a node
-/// takes from a stranger: thousands of nodes.
+/// takes from an unauthenticated peer: thousands of nodes.
 constexpr document_limits plan_limits{64UL * 1024 * 1024, 64, 4'000'000, 256};
 
 /// Reading resources may take some seconds, and there are two searches.
@@ -233,7 +233,7 @@ void add_plan_command(CLI::App& app, action& chosen) {
       ->option_text("STEP");
   command->add_flag("--preempt", options->preempt,
                     "Where it does not fit, plan as if instances of lower "
-                    "priority made way, and show them");
+                    "priority were preempted, and show them");
   add_connection_options(*command, options->connection);
   add_output_option(*command, options->output);
   command->callback([&chosen, options] {

@@ -1,5 +1,5 @@
 #include "messages/rebalance.hpp"
-#include "tools/roscell/client/event_words.hpp"
+#include "tools/roscell/client/event_text.hpp"
 #include "tools/roscell/client/node_client.hpp"
 #include "tools/roscell/commands.hpp"
 #include "tools/roscell/common_options.hpp"
@@ -21,7 +21,7 @@ struct rebalance_options {
   connection_options connection;
   std::string output = "table";
   std::string timeout = "120";
-  cell_rebalance wish;
+  cell_rebalance request;
 
   bool as_json() const {
     return output == "json";
@@ -33,7 +33,7 @@ void print_step(const event& e) {
   if (e.what == "instance_moved")
     print_note(printable(step + " runs on " + event_text(e, "to")));
   else if (e.what == "instance_awaited")
-    print_note(printable("waits for '" + step + "' to be safe"));
+    print_note(printable("waits for '" + step + "' to be stop-safe"));
 }
 
 /// Waits for the last move. Ctrl-C ends the waiting only.
@@ -59,12 +59,12 @@ int wait_until_moved(const node_client& node, uint64_t since) {
 
 int rebalance(const rebalance_options& options) {
   const node_client node{options.connection};
-  const bool makes_moves = !options.wish.dry_run && !options.wish.stop;
+  const bool makes_moves = !options.request.dry_run && !options.request.stop;
   const auto since = makes_moves ? last_event_of_coordinator(node) : 0;
-  const auto reply = unless_refused(node.post("/v1/requests",
-                                              message_json(options.wish).dump(),
-                                              parse_duration(options.timeout)),
-                                    options.as_json());
+  const auto reply = unless_refused(
+      node.post("/v1/requests", message_json(options.request).dump(),
+                parse_duration(options.timeout)),
+      options.as_json());
   const auto report = reply.get<cell_rebalanced>();
   print(options.as_json() ? pretty(reply)
                           : rebalance_view(report, stdout_style()));
@@ -89,16 +89,18 @@ void add_rebalance_command(CLI::App& app, action& chosen) {
   add_connection_options(*command, options->connection);
   add_timeout_option(*command, options->timeout);
   add_output_option(*command, options->output);
-  auto& wish = options->wish;
-  command->add_flag("--dry-run", wish.dry_run, "Only show the moves");
+  auto& request = options->request;
+  command->add_flag("--dry-run", request.dry_run, "Only show the moves");
   command
-      ->add_option("--min-gain", wish.min_gain,
+      ->add_option("--min-gain", request.min_gain,
                    "Make no move that gains a smaller part of the total")
       ->option_text("GAIN [0.01]");
-  command->add_option("--most", wish.most_moves, "Make no more moves than this")
+  command
+      ->add_option("--most", request.most_moves, "Make no more moves than this")
       ->option_text("N [32]");
-  command->add_flag("--force", wish.force, "Do not wait for what is not safe");
-  command->add_flag("--stop", wish.stop,
+  command->add_flag("--force", request.force,
+                    "Do not wait for what is not stop-safe");
+  command->add_flag("--stop", request.stop,
                     "The move that is being made is the last one");
   command->callback([&chosen, options] {
     chosen = [options] { return rebalance(*options); };

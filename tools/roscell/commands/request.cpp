@@ -1,5 +1,5 @@
 #include "schemas/document.hpp"
-#include "tools/roscell/client/event_words.hpp"
+#include "tools/roscell/client/event_text.hpp"
 #include "tools/roscell/client/node_client.hpp"
 #include "tools/roscell/client/read_file.hpp"
 #include "tools/roscell/commands.hpp"
@@ -117,7 +117,7 @@ void add_request_command(CLI::App& app, action& chosen) {
   add_connection_options(*command, options->connection);
   add_timeout_option(*command, options->timeout);
   command->add_flag("--progress", options->progress,
-                    "Tell on standard error what goes on if it takes more "
+                    "Report on standard error what goes on if it takes more "
                     "than a second, even if that is no terminal");
   command->add_flag("--wait-finished", options->wait_finished,
                     "Wait until the task has ended by itself; the exit code is "

@@ -83,7 +83,7 @@ const subject subjects[] = {
      "List the ROS 2 topics of the cell, who writes and who reads them.",
      "Each end is named by its instance; a stock ROS 2 program by its enclave, "
      "which is / unless\nit was given another. Ends whose QoS does not match "
-     "are told below the table.\nA member asks its coordinator.\n\n"
+     "are listed below the table.\nA member asks its coordinator.\n\n"
      "Examples:\n  roscell topics\n  roscell topics -o json",
      nullptr,
      "/v1/topics",

@@ -1,7 +1,7 @@
 #include "tools/roscell/daemon/drain_first.hpp"
 
-#include "actors/house/limits.hpp"
-#include "actors/house/watching.hpp"
+#include "actors/core/limits.hpp"
+#include "actors/core/watching.hpp"
 #include "messages/failure.hpp"
 #include "messages/formation.hpp"
 #include "messages/messages.hpp"
@@ -28,9 +28,9 @@ struct drain_state {
 using drain_actor = event_listener_actor;
 using drain_pointer = drain_actor::stateful_pointer<drain_state>;
 
-void end(drain_pointer self, const std::string& trouble) {
+void end(drain_pointer self, const std::string& problem) {
   if (const auto done = std::exchange(self->state.done, nullptr))
-    done(trouble);
+    done(problem);
   self->quit();
 }
 
@@ -39,7 +39,7 @@ bool has_live(const node_description& node) {
                      [](const auto& x) { return is_live(x.state); });
 }
 
-/// Looks whether anything is left; asked again when something has changed.
+/// Checks whether anything is left; asked again when something has changed.
 void look(drain_pointer self, const node_actor& node) {
   if (!self->state.drains || std::exchange(self->state.asking, true))
     return;
@@ -85,7 +85,7 @@ drain(drain_pointer self, const running_node& node,
 } // namespace
 
 void drain_first(caf::actor_system& system, const running_node& node,
-                 std::function<void(const std::string& trouble)> done) {
+                 std::function<void(const std::string& problem)> done) {
   const drain_actor listener = system.spawn(drain, node, std::move(done));
   caf::anon_send(node.events, subscribe_events{listener, 0});
 }

@@ -13,7 +13,7 @@ namespace roscell::cli {
 /// `done` once none is left, or it cannot be done, with the reason. Called in
 /// an actor, at most once.
 void drain_first(caf::actor_system& system, const running_node& node,
-                 std::function<void(const std::string& trouble)> done);
+                 std::function<void(const std::string& problem)> done);
 
 /// The node takes instances again, when it is back. Blocks until the
 /// coordinator knows, for some seconds at most.

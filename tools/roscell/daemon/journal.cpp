@@ -1,9 +1,9 @@
 #include "tools/roscell/daemon/journal.hpp"
 
-#include "actors/house/watching.hpp"
+#include "actors/core/watching.hpp"
 #include "actors/node/event_loudness.hpp"
 #include "messages/messages.hpp"
-#include "tools/roscell/client/event_words.hpp"
+#include "tools/roscell/client/event_text.hpp"
 #include "tools/roscell/view/format.hpp"
 
 #include <caf/send.hpp>

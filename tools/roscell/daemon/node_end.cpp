@@ -1,6 +1,6 @@
 #include "tools/roscell/daemon/node_end.hpp"
 
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 #include "tools/roscell/daemon/drain_first.hpp"
 #include "tools/roscell/view/format.hpp"
 
@@ -73,11 +73,11 @@ void empty_node(caf::actor_system& system, const running_node& node,
   // What comes too late must not end another wait.
   const auto wanted = std::make_shared<std::atomic<bool>>(true);
   spdlog::info("node '{}' is drained before it stops", node.name);
-  drain_first(system, node, [wanted, &signals](const std::string& trouble) {
+  drain_first(system, node, [wanted, &signals](const std::string& problem) {
     if (!wanted->exchange(false))
       return;
-    if (!trouble.empty())
-      spdlog::warn("it cannot be drained: {}", printable(trouble));
+    if (!problem.empty())
+      spdlog::warn("it cannot be drained: {}", printable(problem));
     signals.end();
   });
   const auto end = signals.wait_for(limit);

@@ -1,7 +1,7 @@
 #include "tools/roscell/daemon/node_process.hpp"
 
+#include "actors/core/actor_context.hpp"
 #include "actors/edge/site/site_token_file.hpp"
-#include "actors/house/house.hpp"
 #include "tools/roscell/client/open_secret.hpp"
 #include "tools/roscell/client/open_skills.hpp"
 #include "tools/roscell/daemon/address/address_tracker.hpp"
@@ -94,15 +94,16 @@ std::string text_of_change(const interface_address& at,
          + at.address + " to " + successor;
 }
 
-void tell_of_address(const running_node& node, const interface_address& at,
-                     const std::string& former) {
-  const house context{nullptr, node.events};
+void print_address_change(const running_node& node, const interface_address& at,
+                          const std::string& former) {
+  const actor_context context{nullptr, node.events};
   if (former.empty())
     return;
   if (former == at.address)
-    context.tell("address_returned", node.name, {{"address", at.address}});
+    context.publish_event("address_returned", node.name,
+                          {{"address", at.address}});
   else
-    context.tell(
+    context.publish_event(
         "address_changed", node.name,
         {{"interface", at.name}, {"from", former}, {"to", at.address}});
 }
@@ -129,7 +130,7 @@ exit_code node_process::run() {
       continue;
     introduce(*node, config_);
     start_journal(system, node->events);
-    tell_of_address(*node, *at, former);
+    print_address_change(*node, *at, former);
     // The start needed memory that running does not.
     malloc_trim(0);
     starter_.ready();
@@ -181,7 +182,7 @@ std::optional<running_node> node_process::start(caf::actor_system& system,
   auto config = config_;
   config.address = at.address;
   node_additions additions;
-  additions.examine_host = [config] { return examine_own_host(config); };
+  additions.check_host = [config] { return check_own_host(config); };
   config.pages = dashboard_pages();
   auto node = spawn_node(system, config, additions);
   if (node) {

@@ -1,6 +1,6 @@
 #include "tools/roscell/commands.hpp"
 
-#include "actors/house/program_version.hpp"
+#include "actors/core/program_version.hpp"
 
 #include <CLI/CLI.hpp>
 

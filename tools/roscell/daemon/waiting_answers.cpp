@@ -11,7 +11,7 @@ namespace roscell::cli {
 namespace {
 
 constexpr const char* remedy =
-    "it starts as soon as that is there; `roscell doctor` looks at this host, "
+    "it starts as soon as that is there; `roscell doctor` checks this host, "
     "and SIGTERM ends the node";
 
 template <class T>

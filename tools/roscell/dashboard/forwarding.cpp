@@ -1,7 +1,7 @@
 #include "tools/roscell/dashboard/forwarding.hpp"
 
+#include "actors/core/limits.hpp"
 #include "actors/edge/http/http_target.hpp"
-#include "actors/house/limits.hpp"
 
 #include <string_view>
 #include <utility>

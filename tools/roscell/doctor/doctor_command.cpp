@@ -1,6 +1,6 @@
 #include "tools/roscell/commands.hpp"
 #include "tools/roscell/common_options.hpp"
-#include "tools/roscell/doctor/cell/cell_examination.hpp"
+#include "tools/roscell/doctor/cell/cell_checks.hpp"
 #include "tools/roscell/doctor/findings_view.hpp"
 #include "tools/roscell/doctor/node/node_checks.hpp"
 #include "tools/roscell/doctor/preparation.hpp"
@@ -25,26 +25,27 @@ std::vector<check> every_check() {
   return result;
 }
 
-void tell_step(const std::string& step) {
+void report_build_step(const std::string& step) {
   if (stderr_is_terminal())
     print_note(step + " ...");
 }
 
-void tell_who_looks(const std::vector<std::string>& names) {
+void print_running_checks(const std::vector<std::string>& names) {
   if (stderr_is_terminal())
-    print_note("still looking: " + joined(names, ", ") + " ...");
+    print_note("still checking: " + joined(names, ", ") + " ...");
 }
 
-int examine(const doctor_options& options) {
+int run_doctor(const doctor_options& options) {
   if (options.list) {
     print(checks_view(every_check(), stdout_style()));
     return exit_done;
   }
   auto what = prepare(options);
   keep_only(options.only, options.cell, what);
-  auto found = run_checks(what.checks, what.host, tell_who_looks);
+  auto found = run_checks(what.checks, what.host, print_running_checks);
   if (options.cell)
-    for (auto& x : examine_cell(*what.node, what.own, options.only, tell_step))
+    for (auto& x :
+         check_cell(*what.node, what.own, options.only, report_build_step))
       found.push_back(std::move(x));
   found.insert(found.end(), what.known.begin(), what.known.end());
   print(options.output == "json"
@@ -55,11 +56,11 @@ int examine(const doctor_options& options) {
 }
 
 constexpr auto doctor_footer =
-    "Looks at this host, and asks the node that runs here or that --to names. "
-    "It changes\nnothing. What is not as it should be is told with why it "
-    "matters and the command that\nmends it; exit code 1 if something is "
+    "Checks this host, and asks the node that runs here or that --to names. "
+    "It changes\nnothing. What is not as it should be is reported with why it "
+    "matters and the command that\nfixes it; exit code 1 if something is "
     "broken. Root sees more.\n\n"
-    "With --cell every node of the cell looks at its host, and tries to reach "
+    "With --cell every node of the cell checks its host, and tries to reach "
     "every other\none: TCP and UDP of its port, its discovery server, DDS's "
     "data in one piece and in\nfragments, and multicast. For a minute each "
     "opens two UDP ports for that.\n\n"
@@ -71,15 +72,14 @@ constexpr auto doctor_footer =
 
 void add_doctor_command(CLI::App& app, action& chosen) {
   auto options = std::make_shared<doctor_options>();
-  auto* command = app.add_subcommand(
-      "doctor", "Say what of this host keeps a node or a cell from working.");
+  auto* command = app.add_subcommand("doctor", "Diagnose host and cell.");
   command->footer(doctor_footer);
   add_connection_options(*command, options->connection);
   add_output_option(*command, options->output);
   command
       ->add_option("--config", options->config,
                    "File of options that the node is started with; its "
-                   "interface, ports and folders are looked at")
+                   "interface, ports and folders are checked")
       ->option_text("FILE");
   command
       ->add_option("--interface", options->interface,
@@ -99,10 +99,11 @@ void add_doctor_command(CLI::App& app, action& chosen) {
       ->check(CLI::IsMember(names))
       ->option_text("CHECK...");
   command->add_flag("--cell", options->cell,
-                    "Also look at all nodes of the cell, and at each pair");
+                    "Also check all nodes of the cell, and each pair");
   command->add_flag("--list", options->list, "List the checks, and end");
-  command->callback(
-      [&chosen, options] { chosen = [options] { return examine(*options); }; });
+  command->callback([&chosen, options] {
+    chosen = [options] { return run_doctor(*options); };
+  });
 }
 
 } // namespace roscell::cli

@@ -141,7 +141,7 @@ std::string findings_view(const findings& all, const text_style& style,
 
 std::string checks_view(const std::vector<check>& all,
                         const text_style& style) {
-  table t{{{"CHECK"}, {"AREA"}, {"LOOKS WHETHER, OR AT", align::left, 1}}, {}};
+  table t{{{"CHECK"}, {"AREA"}, {"CHECKS WHETHER, OR", align::left, 1}}, {}};
   for (const auto& x : all)
     t.rows.push_back({x.name, x.area, x.about});
   return t.render(style);

@@ -13,7 +13,7 @@ namespace roscell::cli {
 bool locale_is_utf8();
 
 /// A table for each area; below them what is not as it should be, with why it
-/// matters and the command that mends it; and a sum.
+/// matters and the command that fixes it; and a sum.
 /// @param signs ✓ ! ✗ instead of words.
 /// @param doctor the command that finds the same again.
 std::string findings_view(const findings& all, const text_style& style,

@@ -4,12 +4,12 @@
 #include "messages/node.hpp"
 #include "tools/roscell/daemon/config_file.hpp"
 #include "tools/roscell/daemon/node_options.hpp"
-#include "tools/roscell/doctor/cell/cell_examination.hpp"
+#include "tools/roscell/doctor/cell/cell_checks.hpp"
 #include "tools/roscell/doctor/command_text.hpp"
-#include "tools/roscell/doctor/node/answer_trouble.hpp"
+#include "tools/roscell/doctor/node/answer_problem.hpp"
 #include "tools/roscell/doctor/node/follow_node.hpp"
 #include "tools/roscell/doctor/node/node_checks.hpp"
-#include "tools/roscell/doctor/node/own_look.hpp"
+#include "tools/roscell/doctor/node/own_checks.hpp"
 #include "tools/roscell/exit_code.hpp"
 
 #include <CLI/CLI.hpp>
@@ -25,13 +25,13 @@ namespace fs = std::filesystem;
 namespace {
 
 /// The host of a node that is started with these options.
-examined_host host_of(const doctor_options& options) {
+checked_host host_of(const doctor_options& options) {
   node_options node;
   CLI::App command{"", "node"};
   add_node_options(command, node);
   if (!options.config.empty())
     take_config(command, options.config);
-  examined_host result;
+  checked_host result;
   result.config = node.config;
   result.config.skill_dirs = node.skill_dirs;
   result.interface =
@@ -48,12 +48,11 @@ bool is_named(const doctor_options& options, const std::string& check) {
 }
 
 /// The node's checks, and its own answers to those of its host.
-void ask_node(const doctor_options& options, bool here,
-              examination_plan& what) {
-  const auto told = what.node->get("/v1/node").get<node_description>();
+void ask_node(const doctor_options& options, bool here, check_plan& what) {
+  const auto reported = what.node->get("/v1/node").get<node_description>();
   if (here) {
-    follow_node(what.host, *what.node, told);
-    what.own = told.identity.name;
+    follow_node(what.host, *what.node, reported);
+    what.own = reported.identity.name;
     for (auto& x : own_checks(what.node, what.checks))
       if (!is_named(options, x.name))
         *std::find_if(what.checks.begin(), what.checks.end(), [&](auto& y) {
@@ -73,8 +72,8 @@ finding named_finding(const std::string& check, const char* area, finding x) {
 
 /// A node that does not answer is worth a word where it was named, or where
 /// something lies that looks like one.
-void tell_of_no_node(const doctor_options& options, const target& where,
-                     const command_error& why, findings& known) {
+void print_no_node(const doctor_options& options, const target& where,
+                   const command_error& why, findings& known) {
   const bool named = !options.connection.to.empty();
   std::error_code error;
   if (!named && where.is_local() && !fs::exists(where.socket, error)
@@ -110,7 +109,7 @@ connection_options connection_to(const doctor_options& options,
 /// Why a check that was asked for by name is not made.
 std::string unmade(const std::string& name) {
   return is_cell_check(name)
-             ? "it looks at a whole cell: add --cell"
+             ? "it checks a whole cell: add --cell"
              : "there is no node that can be asked, or it runs on another host";
 }
 
@@ -130,8 +129,8 @@ std::string command_of(const doctor_options& options) {
   return result;
 }
 
-examination_plan prepare(const doctor_options& options) {
-  examination_plan result;
+check_plan prepare(const doctor_options& options) {
+  check_plan result;
   result.host = host_of(options);
   result.node = std::make_shared<const node_client>(
       connection_to(options, result.host.config));
@@ -147,10 +146,10 @@ examination_plan prepare(const doctor_options& options) {
   try {
     ask_node(options, here, result);
   } catch (const command_error& e) {
-    tell_of_no_node(options, where, e, result.known);
+    print_no_node(options, where, e, result.known);
   } catch (const std::exception& e) {
-    result.known.push_back(
-        named_finding("node", "node", trouble_of(e, judgement::broken)));
+    result.known.push_back(named_finding(
+        "node", "node", finding_of_failure(e, judgement::broken)));
   }
   if (result.host.config.data_dir.empty())
     result.host.config.data_dir = default_data_dir();
@@ -158,7 +157,7 @@ examination_plan prepare(const doctor_options& options) {
 }
 
 void keep_only(const std::vector<std::string>& names, bool cell,
-               examination_plan& what) {
+               check_plan& what) {
   if (names.empty())
     return;
   auto& checks = what.checks;

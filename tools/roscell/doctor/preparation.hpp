@@ -26,8 +26,8 @@ struct doctor_options {
 std::string command_of(const doctor_options& options);
 
 /// What is looked at, and by what.
-struct examination_plan {
-  examined_host host;
+struct check_plan {
+  checked_host host;
   std::vector<check> checks;
   findings known; ///< Found while it was prepared.
   std::shared_ptr<const node_client> node;
@@ -35,11 +35,11 @@ struct examination_plan {
 };
 
 /// Asks the node that runs here, or was named, whether it is there.
-examination_plan prepare(const doctor_options& options);
+check_plan prepare(const doctor_options& options);
 
 /// Leaves out what was not asked for. A node that was named and does not answer
 /// stays.
 void keep_only(const std::vector<std::string>& names, bool cell,
-               examination_plan& what);
+               check_plan& what);
 
 } // namespace roscell::cli

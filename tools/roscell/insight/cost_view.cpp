@@ -71,14 +71,14 @@ std::string cost_view(const cost_report& report, const view_style& style) {
            {"RECEIVED (B/s)", align::right},
            {"PEERS (B/s)", align::left, 2}},
           {}};
-  std::string troubles;
+  std::string problems;
   for (const auto& node : report.nodes) {
     for (const auto& x : node.windows)
       t.rows.push_back(row_of(node.node, x));
-    if (!node.trouble.empty())
-      troubles += printable(node.node + ": " + node.trouble) + "\n";
+    if (!node.problem.empty())
+      problems += printable(node.node + ": " + node.problem) + "\n";
   }
-  return t.render(style.text) + (troubles.empty() ? "" : "\n" + troubles);
+  return t.render(style.text) + (problems.empty() ? "" : "\n" + problems);
 }
 
 } // namespace roscell::cli

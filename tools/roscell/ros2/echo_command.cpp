@@ -42,17 +42,17 @@ public:
       print(options_.output == "json" ? compact_value(value)
                                       : value_text(value) + "---\n");
     } catch (const std::exception& why) {
-      trouble_ = why.what();
+      problem_ = why.what();
     }
-    done_ = !trouble_.empty() || ++printed_ == options_.count;
+    done_ = !problem_.empty() || ++printed_ == options_.count;
     if (done_)
       signals_.end();
   }
 
   /// Why nothing more could be printed; empty: nothing was wrong. To be asked
   /// when nobody prints any more.
-  const std::string& trouble() const {
-    return trouble_;
+  const std::string& problem() const {
+    return problem_;
   }
 
 private:
@@ -70,7 +70,7 @@ private:
   const std::string type_;
   stop_signals& signals_;
   message_library library_;
-  std::string trouble_;
+  std::string problem_;
   uint64_t printed_ = 0;
   bool done_ = false;
 };
@@ -84,8 +84,8 @@ int echo(const echo_options& options) {
       [&](const ros2::heard_message& x) { printer.print_message(x); });
   signals.wait();
   listener.reset();
-  if (!printer.trouble().empty())
-    throw command_error{exit_refused, printer.trouble()};
+  if (!printer.problem().empty())
+    throw command_error{exit_refused, printer.problem()};
   return exit_done;
 }
 

@@ -30,7 +30,7 @@ void traffic_meter::add(clock::time_point when, std::size_t bytes,
     arrivals_.pop_front();
 }
 
-std::optional<traffic_figures> traffic_meter::figures() const {
+std::optional<traffic_metrics> traffic_meter::metrics() const {
   const milliseconds span =
       arrivals_.size() < 2 ? milliseconds{0}
                            : arrivals_.back().when - arrivals_.front().when;
@@ -38,7 +38,7 @@ std::optional<traffic_figures> traffic_meter::figures() const {
     return std::nullopt;
   const auto gaps = static_cast<double>(arrivals_.size() - 1);
   const double mean_gap = span.count() / gaps;
-  traffic_figures result;
+  traffic_metrics result;
   result.messages = arrivals_.size();
   result.rate_hz = 1000 / mean_gap;
   result.least_gap_ms = span.count();

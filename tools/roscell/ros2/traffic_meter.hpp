@@ -8,7 +8,7 @@
 namespace roscell::cli {
 
 /// What has come on a topic lately.
-struct traffic_figures {
+struct traffic_metrics {
   std::size_t messages = 0;
   double rate_hz = 0;      ///< Between the first and the last of them.
   double least_gap_ms = 0; ///< Between two messages.
@@ -31,7 +31,7 @@ public:
            std::chrono::nanoseconds age);
 
   /// Nothing before there are two messages.
-  std::optional<traffic_figures> figures() const;
+  std::optional<traffic_metrics> metrics() const;
 
   /// How long nothing has come at `now`.
   clock::duration silence(clock::time_point now) const {

@@ -6,7 +6,7 @@ namespace roscell::cli {
 
 namespace {
 
-std::string figures_line(const traffic_figures& x) {
+std::string metrics_line(const traffic_metrics& x) {
   return format_number(x.rate_hz, 2) + " Hz, gaps "
          + format_number(x.least_gap_ms, 1) + " to "
          + format_number(x.most_gap_ms, 1) + " ms (deviation "
@@ -16,7 +16,7 @@ std::string figures_line(const traffic_figures& x) {
          + " ms old, window " + std::to_string(x.messages) + "\n";
 }
 
-json figures_json(const traffic_figures& x) {
+json metrics_json(const traffic_metrics& x) {
   return {{"messages", x.messages},
           {"rate_hz", x.rate_hz},
           {"least_gap_ms", x.least_gap_ms},
@@ -28,20 +28,20 @@ json figures_json(const traffic_figures& x) {
 }
 
 /// What messages are coming now; none when they have stopped.
-std::optional<traffic_figures>
-present_figures(const traffic_meter& meter,
+std::optional<traffic_metrics>
+present_metrics(const traffic_meter& meter,
                 traffic_meter::clock::time_point now) {
   if (meter.silence(now) >= traffic_print_period)
     return std::nullopt;
-  return meter.figures();
+  return meter.metrics();
 }
 
 } // namespace
 
 std::string traffic_line(const traffic_meter& meter,
                          traffic_meter::clock::time_point now) {
-  if (const auto x = present_figures(meter, now))
-    return figures_line(*x);
+  if (const auto x = present_metrics(meter, now))
+    return metrics_line(*x);
   const auto silence =
       std::chrono::duration_cast<std::chrono::seconds>(meter.silence(now));
   if (silence < traffic_print_period)
@@ -52,8 +52,8 @@ std::string traffic_line(const traffic_meter& meter,
 
 json traffic_json(const traffic_meter& meter,
                   traffic_meter::clock::time_point now) {
-  const auto x = present_figures(meter, now);
-  auto result = x ? figures_json(*x) : json{{"messages", 0}};
+  const auto x = present_metrics(meter, now);
+  auto result = x ? metrics_json(*x) : json{{"messages", 0}};
   result["silent_s"] =
       std::chrono::duration<double>{meter.silence(now)}.count();
   return result;

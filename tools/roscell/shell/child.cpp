@@ -77,7 +77,7 @@ int start_and_wait(const child_setup& setup, std::vector<std::string> words) {
 }
 
 /// Options that name the node of the shell.
-std::vector<std::string> connection_words(const connection_options& to) {
+std::vector<std::string> connection_arguments(const connection_options& to) {
   std::vector<std::string> words;
   if (!to.to.empty())
     words = {"--to", to.to};
@@ -104,7 +104,7 @@ int run_child(const connection_options& connection, const std::string& line,
   child_setup setup;
   if (input == child_input::nothing)
     setup.read_nothing();
-  auto words = connection_words(connection);
+  auto words = connection_arguments(connection);
   words.insert(words.begin(), "shell");
   words.insert(words.end(), {"-c", line});
   return start_and_wait(setup, std::move(words));
@@ -120,7 +120,7 @@ int send_by_child(const connection_options& connection,
   const auto file = file_of(request.text());
   child_setup setup;
   posix_spawn_file_actions_adddup2(&setup.files, file.get(), STDIN_FILENO);
-  auto words = connection_words(connection);
+  auto words = connection_arguments(connection);
   words.insert(words.begin(), {"request", "-"});
   return start_and_wait(setup, std::move(words));
 }

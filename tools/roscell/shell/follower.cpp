@@ -2,7 +2,7 @@
 
 #include "messages/failure.hpp"
 #include "messages/node.hpp"
-#include "tools/roscell/client/event_words.hpp"
+#include "tools/roscell/client/event_text.hpp"
 #include "tools/roscell/exit_code.hpp"
 #include "tools/roscell/shell/quick_question.hpp"
 #include "tools/roscell/view/format.hpp"
@@ -28,7 +28,7 @@ constexpr milliseconds longest_first_wait{1000};
 constexpr size_t most_waiting_lines = 500;
 
 /// Whether the node may have come into another cell, or out of one.
-bool changes_standing(const event& e) {
+bool changes_status(const event& e) {
   return e.what.rfind("cell_", 0) == 0 || e.what.rfind("coordinator_", 0) == 0;
 }
 
@@ -57,9 +57,9 @@ void follower::await_first_answer() {
   changed_.wait_for(guard, longest_first_wait, [this] { return answered_; });
 }
 
-node_standing follower::standing() const {
+node_connection_status follower::status() const {
   const std::lock_guard guard{mutex_};
-  return standing_;
+  return status_;
 }
 
 std::vector<std::string> follower::take_lines() {
@@ -83,9 +83,9 @@ std::set<std::string> follower::kinds() const {
   return kinds_;
 }
 
-void follower::look_now() {
+void follower::refresh_now() {
   const std::lock_guard guard{mutex_};
-  hurries_ = !standing_.is_reachable;
+  hurries_ = !status_.is_reachable;
   changed_.notify_all();
 }
 
@@ -94,11 +94,12 @@ void follower::run() {
     try {
       follow_once();
     } catch (const command_error& e) {
-      tell_lost(e.what());
+      report_lost_contact(e.what());
     } catch (const refused& e) {
-      tell_lost(failure_from(e.reply).message);
+      report_lost_contact(failure_from(e.reply).message);
     } catch (const std::exception& e) {
-      tell_lost(std::string{"the answer is none of this version: "} + e.what());
+      report_lost_contact(std::string{"the answer is not of this version: "}
+                          + e.what());
     }
     pause();
     const std::lock_guard guard{mutex_};
@@ -142,8 +143,8 @@ uint64_t follower::begin_of_events() {
 void follower::on_open() {
   const auto node = ask_for_node().get<node_description>();
   const std::lock_guard guard{mutex_};
-  const bool is_back = answered_ && !standing_.is_reachable;
-  standing_ = {node.identity.name, node.cell, true};
+  const bool is_back = answered_ && !status_.is_reachable;
+  status_ = {node.identity.name, node.cell, true};
   answered_ = true;
   pause_ = first_pause;
   if (is_back)
@@ -154,7 +155,7 @@ void follower::on_open() {
 
 void follower::on_event(const event& e) {
   last_ = e.sequence;
-  if (changes_standing(e))
+  if (changes_status(e))
     on_open();
   const std::lock_guard guard{mutex_};
   kinds_.insert(e.what);
@@ -165,15 +166,14 @@ void follower::on_event(const event& e) {
 }
 
 /// Said once, and not again while it is looked for.
-void follower::tell_lost(const std::string& why) {
+void follower::report_lost_contact(const std::string& why) {
   const std::lock_guard guard{mutex_};
-  const bool is_known = answered_ && !standing_.is_reachable;
+  const bool is_known = answered_ && !status_.is_reachable;
   answered_ = true;
-  standing_.is_reachable = false;
+  status_.is_reachable = false;
   if (ends_ || is_known)
     return;
-  const auto who =
-      standing_.node.empty() ? node_.where().text() : standing_.node;
+  const auto who = status_.node.empty() ? node_.where().text() : status_.node;
   add_line("roscell: " + printable(who + " is lost: " + why)
            + "; it is looked for again");
   eventfd_write(news_.get(), 1);

@@ -2,7 +2,7 @@
 
 #include "actors/edge/io/unique_fd.hpp"
 #include "tools/roscell/client/node_client.hpp"
-#include "tools/roscell/shell/words/event_filter.hpp"
+#include "tools/roscell/shell/builtins/event_filter.hpp"
 
 #include <chrono>
 #include <condition_variable>
@@ -17,7 +17,7 @@
 namespace roscell::cli {
 
 /// What a prompt tells of the node.
-struct node_standing {
+struct node_connection_status {
   std::string node; ///< Empty as long as it has never answered.
   std::string cell; ///< Empty: it is in none.
   bool is_reachable = false;
@@ -36,7 +36,7 @@ public:
   /// Waits until the node has answered or was found to be lost, but not long.
   void await_first_answer();
 
-  node_standing standing() const;
+  node_connection_status status() const;
 
   /// Readable while there is something new to be shown.
   int news_fd() const {
@@ -50,7 +50,7 @@ public:
   void show(std::optional<event_filter> filter);
 
   /// Looks for a node that is lost now, not after a pause.
-  void look_now();
+  void refresh_now();
 
   /// The kinds of the events that have come so far.
   std::set<std::string> kinds() const;
@@ -62,7 +62,7 @@ private:
   json ask_for_node();
   void on_open();
   void on_event(const event& e);
-  void tell_lost(const std::string& why);
+  void report_lost_contact(const std::string& why);
   void pause();
   void add_line(std::string line);
 
@@ -79,7 +79,7 @@ private:
   bool answered_ = false; ///< Or found to be lost.
   bool hurries_ = false;
   bool ends_ = false;
-  node_standing standing_;
+  node_connection_status status_;
   std::optional<event_filter> filter_;
   std::set<std::string> kinds_;
   std::vector<std::string> lines_;

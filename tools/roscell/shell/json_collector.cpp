@@ -23,17 +23,17 @@ constexpr size_t longest_looked_at = 64UL * 1024;
 constexpr auto request_name = "request.json";
 
 /// With marks under the places of `text`.
-std::string told_failure(std::string_view text, const failure& why) {
+std::string shown_failure(std::string_view text, const failure& why) {
   auto result = marked_errors(request_name, text, error_reply(why));
   if (result.empty())
     result = printable(why.message) + "\n";
-  const bool marks_tell = why.code == error_code::schema_violation;
-  if (!why.hint.empty() && !marks_tell)
+  const bool marks_suffice = why.code == error_code::schema_violation;
+  if (!why.hint.empty() && !marks_suffice)
     result += "hint: " + printable(why.hint) + "\n";
   return result;
 }
 
-/// Whether nothing that is still to come can mend an error at `pointer`: it is
+/// Whether nothing that is still to come can fix an error at `pointer`: it is
 /// in none of the objects and arrays that are still open, or is a value of its
 /// own there. `reading` points to what is being read.
 bool is_certain(const std::string& pointer, const json& document,
@@ -148,19 +148,19 @@ std::string json_collector::new_errors() {
   const auto closed = closed_text();
   const auto parsed = parse_document(closed);
   if (const auto* why = std::get_if<failure>(&parsed))
-    return told_.insert("syntax").second ? told_failure(closed, *why) : "";
+    return reported_.insert("syntax").second ? shown_failure(closed, *why) : "";
   document_builder builder{{}};
   read_json(text_, builder);
   const auto& document = builder.document();
   if (const auto why = wrong_type(document); why && document.contains("type"))
-    return told_.insert("/type").second ? told_failure(closed, *why) : "";
+    return reported_.insert("/type").second ? shown_failure(closed, *why) : "";
   auto errors = certain_errors(document, builder.where());
   errors.erase(std::remove_if(errors.begin(), errors.end(),
                               [this](const schema_error& x) {
-                                return !told_.insert(x.pointer).second;
+                                return !reported_.insert(x.pointer).second;
                               }),
                errors.end());
-  return errors.empty() ? "" : told_failure(closed, to_failure(errors));
+  return errors.empty() ? "" : shown_failure(closed, to_failure(errors));
 }
 
 std::string json_collector::one_line() const {
@@ -172,13 +172,13 @@ std::string json_collector::one_line() const {
 std::string json_collector::errors() const {
   const auto parsed = parse_document(text_);
   if (const auto* why = std::get_if<failure>(&parsed))
-    return told_failure(text_, *why);
+    return shown_failure(text_, *why);
   const auto& document = std::get<json>(parsed);
   if (const auto why = wrong_type(document))
-    return told_failure(text_, *why);
+    return shown_failure(text_, *why);
   const auto errors = document_errors(document.value("type", ""), document,
                                       unknown_members::refused);
-  return errors.empty() ? "" : told_failure(text_, to_failure(errors));
+  return errors.empty() ? "" : shown_failure(text_, to_failure(errors));
 }
 
 } // namespace roscell::cli

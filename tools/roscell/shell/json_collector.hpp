@@ -46,7 +46,7 @@ private:
   std::string open_; ///< The brackets that are open.
   token last_ = token::opening;
   bool ended_ = false;
-  std::set<std::string> told_; ///< The places.
+  std::set<std::string> reported_; ///< The places.
 };
 
 } // namespace roscell::cli

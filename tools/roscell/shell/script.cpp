@@ -55,7 +55,7 @@ private:
   bool ends_ = false;
 };
 
-void tell_failure(size_t number, int code) {
+void print_failure(size_t number, int code) {
   print_note("roscell: line " + std::to_string(number)
              + " has failed with exit code " + std::to_string(code));
 }
@@ -70,7 +70,7 @@ int run_script(std::istream& lines, const connection_options& connection,
   const auto failed = [&](int code) {
     if (code == exit_done)
       return false;
-    tell_failure(number, code);
+    print_failure(number, code);
     if (first_failure == exit_done)
       first_failure = code;
     return !keep_going;

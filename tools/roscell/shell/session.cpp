@@ -18,11 +18,12 @@ namespace roscell::cli {
 
 namespace {
 
-std::string prompt_for(const node_standing& standing, const target& where) {
-  const auto name = standing.node.empty() ? where.text() : standing.node;
-  if (!standing.is_reachable)
+std::string prompt_for(const node_connection_status& status,
+                       const target& where) {
+  const auto name = status.node.empty() ? where.text() : status.node;
+  if (!status.is_reachable)
     return printable(name) + " (lost)> ";
-  return printable(standing.cell.empty() ? name : name + "@" + standing.cell)
+  return printable(status.cell.empty() ? name : name + "@" + status.cell)
          + "> ";
 }
 
@@ -53,7 +54,7 @@ private:
     return {[this] {
               return request_.is_open()
                          ? "... "
-                         : prompt_for(events_.standing(), node_.where());
+                         : prompt_for(events_.status(), node_.where());
             },
             [this](std::string_view line) { return completed(line); },
             [this] { return events_.news_fd(); },
@@ -72,7 +73,7 @@ private:
       const auto known = events_.kinds();
       return {known.begin(), known.end()};
     }
-    if (!events_.standing().is_reachable)
+    if (!events_.status().is_reachable)
       return {};
     if (kind != "subjects")
       return names_.of(kind);
@@ -127,7 +128,7 @@ private:
   /// The terminal shows ^C or ^\ where the cursor was. Who asks a node that is
   /// lost expects it back.
   void end_command() {
-    events_.look_now();
+    events_.refresh_now();
     if (editor_.forget_interrupts())
       print("\n");
   }

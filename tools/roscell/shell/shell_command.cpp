@@ -44,8 +44,7 @@ int run_shell(const shell_options& options, bool has_command) {
 
 void add_shell_command(CLI::App& app, action& chosen) {
   auto options = std::make_shared<shell_options>();
-  auto* command = app.add_subcommand(
-      "shell", "Ask and command a cell at a prompt that knows its names.");
+  auto* command = app.add_subcommand("shell", "Interactive shell.");
   command->footer(
       "Every command works here without typing `roscell`. The shell's own "
       "words: `tree` shows\nactors, `follow` shows events while you type, "

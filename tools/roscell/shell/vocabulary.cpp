@@ -45,7 +45,7 @@ void refuse_misplaced(const std::vector<std::string>& words) {
                         "a service"};
 }
 
-std::vector<std::string> words_of(const std::string& line) {
+std::vector<std::string> arguments_of(const std::string& line) {
   auto split = split_words(line);
   if (split.open != '\0')
     throw command_error{exit_usage,
@@ -59,9 +59,9 @@ std::vector<std::string> words_of(const std::string& line) {
 } // namespace
 
 void set_up_vocabulary(CLI::App& app, action& chosen, live_shell* shell) {
-  add_tree_word(app, chosen);
-  add_follow_word(app, chosen, shell);
-  add_exit_word(app, chosen, shell);
+  add_tree_builtin(app, chosen);
+  add_follow_builtin(app, chosen, shell);
+  add_exit_builtin(app, chosen, shell);
   set_up(app, chosen);
 }
 
@@ -74,7 +74,7 @@ bool changes_shell(const std::vector<std::string>& words) {
 int run_line(const std::string& line, const connection_options& connection,
              live_shell* shell) {
   try {
-    const auto words = words_of(line);
+    const auto words = arguments_of(line);
     if (words.empty())
       return exit_done;
     refuse_misplaced(words);

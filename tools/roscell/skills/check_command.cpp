@@ -42,7 +42,7 @@ bool names_a_node(const check_options& options) {
   return !options.connection.to.empty() || std::getenv("ROSCELL_TO") != nullptr;
 }
 
-/// Says what of a skill's wishes the node does not grant. Returns whether it
+/// Says what of a skill's requests the node does not grant. Returns whether it
 /// can run any deployment all the same.
 bool check_grants(const check_options& options, const skill_descriptor& skill) {
   const auto node =
@@ -56,17 +56,17 @@ bool check_grants(const check_options& options, const skill_descriptor& skill) {
       const auto missing = granted.missing(skill.operation, option);
       can_run = can_run || missing.empty();
       for (const auto& what : missing)
-        print_text("model '" + printable(model.name) + "', deployment '"
-                   + printable(option.name) + "': "
-                   + printable(
-                       refusal_words(skill.operation, node.identity.name, what))
-                   + "\n");
+        print_text(
+            "model '" + printable(model.name) + "', deployment '"
+            + printable(option.name) + "': "
+            + printable(refusal_text(skill.operation, node.identity.name, what))
+            + "\n");
     }
   return can_run;
 }
 
 /// What a node has to be told before it runs the skill.
-void tell_wishes(const skill_descriptor& skill) {
+void print_requirements(const skill_descriptor& skill) {
   for (const auto& model : skill.models)
     for (const auto& option : model.deployments)
       for (const auto& what : skill_grants{}.missing(skill.operation, option))
@@ -91,7 +91,7 @@ int check_skill(const check_options& options) {
   constexpr size_t short_hash = 12;
   const auto skill = found.skills().front();
   if (!names_a_node(options))
-    tell_wishes(skill.descriptor);
+    print_requirements(skill.descriptor);
   else if (!check_grants(options, skill.descriptor))
     return exit_refused;
   print("nothing is wrong with skill '" + printable(skill.descriptor.operation)
@@ -104,10 +104,9 @@ int check_skill(const check_options& options) {
 
 void add_skill_check_command(CLI::App& skills, action& chosen) {
   auto options = std::make_shared<check_options>();
-  auto* command = skills.add_subcommand(
-      "check", "Say everything that keeps a node from running a skill.");
+  auto* command = skills.add_subcommand("check", "Validate a skill folder.");
   command->footer(
-      "Looks at the descriptor, and whether its program is there, can be run, "
+      "Checks the descriptor, and whether its program is there, can be run, "
       "is for the machine,\nand finds its shared libraries. Nothing is "
       "started. A node refuses such a skill when it\nstarts, and `roscell "
       "skills` shows why. With --to or $ROSCELL_TO that node is asked what it "

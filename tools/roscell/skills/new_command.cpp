@@ -77,7 +77,7 @@ int make_skill(const std::string& name) {
 void add_skill_new_command(CLI::App& skills, action& chosen) {
   auto name = std::make_shared<std::string>();
   auto* command = skills.add_subcommand(
-      "new", "Make a folder with a skill to begin with, in C++.");
+      "new", "Generate a folder with a new skill, in C++.");
   command->footer(
       "Makes a folder NAME here with a class, its descriptor, what CMake "
       "needs, "

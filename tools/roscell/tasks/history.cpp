@@ -1,7 +1,7 @@
 #include "tools/roscell/tasks/history.hpp"
 
 #include "messages/task.hpp"
-#include "tools/roscell/client/event_words.hpp"
+#include "tools/roscell/client/event_text.hpp"
 #include "tools/roscell/view/format.hpp"
 #include "tools/roscell/view/terminal.hpp"
 

@@ -12,13 +12,15 @@ void add_preemption_options(CLI::App& command, preemption_options& options) {
       "Where the task does not fit, show which instances of lower priority "
       "would have to go");
   command
-      .add_flag("--yes", options.yes,
-                "End these, once they are safe, and start them elsewhere where "
-                "there is room")
+      .add_flag(
+          "--yes", options.yes,
+          "End these, once they are stop-safe, and start them elsewhere where "
+          "there is room")
       ->needs(preempt);
-  command.add_flag("--force", options.force,
-                   "Do not wait for those that are not safe; and hosts that "
-                   "would start steps of the task alone stay off");
+  command.add_flag(
+      "--force", options.force,
+      "Do not wait for those that are not stop-safe; and hosts that "
+      "would start steps of the task alone stay off");
 }
 
 void apply(const preemption_options& options, json& request) {

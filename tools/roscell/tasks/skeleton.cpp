@@ -165,7 +165,7 @@ private:
         continue;
       lines += "    #   " + name + ": "
                + (x.value.is_null() ? "..." : x.value.dump()) + "  # "
-               + parameter_words(x)
+               + parameter_text(x)
                + (x.description.empty() ? "" : ": " + x.description) + "\n";
     }
     return lines.empty() ? "" : "    # parameters:\n" + lines;

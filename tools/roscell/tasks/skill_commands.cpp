@@ -68,7 +68,7 @@ void add_skill_show_command(CLI::App& skills, action& chosen) {
 
 void add_new_command(CLI::App& app, action& chosen) {
   auto options = std::make_shared<skeleton_options>();
-  auto* what = app.add_subcommand("new", "Print something to begin with.");
+  auto* what = app.add_subcommand("new", "Generate a template.");
   what->require_subcommand(1);
   auto* command = what->add_subcommand(
       "task", "Print a task request that does these operations one after the "

@@ -20,7 +20,8 @@ std::string port_line(const char* name, const port_description& port) {
 }
 
 /// What the node must have, and what it must grant.
-std::string wishes_of(const std::string& skill, const deployment_option& x) {
+std::string requirements_of(const std::string& skill,
+                            const deployment_option& x) {
   std::vector<std::string> words = x.devices;
   for (const auto& [name, value] : x.labels)
     words.push_back(name + "=" + value);
@@ -48,7 +49,7 @@ std::string deployments_view(const std::string& skill,
          format_bytes(r.memory_mib * bytes_per_mib),
          format_bytes(r.disk_mib * bytes_per_mib),
          r.needs_gpu() ? format_bytes(r.gpu_memory_mib * bytes_per_mib) : "",
-         wishes_of(skill, x)});
+         requirements_of(skill, x)});
   }
   return t.render(style);
 }
@@ -59,7 +60,7 @@ std::string parameter_lines(const std::string& name,
                             const declared_parameter& x,
                             const text_style& style) {
   const auto value = x.value.is_null() ? "" : ": " + x.value.dump();
-  auto lines = "  " + printable(name) + value + ", " + parameter_words(x)
+  auto lines = "  " + printable(name) + value + ", " + parameter_text(x)
                + (x.changeable ? ", changeable" : "");
   if (style.width > 0)
     lines = shortened(lines, style.width);

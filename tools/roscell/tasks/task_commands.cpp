@@ -1,6 +1,6 @@
 #include "actors/edge/io/crypto.hpp"
 #include "schemas/message_catalogue.hpp"
-#include "tools/roscell/client/event_words.hpp"
+#include "tools/roscell/client/event_text.hpp"
 #include "tools/roscell/client/node_client.hpp"
 #include "tools/roscell/commands.hpp"
 #include "tools/roscell/common_options.hpp"
@@ -91,7 +91,7 @@ int run_task(const task_options& options) {
   return exit_done;
 }
 
-/// What is not safe yet is waited for, unless a program has asked.
+/// What is not stop-safe yet is waited for, unless a program has asked.
 int stop_task(const task_options& options) {
   const node_client node{options.connection};
   const auto& task = options.subject;
@@ -101,14 +101,14 @@ int stop_task(const task_options& options) {
   };
   const auto kept = kept_events_of(node);
   auto reply = ask();
-  auto told = reply.get<task_terminated>();
-  if (!told.waiting.empty() && !options.as_json()) {
-    for (const auto& x : told.waiting)
+  auto reported = reply.get<task_terminated>();
+  if (!reported.waiting.empty() && !options.as_json()) {
+    for (const auto& x : reported.waiting)
       print_note(waiting_text(x));
     wait_until_gone(node, task, kept.empty() ? 0 : kept.back().sequence);
-    told = ask().get<task_terminated>();
+    reported = ask().get<task_terminated>();
   }
-  print(options.as_json() ? pretty(reply) : terminated_view(told));
+  print(options.as_json() ? pretty(reply) : terminated_view(reported));
   return exit_done;
 }
 
@@ -130,8 +130,8 @@ task_restart restart_of(const task_options& options) {
 }
 
 int restart(const task_options& options) {
-  const auto wish = restart_of(options);
-  const auto reply = ask_or_throw(options, wish.task, message_json(wish));
+  const auto request = restart_of(options);
+  const auto reply = ask_or_throw(options, request.task, message_json(request));
   print(options.as_json()
             ? pretty(reply)
             : restarted_view(reply.get<task_restarted>(), stdout_style()));
@@ -151,7 +151,7 @@ CLI::App* add_task_command(CLI::App& app, const char* name,
 
 void add_force_option(CLI::App& command, task_options& options) {
   command.add_flag("--force", options.force,
-                   "Do not wait for what is not safe");
+                   "Do not wait for what is not stop-safe");
 }
 
 void add_run(CLI::App& app, action& chosen) {
@@ -161,7 +161,7 @@ void add_run(CLI::App& app, action& chosen) {
       "The same file again changes nothing where the task runs, starts again "
       "what has failed\nof it, waits for what is away, and starts a task that "
       "has "
-      "ended once more as a whole.\nStandard error tells what goes on, and "
+      "ended once more as a whole.\nStandard error shows what goes on, and "
       "shows each place of the file that\nis wrong.\n\n"
       "Examples:\n  roscell run task.yaml\n"
       "  roscell new task echo | roscell run -",
@@ -186,7 +186,7 @@ void add_stop(CLI::App& app, action& chosen) {
   auto options = std::make_shared<task_options>();
   auto* command = add_task_command(
       app, "stop", "End a task and remove its instances everywhere.",
-      "What has to be safe before it ends is waited for. Ctrl-C ends the "
+      "What has to be stop-safe before it ends is waited for. Ctrl-C ends the "
       "waiting only.\n\n"
       "Examples:\n  roscell stop fleet-poses\n"
       "  roscell stop fleet-poses --force",

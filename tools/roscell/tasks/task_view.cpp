@@ -19,7 +19,7 @@ std::string placed_view(const std::vector<placed_instance>& instances,
 namespace {
 
 /// What has become of a task by the request, or was so before.
-std::string found_words(const task_accepted& task) {
+std::string found_text(const task_accepted& task) {
   switch (task.found) {
   case task_found::started:
     return " runs";
@@ -42,14 +42,14 @@ std::string found_words(const task_accepted& task) {
 } // namespace
 
 std::string accepted_view(const task_accepted& task, const text_style& style) {
-  auto text = "task " + printable(task.task) + found_words(task);
+  auto text = "task " + printable(task.task) + found_text(task);
   if (!task.optimal)
     text += ", maybe not where it would be best";
   text += "\n\n" + placed_view(task.instances, style);
   if (!task.healed.empty())
     text += "\nstarted again: " + printable(joined(task.healed, ", ")) + "\n";
   for (const auto& x : task.preempted)
-    text += "\nmade way: " + printable(x.task + "/" + x.step + " on " + x.node)
+    text += "\npreempted: " + printable(x.task + "/" + x.step + " on " + x.node)
             + "\n";
   return text;
 }
@@ -62,7 +62,7 @@ std::string restarted_view(const task_restarted& task,
 
 std::string waiting_text(const safety_wait& wait) {
   return printable("waits for '" + wait.task + "/" + wait.step + "' on "
-                   + wait.node + " to be safe");
+                   + wait.node + " to be stop-safe");
 }
 
 std::string terminated_view(const task_terminated& task) {

@@ -17,7 +17,7 @@ std::string restarted_view(const task_restarted& task, const text_style& style);
 
 std::string terminated_view(const task_terminated& task);
 
-/// "waits for 'arm/grasp' on arm-1 to be safe".
+/// "waits for 'arm/grasp' on arm-1 to be stop-safe".
 std::string waiting_text(const safety_wait& wait);
 
 /// All that somebody needs to use an operation: its models, their deployments

@@ -3,7 +3,7 @@
 #include "messages/node.hpp"
 #include "messages/task.hpp"
 #include "tools/roscell/client/change_signal.hpp"
-#include "tools/roscell/client/event_words.hpp"
+#include "tools/roscell/client/event_text.hpp"
 #include "tools/roscell/exit_code.hpp"
 #include "tools/roscell/view/format.hpp"
 #include "tools/roscell/view/terminal.hpp"
@@ -63,7 +63,7 @@ task_row look_at(const node_client& node, const std::string& task) {
 }
 
 /// "step 'camera' on arm-2: waits for node 'arm-2'".
-std::string waiting_words(const awaited_step& x) {
+std::string awaited_step_text(const awaited_step& x) {
   return "step '" + printable(x.step) + "' on " + printable(x.node) + ": "
          + printable(x.reason);
 }
@@ -106,7 +106,7 @@ void wait_until_whole(const node_client& node, const task_accepted& begun,
   const auto& task = begun.task;
   print_note("task '" + printable(task) + "' is there, but not all of it runs");
   for (const auto& x : begun.waits)
-    print_note(waiting_words(x));
+    print_note(awaited_step_text(x));
   change_signal changes{node};
   auto row = look_at(node, task);
   // A member hears little of other nodes, so the last look is at the end.

@@ -34,10 +34,10 @@ void require_terminal() {
 
 [[noreturn]] void refuse_column(const std::string& name) {
   std::vector<std::string> names;
-  std::set<std::string> told;
+  std::set<std::string> reported;
   for (const auto& x : top::all_lists({}, 0))
     for (const auto& c : x.columns)
-      if (told.insert(c.name).second)
+      if (reported.insert(c.name).second)
         names.push_back(c.name);
   throw command_error{exit_usage, "there is no column '" + name + "'",
                       "the columns are " + joined(names, ", ")};

@@ -16,7 +16,7 @@ namespace roscell::cli::top {
 namespace {
 
 /// What no event tells is asked for so often.
-constexpr std::chrono::seconds figures_pause{2};
+constexpr std::chrono::seconds metrics_pause{2};
 
 /// Many events together are drawn once.
 constexpr std::chrono::milliseconds drawing_pause{100};
@@ -39,8 +39,8 @@ void viewer::run() {
   while (!left_ && !controls_.left) {
     wait();
     follow_log();
-    if (clock::now() >= next_look_)
-      ask_for_figures();
+    if (clock::now() >= next_refresh_)
+      ask_for_metrics();
     if (changed_ && clock::now() >= drawn_ + drawing_pause)
       draw();
   }
@@ -48,8 +48,8 @@ void viewer::run() {
 
 void viewer::wait() {
   using std::chrono::milliseconds;
-  const auto due =
-      changed_ ? std::min(next_look_, drawn_ + drawing_pause) : next_look_;
+  const auto due = changed_ ? std::min(next_refresh_, drawn_ + drawing_pause)
+                            : next_refresh_;
   const auto left = std::chrono::ceil<milliseconds>(due - clock::now());
   std::array<pollfd, 3> fds{{{STDIN_FILENO, POLLIN, 0},
                              {signals_.fd(), POLLIN, 0},
@@ -104,32 +104,32 @@ void viewer::read_news() {
 }
 
 void viewer::take(events_opened x) {
-  book_.open(std::move(x.kept), view_style_now().now_unix_ms);
+  model_.open(std::move(x.kept), view_style_now().now_unix_ms);
   asker_.ask({true, true, true});
 }
 
 void viewer::take(events_lost x) {
-  book_.lose(x.why, view_style_now().now_unix_ms);
+  model_.lose(x.why, view_style_now().now_unix_ms);
 }
 
 void viewer::take(event x) {
-  asker_.ask(book_.add(std::move(x)));
+  asker_.ask(model_.add(std::move(x)));
 }
 
 void viewer::take(cell_answer x) {
-  book_.set_cell(std::move(x.asked), std::move(x.cell));
+  model_.set_cell(std::move(x.asked), std::move(x.cell));
 }
 
-void viewer::take(figures_answer x) {
-  book_.set_figures(x.instances);
+void viewer::take(metrics_answer x) {
+  model_.set_metrics(x.instances);
 }
 
 void viewer::take(skill_list x) {
-  book_.set_skills(std::move(x));
+  model_.set_skills(std::move(x));
 }
 
 void viewer::take(question_failed x) {
-  book_.miss(x.why);
+  model_.miss(x.why);
 }
 
 void viewer::take(log_line x) {
@@ -142,7 +142,7 @@ void viewer::take(log_line x) {
 
 void viewer::follow_log() {
   const auto wanted =
-      controls_.where == room::log ? controls_.subject.name : std::string{};
+      controls_.where == top_page::log ? controls_.subject.name : std::string{};
   if (wanted == (log_reader_ ? log_reader_->instance() : ""))
     return;
   log_reader_.reset();
@@ -153,18 +153,18 @@ void viewer::follow_log() {
     log_reader_ = std::make_unique<log_follower>(node_, wanted, mail_);
 }
 
-void viewer::ask_for_figures() {
-  next_look_ = clock::now() + figures_pause;
+void viewer::ask_for_metrics() {
+  next_refresh_ = clock::now() + metrics_pause;
   // Ages grow, too.
   changed_ = true;
-  if (book_.connection().live)
+  if (model_.connection().live)
     asker_.ask({true, true, false});
 }
 
 void viewer::draw() {
   const frame_style style{screen_.width(), screen_.height(), screen_.utf8(),
                           view_style_now().now_unix_ms};
-  shown_ = make_frame({book_, log_, controls_}, style);
+  shown_ = make_frame({model_, log_, controls_}, style);
   screen_.draw(shown_.lines);
   drawn_ = clock::now();
   changed_ = false;

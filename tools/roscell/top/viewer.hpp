@@ -38,26 +38,26 @@ private:
   void take(events_lost x);
   void take(event x);
   void take(cell_answer x);
-  void take(figures_answer x);
+  void take(metrics_answer x);
   void take(skill_list x);
   void take(question_failed x);
   void take(log_line x);
 
   void stop();
   void follow_log();
-  void ask_for_figures();
+  void ask_for_metrics();
   void draw();
 
   http_endpoint node_;
   terminal_signals signals_; // Before any thread.
   mailbox mail_;
-  book book_;
+  cell_model model_;
   controls controls_;
   std::vector<std::string> log_;
   frame shown_;
-  clock::time_point drawn_;     ///< When it was drawn last.
-  clock::time_point next_look_; ///< When figures are due.
-  bool changed_ = true;         ///< What is drawn is not what is known.
+  clock::time_point drawn_;        ///< When it was drawn last.
+  clock::time_point next_refresh_; ///< When metrics are due.
+  bool changed_ = true;            ///< What is drawn is not what is known.
   bool left_ = false;
   screen screen_;
   event_follower events_;

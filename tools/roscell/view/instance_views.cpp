@@ -1,7 +1,7 @@
 #include "tools/roscell/view/views.hpp"
 
 #include "tools/roscell/view/format.hpp"
-#include "tools/roscell/view/instance_words.hpp"
+#include "tools/roscell/view/instance_text.hpp"
 
 #include <sstream>
 #include <vector>
@@ -46,16 +46,16 @@ std::string instances_view(const instance_description& instances,
            {"STREAMS", align::left, only_wide}},
           {}};
   for (const auto& row : instances.instances) {
-    const auto& x = row.figures;
-    t.rows.push_back({row.spec.instance, row.spec.task, row.spec.step, row.node,
-                      state_text(row), since_text(row, style),
-                      count_text(x.frames), figure(x.rate_hz, 1, " Hz"),
-                      count_text(x.dropped), figure(x.latency_ms, 2, " ms"),
-                      figure(x.age_ms, 1, " ms"), memory_text(row),
-                      cpu_text(row), row.spec.model + "/" + row.spec.deployment,
-                      exit_text(row.exit_code), remark(row, style.now_unix_ms),
-                      x.use.pid > 0 ? std::to_string(x.use.pid) : "",
-                      streams_text(row)});
+    const auto& x = row.metrics;
+    t.rows.push_back(
+        {row.spec.instance, row.spec.task, row.spec.step, row.node,
+         state_text(row), since_text(row, style), count_text(x.frames),
+         number_with_unit(x.rate_hz, 1, " Hz"), count_text(x.dropped),
+         number_with_unit(x.latency_ms, 2, " ms"),
+         number_with_unit(x.age_ms, 1, " ms"), memory_text(row), cpu_text(row),
+         row.spec.model + "/" + row.spec.deployment, exit_text(row.exit_code),
+         remark(row, style.now_unix_ms),
+         x.use.pid > 0 ? std::to_string(x.use.pid) : "", streams_text(row)});
   }
   return or_nothing(t, "instances", style);
 }
@@ -64,7 +64,7 @@ std::string instance_view(const instance_description& instances,
                           const view_style& style) {
   auto text = instances_view(instances, style);
   for (const auto& row : instances.instances) {
-    if (const auto words = safety_words(row); !words.empty())
+    if (const auto words = safety_text(row); !words.empty())
       text += "\nmay be ended: " + words + "\n";
     if (row.restarts > 0)
       text += "\nstarted again " + std::to_string(row.restarts)

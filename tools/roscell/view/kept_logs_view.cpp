@@ -1,7 +1,7 @@
 #include "tools/roscell/view/kept_logs_view.hpp"
 
 #include "tools/roscell/view/format.hpp"
-#include "tools/roscell/view/instance_words.hpp"
+#include "tools/roscell/view/instance_text.hpp"
 
 namespace roscell::cli {
 

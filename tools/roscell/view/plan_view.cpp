@@ -152,7 +152,8 @@ std::string plan_view(const task_plan& plan, const text_style& style) {
   text += "\nscore " + score_view(plan.score) + "\n";
   text += "columns CPU to GPU MEMORY: fraction of what was free\n";
   for (const auto& x : plan.preempted)
-    text += printable("makes way: " + x.task + "/" + x.step + " on " + x.node)
+    text += printable("would be preempted: " + x.task + "/" + x.step + " on "
+                      + x.node)
             + ", priority " + std::to_string(x.priority) + "\n";
   for (const auto& warning : plan.warnings)
     text += "warning: " + printable(warning) + "\n";

@@ -14,7 +14,7 @@ constexpr std::chrono::seconds patience{1};
 
 } // namespace
 
-progress::progress(const node_client& node, event_words words)
+progress::progress(const node_client& node, event_line_function words)
     : words_{std::move(words)}, reader_{[this, &node] { read(node); }} {}
 
 progress::~progress() {
@@ -31,20 +31,20 @@ void progress::begin() {
 }
 
 void progress::read(const node_client& node) {
-  const auto tell_of = [this](const event& e) {
+  const auto print_lines_of = [this](const event& e) {
     for (const auto& line : words_(e))
-      tell(line);
+      print_line(line);
     return true;
   };
   try {
-    follow_events(node, from_now_on, tell_of, &cancel_);
+    follow_events(node, from_now_on, print_lines_of, &cancel_);
   } catch (const std::runtime_error&) {
-    // The request itself meets the same trouble and tells of it.
+    // The request itself meets the same problem and tells of it.
     return;
   }
 }
 
-void progress::tell(const std::string& line) {
+void progress::print_line(const std::string& line) {
   const std::lock_guard guard{mutex_};
   if (begun_)
     print_note(line);
@@ -53,14 +53,15 @@ void progress::tell(const std::string& line) {
 }
 
 json post_with_progress(const node_client& node, const std::string& body,
-                        std::chrono::milliseconds limit, event_words words) {
-  progress teller{node, std::move(words)};
+                        std::chrono::milliseconds limit,
+                        event_line_function words) {
+  progress reporter{node, std::move(words)};
   auto reply = std::async(std::launch::async, [&] {
     return node.post("/v1/requests", body, limit);
   });
   if (reply.wait_for(patience) == std::future_status::timeout) {
     print_note("waiting for " + node.where().text() + " ...");
-    teller.begin();
+    reporter.begin();
   }
   return reply.get();
 }

@@ -12,7 +12,8 @@
 namespace roscell::cli {
 
 /// What an event means to somebody who waits, in lines; none: nothing.
-using event_words = std::function<std::vector<std::string>(const event& e)>;
+using event_line_function =
+    std::function<std::vector<std::string>(const event& e)>;
 
 /// Tells on standard error what a node does, from the node's own events. Silent
 /// until `begin`, which then first tells what was missed.
@@ -20,7 +21,7 @@ class progress {
 public:
   /// `node` must outlive this. Never fails: without events there is just no
   /// progress to be told.
-  progress(const node_client& node, event_words words);
+  progress(const node_client& node, event_line_function words);
   ~progress();
 
   progress(const progress&) = delete;
@@ -30,9 +31,9 @@ public:
 
 private:
   void read(const node_client& node);
-  void tell(const std::string& line);
+  void print_line(const std::string& line);
 
-  event_words words_;
+  event_line_function words_;
   http_cancel cancel_;
   std::mutex mutex_;
   bool begun_ = false;
@@ -43,6 +44,7 @@ private:
 /// `node_client::post` of a request. If the reply takes longer than a second,
 /// what goes on meanwhile is told on standard error.
 json post_with_progress(const node_client& node, const std::string& body,
-                        std::chrono::milliseconds limit, event_words words);
+                        std::chrono::milliseconds limit,
+                        event_line_function words);
 
 } // namespace roscell::cli

@@ -10,9 +10,9 @@ namespace roscell::cli {
 namespace {
 
 /// "name  value" lines, the values in one column.
-class fact_list {
+class detail_list {
 public:
-  explicit fact_list(const view_style& style) : style_{style} {}
+  explicit detail_list(const view_style& style) : style_{style} {}
 
   void add(const std::string& name, const std::string& value) {
     if (value.empty())
@@ -78,9 +78,9 @@ std::string disk_writes(const node_description& node, int64_t now_unix_ms) {
 }
 
 /// "192.168.1.10:11811: nothing listens there (tried 3 times, last 4 s ago)"
-std::string join_line(const join_trouble& x, int64_t now_unix_ms) {
+std::string join_line(const join_problem& x, int64_t now_unix_ms) {
   auto text = x.address.empty() ? std::string{"any cell"} : x.address;
-  text += ": " + (x.trouble.empty() ? "no answer yet" : x.trouble);
+  text += ": " + (x.problem.empty() ? "no answer yet" : x.problem);
   text += x.attempts == 1 ? " (tried once"
                           : " (tried " + std::to_string(x.attempts) + " times";
   return text + ", last " + format_since(x.tried_unix_ms, now_unix_ms)
@@ -90,27 +90,27 @@ std::string join_line(const join_trouble& x, int64_t now_unix_ms) {
 } // namespace
 
 std::string node_view(const node_description& node, const view_style& style) {
-  fact_list facts{style};
-  facts.add("name", node.identity.name);
-  facts.add("role", node.cell.empty() ? "" : role_text(node.role));
-  facts.add("state", to_string(node.state));
-  facts.add("cell", node.cell);
-  facts.add("coordinator", node.coordinator);
+  detail_list details{style};
+  details.add("name", node.identity.name);
+  details.add("role", node.cell.empty() ? "" : role_text(node.role));
+  details.add("state", to_string(node.state));
+  details.add("cell", node.cell);
+  details.add("coordinator", node.coordinator);
   for (const auto& x : node.joining) {
-    facts.add_sentence("joining", join_line(x, style.now_unix_ms));
-    facts.add_sentence("remedy", x.hint);
+    details.add_sentence("joining", join_line(x, style.now_unix_ms));
+    details.add_sentence("remedy", x.hint);
   }
-  facts.add("address", node.identity.address);
-  facts.add("architecture", node.resources.architecture);
-  facts.add("runtime", node.runtime);
-  facts.add("limits", node.limits);
-  facts.add("version", node.version);
-  facts.add("up for", format_since(node.started_unix_ms, style.now_unix_ms));
-  facts.add("disk written", disk_writes(node, style.now_unix_ms));
-  facts.add("skills", std::to_string(node.skills.size()));
-  facts.add("instances", counted(node.instances));
-  auto text =
-      facts.text() + "\n" + resources_table(node.resources).render(style.text);
+  details.add("address", node.identity.address);
+  details.add("architecture", node.resources.architecture);
+  details.add("runtime", node.runtime);
+  details.add("limits", node.limits);
+  details.add("version", node.version);
+  details.add("up for", format_since(node.started_unix_ms, style.now_unix_ms));
+  details.add("disk written", disk_writes(node, style.now_unix_ms));
+  details.add("skills", std::to_string(node.skills.size()));
+  details.add("instances", counted(node.instances));
+  auto text = details.text() + "\n"
+              + resources_table(node.resources).render(style.text);
   if (!node.instances.empty())
     text += "\n" + instances_view({node.instances}, style);
   if (!node.actors.empty())
@@ -123,12 +123,12 @@ std::string cell_summary(const cell_description& cell,
   const auto active = std::count_if(
       cell.nodes.begin(), cell.nodes.end(),
       [](const registry_row& row) { return row.state == row_state::active; });
-  fact_list facts{style};
-  facts.add("nodes", std::to_string(active) + " of "
-                         + std::to_string(cell.nodes.size()) + " active");
-  facts.add("tasks", std::to_string(cell.tasks.size()));
-  facts.add("discovery", cell.discovery_server);
-  auto text = "\n" + facts.text();
+  detail_list details{style};
+  details.add("nodes", std::to_string(active) + " of "
+                           + std::to_string(cell.nodes.size()) + " active");
+  details.add("tasks", std::to_string(cell.tasks.size()));
+  details.add("discovery", cell.discovery_server);
+  auto text = "\n" + details.text();
   if (!cell.tasks.empty())
     text += "\n" + tasks_view({cell.tasks}, style);
   return text;

@@ -87,9 +87,9 @@ constexpr size_t least_width = 8;
 constexpr int empty_rank = only_wide;
 
 /// @param heading columns of its name, where that is shown.
-column_wish wish_of(const column& what, size_t i, size_t heading,
-                    const std::vector<cells>& lines) {
-  column_wish result;
+column_request column_request_of(const column& what, size_t i, size_t heading,
+                                 const std::vector<cells>& lines) {
+  column_request result;
   result.natural = heading;
   bool empty = true;
   for (const auto& line : lines) {
@@ -144,12 +144,12 @@ std::string left_out(const table& t, const std::vector<size_t>& widths) {
 
 std::vector<size_t> widths_of(const table& t, const std::vector<cells>& lines,
                               const text_style& style) {
-  std::vector<column_wish> wishes;
+  std::vector<column_request> requests;
   for (size_t i = 0; i < t.columns.size(); ++i)
-    wishes.push_back(wish_of(
+    requests.push_back(column_request_of(
         t.columns[i], i,
         style.tables.headings ? display_width(t.columns[i].name) : 0, lines));
-  return fitted(wishes, style.width == 0 ? SIZE_MAX / 2 : style.width);
+  return fitted(requests, style.width == 0 ? SIZE_MAX / 2 : style.width);
 }
 
 } // namespace

@@ -1,7 +1,7 @@
 #include "tools/roscell/view/views.hpp"
 
 #include "tools/roscell/view/format.hpp"
-#include "tools/roscell/view/instance_words.hpp"
+#include "tools/roscell/view/instance_text.hpp"
 
 #include <algorithm>
 #include <set>
@@ -32,13 +32,13 @@ std::string running_text(const std::vector<instance_row>& rows,
   return result;
 }
 
-/// For what the steps of a task wait: "arm/grasp waits to be safe, 12 s".
+/// For what the steps of a task wait: "arm/grasp waits to be stop-safe, 12 s".
 std::string waits_of(const task_row& task, const view_style& style) {
   std::vector<std::string> words;
   for (const auto& row : task.instances) {
     const auto name = row.spec.task + "/" + row.spec.step;
     if (row.unsafe_since_unix_ms != 0 && !is_unknown(row))
-      words.push_back(name + " " + unsafe_text(row, style.now_unix_ms));
+      words.push_back(name + " " + not_stop_safe_text(row, style.now_unix_ms));
     else if (!row.waits.empty())
       words.push_back(
           name + " " + row.waits
@@ -56,7 +56,7 @@ std::string step_remark(const instance_row& row, int64_t now_unix_ms) {
 
 /// What the steps of a task say that run and do not do well: "rectify: 118
 /// frames in, none out". What is wrong with others follows from the state.
-std::string words_of_running(const task_row& task, const view_style& style) {
+std::string text_of_running(const task_row& task, const view_style& style) {
   std::vector<std::string> words;
   for (const auto& row : task.instances)
     if (row.state == instance_state::running && !is_unknown(row)
@@ -79,7 +79,7 @@ std::string tasks_view(const task_description& tasks, const view_style& style) {
   bool any_words = false;
   for (const auto& row : tasks.tasks) {
     const auto waits = waits_of(row, style);
-    const auto words = words_of_running(row, style);
+    const auto words = text_of_running(row, style);
     any_words = any_words || !words.empty();
     any_ended = any_ended || row.ended_unix_ms > 0;
     any_waits = any_waits || !waits.empty();
@@ -117,14 +117,15 @@ std::string task_view(const task_description& tasks, const view_style& style) {
   bool any_remark = false;
   for (const auto& task : tasks.tasks)
     for (const auto& row : task.instances) {
-      const auto& x = row.figures;
+      const auto& x = row.metrics;
       const auto words = step_remark(row, style.now_unix_ms);
       oldest_ms = std::max(oldest_ms, x.age_ms);
       any_remark = any_remark || !words.empty();
       t.rows.push_back({row.spec.step, row.node, state_text(row),
-                        figure(x.rate_hz, 1, " Hz"), count_text(x.dropped),
-                        figure(x.latency_ms, 2, " ms"),
-                        figure(x.age_ms, 1, " ms"), words});
+                        number_with_unit(x.rate_hz, 1, " Hz"),
+                        count_text(x.dropped),
+                        number_with_unit(x.latency_ms, 2, " ms"),
+                        number_with_unit(x.age_ms, 1, " ms"), words});
     }
   // The cells of a row are cut to the number of columns.
   if (any_remark)

@@ -1,7 +1,7 @@
 #include "tools/roscell/view/views.hpp"
 
 #include "tools/roscell/view/format.hpp"
-#include "tools/roscell/view/instance_words.hpp"
+#include "tools/roscell/view/instance_text.hpp"
 
 #include <algorithm>
 #include <set>
@@ -45,12 +45,12 @@ std::string reason_of(const registry_row& row) {
 }
 
 /// What is wrong with a cell, as its coordinator or the others tell.
-std::string trouble_of(const cell_row& row, const cell_list& cells) {
+std::string problem_of_cell(const cell_row& row, const cell_list& cells) {
   const auto claims = std::count_if(
       cells.cells.begin(), cells.cells.end(),
       [&](const cell_row& other) { return other.cell == row.cell; });
-  if (!row.trouble.empty() || claims < 2)
-    return row.trouble;
+  if (!row.problem.empty() || claims < 2)
+    return row.problem;
   return std::to_string(claims) + " coordinators claim this name";
 }
 
@@ -60,8 +60,8 @@ std::string variable_of(const cell_row& row, const char* name) {
 }
 
 /// A node that is in no cell has no row, so little is known of it.
-std::vector<std::string> free_row(const free_node& node,
-                                  const view_style& style) {
+std::vector<std::string> unassigned_row(const unassigned_node& node,
+                                        const view_style& style) {
   std::vector<std::string> words;
   if (node.silent_since_unix_ms != 0)
     words.push_back("missed "
@@ -99,19 +99,19 @@ std::string cells_view(const cell_list& cells, const view_style& style) {
            {"ROS_DISCOVERY_SERVER", align::left, 3, true},
            {"ROS_DOMAIN_ID", align::right, 3}},
           {}};
-  bool troubled = false;
+  bool has_problem = false;
   for (const auto& row : cells.cells) {
-    const auto trouble = trouble_of(row, cells);
-    troubled = troubled || !trouble.empty();
+    const auto problem = problem_of_cell(row, cells);
+    has_problem = has_problem || !problem.empty();
     // A coordinator counts itself, so nobody has told a size of 0.
     t.rows.push_back({row.cell, row.coordinator,
                       row.size == 0 ? "" : std::to_string(row.size),
                       row.address, row.discovery_server,
                       variable_of(row, "ROS_DISCOVERY_SERVER"),
-                      variable_of(row, "ROS_DOMAIN_ID"), trouble});
+                      variable_of(row, "ROS_DOMAIN_ID"), problem});
   }
   // The cells of a row are cut to the number of columns.
-  if (troubled)
+  if (has_problem)
     t.columns.push_back({"TROUBLE", align::left, 1});
   return or_nothing(t, "cells", style);
 }
@@ -143,7 +143,7 @@ std::string members_view(const cell_description& cell,
                       reason_of(row), listed(r.labels), joined(r.devices)});
   }
   for (const auto& node : cell.free)
-    t.rows.push_back(free_row(node, style));
+    t.rows.push_back(unassigned_row(node, style));
   return or_nothing(t, "nodes", style);
 }
 

@@ -63,7 +63,7 @@ bool discovery_guard::let_out(std::uint8_t* message, std::size_t size) {
   leave_out(message, size, [this](const auto& to, const auto& who) {
     std::lock_guard<std::mutex> lock{table_mutex_};
     return lives_.is_another_server(to)
-           && table_.was_told_by(server_lives::id_of(to), who);
+           && table_.was_reported_by(server_lives::id_of(to), who);
   });
   if (!lives_.let_out(message, size))
     return false;
@@ -111,10 +111,10 @@ std::int64_t discovery_guard::note(const guid_prefix& from,
       continue;
     if (x.who != from) {
       if (is_server)
-        table_.told_by(server_lives::id_of(from), x.who);
+        table_.reported_by(server_lives::id_of(from), x.who);
       continue;
     }
-    table_.told_itself(from);
+    table_.reported_itself(from);
     // Each life of a server is another participant already.
     if (!is_server)
       raised_by = speakers_.hear(from, std::chrono::steady_clock::now());
@@ -143,7 +143,7 @@ void discovery_guard::forget(std::uint8_t id) {
   std::vector<guid_prefix> dead;
   {
     std::lock_guard<std::mutex> lock{table_mutex_};
-    dead = table_.told_by(id);
+    dead = table_.reported_by(id);
   }
   const auto server = end_life(id);
   dead.insert(dead.end(), server.begin(), server.end());

@@ -13,9 +13,9 @@ introducer::introducer(udp_socket socket)
   // nop
 }
 
-void introducer::set_words(std::vector<std::uint8_t> words) {
+void introducer::set_announcement(std::vector<std::uint8_t> words) {
   std::lock_guard<std::mutex> lock{mutex_};
-  words_ = std::move(words);
+  announcement_ = std::move(words);
 }
 
 void introducer::seek(const sockaddr_in& server,
@@ -42,7 +42,7 @@ void introducer::on_ring() {
   // Somebody may have asked for another time meanwhile.
   if (!seeks_ || dds_thread::clock::now() < due_)
     return;
-  sendto(socket_.fd(), words_.data(), words_.size(), MSG_NOSIGNAL,
+  sendto(socket_.fd(), announcement_.data(), announcement_.size(), MSG_NOSIGNAL,
          reinterpret_cast<const sockaddr*>(&server_), sizeof(server_));
   pause_ = std::clamp(2 * pause_, first_pause, longest_pause);
   await();

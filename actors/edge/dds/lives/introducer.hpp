@@ -28,7 +28,7 @@ public:
   introducer& operator=(const introducer&) = delete;
 
   /// The message that introduces. Without one nothing is sent.
-  void set_words(std::vector<std::uint8_t> words);
+  void set_announcement(std::vector<std::uint8_t> words);
 
   /// Until `rest`, beginning after that time.
   void seek(const sockaddr_in& server, std::chrono::milliseconds after);
@@ -43,7 +43,7 @@ private:
 
   const udp_socket socket_;
   std::mutex mutex_; // Guards what follows.
-  std::vector<std::uint8_t> words_;
+  std::vector<std::uint8_t> announcement_;
   bool seeks_ = false;
   std::chrono::milliseconds pause_ = first_pause;
   dds_thread::clock::time_point due_{};

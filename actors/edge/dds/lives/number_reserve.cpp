@@ -31,8 +31,8 @@ bool is_sane(std::int64_t sequences, std::int64_t counts) {
 
 number_reserve::number_reserve(
     std::filesystem::path file,
-    std::function<void(const std::string&)> on_trouble, former_lives before)
-    : file_(std::move(file)), on_trouble_(std::move(on_trouble)) {
+    std::function<void(const std::string&)> on_problem, former_lives before)
+    : file_(std::move(file)), on_problem_(std::move(on_problem)) {
   read(before);
 }
 
@@ -89,8 +89,8 @@ void number_reserve::write() {
   const auto why =
       write_lasting(file_, std::to_string(sequences_end_) + ' '
                                + std::to_string(counts_end_) + '\n');
-  if (!why.empty() && on_trouble_)
-    on_trouble_(why);
+  if (!why.empty() && on_problem_)
+    on_problem_(why);
 }
 
 } // namespace roscell

@@ -34,11 +34,11 @@ public:
   };
 
   /// As after this file, in which a later one will look; empty: there is none,
-  /// and each life begins at 1. `on_trouble` gets, on any thread, why the file
+  /// and each life begins at 1. `on_problem` gets, on any thread, why the file
   /// cannot be written.
   explicit number_reserve(
       std::filesystem::path file = {},
-      std::function<void(const std::string&)> on_trouble = {},
+      std::function<void(const std::string&)> on_problem = {},
       former_lives before = former_lives::many);
 
   /// A server begins: its sequence numbers are above the result.
@@ -55,7 +55,7 @@ private:
   void write();
 
   const std::filesystem::path file_;
-  const std::function<void(const std::string&)> on_trouble_;
+  const std::function<void(const std::string&)> on_problem_;
   std::mutex mutex_;                           // Guards what is written.
   std::atomic<std::int64_t> sequences_end_{0}; // Set aside up to here.
   std::atomic<std::int64_t> counts_end_{0};

@@ -24,10 +24,10 @@ public:
   static constexpr std::size_t most = 4096;
 
   /// Server `id` has told of it.
-  void told_by(std::uint8_t id, const guid_prefix& who);
+  void reported_by(std::uint8_t id, const guid_prefix& who);
 
   /// It has told of itself, so that nobody else is needed to know it.
-  void told_itself(const guid_prefix& who);
+  void reported_itself(const guid_prefix& who);
 
   /// It is known.
   void appeared(const guid_prefix& who);
@@ -42,18 +42,18 @@ public:
   std::vector<guid_prefix> doubted(std::uint8_t id) const;
 
   /// All that server `id` has told of.
-  std::vector<guid_prefix> told_by(std::uint8_t id) const;
+  std::vector<guid_prefix> reported_by(std::uint8_t id) const;
 
   /// Whether that participant is known by what server `id` has told.
-  bool was_told_by(std::uint8_t id, const guid_prefix& who) const;
+  bool was_reported_by(std::uint8_t id, const guid_prefix& who) const;
 
 private:
-  struct teller {
+  struct reporter {
     std::uint8_t id = 0;
     bool doubted = false;
   };
 
-  std::map<guid_prefix, teller> told_;
+  std::map<guid_prefix, reporter> reported_;
   std::set<guid_prefix> selves_; // Known by what they tell themselves.
 };
 

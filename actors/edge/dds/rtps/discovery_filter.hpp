@@ -8,10 +8,10 @@
 /// INTERNAL to this folder.
 namespace roscell {
 
-/// Whether Fast DDS 2.9.1 can be given a datagram that a stranger sent to a
-/// participant without topics. Left to itself it trusts lengths inside
-/// discovery data, and asserts, throws or reads beyond the end when they lie:
-/// one datagram ends the process.
+/// Whether Fast DDS 2.9.1 can be given a datagram that an unauthenticated peer
+/// sent to a participant without topics. Left to itself it trusts lengths
+/// inside discovery data, and asserts, throws or reads beyond the end when they
+/// lie: one datagram ends the process.
 ///
 /// True for RTPS 2 messages of well-formed ACKNACK, HEARTBEAT, GAP, INFO_DST,
 /// INFO_TS, PAD and DATA of the discovery writers, as all Fast DDS versions

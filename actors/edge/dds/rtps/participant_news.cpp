@@ -49,8 +49,8 @@ std::string counted_bytes(wire_cursor in) {
 }
 
 /// Of the participant whose parameter list is there.
-own_words words_in(wire_cursor in) {
-  own_words result;
+own_announcement words_in(wire_cursor in) {
+  own_announcement result;
   for_each_parameter(in, [&result](std::uint16_t id, const wire_cursor& value) {
     if (id == parameter_id::user_data)
       result.announcement = counted_bytes(value);
@@ -185,9 +185,10 @@ std::optional<guid_prefix> introduced_to(std::uint8_t* message,
   return result;
 }
 
-std::optional<own_words> own_words_in(std::uint8_t* message, std::size_t size) {
+std::optional<own_announcement> own_announcement_in(std::uint8_t* message,
+                                                    std::size_t size) {
   const auto sender = probe_answer(message, size);
-  std::optional<own_words> result;
+  std::optional<own_announcement> result;
   if (!sender)
     return result;
   for_each_submessage(message, size, [&](const submessage_view& x) {

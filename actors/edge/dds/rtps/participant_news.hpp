@@ -34,14 +34,15 @@ std::optional<guid_prefix> introduced_to(std::uint8_t* message,
 bool introduces_itself(std::uint8_t* message, std::size_t size);
 
 /// What a participant tells of itself.
-struct own_words {
+struct own_announcement {
   std::string name;         ///< Of the participant; may be empty.
   std::string announcement; ///< Its USER_DATA; may be empty.
 };
 
 /// The first thing that the sender of a message tells of itself in it, none if
 /// that is nothing. Any bytes will do.
-std::optional<own_words> own_words_in(std::uint8_t* message, std::size_t size);
+std::optional<own_announcement> own_announcement_in(std::uint8_t* message,
+                                                    std::size_t size);
 
 /// Raises the numbers of what the sender tells of itself, but not of its end.
 void raise_own_news(std::uint8_t* message, std::size_t size, std::int64_t by);

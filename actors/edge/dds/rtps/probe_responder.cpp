@@ -19,7 +19,7 @@ bool probe_responder::take(std::uint8_t* message, std::size_t size,
   if (!sender)
     return false;
   std::lock_guard<std::mutex> lock{mutex_};
-  const auto said = own_words_in(message, size);
+  const auto said = own_announcement_in(message, size);
   if (!said || said->name != probe_name)
     return asked_.count(*sender) != 0;
   if (reply_.empty())

@@ -36,7 +36,8 @@ udp_question question_for(const sockaddr_in& server) {
     const auto prefix = probe_answer(datagram, size);
     if (!prefix || from.sin_addr.s_addr != server.sin_addr.s_addr)
       return std::nullopt;
-    return server_id_of(*prefix) ? port_answer::found : port_answer::stranger;
+    return server_id_of(*prefix) ? port_answer::found
+                                 : port_answer::unauthenticated_peer;
   };
   result.farewell = [asked] { return farewells(asked); };
   return result;

@@ -12,9 +12,10 @@
 namespace roscell {
 
 /// Asks a UDP port, as discovery_probe.hpp says, whether a discovery server
-/// listens there: `found`, or `stranger` if its GUID prefix is none of the
-/// well-known ones. `done` is called once, on the io thread, within `limit`;
-/// not at all once the io thread has been told to stop. From any thread.
+/// listens there: `found`, or `unauthenticated_peer` if its GUID prefix is none
+/// of the well-known ones. `done` is called once, on the io thread, within
+/// `limit`; not at all once the io thread has been told to stop. From any
+/// thread.
 void ask_discovery_port(const std::shared_ptr<io_core>& core,
                         const std::string& local_address,
                         const socket_address& server,

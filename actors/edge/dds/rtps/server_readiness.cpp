@@ -83,7 +83,8 @@ server_readiness::hear(clock::time_point deadline) {
       return std::nullopt;
     const auto size = recv(socket_->fd(), datagram.data(), datagram.size(), 0);
     if (size <= 0
-        || !own_words_in(datagram.data(), static_cast<std::size_t>(size)))
+        || !own_announcement_in(datagram.data(),
+                                static_cast<std::size_t>(size)))
       continue;
     datagram.resize(static_cast<std::size_t>(size));
     address_to_anybody(datagram);

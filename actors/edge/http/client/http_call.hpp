@@ -1,9 +1,9 @@
 #pragma once
 
+#include "actors/core/limits.hpp"
 #include "actors/edge/http/http_types.hpp"
 #include "actors/edge/io/edge_error.hpp"
 #include "actors/edge/io/io_thread.hpp"
-#include "actors/house/limits.hpp"
 
 #include <chrono>
 #include <cstddef>

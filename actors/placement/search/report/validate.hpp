@@ -9,7 +9,7 @@
 
 namespace roscell::allocation {
 
-/// Largest CPU, memory or disk figure taken: an exbibyte in MiB. Beyond it,
+/// Largest CPU, memory or disk number taken: an exbibyte in MiB. Beyond it,
 /// the tolerance of a fit would drown in rounding.
 constexpr double max_amount = 1e12;
 

@@ -49,10 +49,10 @@ public:
       : space_(space), now_(std::move(start)), total_(total), until_(until),
         scratch_(space.empty), moved_(now_.size(), false) {}
 
-  std::vector<step_move> run(const move_wish& wish) {
+  std::vector<step_move> run(const move_request& request) {
     std::vector<step_move> result;
-    const auto least = wish.min_gain * std::abs(total_);
-    while (result.size() < wish.most) {
+    const auto least = request.min_gain * std::abs(total_);
+    while (result.size() < request.most) {
       const auto best = best_move();
       if (!best || best->gain < least)
         break;
@@ -135,7 +135,7 @@ std::vector<std::size_t> misplaced(const problem& asked,
 }
 
 move_list better_moves(const problem& asked, const std::vector<seat>& now,
-                       const move_wish& wish, const limits& bounds) {
+                       const move_request& request, const limits& bounds) {
   move_list result;
   watch until(bounds);
   occupancy empty(asked);
@@ -151,7 +151,7 @@ move_list better_moves(const problem& asked, const std::vector<seat>& now,
   }
   descent search(space, start, value->total, until);
   result.before = *value;
-  result.moves = search.run(wish);
+  result.moves = search.run(request);
   result.after = search.value();
   bound_below(asked, bounds, result);
   return result;

@@ -36,7 +36,7 @@ struct move_list {
 };
 
 /// Which moves are worth making.
-struct move_wish {
+struct move_request {
   double min_gain = 0; ///< Of each one, as a part of the total at the start.
   std::size_t most = 0;
 };
@@ -52,6 +52,6 @@ std::vector<std::size_t> misplaced(const problem& asked,
 /// stay. `asked` does not count the steps' own room as in use, and no step is
 /// misplaced; the steps fit as they are.
 move_list better_moves(const problem& asked, const std::vector<seat>& now,
-                       const move_wish& wish, const limits& bounds = {});
+                       const move_request& request, const limits& bounds = {});
 
 } // namespace roscell::allocation

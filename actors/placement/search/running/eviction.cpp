@@ -1,7 +1,7 @@
 #include "actors/placement/search/running/eviction.hpp"
 
 #include "actors/placement/search/candidates.hpp"
-#include "actors/placement/search/running/room_maker.hpp"
+#include "actors/placement/search/running/preemption_search.hpp"
 #include "actors/placement/search/watch.hpp"
 
 #include <algorithm>
@@ -206,9 +206,9 @@ private:
   std::vector<rejected_candidate> rejected_;
   candidate_set found_;
   watch until_;
-  std::vector<room_maker> makers_; ///< Per node.
-  std::vector<amounts> demand_;    ///< The same, of the steps placed so far.
-  std::vector<price> price_;       ///< The same, of these.
+  std::vector<preemption_search> makers_; ///< Per node.
+  std::vector<amounts> demand_; ///< The same, of the steps placed so far.
+  std::vector<price> price_;    ///< The same, of these.
   std::vector<std::size_t> steps_on_;
   std::vector<std::size_t> order_;  ///< Of the steps.
   std::vector<price> least_;        ///< Alone, in that order.

@@ -1,5 +1,5 @@
 #include "actors/cell/moves/move_table.hpp"
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -96,7 +96,8 @@ TEST_CASE("Whatever is waited for has a deadline, and says what it is",
   x.enter(id, 0, move_stage::ordered, noon());
   x.enter(id, 0, move_stage::ending, noon() + 1s);
   CHECK(x.deadline_of(id, 0) == noon() + limits::task::eviction);
-  CHECK(x.waits_on("left") == "'t/a' on node 'left' to be safe and to end");
+  CHECK(x.waits_on("left")
+        == "'t/a' on node 'left' to be stop-safe and to end");
   CHECK(x.waits_on("right").empty());
   x.enter(id, 0, move_stage::starting, noon());
   CHECK(x.deadline_of(id, 0) == noon() + limits::task::deployment);

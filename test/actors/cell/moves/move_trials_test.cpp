@@ -1,4 +1,4 @@
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 #include "test/actors/fakes/trial_node.hpp"
 
 #include <cstdlib>
@@ -18,7 +18,7 @@ constexpr unsigned move_seeds = 250;
 
 class move_trial {
 public:
-  move_trial(uint32_t seed, bool tells) : site_(cell_, seed, tells) {
+  move_trial(uint32_t seed, bool reports) : site_(cell_, seed, reports) {
     cell_.base.has.cpu.used = 4;
     const auto count = 2 + pick(3);
     for (uint32_t i = 0; i < count; ++i)

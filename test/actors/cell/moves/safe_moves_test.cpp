@@ -1,8 +1,8 @@
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 #include "test/actors/fakes/careful_cell.hpp"
 
-/// A step that has to be safe ends before its successor starts, and nothing
-/// else ends for it.
+/// A step that has to be stop-safe ends before its successor starts, and
+/// nothing else ends for it.
 namespace roscell::test {
 
 namespace {
@@ -25,12 +25,12 @@ json release_left(const char* instances) {
 } // namespace
 
 TEST_CASE_METHOD(mixed_cell,
-                 "A drain lets nothing end for a step that has to be safe",
+                 "A drain lets nothing end for a step that has to be stop-safe",
                  "[moves]") {
   run_on_left(echo_task("a", {echo_step("s0", 1), grasp_step("s1")}));
   const auto safe = on(left, "s1");
   const auto plain = on(left, "s0");
-  left.unsafe.insert(safe);
+  left.not_stop_safe.insert(safe);
   right.mood = temper::slow;
   request(drain_left);
   SECTION("the new ones of others run before the old ones end") {
@@ -46,7 +46,7 @@ TEST_CASE_METHOD(mixed_cell,
     // Only now is the other one asked to go.
     CHECK(left.running.count(safe) == 1);
     CHECK(on(right, "s1").empty());
-    left.become_safe(safe);
+    left.become_stop_safe(safe);
     time.settle();
     CHECK(on(right, "s1") != "");
     CHECK(task_of("a").at("state") == "running");
@@ -57,7 +57,7 @@ TEST_CASE_METHOD(mixed_cell,
     right.finish_starting();
     time.settle();
     right.mood = temper::broken;
-    left.become_safe(safe);
+    left.become_stop_safe(safe);
     time.settle();
     const auto task = task_of("a");
     CHECK(task.at("instances")[0].at("state") == "running");
@@ -72,7 +72,7 @@ TEST_CASE_METHOD(mixed_cell, "A step that finished while it moved is over",
   run_on_left(echo_task("a", {grasp_step("s0"), grasp_step("s1")}));
   const auto first = on(left, "s0");
   const auto second = on(left, "s1");
-  left.unsafe.insert(second);
+  left.not_stop_safe.insert(second);
   SECTION("while the places were looked for") {
     right.slow_reports = true;
     request(drain_left);
@@ -92,7 +92,7 @@ TEST_CASE_METHOD(mixed_cell, "A step that finished while it moved is over",
     finish_writes();
     time.settle();
   }
-  left.become_safe(second);
+  left.become_stop_safe(second);
   time.advance(1min);
   CHECK(on(right, "s0").empty());
   CHECK(on(right, "s1") != "");
@@ -109,12 +109,12 @@ TEST_CASE_METHOD(mixed_cell,
       echo_task("a", {grasp_step("s0", "left"), echo_step("s1", 1, "right")}));
   REQUIRE(right.starting.size() == 1);
   const auto safe = on(left, "s0");
-  left.unsafe.insert(safe);
+  left.not_stop_safe.insert(safe);
   right.fail_starting("no camera");
   time.settle();
   const auto reply = post(release_left("terminate"));
   CHECK(reply_of(reply) == nullptr);
-  left.become_safe(safe);
+  left.become_stop_safe(safe);
   time.settle();
   CHECK(reply_of(reply).at("type") == "node_released");
 }
@@ -123,7 +123,7 @@ TEST_CASE_METHOD(mixed_cell, "A node that is to leave stays if that takes long",
                  "[moves]") {
   run_on_left(echo_task("a", {grasp_step("s0")}));
   const auto safe = on(left, "s0");
-  left.unsafe.insert(safe);
+  left.not_stop_safe.insert(safe);
   const auto* way = GENERATE("terminate", "reschedule");
   const auto reply = post(release_left(way));
   time.advance(limits::transfer::preparing - 1s);
@@ -143,16 +143,16 @@ TEST_CASE_METHOD(mixed_cell,
   const auto reply = post(
       echo_task("a", {grasp_step("s0", "left"), echo_step("s1", 1, "right")}));
   REQUIRE(right.starting.size() == 1);
-  left.unsafe.insert(on(left, "s0"));
+  left.not_stop_safe.insert(on(left, "s0"));
   right.fail_starting("no camera");
   time.settle();
   const auto answer = reply_of(reply);
   CHECK(error_of(answer) == "engine_failed");
   CHECK(answer.at("error").at("message").get<std::string>().find("no camera")
         != std::string::npos);
-  // It is gone once the other one is safe.
+  // It is gone once the other one is stop-safe.
   CHECK(tasks().size() == 1);
-  left.become_safe(on(left, "s0"));
+  left.become_stop_safe(on(left, "s0"));
   time.settle();
   CHECK(tasks().empty());
 }
@@ -161,12 +161,12 @@ TEST_CASE_METHOD(mixed_cell, "A wait that is told after the end is none",
                  "[moves]") {
   run_on_left(echo_task("a", {grasp_step("s0")}));
   const auto safe = on(left, "s0");
-  left.unsafe.insert(safe);
+  left.not_stop_safe.insert(safe);
   left.slow_removals = true;
   const auto reply = post(termination("a"));
   auto row = left.running.at(safe);
   row.state = instance_state::stopped;
-  left.tell(row);
+  left.report_row(row);
   time.settle();
   left.slow_removals = false;
   left.finish_removals();

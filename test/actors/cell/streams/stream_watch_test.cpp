@@ -21,13 +21,13 @@ struct watched_pair {
     writer.spec.instance = writer.spec.step = "camera";
     writer.node = "belt";
     writer.spec.output = {watched_topic};
-    writer.figures.streams = {count("output:0", 500)};
-    writer.figures.streams[0].steady_s = 12;
+    writer.metrics.streams = {count("output:0", 500)};
+    writer.metrics.streams[0].steady_s = 12;
     reader.spec.instance = reader.spec.step = "poses";
     reader.node = "arm";
     reader.spec.input = {watched_topic};
-    reader.figures.streams = {count("input:0", 100)};
-    reader.figures.streams[0].quiet_s = 14.5;
+    reader.metrics.streams = {count("input:0", 100)};
+    reader.metrics.streams[0].quiet_s = 14.5;
   }
 
   static stream_count count(const std::string& end, int64_t frames) {
@@ -37,8 +37,8 @@ struct watched_pair {
     return result;
   }
 
-  names judge(const std::set<std::string>& told = {"arm", "belt"}) {
-    return watch.judge({&writer, &reader}, told);
+  names judge(const std::set<std::string>& reported = {"arm", "belt"}) {
+    return watch.judge({&writer, &reader}, reported);
   }
 
   bool is_starved() const {
@@ -63,7 +63,7 @@ TEST_CASE_METHOD(watched_pair, "a reader that gets nothing of what its writer "
   // It is said once.
   CHECK(judge().empty());
   SECTION("until it gets something") {
-    reader.figures.streams[0].quiet_s = 0;
+    reader.metrics.streams[0].quiet_s = 0;
     CHECK(judge() == names{"poses"});
     CHECK_FALSE(is_starved());
   }
@@ -77,7 +77,7 @@ TEST_CASE_METHOD(watched_pair, "a reader that gets nothing of what its writer "
     CHECK_FALSE(is_starved());
   }
   SECTION("or its writer sends no more") {
-    writer.figures.streams[0].steady_s = -1;
+    writer.metrics.streams[0].steady_s = -1;
     CHECK(judge() == names{"poses"});
   }
 }
@@ -92,7 +92,7 @@ TEST_CASE_METHOD(watched_pair, "a topic is one whichever tasks its ends are "
 }
 
 TEST_CASE_METHOD(watched_pair, "a reader that never had a frame is told so") {
-  reader.figures.streams[0].frames = 0;
+  reader.metrics.streams[0].frames = 0;
   judge();
   REQUIRE(is_starved());
   CHECK_THAT(*watch.reason_of("poses"), Contains("has had no frame at all"));
@@ -100,16 +100,16 @@ TEST_CASE_METHOD(watched_pair, "a reader that never had a frame is told so") {
 
 TEST_CASE_METHOD(watched_pair, "a reader is not starved before it is certain") {
   SECTION("it has not been quiet for long") {
-    reader.figures.streams[0].quiet_s = 9;
+    reader.metrics.streams[0].quiet_s = 9;
   }
   SECTION("its writer has not sent for long") {
-    writer.figures.streams[0].steady_s = 9;
+    writer.metrics.streams[0].steady_s = 9;
   }
   SECTION("its skill tells nothing of its streams") {
-    reader.figures.streams.clear();
+    reader.metrics.streams.clear();
   }
   SECTION("its writer's skill does not") {
-    writer.figures.streams.clear();
+    writer.metrics.streams.clear();
   }
   SECTION("its writer does not run") {
     writer.state = instance_state::starting;
@@ -122,7 +122,7 @@ TEST_CASE_METHOD(watched_pair, "a reader is not starved before it is certain") {
   }
   SECTION("it reads what it writes itself") {
     reader.spec.output = {watched_topic};
-    reader.figures.streams.push_back(writer.figures.streams[0]);
+    reader.metrics.streams.push_back(writer.metrics.streams[0]);
     writer.spec.output.clear();
   }
   SECTION("it reads a file") {
@@ -138,14 +138,14 @@ TEST_CASE_METHOD(watched_pair, "what a node has not told is judged as before") {
     CHECK(judge({"belt"}).empty());
     CHECK_FALSE(is_starved());
     judge();
-    reader.figures = {};
+    reader.metrics = {};
     CHECK(judge({"belt"}).empty());
     CHECK(is_starved());
   }
   SECTION("of its writer") {
     CHECK(judge({"arm"}).empty());
     judge();
-    writer.figures = {};
+    writer.metrics = {};
     CHECK(judge({"arm"}).empty());
     CHECK(is_starved());
   }
@@ -154,7 +154,7 @@ TEST_CASE_METHOD(watched_pair, "what a node has not told is judged as before") {
 TEST_CASE_METHOD(watched_pair, "one of several writers is enough") {
   auto other = writer;
   other.spec.instance = other.spec.step = "camera-2";
-  other.figures.streams[0].steady_s = -1;
+  other.metrics.streams[0].steady_s = -1;
   watch.judge({&other, &writer, &reader}, {"arm", "belt"});
   CHECK(is_starved());
 }
@@ -164,11 +164,11 @@ TEST_CASE_METHOD(watched_pair, "a writer that nobody hears of hides no other "
   auto away = writer;
   away.spec.instance = away.spec.step = "camera-2";
   away.node = "away";
-  away.figures = {};
+  away.metrics = {};
   watch.judge({&away, &writer, &reader}, {"arm", "belt"});
   CHECK(is_starved());
   // Who gets something is not starved, whoever else may write.
-  reader.figures.streams[0].quiet_s = 0;
+  reader.metrics.streams[0].quiet_s = 0;
   watch.judge({&away, &writer, &reader}, {"arm", "belt"});
   CHECK_FALSE(is_starved());
 }

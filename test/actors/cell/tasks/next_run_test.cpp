@@ -22,7 +22,7 @@ struct job_cell : paper_cell {
     for (auto& [instance, row] : base.running) {
       row.state = code == 0 ? instance_state::stopped : instance_state::failed;
       row.exit_code = code;
-      base.tell(row);
+      base.report_row(row);
     }
     time.settle();
   }

@@ -1,7 +1,7 @@
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 #include "test/actors/fakes/careful_cell.hpp"
 
-/// What runs makes way for tasks of higher priority, if somebody says so.
+/// What runs is preempted for tasks of higher priority, if somebody says so.
 namespace roscell::test {
 
 namespace {
@@ -82,7 +82,7 @@ TEST_CASE_METHOD(full_cell, "What goes ends, and its task knows why",
   const auto low_task = of_task("low");
   CHECK(low_task.at("state") == "failed");
   CHECK(low_task.at("instances")[0].at("reason")
-        == "it makes way for task 'high'");
+        == "it is preempted by task 'high'");
   CHECK(count("instance_preempted") == 1);
   CHECK(count("step_stranded") == 1);
   SECTION("and starts again when it is asked for and there is room") {
@@ -102,19 +102,20 @@ TEST_CASE_METHOD(full_cell,
                  "What goes is started elsewhere where there is room",
                  "[preempt]") {
   right.has.cpu.used = 0;
-  auto wish = high("yes");
-  wish["pipeline"][0]["labels"] = {{"node", "left"}};
+  auto asked = high("yes");
+  asked["pipeline"][0]["labels"] = {{"node", "left"}};
   left.has.labels["node"] = "left";
-  REQUIRE(request(wish).at("type") == "task_accepted");
+  REQUIRE(request(asked).at("type") == "task_accepted");
   time.settle();
   CHECK(of_task("low").at("state") == "running");
   CHECK(of_task("low").at("instances")[0].at("node") == "right");
   CHECK(count("instance_moved") == 1);
 }
 
-TEST_CASE_METHOD(full_cell, "What has to be safe is waited for", "[preempt]") {
+TEST_CASE_METHOD(full_cell, "What has to be stop-safe is waited for",
+                 "[preempt]") {
   const auto instance = low_instance();
-  left.unsafe.insert(instance);
+  left.not_stop_safe.insert(instance);
   const auto reply = post(high("yes"));
   time.advance(60s);
   REQUIRE(reply_of(reply) == nullptr);
@@ -124,7 +125,7 @@ TEST_CASE_METHOD(full_cell, "What has to be safe is waited for", "[preempt]") {
     right.has.cpu.used = 0;
     CHECK(request(echo_task("other", {echo_step("s0", 1)})).at("type")
           == "task_accepted");
-    left.become_safe(instance);
+    left.become_stop_safe(instance);
     time.settle();
     CHECK(reply_of(reply).at("type") == "task_accepted");
   }
@@ -132,14 +133,14 @@ TEST_CASE_METHOD(full_cell, "What has to be safe is waited for", "[preempt]") {
     time.advance(limits::task::eviction);
     CHECK(error_of(reply_of(reply)) == "timeout");
     CHECK(of_task("low").at("state") == "running");
-    left.become_safe(instance);
+    left.become_stop_safe(instance);
     time.settle();
     CHECK(of_task("low").at("state") == "running");
     CHECK(left.deployments.size() == 2);
   }
   SECTION("or until nobody wants the task any more") {
     request(termination("high"));
-    left.become_safe(instance);
+    left.become_stop_safe(instance);
     time.settle();
     CHECK(of_task("low").at("state") == "running");
     CHECK(left.running.size() == 1);
@@ -147,10 +148,10 @@ TEST_CASE_METHOD(full_cell, "What has to be safe is waited for", "[preempt]") {
 }
 
 TEST_CASE_METHOD(full_cell, "Force waits for nothing", "[preempt]") {
-  left.unsafe.insert(low_instance());
-  auto wish = high("yes");
-  wish["force"] = true;
-  CHECK(request(wish).at("type") == "task_accepted");
+  left.not_stop_safe.insert(low_instance());
+  auto asked = high("yes");
+  asked["force"] = true;
+  CHECK(request(asked).at("type") == "task_accepted");
 }
 
 TEST_CASE_METHOD(full_cell,
@@ -158,11 +159,11 @@ TEST_CASE_METHOD(full_cell,
                  "[preempt]") {
   SECTION("because its step breaks") {
     const auto instance = low_instance();
-    left.unsafe.insert(instance);
+    left.not_stop_safe.insert(instance);
     const auto reply = post(high("yes"));
     time.settle();
     left.mood = temper::broken;
-    left.become_safe(instance);
+    left.become_stop_safe(instance);
     time.settle();
     CHECK(error_of(reply_of(reply)) == "engine_failed");
     CHECK(of_task("low").at("state") == "failed");
@@ -181,7 +182,7 @@ TEST_CASE_METHOD(full_cell,
 TEST_CASE_METHOD(full_cell,
                  "What may run on is not taken for gone, nor started elsewhere",
                  "[preempt]") {
-  left.unsafe.insert(low_instance());
+  left.not_stop_safe.insert(low_instance());
   const auto reply = post(high("yes"));
   time.settle();
   right.has.cpu.used = 0;
@@ -218,12 +219,13 @@ struct again_cell : paper_cell {
   }
 };
 
-TEST_CASE_METHOD(full_cell,
-                 "What was told to make way has not finished, though the "
-                 "coordinator began anew",
-                 "[preempt]") {
+TEST_CASE_METHOD(
+    full_cell,
+    "What was told to end for another task has not finished, though the "
+    "coordinator began anew",
+    "[preempt]") {
   const auto instance = low_instance();
-  left.unsafe.insert(instance);
+  left.not_stop_safe.insert(instance);
   post(high("yes"));
   time.advance(1s);
   left.running.at(instance).unsafe_since_unix_ms = 1;
@@ -236,26 +238,27 @@ TEST_CASE_METHOD(full_cell,
   row.state = instance_state::stopped;
   row.exit_code = 0;
   SECTION("there is room again") {
-    after.left.tell(row);
+    after.left.report_row(row);
     after.time.advance(1min);
     CHECK(after.low().at("state") == "running");
     CHECK(after.left.running.size() == 1);
   }
   SECTION("there is none") {
     after.left.has.cpu.used = 4;
-    after.left.tell(row);
+    after.left.report_row(row);
     after.time.advance(10min);
     CHECK(after.low().at("state") == "failed");
     CHECK(after.low().at("instances")[0].at("reason")
-          == "it makes way for task 'high'");
+          == "it is preempted by task 'high'");
     CHECK(after.count("step_stranded") == 1);
   }
   CHECK(after.count("task_finished") == 0);
 }
 
-TEST_CASE_METHOD(full_cell,
-                 "What made way comes back, though the coordinator began anew",
-                 "[preempt]") {
+TEST_CASE_METHOD(
+    full_cell,
+    "What was preempted comes back, though the coordinator began anew",
+    "[preempt]") {
   left.mood = temper::slow;
   post(high("yes"));
   time.settle();

@@ -1,24 +1,24 @@
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 #include "test/actors/fakes/careful_cell.hpp"
 
 /// A restart that cannot be finished, since a node is away or a step is not
-/// safe in time: what of it stands.
+/// stop-safe in time: what of it stands.
 namespace roscell::test {
 
 namespace {
 
-/// Step "s0" of task "a" is on "left" and is not safe; "s1" is on "right".
+/// Step "s0" of task "a" is on "left" and is not stop-safe; "s1" is on "right".
 struct stuck_restart : careful_cell {
-  std::string unsafe;
+  std::string not_stop_safe;
   std::string other;
 
   void begin(json step_on_right) {
     REQUIRE(request(echo_task("a", {grasp_step("s0", "left"), step_on_right}))
                 .at("type")
             == "task_accepted");
-    unsafe = on(left, "s0");
+    not_stop_safe = on(left, "s0");
     other = on(right, "s1");
-    left.unsafe.insert(unsafe);
+    left.not_stop_safe.insert(not_stop_safe);
     right.slow_removals = true;
     post({{"type", "task_restart"}, {"task", "a"}});
     time.settle();
@@ -52,7 +52,7 @@ TEST_CASE_METHOD(
   REQUIRE(enter(right));
   time.advance(limits::task::eviction + 1s);
   CHECK(state_of_s1() == "running");
-  // That of the other one stands: it is still asked to be safe.
+  // That of the other one stands: it is still asked to be stop-safe.
   CHECK(orders_on_disk() == 1);
   finish(right, other);
   CHECK(state_of_s1() == "stopped");
@@ -124,9 +124,9 @@ TEST_CASE("What runs though its task knows that it has ended is ended",
                instance_state::stopped);
   const bool is_live =
       left.running.at(instance).state != instance_state::stopped;
-  const auto told = after.enter(left);
-  REQUIRE(told);
-  CHECK((told->verdicts.at(0).what == verdict::stop) == is_live);
+  const auto reported = after.enter(left);
+  REQUIRE(reported);
+  CHECK((reported->verdicts.at(0).what == verdict::stop) == is_live);
 }
 
 } // namespace roscell::test

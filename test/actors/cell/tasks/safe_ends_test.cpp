@@ -1,18 +1,18 @@
 #include "test/actors/fakes/coordinator_fakes.hpp"
 
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 
-/// What is not safe is waited for, wherever it is to end.
+/// What is not stop-safe is waited for, wherever it is to end.
 namespace roscell::test {
 
 namespace {
 
-struct unsafe_cell : paper_cell {
+struct not_stop_safe_cell : paper_cell {
   fake_agent& left = make_agent("left");
   fake_agent& right = make_agent("right");
   std::string instance;
 
-  unsafe_cell() {
+  not_stop_safe_cell() {
     for (auto* x : {&left, &right}) {
       x->skills = {grasp_skill()};
       REQUIRE(enter(*x));
@@ -24,13 +24,13 @@ struct unsafe_cell : paper_cell {
     REQUIRE(request(echo_task("a", {step})).at("type") == "task_accepted");
     right.has.cpu.used = 0;
     instance = left.running.begin()->first;
-    left.unsafe.insert(instance);
+    left.not_stop_safe.insert(instance);
   }
 };
 
 } // namespace
 
-TEST_CASE_METHOD(unsafe_cell,
+TEST_CASE_METHOD(not_stop_safe_cell,
                  "A termination tells at once what it waits for, and goes on",
                  "[safe]") {
   const auto reply = request(termination("a"));
@@ -45,13 +45,13 @@ TEST_CASE_METHOD(unsafe_cell,
   CHECK(request(termination("a")).at("waiting").size() == 1);
   time.advance(20min);
   CHECK(left.running.size() == 1);
-  left.become_safe(instance);
+  left.become_stop_safe(instance);
   time.settle();
   CHECK(tasks().empty());
   CHECK(count("task_terminated") == 1);
 }
 
-TEST_CASE_METHOD(unsafe_cell, "Force does not wait", "[safe]") {
+TEST_CASE_METHOD(not_stop_safe_cell, "Force does not wait", "[safe]") {
   SECTION("from the beginning") {
     CHECK(request(termination("a", true)).count("waiting") == 0);
   }
@@ -64,7 +64,7 @@ TEST_CASE_METHOD(unsafe_cell, "Force does not wait", "[safe]") {
   CHECK(count("task_terminated") == 1);
 }
 
-TEST_CASE_METHOD(unsafe_cell,
+TEST_CASE_METHOD(not_stop_safe_cell,
                  "A node that is lost while it is waited for ends it later",
                  "[safe]") {
   request(termination("a"));
@@ -75,9 +75,10 @@ TEST_CASE_METHOD(unsafe_cell,
   CHECK(reply->verdicts.at(0).what == verdict::stop);
 }
 
-TEST_CASE_METHOD(unsafe_cell,
-                 "A step that has to be safe ends before its successor starts",
-                 "[safe]") {
+TEST_CASE_METHOD(
+    not_stop_safe_cell,
+    "A step that has to be stop-safe ends before its successor starts",
+    "[safe]") {
   const auto reply = post({{"type", "node_release"},
                            {"node", "left"},
                            {"instances", "reschedule"}});
@@ -85,7 +86,7 @@ TEST_CASE_METHOD(unsafe_cell,
   CHECK(right.running.empty());
   CHECK(left.running.size() == 1);
   CHECK(reply_of(reply) == nullptr);
-  left.become_safe(instance);
+  left.become_stop_safe(instance);
   time.settle();
   CHECK(right.running.size() == 1);
   CHECK(reply_of(reply).at("type") == "node_released");
@@ -93,7 +94,7 @@ TEST_CASE_METHOD(unsafe_cell,
   CHECK(tasks()[0].at("state") == "running");
 }
 
-TEST_CASE_METHOD(unsafe_cell,
+TEST_CASE_METHOD(not_stop_safe_cell,
                  "What may run on is not started elsewhere when its node goes",
                  "[safe]") {
   const auto reply = post({{"type", "node_drain"}, {"node", "left"}});
@@ -108,12 +109,12 @@ TEST_CASE_METHOD(unsafe_cell,
 }
 
 TEST_CASE_METHOD(
-    unsafe_cell,
+    not_stop_safe_cell,
     "What has told its end goes on elsewhere, though its node left", "[safe]") {
   post({{"type", "node_drain"}, {"node", "left"}});
   time.settle();
   left.slow_removals = true;
-  left.become_safe(instance);
+  left.become_stop_safe(instance);
   time.settle();
   depart(left);
   time.advance(limits::task::removal_answer + 1s);
@@ -122,13 +123,13 @@ TEST_CASE_METHOD(
   CHECK(count("task_finished") == 0);
 }
 
-TEST_CASE_METHOD(unsafe_cell,
+TEST_CASE_METHOD(not_stop_safe_cell,
                  "What was ended to run elsewhere and does not has failed",
                  "[safe]") {
   right.mood = temper::broken;
   post({{"type", "node_drain"}, {"node", "left"}});
   time.settle();
-  left.become_safe(instance);
+  left.become_stop_safe(instance);
   time.settle();
   CHECK(tasks()[0].at("state") == "failed");
   const auto reason =
@@ -136,10 +137,10 @@ TEST_CASE_METHOD(unsafe_cell,
   CHECK(reason.find("it was ended to run elsewhere: ") == 0);
 }
 
-TEST_CASE_METHOD(unsafe_cell,
+TEST_CASE_METHOD(not_stop_safe_cell,
                  "What was ended and does not start again has failed",
                  "[safe]") {
-  left.unsafe.clear();
+  left.not_stop_safe.clear();
   left.mood = temper::broken;
   CHECK(error_of(request({{"type", "task_restart"}, {"task", "a"}}))
         == "engine_failed");
@@ -149,7 +150,7 @@ TEST_CASE_METHOD(unsafe_cell,
   CHECK(reason.find("it was ended to be started again: ") == 0);
 }
 
-TEST_CASE_METHOD(unsafe_cell,
+TEST_CASE_METHOD(not_stop_safe_cell,
                  "A node is not let go before its tasks have really ended",
                  "[safe]") {
   const auto reply = post(
@@ -157,17 +158,17 @@ TEST_CASE_METHOD(unsafe_cell,
   time.advance(60s);
   CHECK(reply_of(reply) == nullptr);
   CHECK(left.orders.empty());
-  left.become_safe(instance);
+  left.become_stop_safe(instance);
   time.settle();
   CHECK(left.orders.size() == 1);
 }
 
-TEST_CASE_METHOD(unsafe_cell, "A restart waits, too", "[safe]") {
+TEST_CASE_METHOD(not_stop_safe_cell, "A restart waits, too", "[safe]") {
   const auto reply = post({{"type", "task_restart"}, {"task", "a"}});
   time.advance(60s);
   CHECK(reply_of(reply) == nullptr);
   CHECK(left.deployments.size() == 1);
-  left.become_safe(instance);
+  left.become_stop_safe(instance);
   time.settle();
   CHECK(reply_of(reply).at("type") == "task_restarted");
   CHECK(left.deployments.size() == 2);

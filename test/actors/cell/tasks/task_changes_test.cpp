@@ -1,6 +1,6 @@
 #include "test/actors/fakes/coordinator_fakes.hpp"
 
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 
 #include "test/words.hpp"
 
@@ -168,7 +168,7 @@ TEST_CASE_METHOD(two_arms, "An end that was not stored is stored later",
   auto row = left.running.begin()->second;
   row.state = instance_state::stopped;
   row.exit_code = 0;
-  left.tell(row);
+  left.report_row(row);
   time.settle();
   CHECK(count("task_finished") == 0);
   disk_full = false;

@@ -1,6 +1,6 @@
 #include "test/actors/fakes/coordinator_fakes.hpp"
 
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 
 /// How tasks end by themselves, and what is remembered of it.
 namespace roscell::test {
@@ -22,7 +22,7 @@ struct one_arm : paper_cell {
     row.state = code == 0 ? instance_state::stopped : instance_state::failed;
     row.exit_code = code;
     row.since_unix_ms = 1234;
-    x.tell(row);
+    x.report_row(row);
   }
 
   json accept(const std::string& task, const std::vector<json>& steps) {
@@ -190,16 +190,16 @@ TEST_CASE_METHOD(one_arm, "A node's word changes its own instances only",
   row.state = instance_state::failed;
   row.exit_code = 1;
   // With the other node's name, and with its own.
-  leg.tell(row);
+  leg.report_row(row);
   row.node = "leg";
-  leg.tell(row);
+  leg.report_row(row);
   time.settle();
   CHECK(task("t").at("state") == "running");
   CHECK(task("t").at("instances")[0].at("state") == "running");
   CHECK(task("t").at("instances")[0].at("node") == "arm");
   row.state = instance_state::stopped;
   row.spec.task = "another";
-  leg.tell(row);
+  leg.report_row(row);
   time.settle();
   CHECK(this->row("arm").instances.size() == 1);
 }

@@ -35,8 +35,8 @@ TEST_CASE_METHOD(moving_cell, "A move has room kept where it goes",
                  "[task_move]") {
   request(release());
   size_t kept = 0;
-  for (const auto& wish : right.reservations)
-    kept += wish.specs.size();
+  for (const auto& asked : right.reservations)
+    kept += asked.specs.size();
   CHECK(kept == 2);
 }
 

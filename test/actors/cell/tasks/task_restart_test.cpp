@@ -30,7 +30,7 @@ struct restarting_cell : paper_cell {
     auto& row = x.running.at(only_instance(x));
     row.state = code == 0 ? instance_state::stopped : instance_state::failed;
     row.exit_code = code;
-    x.tell(row);
+    x.report_row(row);
     time.settle();
   }
 

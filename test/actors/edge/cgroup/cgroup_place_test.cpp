@@ -37,10 +37,10 @@ struct fake_unified {
   own_folder folder;
 };
 
-std::vector<std::string> folders_in(const cgroup_wish& wish,
+std::vector<std::string> folders_in(const cgroup_request& request,
                                     const cgroup_sight& sight) {
   std::vector<std::string> result;
-  for (const auto& alternative : places_to_try(wish, sight))
+  for (const auto& alternative : places_to_try(request, sight))
     for (const auto& x : alternative)
       result.push_back(x.folder.string());
   return result;

@@ -1,6 +1,6 @@
+#include "actors/core/limits.hpp"
 #include "actors/edge/dds/announcement.hpp"
 #include "actors/edge/session/session_frames.hpp"
-#include "actors/house/limits.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -82,7 +82,8 @@ TEST_CASE("an announcement of another version can be read to refuse it",
   CHECK(x->role.empty());
 }
 
-TEST_CASE("the USER_DATA of strangers is no announcement", "[announcement]") {
+TEST_CASE("the USER_DATA of unauthenticated peers is no announcement",
+          "[announcement]") {
   for (const char* bytes : {"",
                             "enclave=/;",
                             "roscell",

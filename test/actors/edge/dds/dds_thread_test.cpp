@@ -147,9 +147,9 @@ TEST_CASE("a timer may be asked again, or ended, by what it calls",
   timer = thread->make_timer([&] {
     if (++rings < 3)
       return timer->call_at(dds_thread::clock::now() + 1ms);
-    auto* const told = &over;
+    auto* const reported = &over;
     timer.reset();
-    told->set_value();
+    reported->set_value();
   });
   timer->call_at(dds_thread::clock::now());
   REQUIRE(over.get_future().wait_for(20s) == std::future_status::ready);

@@ -1,5 +1,5 @@
+#include "actors/core/limits.hpp"
 #include "actors/edge/dds/presence_table.hpp"
-#include "actors/house/limits.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -46,14 +46,14 @@ TEST_CASE("One participant is one announcement, whatever it says",
 TEST_CASE("More participants than a bound are not listened to",
           "[presence_table]") {
   presence_table table;
-  for (std::size_t i = 0; i < limits::strangers::participants; ++i)
+  for (std::size_t i = 0; i < limits::unauthenticated_peers::participants; ++i)
     CHECK(table.remember(prefix(i), coordinator(std::to_string(i)), start)
               .newcomer);
   const auto late =
       table.remember(prefix(5000), coordinator("late"), start + 1h);
   CHECK_FALSE(late.newcomer);
   CHECK(late.changes.empty());
-  CHECK(table.size() == limits::strangers::participants);
+  CHECK(table.size() == limits::unauthenticated_peers::participants);
   CHECK(table.forget(prefix(0), start + 1h).size() == 1);
   CHECK(table.remember(prefix(5000), coordinator("late"), start + 1h).newcomer);
 }

@@ -1,6 +1,6 @@
+#include "actors/core/limits.hpp"
 #include "actors/edge/dds/public_presence.hpp"
 #include "actors/edge/dds/site_survey.hpp"
-#include "actors/house/limits.hpp"
 #include "discovery_fixture.hpp"
 
 #include <algorithm>
@@ -153,16 +153,18 @@ TEST_CASE("participants that announce nothing of ours are not seen",
                            writing_presence_to(seen));
   auto foreign = at_home({});
   foreign.announcement = "enclave=/;";
-  auto stranger = must_open(foreign);
+  auto unauthenticated_peer = must_open(foreign);
   foreign.announcement = "roscell=1.0;role=independent";
   auto damaged = must_open(foreign);
   auto known = must_open(at_home(saying("independent", "known")));
   REQUIRE(seen.wait_for("+independent known 0"));
-  // What was a stranger can become one of us, and the reverse is ignored.
-  CHECK_FALSE(stranger->update(encode(saying("independent", "convert"))));
+  // What was an unauthenticated peer can become one of us, and the reverse is
+  // ignored.
+  CHECK_FALSE(
+      unauthenticated_peer->update(encode(saying("independent", "convert"))));
   REQUIRE(seen.wait_for("+independent convert 0"));
-  CHECK_FALSE(stranger->update("enclave=/;"));
-  stranger.reset();
+  CHECK_FALSE(unauthenticated_peer->update("enclave=/;"));
+  unauthenticated_peer.reset();
   REQUIRE(seen.wait_for("-independent convert 0"));
   CHECK(seen.entries().size() == 3);
 }

@@ -117,7 +117,7 @@ TEST_CASE(
   own_folder folder;
   folder.write("a", "1");
   folder.write("b/c", "2");
-  const auto look = [&] { return value_of(look_at_folder(folder.path())); };
+  const auto look = [&] { return value_of(read_folder(folder.path())); };
   const auto before = look();
   CHECK(before.changed_unix_ms > 1'600'000'000'000);
   CHECK(look().state == before.state);

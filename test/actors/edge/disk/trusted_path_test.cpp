@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr uid_t stranger = 4711;
+constexpr uid_t unauthenticated_peer = 4711;
 
 void set_mode(const fs::path& path, mode_t mode) {
   REQUIRE(::chmod(path.c_str(), mode) == 0);
@@ -23,7 +23,8 @@ void set_mode(const fs::path& path, mode_t mode) {
 
 /// Only root can give files away.
 bool give_away(const fs::path& path) {
-  return ::lchown(path.c_str(), stranger, stranger) == 0;
+  return ::lchown(path.c_str(), unauthenticated_peer, unauthenticated_peer)
+         == 0;
 }
 
 fs::path make_folder(const fs::path& path, mode_t mode = 0755) {

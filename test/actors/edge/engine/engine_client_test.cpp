@@ -1,8 +1,8 @@
+#include "actors/core/limits.hpp"
 #include "actors/edge/engine/engine_client.hpp"
 #include "actors/edge/engine/engine_search.hpp"
-#include "actors/edge/engine/engine_words.hpp"
+#include "actors/edge/engine/engine_text.hpp"
 #include "actors/edge/http/http_target.hpp"
-#include "actors/house/limits.hpp"
 #include "test/actors/edge/io/edge_fixture.hpp"
 #include "test/fake_engine.hpp"
 

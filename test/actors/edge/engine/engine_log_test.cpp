@@ -1,5 +1,5 @@
+#include "actors/core/limits.hpp"
 #include "actors/edge/engine/engine_log.hpp"
-#include "actors/house/limits.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -124,9 +124,9 @@ TEST_CASE("a part of a log tells when its lines were logged, if asked") {
   log_collector silent{{origin, 0, false}};
   silent.take(bytes);
   CHECK(silent.part().times_unix_ms.empty());
-  log_collector telling{{origin, 0, false, true}};
-  telling.take(bytes);
-  const auto first = telling.part().times_unix_ms;
+  log_collector annotating{{origin, 0, false, true}};
+  annotating.take(bytes);
+  const auto first = annotating.part().times_unix_ms;
   REQUIRE(first.size() == 2);
   CHECK(first[1] == first[0] + 20);
 }

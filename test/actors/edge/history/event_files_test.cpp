@@ -1,6 +1,6 @@
+#include "actors/core/limits.hpp"
 #include "actors/edge/history/event_files.hpp"
 #include "actors/edge/history/event_lines.hpp"
-#include "actors/house/limits.hpp"
 #include "test/actors/edge/process/supervision_fixture.hpp"
 
 #include <chrono>

@@ -227,12 +227,12 @@ TEST_CASE("300 silent connections keep nobody out who speaks") {
   const auto closed =
       std::count_if(crowd.begin(), crowd.end(),
                     [](raw_client& client) { return client.is_closed(); });
-  CHECK(closed >= 300 - static_cast<int>(limits.strangers));
+  CHECK(closed >= 300 - static_cast<int>(limits.unauthenticated_peers));
 }
 
-TEST_CASE("the stranger that was silent for longest makes room") {
+TEST_CASE("the unauthenticated peer that was silent for longest makes room") {
   http_limits limits;
-  limits.strangers = 2;
+  limits.unauthenticated_peers = 2;
   http_fixture node{limits};
   raw_client first{node.server->port()};
   first.send("GET /healthz HTTP/1.1\r\n\r\n");
@@ -247,7 +247,8 @@ TEST_CASE("the stranger that was silent for longest makes room") {
   CHECK_FALSE(first.is_closed());
 }
 
-TEST_CASE("strangers may post little to a public path, others much") {
+TEST_CASE(
+    "unauthenticated peers may post little to a public path, others much") {
   http_fixture node;
   const auto post = [](const std::string& more, size_t size) {
     return "POST /healthz HTTP/1.1\r\n" + more + "Connection: close\r\n"
@@ -266,9 +267,10 @@ TEST_CASE("strangers may post little to a public path, others much") {
   }
 }
 
-TEST_CASE("who posts to a public path stays a stranger with bounded bodies") {
+TEST_CASE("who posts to a public path stays an unauthenticated peer with "
+          "bounded bodies") {
   http_limits limits;
-  limits.strangers = 1;
+  limits.unauthenticated_peers = 1;
   limits.public_body_bytes = 8;
   http_fixture node{limits};
   const auto post = [](const std::string& path, const std::string& body) {
@@ -294,19 +296,20 @@ TEST_CASE("who posts to a public path stays a stranger with bounded bodies") {
   CHECK(node.requests.size() == 0);
 }
 
-TEST_CASE("a client that showed its token is no stranger any more") {
+TEST_CASE(
+    "a client that showed its token is no unauthenticated peer any more") {
   http_limits limits;
-  limits.strangers = 1;
+  limits.unauthenticated_peers = 1;
   limits.trusted = 1;
   http_fixture node{limits};
   raw_client trusted{node.server->port()};
   trusted.send(get("/echo"));
   trusted.read_until("tcp ");
-  raw_client stranger{node.server->port()};
-  stranger.send("GET /healthz HTTP/1.1\r\n\r\n");
-  stranger.read_until("tcp ");
+  raw_client unauthenticated_peer{node.server->port()};
+  unauthenticated_peer.send("GET /healthz HTTP/1.1\r\n\r\n");
+  unauthenticated_peer.read_until("tcp ");
   raw_client other{node.server->port()};
-  CHECK(stranger.read_to_end().empty());
+  CHECK(unauthenticated_peer.read_to_end().empty());
   other.send(get("/echo"));
   CHECK(starts_with(other.read_to_end(), "HTTP/1.1 503 "));
   trusted.send(get("/echo"));
@@ -432,7 +435,7 @@ TEST_CASE("a shortage of descriptors is waited out") {
     const no_descriptors shortage;
     REQUIRE(::connect(fd, reinterpret_cast<sockaddr*>(&address), size) == 0);
     CHECK(node.log.take().find("cannot take connections") != std::string::npos);
-    // A stranger is given up for whoever comes.
+    // An unauthenticated peer is given up for whoever comes.
     CHECK(silent.read_to_end().empty());
   }
   const auto request = get("/echo");

@@ -155,5 +155,5 @@ TEST_CASE("of many hosts those that resolve are given, with their ports") {
       await_hosts({"10.0.0.1", "localhost:7410", "nobody.invalid"}, patience);
   CHECK(found.addresses
         == std::vector<std::string>{"10.0.0.1", "127.0.0.1:7410"});
-  CHECK(found.trouble.find("'nobody.invalid'") != std::string::npos);
+  CHECK(found.problem.find("'nobody.invalid'") != std::string::npos);
 }

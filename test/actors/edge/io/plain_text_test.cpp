@@ -1,6 +1,6 @@
 #include "actors/edge/io/plain_text.hpp"
 
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 
 #include <catch2/catch.hpp>
 

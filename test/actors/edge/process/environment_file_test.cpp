@@ -42,12 +42,12 @@ TEST_CASE("a program that listens is told variables, again and again") {
   CHECK(path == folder.path() / "notify.environment");
   make_environment_file(path);
   const auto listener = listen_to(path);
-  CHECK(tell_environment(path, place));
+  CHECK(write_environment_update(path, place));
   CHECK(heard_by(listener)
         == R"({"ROS_DISCOVERY_SERVER":"10.0.0.9:11811"})"
            "\n");
-  CHECK(tell_environment(path, {{"A", "b"}}));
-  CHECK(tell_environment(path, {{"A", "c"}}));
+  CHECK(write_environment_update(path, {{"A", "b"}}));
+  CHECK(write_environment_update(path, {{"A", "c"}}));
   CHECK(heard_by(listener) == "{\"A\":\"b\"}\n{\"A\":\"c\"}\n");
 }
 
@@ -56,31 +56,32 @@ TEST_CASE("nobody waits for a program that listens and does not read") {
   const auto path = environment_file_of(folder.path() / "notify");
   make_environment_file(path);
   const auto listener = listen_to(path);
-  CHECK_FALSE(tell_environment(path, {{"A", std::string(5000, 'a')}}));
+  CHECK_FALSE(write_environment_update(path, {{"A", std::string(5000, 'a')}}));
   CHECK(heard_by(listener).empty());
-  size_t told = 0;
-  while (told < 1000 && tell_environment(path, {{"A", std::string(4000, 'a')}}))
-    ++told;
-  CHECK(told > 0);
-  CHECK(told < 1000);
+  size_t reported = 0;
+  while (reported < 1000
+         && write_environment_update(path, {{"A", std::string(4000, 'a')}}))
+    ++reported;
+  CHECK(reported > 0);
+  CHECK(reported < 1000);
 }
 
 TEST_CASE("what a program has put in the place of its file is left alone") {
   own_folder folder;
   const auto path = environment_file_of(folder.path() / "notify");
   std::ofstream{path} << "mine";
-  CHECK_FALSE(tell_environment(path, place));
+  CHECK_FALSE(write_environment_update(path, place));
   CHECK(read_small_file(path, 10) == "mine");
 }
 
 TEST_CASE("a program that does not listen is told nothing, and that is known") {
   own_folder folder;
   const auto path = environment_file_of(folder.path() / "notify");
-  CHECK_FALSE(tell_environment(path, place));
+  CHECK_FALSE(write_environment_update(path, place));
   make_environment_file(path);
-  CHECK_FALSE(tell_environment(path, place));
+  CHECK_FALSE(write_environment_update(path, place));
   listen_to(path); // Which has ended.
-  CHECK_FALSE(tell_environment(path, place));
+  CHECK_FALSE(write_environment_update(path, place));
 }
 
 TEST_CASE("each start of a program has a file of its own") {
@@ -89,7 +90,7 @@ TEST_CASE("each start of a program has a file of its own") {
   make_environment_file(path);
   const auto former = listen_to(path);
   make_environment_file(path);
-  CHECK_FALSE(tell_environment(path, place));
+  CHECK_FALSE(write_environment_update(path, place));
   CHECK(std::filesystem::status(path).permissions()
         == (std::filesystem::perms::owner_read
             | std::filesystem::perms::owner_write));

@@ -53,16 +53,16 @@ TEST_CASE("a program tells whether it may be ended") {
 }
 
 TEST_CASE("a program tells what its data streams do") {
-  const auto told = parse_notification(
+  const auto reported = parse_notification(
       "ROSCELL_STREAMS=input:0 12.500 0.040;input:15 0 -;output:1 2 7.25");
-  REQUIRE(told.streams.size() == 3);
-  CHECK(told.streams[0].end == "input:0");
-  CHECK(told.streams[0].rate_hz == Approx(12.5));
-  CHECK(told.streams[0].age_s == Approx(0.04));
-  CHECK(told.streams[1].end == "input:15");
-  CHECK(told.streams[1].age_s < 0);
-  CHECK(told.streams[2].end == "output:1");
-  CHECK(told.streams[2].age_s == Approx(7.25));
+  REQUIRE(reported.streams.size() == 3);
+  CHECK(reported.streams[0].end == "input:0");
+  CHECK(reported.streams[0].rate_hz == Approx(12.5));
+  CHECK(reported.streams[0].age_s == Approx(0.04));
+  CHECK(reported.streams[1].end == "input:15");
+  CHECK(reported.streams[1].age_s < 0);
+  CHECK(reported.streams[2].end == "output:1");
+  CHECK(reported.streams[2].age_s == Approx(7.25));
 }
 
 TEST_CASE("of a line about streams that is broken nothing is believed") {
@@ -79,28 +79,28 @@ TEST_CASE("of a line about streams that is broken nothing is believed") {
               .streams.empty());
   }
   std::string many = "ROSCELL_STREAMS=";
-  for (size_t i = 0; i < max_told_streams; ++i)
+  for (size_t i = 0; i < max_reported_streams; ++i)
     many += good + ";";
-  CHECK(parse_notification(many).streams.size() == max_told_streams);
+  CHECK(parse_notification(many).streams.size() == max_reported_streams);
   CHECK(parse_notification(many + good).streams.empty());
 }
 
 TEST_CASE("a program tells what has gone through its streams") {
-  const auto told = parse_notification(
+  const auto reported = parse_notification(
       "ROSCELL_FRAMES=input:0 118 115 3 2 850;input:1 9 0 9 0 0;output:0 115\n"
       "ROSCELL_REMARK=118 frames in, none out: \x01 why");
-  REQUIRE(told.frames.size() == 3);
-  CHECK(told.frames[0].end == "input:0");
-  CHECK(told.frames[0].frames == 118);
-  CHECK(told.frames[0].processed == 115);
-  CHECK(told.frames[0].failed == 3);
-  CHECK(told.frames[0].dropped == 2);
-  CHECK(told.frames[0].latency_ms == Approx(0.85));
-  CHECK(told.frames[1].latency_ms < 0);
-  CHECK(told.frames[2].end == "output:0");
-  CHECK(told.frames[2].frames == 115);
-  CHECK(told.frames[2].processed < 0);
-  CHECK(told.remark == "118 frames in, none out:   why");
+  REQUIRE(reported.frames.size() == 3);
+  CHECK(reported.frames[0].end == "input:0");
+  CHECK(reported.frames[0].frames == 118);
+  CHECK(reported.frames[0].processed == 115);
+  CHECK(reported.frames[0].failed == 3);
+  CHECK(reported.frames[0].dropped == 2);
+  CHECK(reported.frames[0].latency_ms == Approx(0.85));
+  CHECK(reported.frames[1].latency_ms < 0);
+  CHECK(reported.frames[2].end == "output:0");
+  CHECK(reported.frames[2].frames == 115);
+  CHECK(reported.frames[2].processed < 0);
+  CHECK(reported.remark == "118 frames in, none out:   why");
 }
 
 TEST_CASE("of counts that are broken none is trusted") {
@@ -113,7 +113,7 @@ TEST_CASE("of counts that are broken none is trusted") {
         parse_notification("ROSCELL_FRAMES=" + good + ";" + text).frames.size()
         == (text.empty() ? 1 : 0));
   std::string many = "ROSCELL_FRAMES=";
-  for (size_t i = 0; i <= max_told_streams; ++i)
+  for (size_t i = 0; i <= max_reported_streams; ++i)
     many += good + ";";
   CHECK(parse_notification(many).frames.empty());
 }
@@ -144,7 +144,7 @@ TEST_CASE("merged notifications keep the last word on safety and streams") {
   CHECK(before.streams[0].rate_hz == Approx(3));
 }
 
-TEST_CASE("merged notifications keep all facts and the last status") {
+TEST_CASE("merged notifications keep all values and the last status") {
   auto before = parse_notification("READY=1\nSTATUS=old");
   merge(before, parse_notification("WATCHDOG=1"));
   CHECK((before.ready && before.alive));

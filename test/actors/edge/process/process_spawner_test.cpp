@@ -144,11 +144,11 @@ TEST_CASE("the records of a shim are read as they are written") {
   const auto killed = exit(R"({"code":null,"signal":9,"at_unix_ms":1})");
   REQUIRE(killed);
   CHECK(killed->exit_code == 137);
-  const auto told =
+  const auto reported =
       exit(R"({"code":0,"signal":null,"at_unix_ms":1,"terminated":true})");
-  REQUIRE(told);
-  CHECK(told->exit_code == 0);
-  CHECK(told->terminated);
+  REQUIRE(reported);
+  CHECK(reported->exit_code == 0);
+  CHECK(reported->terminated);
 }
 
 TEST_CASE("records of anything else are none") {

@@ -76,7 +76,7 @@ TEST_CASE("What a deployment lacks is told as what would grant it",
   CHECK(granting({"ping=capability:NET_RAW,capability:KILL,scheduling:fifo:7"})
             .missing("ping", wanted)
             .empty());
-  CHECK(refusal_words("ping", "arm", "capability:NET_RAW")
+  CHECK(refusal_text("ping", "arm", "capability:NET_RAW")
         == "skill 'ping' wants capability NET_RAW, which node 'arm' does not "
            "grant it: grant = ping=capability:NET_RAW");
 }

@@ -33,9 +33,9 @@ struct reachable_node {
     options.handler = [](const http_request&, const responder& answer) {
       answer.reply(200, json_content, hello);
     };
-    beat_socket_options beats;
-    beats.site = token;
-    sockets = expect(open_node_sockets(io, options, beats));
+    heartbeat_socket_options heartbeats;
+    heartbeats.site = token;
+    sockets = expect(open_node_sockets(io, options, heartbeats));
     port = expect(reach_port::open(io, {loopback, 71, token}));
   }
 
@@ -50,11 +50,12 @@ struct reachable_node {
 using answers = std::map<std::string_view, std::string_view>;
 
 answers try_goal(io_thread& io, const reach_goal& goal) {
-  inbox<std::vector<reach_row>> told;
-  try_to_reach({io.core(), loopback, reach_key("token")}, {goal},
-               [&](std::vector<reach_row> rows) { told.put(std::move(rows)); });
+  inbox<std::vector<reach_row>> reported;
+  try_to_reach(
+      {io.core(), loopback, reach_key("token")}, {goal},
+      [&](std::vector<reach_row> rows) { reported.put(std::move(rows)); });
   answers result;
-  for (const auto& row : told.take()) {
+  for (const auto& row : reported.take()) {
     CHECK(row.node == goal.node);
     CHECK((row.round_trip_ms >= 0) == (row.answer == port_answer::found));
     result[enum_words(row.way)[static_cast<size_t>(row.way)]] =
@@ -65,7 +66,8 @@ answers try_goal(io_thread& io, const reach_goal& goal) {
 
 } // namespace
 
-TEST_CASE("a node is reached by its port, its beats and its data", "[reach]") {
+TEST_CASE("a node is reached by its port, its heartbeats and its data",
+          "[reach]") {
   io_thread io{[](const std::string&) {}};
   {
     const reachable_node arm{io, "token"};
@@ -76,7 +78,7 @@ TEST_CASE("a node is reached by its port, its beats and its data", "[reach]") {
       CHECK(found.at(way) == "found");
     }
     CHECK(found.count("discovery") == 0);
-    CHECK(arm.sockets.beat->counters().malformed == 0);
+    CHECK(arm.sockets.heartbeat->counters().malformed == 0);
   }
   io.stop();
 }
@@ -149,7 +151,7 @@ TEST_CASE("a node of another site does not answer", "[reach]") {
     const auto found = try_goal(io, arm.goal("arm"));
     CHECK(found.at("beat") == "silent");
     CHECK(found.at("data") == "silent");
-    CHECK(arm.sockets.beat->counters().malformed > 0);
+    CHECK(arm.sockets.heartbeat->counters().malformed > 0);
   }
   io.stop();
 }

@@ -1,4 +1,4 @@
-#include "actors/edge/session/beat_packet.hpp"
+#include "actors/edge/session/heartbeat_packet.hpp"
 #include "actors/edge/session/session_handshake.hpp"
 #include "test/recording.hpp"
 
@@ -64,29 +64,29 @@ TEST_CASE("a joiner says to an acceptor of 7566a8a what one of that version "
   }
 }
 
-TEST_CASE("beats of 7566a8a are taken as those of their session") {
+TEST_CASE("heartbeats of 7566a8a are taken as those of their session") {
   const auto recorded = test::read_recording();
   std::map<uint32_t, std::pair<test::recorded_session, session_agreement>> all;
   for (const auto& x : recorded.sessions) {
     const auto agreed = agreement_of(x, recorded.site_token);
-    all[beat_tag(agreed.session)] = {x, agreed};
+    all[heartbeat_tag(agreed.session)] = {x, agreed};
   }
-  std::set<beat_kind> kinds;
-  for (const auto& beat : recorded.beats) {
-    const auto packet = read_beat(beat.bytes);
+  std::set<heartbeat_kind> kinds;
+  for (const auto& heartbeat : recorded.heartbeats) {
+    const auto packet = read_heartbeat(heartbeat.bytes);
     REQUIRE(packet);
     REQUIRE(all.count(packet->tag) == 1);
     const auto& [session, agreed] = all[packet->tag];
-    const bool of_joiner = session.joiner.rfind(beat.from + ":", 0) == 0;
-    CHECK(is_authentic_beat(beat.bytes, of_joiner ? agreed.keys.receive
-                                                  : agreed.keys.send));
-    const auto ours = encode_beat(*packet, of_joiner ? agreed.keys.receive
-                                                     : agreed.keys.send);
-    CHECK(std::string(ours.begin(), ours.end()) == beat.bytes);
+    const bool of_joiner = session.joiner.rfind(heartbeat.from + ":", 0) == 0;
+    CHECK(is_authentic_heartbeat(
+        heartbeat.bytes, of_joiner ? agreed.keys.receive : agreed.keys.send));
+    const auto ours = encode_heartbeat(*packet, of_joiner ? agreed.keys.receive
+                                                          : agreed.keys.send);
+    CHECK(std::string(ours.begin(), ours.end()) == heartbeat.bytes);
     kinds.insert(packet->kind);
   }
-  CHECK(kinds.count(beat_kind::beat) == 1);
-  CHECK(kinds.count(beat_kind::ack) == 1);
+  CHECK(kinds.count(heartbeat_kind::heartbeat) == 1);
+  CHECK(kinds.count(heartbeat_kind::ack) == 1);
 }
 
 } // namespace roscell

@@ -1,5 +1,5 @@
+#include "actors/core/limits.hpp"
 #include "actors/edge/session/registration_proof.hpp"
-#include "actors/house/limits.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -46,21 +46,21 @@ TEST_CASE("who knows the site token can give an order, nobody else") {
 }
 
 TEST_CASE("under an empty token nothing is proven, whoever signs") {
-  const standing_claim claim{std::string(64, '0'), "robot-1", "0a1b", 7,
-                             "independent"};
-  const standing_question question{std::string(64, '0')};
+  const status_claim claim{std::string(64, '0'), "robot-1", "0a1b", 7,
+                           "independent"};
+  const status_question question{std::string(64, '0')};
   CHECK_FALSE(proves(sample(), "", prove(sample(), "")));
   CHECK_FALSE(proves(claim, "", prove(claim, "")));
   CHECK_FALSE(proves(question, "", prove(question, "")));
 }
 
 TEST_CASE("a question is proven for its nonce only, and is no order") {
-  const standing_question question{std::string(64, '0')};
+  const status_question question{std::string(64, '0')};
   const auto proof = prove(question, known_token);
   CHECK(proves(question, known_token, proof));
   CHECK_FALSE(proves(question, "other", proof));
   CHECK_FALSE(
-      proves(standing_question{std::string(64, '1')}, known_token, proof));
+      proves(status_question{std::string(64, '1')}, known_token, proof));
   CHECK_FALSE(proves(sample(), known_token, proof));
 }
 
@@ -71,15 +71,15 @@ TEST_CASE("the proof of an order is the one that is written down") {
         == "60692c6d6725068df7aea8a1b85dfb131f2bd525be5bcbcf02f23b6c00f564a9");
 }
 
-TEST_CASE("every part of what a node says of its standing is under its proof") {
-  const standing_claim claim{std::string(64, '0'), "robot-1", "0a1b", 7,
-                             "independent"};
+TEST_CASE("every part of what a node says of its status is under its proof") {
+  const status_claim claim{std::string(64, '0'), "robot-1", "0a1b", 7,
+                           "independent"};
   const auto proof = prove(claim, known_token);
   CHECK(proves(claim, known_token, proof));
   CHECK_FALSE(proves(claim, "other", proof));
   CHECK_FALSE(proves(claim, known_token, ""));
-  for (auto part : {&standing_claim::nonce, &standing_claim::node,
-                    &standing_claim::uuid, &standing_claim::state}) {
+  for (auto part : {&status_claim::nonce, &status_claim::node,
+                    &status_claim::uuid, &status_claim::state}) {
     auto x = claim;
     (x.*part).back() ^= 1;
     CHECK_FALSE(proves(x, known_token, proof));
@@ -143,7 +143,8 @@ TEST_CASE("another node's nonce is none") {
   CHECK_FALSE(y.is_fresh(x.issue(start), start));
 }
 
-TEST_CASE("strangers who ask for nonces make no other one worthless") {
+TEST_CASE(
+    "unauthenticated peers who ask for nonces make no other one worthless") {
   registration_challenges x;
   const auto honest = x.issue(start);
   std::set<std::string> nonces;

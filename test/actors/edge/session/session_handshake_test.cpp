@@ -1,6 +1,6 @@
 #include "actors/edge/session/session_handshake.hpp"
 
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -87,14 +87,16 @@ TEST_CASE("two handshakes of the same nodes have nothing in common") {
 }
 
 TEST_CASE("a joiner refuses an acceptor without the token before it proves") {
-  acceptor_handshake stranger{base, "other"};
+  acceptor_handshake unauthenticated_peer{base, "other"};
   joiner_handshake joiner{robot, token};
-  const auto step = joiner.receive(stranger.receive(joiner.hello()).reply);
+  const auto step =
+      joiner.receive(unauthenticated_peer.receive(joiner.hello()).reply);
   check_refused(step, error_code::unauthorized);
   CHECK(step.reply.find("session_proof") == std::string::npos);
   CHECK(step.failure->message.find("'base'") != std::string::npos);
   // The refusal arrives at the other side as what it is.
-  check_refused(stranger.receive(step.reply), error_code::unauthorized);
+  check_refused(unauthenticated_peer.receive(step.reply),
+                error_code::unauthorized);
 }
 
 TEST_CASE("an acceptor refuses a joiner without the token") {

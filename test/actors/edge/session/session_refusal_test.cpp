@@ -62,15 +62,15 @@ raw_client open_websocket(const acceptor_fixture& node) {
 
 TEST_CASE("members of a whole cell may shake hands at one moment") {
   http_limits limits;
-  limits.strangers = 2;
+  limits.unauthenticated_peers = 2;
   limits.joining = 3;
   acceptor_fixture node{impatient(), site_token, limits};
   std::vector<raw_client> members;
   for (int i = 0; i < 3; ++i)
     members.push_back(open_websocket(node));
-  raw_client stranger{node.server->port()};
-  stranger.send("GET /healthz HTTP/1.1\r\n\r\n");
-  stranger.read_until("hello");
+  raw_client unauthenticated_peer{node.server->port()};
+  unauthenticated_peer.send("GET /healthz HTTP/1.1\r\n\r\n");
+  unauthenticated_peer.read_until("hello");
   for (auto& x : members)
     CHECK_FALSE(x.is_closed());
   // One more makes room for itself among its like.
@@ -78,7 +78,7 @@ TEST_CASE("members of a whole cell may shake hands at one moment") {
   CHECK_NOTHROW(members.front().read_to_end());
   for (std::size_t i = 1; i < members.size(); ++i)
     CHECK_FALSE(members[i].is_closed());
-  CHECK_FALSE(stranger.is_closed());
+  CHECK_FALSE(unauthenticated_peer.is_closed());
 }
 
 TEST_CASE("with a wrong site token there is no session, and both hear why") {
@@ -312,7 +312,7 @@ TEST_CASE("sessions are counted, and places become free again") {
 
 TEST_CASE("sessions do not count as clients") {
   http_limits limits;
-  limits.strangers = 1;
+  limits.unauthenticated_peers = 1;
   acceptor_fixture node{{}, site_token, limits};
   std::vector<established_session> held;
   for (int i = 0; i < 5; ++i)

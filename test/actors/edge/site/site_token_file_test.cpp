@@ -1,7 +1,7 @@
 #include "actors/edge/site/site_token_file.hpp"
 
+#include "actors/core/limits.hpp"
 #include "actors/edge/site/site_secret.hpp"
-#include "actors/house/limits.hpp"
 #include "test/actors/edge/process/supervision_fixture.hpp"
 
 #include <sys/stat.h>

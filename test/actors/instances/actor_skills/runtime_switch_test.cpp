@@ -25,17 +25,19 @@ struct switch_test {
   }
 
   void start(const std::string& instance, const std::string& image) {
-    start_container wish;
-    wish.instance = instance;
-    wish.image = image;
-    ask<container_started>(wish);
+    start_container request;
+    request.instance = instance;
+    request.image = image;
+    ask<container_started>(request);
   }
 
   virtual_time time;
   std::shared_ptr<runtime_script> programs = std::make_shared<runtime_script>();
   std::shared_ptr<runtime_script> actors = std::make_shared<runtime_script>();
-  std::shared_ptr<told_changes> told = std::make_shared<told_changes>();
-  container_supervisor_actor supervisor = fake_supervisor(time.system, told);
+  std::shared_ptr<reported_changes> reported =
+      std::make_shared<reported_changes>();
+  container_supervisor_actor supervisor =
+      fake_supervisor(time.system, reported);
   container_listener_actor ears =
       caf::actor_cast<container_listener_actor>(supervisor);
   std::vector<runtime_actor> below{fake_runtime(time.system, programs),

@@ -14,18 +14,18 @@ namespace fs = std::filesystem;
 
 namespace {
 
-start_container echo_wish() {
-  start_container wish;
-  wish.instance = "i";
-  wish.image = "roscell/echo:1";
-  wish.command = {"bin/echo"};
-  wish.environment = {{"A", "1"}};
-  wish.labels = {{"task", "t"}, {"instance", "i"}, {"cell", "c"}};
-  return wish;
+start_container echo_request() {
+  start_container order;
+  order.instance = "i";
+  order.image = "roscell/echo:1";
+  order.command = {"bin/echo"};
+  order.environment = {{"A", "1"}};
+  order.labels = {{"task", "t"}, {"instance", "i"}, {"cell", "c"}};
+  return order;
 }
 
-json document(const start_container& wish, const container_files& files = {}) {
-  return container_document(wish, files, {"uuid", 1024 * 1024}, "/n",
+json document(const start_container& order, const container_files& files = {}) {
+  return container_document(order, files, {"uuid", 1024 * 1024}, "/n",
                             {"/the/shim", "/the/exit", "/the/fence"});
 }
 
@@ -41,8 +41,8 @@ const container_mount* find(const container_files& files,
   return i != xs.end() ? &*i : nullptr;
 }
 
-container_files found_files(const start_container& wish) {
-  auto result = files_of(wish);
+container_files found_files(const start_container& order) {
+  auto result = files_of(order);
   REQUIRE(std::holds_alternative<container_files>(result));
   return std::get<container_files>(std::move(result));
 }
@@ -50,7 +50,7 @@ container_files found_files(const start_container& wish) {
 } // namespace
 
 TEST_CASE("a container shares network and memory, and is told where to speak") {
-  const auto x = document(echo_wish());
+  const auto x = document(echo_request());
   CHECK(x["Image"] == "roscell/echo:1");
   CHECK(x["Env"] == json::array({"A=1", "NOTIFY_SOCKET=/run/roscell/notify"}));
   CHECK(x["User"]
@@ -81,24 +81,24 @@ TEST_CASE("a container shares network and memory, and is told where to speak") {
 }
 
 TEST_CASE("a container gets no more than it asked for") {
-  auto wish = echo_wish();
+  auto order = echo_request();
   SECTION("without a request there is no limit") {
-    const auto host = document(wish)["HostConfig"];
+    const auto host = document(order)["HostConfig"];
     CHECK(host.count("Memory") == 0);
     CHECK(host.count("NanoCpus") == 0);
   }
   SECTION("memory has no swap beside it, and cores are parts of a core") {
-    wish.limits.memory_mib = 96.5;
-    wish.limits.cpu = 0.5;
-    const auto host = document(wish)["HostConfig"];
+    order.limits.memory_mib = 96.5;
+    order.limits.cpu = 0.5;
+    const auto host = document(order)["HostConfig"];
     CHECK(host["Memory"] == 97 * 1024 * 1024);
     CHECK(host["MemorySwap"] == host["Memory"]);
     CHECK(host["NanoCpus"] == 500'000'000);
   }
   SECTION("what an engine would refuse is rounded to what it takes") {
-    wish.limits.memory_mib = 1;
-    wish.limits.cpu = 1e6;
-    const auto host = document(wish)["HostConfig"];
+    order.limits.memory_mib = 1;
+    order.limits.cpu = 1e6;
+    const auto host = document(order)["HostConfig"];
     CHECK(host["Memory"] == 6 * 1024 * 1024);
     CHECK(host["NanoCpus"]
           == int64_t{std::thread::hardware_concurrency()} * 1'000'000'000);
@@ -107,7 +107,7 @@ TEST_CASE("a container gets no more than it asked for") {
 
 TEST_CASE("a container has nothing of root's power and gains none",
           "[powers]") {
-  const auto x = document(echo_wish());
+  const auto x = document(echo_request());
   const auto& host = x["HostConfig"];
   CHECK(host["CapDrop"] == json::array({"ALL"}));
   CHECK(host["CapAdd"] == json::array());
@@ -118,9 +118,9 @@ TEST_CASE("a container has nothing of root's power and gains none",
 
 TEST_CASE("a container has what is granted to its skill, by its shim",
           "[powers]") {
-  auto wish = echo_wish();
-  wish.capabilities = {"NET_RAW", "KILL"};
-  const auto x = document(wish);
+  auto order = echo_request();
+  order.capabilities = {"NET_RAW", "KILL"};
+  const auto x = document(order);
   CHECK(x["User"] == "0:0");
   CHECK(x["HostConfig"]["CapAdd"]
         == json::array({"DAC_OVERRIDE", "KILL", "NET_RAW", "SETGID", "SETPCAP",
@@ -130,23 +130,23 @@ TEST_CASE("a container has what is granted to its skill, by its shim",
   REQUIRE(mask != words.end());
   // Numbers 5 and 13: the shim keeps the others to itself.
   CHECK(*std::next(mask) == "2020");
-  wish = echo_wish();
-  wish.scheduling = {"fifo", 10, 0};
-  const auto added = document(wish)["HostConfig"]["CapAdd"];
+  order = echo_request();
+  order.scheduling = {"fifo", 10, 0};
+  const auto added = document(order)["HostConfig"]["CapAdd"];
   CHECK(std::count(added.begin(), added.end(), "SYS_NICE") == 1);
 }
 
 TEST_CASE("a container whose skill allows it writes nothing but /tmp",
           "[powers]") {
-  auto wish = echo_wish();
-  wish.read_only = true;
-  const auto host = document(wish)["HostConfig"];
+  auto order = echo_request();
+  order.read_only = true;
+  const auto host = document(order)["HostConfig"];
   CHECK(host["ReadonlyRootfs"] == true);
   CHECK(host["Tmpfs"].count("/tmp") == 1);
 }
 
 TEST_CASE("a container's limits never exceed those of its node") {
-  const auto host = document(echo_wish())["HostConfig"];
+  const auto host = document(echo_request())["HostConfig"];
   REQUIRE(host["Ulimits"].size() == 2);
   rlimit own{};
   ::getrlimit(RLIMIT_NOFILE, &own);
@@ -157,10 +157,10 @@ TEST_CASE("a container's limits never exceed those of its node") {
 }
 
 TEST_CASE("an instance with a GPU sees that one only, as its first") {
-  auto wish = echo_wish();
-  wish.environment["CUDA_VISIBLE_DEVICES"] = "3";
-  wish.gpu = 3;
-  const auto x = document(wish);
+  auto order = echo_request();
+  order.environment["CUDA_VISIBLE_DEVICES"] = "3";
+  order.gpu = 3;
+  const auto x = document(order);
   CHECK(x["Env"][1] == "CUDA_VISIBLE_DEVICES=0");
   const auto request = x["HostConfig"]["DeviceRequests"];
   REQUIRE(request.size() == 1);
@@ -170,27 +170,27 @@ TEST_CASE("an instance with a GPU sees that one only, as its first") {
 }
 
 TEST_CASE("an instance without a GPU asks an engine for none") {
-  CHECK(document(echo_wish())["HostConfig"].count("DeviceRequests") == 0);
+  CHECK(document(echo_request())["HostConfig"].count("DeviceRequests") == 0);
 }
 
 TEST_CASE("an engine without root has the node's user as its root") {
   container_setting setting{"uuid", 1024 * 1024};
   setting.rootless = true;
-  CHECK(container_document(echo_wish(), {}, setting, "/n", {})["User"]
+  CHECK(container_document(echo_request(), {}, setting, "/n", {})["User"]
         == "0:0");
 }
 
 TEST_CASE("a library path of the deployment does not hide the image's") {
-  auto wish = echo_wish();
-  wish.environment["LD_LIBRARY_PATH"] = "/mine";
-  CHECK(document(wish)["Env"][1] == "LD_LIBRARY_PATH=/opt/roscell/lib:/mine");
+  auto order = echo_request();
+  order.environment["LD_LIBRARY_PATH"] = "/mine";
+  CHECK(document(order)["Env"][1] == "LD_LIBRARY_PATH=/opt/roscell/lib:/mine");
 }
 
 TEST_CASE("a container runs its program under the shim") {
-  auto wish = echo_wish();
-  wish.stop_signal = SIGINT;
+  auto order = echo_request();
+  order.stop_signal = SIGINT;
   const bool of_base = GENERATE(false, true);
-  wish.command = {of_base ? "/bin/bash" : "bin/echo", "a"};
+  order.command = {of_base ? "/bin/bash" : "bin/echo", "a"};
   const auto* program = of_base ? "/bin/bash" : "/opt/roscell/skill/bin/echo";
   json expected{"/opt/roscell/instance-shim", "--exit", "/opt/roscell/exit",
                 "--stop-signal", "2"};
@@ -198,16 +198,16 @@ TEST_CASE("a container runs its program under the shim") {
     // nop
   }
   SECTION("with one") {
-    wish.fence_boot_ms = 1;
+    order.fence_boot_ms = 1;
     expected.insert(expected.end(), {"--fence", "/opt/roscell/fence"});
-    const auto mounts = document(wish)["HostConfig"]["Mounts"];
+    const auto mounts = document(order)["HostConfig"]["Mounts"];
     REQUIRE(mounts.size() == 4);
     CHECK(mounts[3]["Source"] == "/the/fence");
     CHECK(mounts[3]["Target"] == "/opt/roscell/fence");
     CHECK(mounts[3]["ReadOnly"] == true);
   }
   expected.insert(expected.end(), {"--capabilities", "0", "--", program, "a"});
-  const auto x = document(wish);
+  const auto x = document(order);
   CHECK(x["Entrypoint"] == expected);
   // The shim asks the program in the program's way.
   CHECK(x["StopSignal"] == "15");
@@ -215,14 +215,14 @@ TEST_CASE("a container runs its program under the shim") {
 
 TEST_CASE("inputs can be read, outputs written") {
   scratch_folder folder;
-  auto wish = echo_wish();
+  auto order = echo_request();
   const auto in = folder.write("in", "").string();
   const auto base = folder.path().string();
-  wish.input = {file(in), file(base + "/not/yet"), {"ros2", "/topic", "t"}};
+  order.input = {file(in), file(base + "/not/yet"), {"ros2", "/topic", "t"}};
   SECTION("what is there is mounted itself") {
     const auto out = folder.write("out", "x").string();
-    wish.output = {file(out)};
-    const auto files = found_files(wish);
+    order.output = {file(out)};
+    const auto files = found_files(order);
     REQUIRE(find(files, in) != nullptr);
     CHECK(find(files, in)->read_only);
     REQUIRE(find(files, out) != nullptr);
@@ -231,26 +231,26 @@ TEST_CASE("inputs can be read, outputs written") {
     CHECK(files.mounts.size() == 2);
   }
   SECTION("an output that is not there is made, as the skill would") {
-    wish.output = {file(base + "/new/out"), file(base + "/folder/")};
-    const auto files = found_files(wish);
+    order.output = {file(base + "/new/out"), file(base + "/folder/")};
+    const auto files = found_files(order);
     CHECK(fs::is_regular_file(base + "/new/out"));
     CHECK(fs::is_directory(base + "/folder"));
     CHECK(find(files, base + "/new/out") != nullptr);
     CHECK(find(files, base + "/folder") != nullptr);
   }
   SECTION("an input that is not there yet is seen by its folder") {
-    wish.input = {file(base + "/later")};
-    const auto files = found_files(wish);
+    order.input = {file(base + "/later")};
+    const auto files = found_files(order);
     REQUIRE(find(files, base) != nullptr);
     CHECK(find(files, base)->read_only);
   }
   SECTION("what is both can be written") {
-    wish.output = {file(in)};
-    CHECK_FALSE(find(found_files(wish), in)->read_only);
+    order.output = {file(in)};
+    CHECK_FALSE(find(found_files(order), in)->read_only);
   }
   SECTION("an output that cannot be made is a clear error") {
-    wish.output = {file(in + "/below")};
-    const auto refused = files_of(wish);
+    order.output = {file(in + "/below")};
+    const auto refused = files_of(order);
     REQUIRE(std::holds_alternative<edge_error>(refused));
     CHECK(std::get<edge_error>(refused).message.find(in + "/below")
           != std::string::npos);
@@ -258,11 +258,11 @@ TEST_CASE("inputs can be read, outputs written") {
 }
 
 TEST_CASE("devices and volumes are the deployment's, a camera is a device") {
-  auto wish = echo_wish();
-  wish.devices = {"/dev/gpiochip0"};
-  wish.volumes = {"/models:/opt/models:ro", "/scratch:/tmp/scratch/"};
-  wish.input = {{"video", "/dev/null", "image"}};
-  const auto files = found_files(wish);
+  auto order = echo_request();
+  order.devices = {"/dev/gpiochip0"};
+  order.volumes = {"/models:/opt/models:ro", "/scratch:/tmp/scratch/"};
+  order.input = {{"video", "/dev/null", "image"}};
+  const auto files = found_files(order);
   CHECK(files.devices
         == std::vector<std::string>{"/dev/null", "/dev/gpiochip0"});
   REQUIRE(find(files, "/opt/models") != nullptr);
@@ -270,7 +270,7 @@ TEST_CASE("devices and volumes are the deployment's, a camera is a device") {
   CHECK(find(files, "/opt/models")->read_only);
   REQUIRE(find(files, "/tmp/scratch") != nullptr);
   CHECK_FALSE(find(files, "/tmp/scratch")->read_only);
-  const auto host = document(wish, files)["HostConfig"];
+  const auto host = document(order, files)["HostConfig"];
   CHECK(host["Devices"].size() == 2);
   CHECK(host["Devices"][0]["PathOnHost"] == "/dev/null");
 }

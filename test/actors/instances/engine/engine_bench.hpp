@@ -58,7 +58,8 @@ public:
   }
 
   /// Sends an event once somebody listens.
-  void tell_end(const std::string& instance, const std::string& id, int code) {
+  void publish_transfer_end(const std::string& instance, const std::string& id,
+                            int code) {
     const json event{{"Action", "die"},
                      {"Actor",
                       {{"ID", id},
@@ -78,7 +79,7 @@ public:
   }
 
   /// What was asked, one by one.
-  facts& calls() {
+  event_inbox& calls() {
     return calls_;
   }
 
@@ -95,13 +96,13 @@ private:
   std::condition_variable listening_;
   engine_caller* events_ = nullptr;
   bool listed_ = false;
-  facts calls_;
+  event_inbox calls_;
 };
 
 struct engine_bench {
   engine_bench() {
     config.context = context;
-    config.context.events = events = keep_events(system, told_events);
+    config.context.events = events = keep_events(system, reported_events);
     config.shim =
         std::filesystem::path{test::build_dir()} / "bin/roscell-instance-shim";
     config.socket = folder.path() / "engine";
@@ -113,14 +114,17 @@ struct engine_bench {
     listener = system.spawn([this](handle::pointer) -> handle::behavior_type {
       return {
           [this](const container_exited& x) {
-            told.put("exit " + x.container + " " + std::to_string(x.exit_code)
-                     + (x.cause == end_cause::usual
-                            ? ""
-                            : ", " + std::string{to_string(x.cause)}));
+            reported.put("exit " + x.container + " "
+                         + std::to_string(x.exit_code)
+                         + (x.cause == end_cause::usual
+                                ? ""
+                                : ", " + std::string{to_string(x.cause)}));
           },
-          [this](const instance_notified& x) { told.put("says " + x.status); },
-          [this](const runtime_troubled& x) {
-            told.put(x.message.empty() ? "no trouble" : "trouble");
+          [this](const instance_notified& x) {
+            reported.put("says " + x.status);
+          },
+          [this](const runtime_problem_changed& x) {
+            reported.put(x.message.empty() ? "no trouble" : "trouble");
           },
       };
     });
@@ -186,11 +190,11 @@ struct engine_bench {
   }
 
   start_container container() const {
-    start_container wish;
-    wish.instance = "i";
-    wish.image = "roscell/echo:1";
-    wish.command = {"bin/run"};
-    return wish;
+    start_container order;
+    order.instance = "i";
+    order.image = "roscell/echo:1";
+    order.command = {"bin/run"};
+    return order;
   }
 
   /// The script for a container that starts.
@@ -203,10 +207,10 @@ struct engine_bench {
   real_time_config system_config;
   caf::actor_system system{system_config};
   caf::scoped_actor self{system};
-  house context{std::make_shared<actor_directory>(), {}};
+  actor_context context{std::make_shared<actor_directory>(), {}};
   io_thread io;
-  facts told;
-  facts told_events;
+  event_inbox reported;
+  event_inbox reported_events;
   event_log_actor events;
   engine_script script;
   std::unique_ptr<fake_engine> engine;

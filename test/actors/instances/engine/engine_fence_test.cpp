@@ -20,8 +20,8 @@ struct fenced_bench : engine_bench {
                 who.reply(201, R"({"Id":"c1"})");
               });
     script.on("POST /containers/c1/start", 204, "");
-    wish = container();
-    wish.fence_boot_ms = moment;
+    order = container();
+    order.fence_boot_ms = moment;
   }
 
   ~fenced_bench() {
@@ -40,14 +40,14 @@ struct fenced_bench : engine_bench {
   }
 
   json mounts = json::array();
-  start_container wish;
+  start_container order;
 };
 
 } // namespace
 
 TEST_CASE("a container's fence is there before it is, and goes with it") {
   fenced_bench b;
-  b.get<container_started>(b.wish);
+  b.get<container_started>(b.order);
   const fs::path shim = b.mounts[1]["Source"].get<std::string>();
   CHECK(shim.parent_path() == b.config.data_dir);
   CHECK(fs::file_size(shim) == fs::file_size(b.config.shim));
@@ -61,7 +61,7 @@ TEST_CASE("a container's fence is there before it is, and goes with it") {
 
 TEST_CASE("a container's fence is moved on, by its own orders only") {
   fenced_bench b;
-  b.get<container_started>(b.wish);
+  b.get<container_started>(b.order);
   b.move("other", moment + 1);
   CHECK(fence_in(b.file()) == moment);
   b.move("c1", moment + 2);
@@ -70,14 +70,14 @@ TEST_CASE("a container's fence is moved on, by its own orders only") {
   CHECK(fence_in(b.file()) == moment + 2);
   // Whether its engine can be asked or not.
   b.engine = nullptr;
-  b.told.await("trouble");
+  b.reported.await("trouble");
   b.move("c1", moment + 3);
   CHECK(fence_in(b.file()) == moment + 3);
 }
 
 TEST_CASE("a node that was restarted moves the fence on of a container") {
   fenced_bench b;
-  b.get<container_started>(b.wish);
+  b.get<container_started>(b.order);
   end_and_await(b.self, b.runtime);
   b.begin_runtime();
   b.move("c1", moment + 1);
@@ -91,10 +91,10 @@ TEST_CASE("a node that was restarted moves the fence on of a container") {
 
 TEST_CASE("a container's fence that cannot be moved on is told") {
   fenced_bench b;
-  b.get<container_started>(b.wish);
+  b.get<container_started>(b.order);
   remove_fence(b.file());
   b.move("c1", moment + 1);
-  b.told_events.await("fence_failed i");
+  b.reported_events.await("fence_failed i");
 }
 
 TEST_CASE("without a shim nothing is started") {
@@ -102,12 +102,12 @@ TEST_CASE("without a shim nothing is started") {
   b.config.shim = "/no/such/shim";
   end_and_await(b.self, b.runtime);
   b.begin_runtime();
-  const auto why = b.refusal<container_started>(b.wish);
+  const auto why = b.refusal<container_started>(b.order);
   CHECK(why.message.find("/no/such/shim") != std::string::npos);
   CHECK_FALSE(why.hint.empty());
 }
 
-TEST_CASE("a container that is to be safe is told by SIGUSR1") {
+TEST_CASE("a container that is to be stop-safe is told by SIGUSR1") {
   engine_bench b;
   b.will_start();
   b.get<container_started>(b.container());
@@ -120,6 +120,6 @@ TEST_CASE("a container that is to be safe is told by SIGUSR1") {
   SECTION("it does not") {
     b.script.on("POST /containers/c1/kill", 409, R"({"message":"paused"})");
     caf::anon_send(b.runtime, ask_for_safety{"i", "c1"});
-    b.told_events.await("safety_not_asked i");
+    b.reported_events.await("safety_not_asked i");
   }
 }

@@ -1,7 +1,7 @@
+#include "actors/core/limits.hpp"
 #include "actors/edge/engine/program_libraries.hpp"
 #include "actors/edge/history/kept_log_folder.hpp"
 #include "actors/edge/process/environment_file.hpp"
-#include "actors/house/limits.hpp"
 #include "test/actors/instances/engine/engine_bench.hpp"
 
 #include <atomic>
@@ -32,9 +32,9 @@ TEST_CASE("a started container's exit is told once, with its code") {
   engine_bench b;
   b.will_start();
   CHECK(b.get<container_started>(b.container()).container == "c1");
-  b.script.tell_end("i", "other", 1);
-  b.script.tell_end("i", "c1", 3);
-  CHECK(b.told.take() == "exit c1 3");
+  b.script.publish_transfer_end("i", "other", 1);
+  b.script.publish_transfer_end("i", "c1", 3);
+  CHECK(b.reported.take() == "exit c1 3");
 }
 
 TEST_CASE("a container that its engine has ended for memory is told as such") {
@@ -45,8 +45,8 @@ TEST_CASE("a container that its engine has ended for memory is told as such") {
     b.will_start();
     b.get<container_started>(b.container());
     b.script.on("GET /containers/c1/json", 200, out_of_memory);
-    b.script.tell_end("i", "c1", 137);
-    CHECK(b.told.take() == "exit c1 137, memory");
+    b.script.publish_transfer_end("i", "c1", 137);
+    CHECK(b.reported.take() == "exit c1 137, memory");
   }
   SECTION("while it was away") {
     b.script.on("GET /containers/roscell-i/json", 200, out_of_memory);
@@ -58,8 +58,8 @@ TEST_CASE("a container that its engine has ended for memory is told as such") {
     b.will_start();
     b.get<container_started>(b.container());
     b.script.on("GET /containers/c1/json", 200, out_of_memory);
-    b.script.tell_end("i", "c1", 0);
-    CHECK(b.told.take() == "exit c1 0");
+    b.script.publish_transfer_end("i", "c1", 0);
+    CHECK(b.reported.take() == "exit c1 0");
   }
 }
 
@@ -68,11 +68,11 @@ TEST_CASE("an end before the engine's answer is told after it") {
   b.script.on("POST /containers/create", 201, R"({"Id":"c1"})");
   b.script.on("POST /containers/c1/start",
               [&](engine_caller& who, const engine_call_seen&) {
-                b.script.tell_end("i", "c1", 127);
+                b.script.publish_transfer_end("i", "c1", 127);
                 who.reply(204, "");
               });
   CHECK(b.get<container_started>(b.container()).container == "c1");
-  CHECK(b.told.take() == "exit c1 127");
+  CHECK(b.reported.take() == "exit c1 127");
 }
 
 TEST_CASE("a container that cannot be started is removed, and why is told") {
@@ -127,7 +127,7 @@ TEST_CASE("two who want the same image share one build") {
               [&](engine_caller& who, const engine_call_seen&) {
                 who.reply(built ? 200 : 404, "{}");
               });
-  facts waiting;
+  event_inbox waiting;
   b.script.on("POST /build",
               [&](engine_caller& who, const engine_call_seen& what) {
                 CHECK(what.body.find("FROM base:1") != std::string::npos);
@@ -150,7 +150,7 @@ TEST_CASE("two who want the same image share one build") {
   second.receive([&](image_prepared& x) { images[1] = x.image; }, fail_with);
   CHECK(images[0] == images[1]);
   CHECK(builds == 1);
-  CHECK(b.told.take() == "says Step 1/5 : FROM base:1");
+  CHECK(b.reported.take() == "says Step 1/5 : FROM base:1");
   CHECK(std::filesystem::is_empty(b.config.data_dir / "build"));
 }
 
@@ -184,7 +184,7 @@ TEST_CASE("an engine that goes away in a build is told, and the image not") {
 
 TEST_CASE("what makes an image ends with the runtime") {
   engine_bench b;
-  facts asked;
+  event_inbox asked;
   b.script.on("POST /build", [&](engine_caller&, const engine_call_seen&) {
     asked.put("build"); // Never answered.
   });
@@ -202,8 +202,8 @@ TEST_CASE("what is adopted is watched, what has ended is told") {
     b.script.on("GET /containers/c1/json", 200, running);
     CHECK(b.get<container_adopted>(adopt_container{"i", "c1"}).running);
     CHECK(b.get<container_adopted>(adopt_container{"i", {}}).container == "c1");
-    b.script.tell_end("i", "c1", 9);
-    CHECK(b.told.take() == "exit c1 9");
+    b.script.publish_transfer_end("i", "c1", 9);
+    CHECK(b.reported.take() == "exit c1 9");
   }
   SECTION("it has ended") {
     b.script.on("GET /containers/roscell-i/json", 200, ended);
@@ -224,15 +224,15 @@ TEST_CASE("an engine that is lost is told, and what happened meanwhile too") {
   b.will_start();
   b.get<container_started>(b.container());
   b.engine = nullptr;
-  CHECK(b.told.take() == "trouble");
+  CHECK(b.reported.take() == "trouble");
   // Nothing is known, so nothing is said to be gone.
   CHECK_FALSE(b.ask<container_stopped>(stop_container{"i", "c1", 0}));
   CHECK_FALSE(b.ask<container_removed>(remove_container{"i", "c1"}));
   CHECK_FALSE(b.ask<image_prepared>(b.image()));
   b.script.on("GET /containers/c1/json", 200, ended);
   b.begin_engine();
-  CHECK(b.told.take() == "no trouble");
-  CHECK(b.told.take() == "exit c1 6");
+  CHECK(b.reported.take() == "no trouble");
+  CHECK(b.reported.take() == "exit c1 6");
   // What could not be ended then must not go on now.
   b.script.calls().await("DELETE /containers/roscell-i?force=true&v=true");
 }
@@ -247,7 +247,7 @@ TEST_CASE("an engine that goes away in a start leaves nothing running") {
   CHECK(why.code == error_code::engine_failed);
   CHECK(why.message.find("went away") != std::string::npos);
   b.engine = nullptr;
-  b.told.await("trouble");
+  b.reported.await("trouble");
   b.begin_engine();
   b.script.calls().await("DELETE /containers/roscell-i?force=true&v=true");
 }
@@ -255,7 +255,7 @@ TEST_CASE("an engine that goes away in a start leaves nothing running") {
 TEST_CASE("an adoption waits for an engine that is not there yet") {
   engine_bench b;
   b.engine = nullptr;
-  b.told.await("trouble");
+  b.reported.await("trouble");
   b.script.on("GET /containers/c1/json", 200, running);
   auto adoption =
       b.self->request(b.runtime, patience, adopt_container{"i", "c1"});
@@ -431,7 +431,7 @@ TEST_CASE("a log is read, and followed until there is more") {
 
 TEST_CASE(
     "one follower of logs too many is told so, and not answered at once") {
-  facts opened;
+  event_inbox opened;
   engine_bench b;
   b.script.on("GET /containers/roscell-i/json", 200, running);
   b.script.on("GET /containers/c1/logs",

@@ -12,30 +12,30 @@ using namespace roscell;
 
 namespace {
 
-start_container podman_wish() {
-  start_container wish;
-  wish.instance = "i";
-  wish.image = "roscell/echo:1";
-  wish.command = {"bin/echo"};
-  wish.environment = {{"A", "1=2"}};
-  wish.labels = {{"task", "t"}};
-  return wish;
+start_container podman_request() {
+  start_container order;
+  order.instance = "i";
+  order.image = "roscell/echo:1";
+  order.command = {"bin/echo"};
+  order.environment = {{"A", "1=2"}};
+  order.labels = {{"task", "t"}};
+  return order;
 }
 
-json podman_form(const start_container& wish,
+json podman_form(const start_container& order,
                  const container_files& files = {}) {
   return podman_document(
       "roscell-i",
-      container_document(wish, files, {"uuid", 1024 * 1024}, "/n",
+      container_document(order, files, {"uuid", 1024 * 1024}, "/n",
                          {"/the/shim", "/the/exit", "/the/fence"}));
 }
 
 } // namespace
 
 TEST_CASE("Podman is told of the same container in its own words") {
-  const auto x =
-      podman_form(podman_wish(), {{{"/in", "/in", true}, {"/out", "/o", false}},
-                                  {"/dev/video0"}});
+  const auto x = podman_form(
+      podman_request(),
+      {{{"/in", "/in", true}, {"/out", "/o", false}}, {"/dev/video0"}});
   CHECK(x["name"] == "roscell-i");
   CHECK(x["image"] == "roscell/echo:1");
   CHECK(x["user"]
@@ -62,20 +62,20 @@ TEST_CASE("Podman is told of the same container in its own words") {
 }
 
 TEST_CASE("Podman counts cores in a quota and memory in bytes") {
-  auto wish = podman_wish();
-  wish.limits.cpu = 0.5;
-  wish.limits.memory_mib = 96;
-  const auto limits = podman_form(wish)["resource_limits"];
+  auto order = podman_request();
+  order.limits.cpu = 0.5;
+  order.limits.memory_mib = 96;
+  const auto limits = podman_form(order)["resource_limits"];
   CHECK(limits["cpu"] == json{{"period", 100'000}, {"quota", 50'000}});
   CHECK(limits["memory"]["limit"] == 96 * 1024 * 1024);
   CHECK(limits["memory"]["swap"] == limits["memory"]["limit"]);
 }
 
 TEST_CASE("Podman is told of a program of the base image and how it ends") {
-  auto wish = podman_wish();
-  wish.command = {"/bin/bash", "-c", "true"};
-  wish.stop_signal = SIGINT;
-  const auto x = podman_form(wish);
+  auto order = podman_request();
+  order.command = {"/bin/bash", "-c", "true"};
+  order.stop_signal = SIGINT;
+  const auto x = podman_form(order);
   CHECK(x["entrypoint"]
         == json{"/opt/roscell/instance-shim", "--exit", "/opt/roscell/exit",
                 "--stop-signal", "2", "--capabilities", "0", "--", "/bin/bash",
@@ -84,9 +84,9 @@ TEST_CASE("Podman is told of a program of the base image and how it ends") {
 }
 
 TEST_CASE("Podman is told of the same fence") {
-  auto wish = podman_wish();
-  wish.fence_boot_ms = 1;
-  const auto x = podman_form(wish);
+  auto order = podman_request();
+  order.fence_boot_ms = 1;
+  const auto x = podman_form(order);
   CHECK(x["entrypoint"][0] == "/opt/roscell/instance-shim");
   REQUIRE(x["mounts"].size() == 4);
   CHECK(x["mounts"][3]
@@ -97,23 +97,23 @@ TEST_CASE("Podman is told of the same fence") {
 }
 
 TEST_CASE("Podman is asked for a GPU by its CDI name") {
-  auto wish = podman_wish();
-  wish.gpu = 3;
-  const auto x = podman_form(wish);
+  auto order = podman_request();
+  order.gpu = 3;
+  const auto x = podman_form(order);
   CHECK(x["devices"] == json::array({{{"path", "nvidia.com/gpu=3"}}}));
   CHECK(x["env"]["CUDA_VISIBLE_DEVICES"] == "0");
 }
 
 TEST_CASE("Podman is told what a container may not, in its own words",
           "[powers]") {
-  auto wish = podman_wish();
-  CHECK(podman_form(wish)["cap_drop"] == json::array({"ALL"}));
-  CHECK(podman_form(wish)["cap_add"] == json::array());
-  CHECK(podman_form(wish)["no_new_privileges"] == true);
-  CHECK(podman_form(wish)["read_only_filesystem"] == false);
-  wish.capabilities = {"NET_RAW"};
-  wish.read_only = true;
-  const auto x = podman_form(wish);
+  auto order = podman_request();
+  CHECK(podman_form(order)["cap_drop"] == json::array({"ALL"}));
+  CHECK(podman_form(order)["cap_add"] == json::array());
+  CHECK(podman_form(order)["no_new_privileges"] == true);
+  CHECK(podman_form(order)["read_only_filesystem"] == false);
+  order.capabilities = {"NET_RAW"};
+  order.read_only = true;
+  const auto x = podman_form(order);
   const auto added = x["cap_add"].get<std::vector<std::string>>();
   CHECK(std::count(added.begin(), added.end(), "NET_RAW") == 1);
   CHECK(x["read_only_filesystem"] == true);

@@ -22,21 +22,21 @@ struct interrupted_bench : instance_bench {
              {false, "c1", code, recorded, terminated});
   }
 
-  void tell_of_contact(bool kept) {
+  void report_contact(bool kept) {
     caf::anon_send(instance,
                    contact_proven{1, kept ? std::vector<std::string>{"i"}
                                           : std::vector<std::string>{}});
     settle();
   }
 
-  void tell_of_place(const std::string& server) {
+  void report_server(const std::string& server) {
     caf::anon_send(instance,
                    use_environment{{{"ROS_DISCOVERY_SERVER", server}}});
     settle();
   }
 
   bool waits() const {
-    const auto& row = told->last();
+    const auto& row = reported->last();
     return row.state == instance_state::backing_off && !row.waits.empty()
            && row.interrupted_unix_ms > 0;
   }
@@ -59,21 +59,21 @@ TEST_CASE("what another boot has cut off goes on when its cell wants it") {
   CHECK(b.starts() == 0);
   b.advance(24h);
   CHECK(b.starts() == 0);
-  b.tell_of_contact(false);
+  b.report_contact(false);
   CHECK(b.starts() == 0);
-  b.tell_of_contact(true);
+  b.report_contact(true);
   CHECK(b.starts() == 1);
   b.ready();
   CHECK(b.state() == instance_state::running);
-  CHECK(b.told->last().interrupted_unix_ms == 0);
-  CHECK(b.told->last().waits.empty());
+  CHECK(b.reported->last().interrupted_unix_ms == 0);
+  CHECK(b.reported->last().waits.empty());
 }
 
 TEST_CASE("an orderly shutdown is no end of work, whatever the exit code") {
   interrupted_bench b;
   b.find_ended(GENERATE(0, 1, 143), true, true);
   CHECK(b.waits());
-  b.tell_of_contact(true);
+  b.report_contact(true);
   CHECK(b.starts() == 1);
 }
 
@@ -96,8 +96,8 @@ TEST_CASE("a shim that is gone within one boot was killed, as a program is") {
   b.config.started_in = "today";
   b.find_ended(-1, false, false);
   CHECK_FALSE(b.waits());
-  CHECK(b.told->last().ends.size() == 1);
-  CHECK(b.told->last().next_start_unix_ms > 0);
+  CHECK(b.reported->last().ends.size() == 1);
+  CHECK(b.reported->last().next_start_unix_ms > 0);
 }
 
 TEST_CASE("where the boot is not known a missing record is an interruption") {
@@ -126,16 +126,16 @@ TEST_CASE("a program that is told to end from outside comes back by itself") {
   interrupted_bench b;
   b.config.confirmed = true;
   b.start_ready();
-  const auto restarts = b.told->last().restarts;
+  const auto restarts = b.reported->last().restarts;
   caf::anon_send(b.instance, container_exited{"i", "c1", 0, true});
   b.settle();
   CHECK(b.state() == instance_state::backing_off);
-  CHECK(b.told->last().next_start_unix_ms > 0);
+  CHECK(b.reported->last().next_start_unix_ms > 0);
   b.advance(1500ms);
   CHECK(b.starts() == 2);
   // It has not failed, so that no bound of failures is counted towards.
-  CHECK(b.told->last().attempts == 0);
-  CHECK(b.told->last().restarts == restarts + 1);
+  CHECK(b.reported->last().attempts == 0);
+  CHECK(b.reported->last().restarts == restarts + 1);
 }
 
 TEST_CASE("while the cell is out of reach what is interrupted waits for it") {
@@ -146,7 +146,7 @@ TEST_CASE("while the cell is out of reach what is interrupted waits for it") {
   caf::anon_send(b.instance, container_exited{"i", "c1", 0, true});
   b.settle();
   CHECK(b.waits());
-  b.tell_of_contact(true);
+  b.report_contact(true);
   CHECK(b.starts() == 2);
 }
 
@@ -157,7 +157,7 @@ TEST_CASE("what was being started when its host went down waits as well") {
              {false, "", -1, false, false});
   CHECK(b.waits());
   CHECK(b.starts() == 0);
-  b.tell_of_contact(true);
+  b.report_contact(true);
   CHECK(b.starts() == 1);
 }
 
@@ -168,7 +168,7 @@ TEST_CASE("what was interrupted is started where its cell is now, and not "
   b.config.row.spec.environment = {{"ROS_DISCOVERY_SERVER", "of yesterday"}};
   SECTION("when its cell wants it") {
     b.find_ended(-1, false, false);
-    b.tell_of_contact(true);
+    b.report_contact(true);
   }
   SECTION("when it starts alone") {
     b.life().on_boot = boot_action::start;
@@ -176,13 +176,13 @@ TEST_CASE("what was interrupted is started where its cell is now, and not "
     b.advance(1s);
   }
   CHECK(b.starts() == 0);
-  CHECK(b.told->last().waits == "waits to hear where its cell is");
-  b.tell_of_place("of today");
+  CHECK(b.reported->last().waits == "waits to hear where its cell is");
+  b.report_server("of today");
   REQUIRE(b.starts() == 1);
   CHECK(b.runtime->started[0].environment.at("ROS_DISCOVERY_SERVER")
         == "of today");
-  CHECK(b.told->last().waits.empty());
-  b.tell_of_place("of today");
+  CHECK(b.reported->last().waits.empty());
+  b.report_server("of today");
   CHECK(b.starts() == 1);
 }
 
@@ -190,11 +190,11 @@ TEST_CASE("what is ended while it waits to hear where its cell is stays so") {
   interrupted_bench b;
   b.config.knows_place = false;
   b.find_ended(-1, false, false);
-  b.tell_of_contact(true);
+  b.report_contact(true);
   caf::anon_send(b.instance, stop_instance{"removed", false});
   b.settle();
   CHECK(b.state() == instance_state::stopped);
-  b.tell_of_place("of today");
+  b.report_server("of today");
   CHECK(b.starts() == 0);
 }
 
@@ -205,7 +205,7 @@ TEST_CASE("what goes on and crashes later is started where its cell is then") {
   b.config.row.spec.environment = {{"ROS_DISCOVERY_SERVER", "of yesterday"}};
   b.adopt_as(instance_state::running, {true, "c1", -1, false, false});
   CHECK(b.state() == instance_state::running);
-  b.tell_of_place("of today");
+  b.report_server("of today");
   CHECK(b.starts() == 0);
   b.exits(1);
   b.advance(5s);
@@ -235,8 +235,8 @@ TEST_CASE("a step that stays waits for a person, and nothing else starts it") {
   }
   b.find_ended(0, true, true);
   CHECK(b.waits());
-  CHECK(b.told->last().waits == "waits for `roscell restart i`");
-  b.tell_of_contact(true);
+  CHECK(b.reported->last().waits == "waits for `roscell restart i`");
+  b.report_contact(true);
   b.advance(24h);
   CHECK(b.starts() == 0);
   // The restart ends it, for its successor.
@@ -249,7 +249,7 @@ TEST_CASE("such a step may say that it goes on") {
   b.life().safe_state = true;
   b.life().on_boot = boot_action::rejoin;
   b.find_ended(0, true, true);
-  b.tell_of_contact(true);
+  b.report_contact(true);
   CHECK(b.starts() == 1);
 }
 
@@ -269,7 +269,7 @@ TEST_CASE("a node that is started again meanwhile lets it wait on") {
   b.adopt_as(instance_state::backing_off, {false, "", -1, false, false});
   CHECK(b.waits());
   CHECK(b.starts() == 0);
-  b.tell_of_contact(true);
+  b.report_contact(true);
   CHECK(b.starts() == 1);
 }
 

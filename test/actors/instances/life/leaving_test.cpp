@@ -1,4 +1,4 @@
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 #include "test/actors/fakes/instance_bench.hpp"
 
 using namespace roscell;
@@ -7,8 +7,8 @@ using namespace std::chrono_literals;
 
 namespace {
 
-struct safe_bench : instance_bench {
-  safe_bench() {
+struct stop_safe_bench : instance_bench {
+  stop_safe_bench() {
     config.row.spec.life.safe_state = true;
   }
 
@@ -26,7 +26,7 @@ struct safe_bench : instance_bench {
   }
 
   const instance_row& row() const {
-    return told->last();
+    return reported->last();
   }
 };
 
@@ -69,8 +69,8 @@ struct fenced_bench : instance_bench {
 
 } // namespace
 
-TEST_CASE("a skill that is not safe is asked, and ended once it is") {
-  safe_bench b;
+TEST_CASE("a skill that is not stop-safe is asked, and ended once it is") {
+  stop_safe_bench b;
   b.start_ready();
   b.says(safe_word::unsafe);
   b.stop();
@@ -88,9 +88,9 @@ TEST_CASE("a skill that is not safe is asked, and ended once it is") {
   CHECK(b.row().unsafe_since_unix_ms == 0);
 }
 
-TEST_CASE("a skill that is safe, or does not run, is not waited for") {
-  safe_bench b;
-  SECTION("it is safe") {
+TEST_CASE("a skill that is stop-safe, or does not run, is not waited for") {
+  stop_safe_bench b;
+  SECTION("it is stop-safe") {
     b.start_ready();
     b.says(safe_word::safe);
   }
@@ -108,7 +108,7 @@ TEST_CASE("a skill that is safe, or does not run, is not waited for") {
 }
 
 TEST_CASE("what a skill says with its first word is known once it runs") {
-  safe_bench b;
+  stop_safe_bench b;
   b.start();
   instance_notified first{"i"};
   first.ready = true;
@@ -120,7 +120,7 @@ TEST_CASE("what a skill says with its first word is known once it runs") {
 }
 
 TEST_CASE("what was safe in the run before counts for nothing") {
-  safe_bench b;
+  stop_safe_bench b;
   b.config.row.spec.life.restart.policy = restart_when::on_failure;
   b.start_ready();
   b.says(safe_word::safe);
@@ -131,9 +131,9 @@ TEST_CASE("what was safe in the run before counts for nothing") {
   CHECK(b.row().unsafe_since_unix_ms > 0);
 }
 
-TEST_CASE(
-    "the patience with a skill that is not safe has an end if it says so") {
-  safe_bench b;
+TEST_CASE("the patience with a skill that is not stop-safe has an end if it "
+          "says so") {
+  stop_safe_bench b;
   b.config.row.spec.life.safe_timeout_s = 20;
   b.start_ready();
   b.stop();
@@ -145,11 +145,11 @@ TEST_CASE(
   CHECK(b.runtime->stopped.empty());
   b.advance(2s);
   CHECK(b.state() == instance_state::stopped);
-  CHECK(b.reason() == "asked to; it was not safe in time");
+  CHECK(b.reason() == "asked to; it was not stop-safe in time");
 }
 
-TEST_CASE("force does not wait for a skill to be safe") {
-  safe_bench b;
+TEST_CASE("force does not wait for a skill to be stop-safe") {
+  stop_safe_bench b;
   b.start_ready();
   SECTION("from the beginning") {
     b.force();
@@ -164,7 +164,7 @@ TEST_CASE("force does not wait for a skill to be safe") {
 }
 
 TEST_CASE("a skill that hangs or ends while it is waited for is gone") {
-  safe_bench b;
+  stop_safe_bench b;
   b.config.row.spec.life.restart.policy = restart_when::on_failure;
   b.start_ready();
   b.stop();
@@ -180,8 +180,8 @@ TEST_CASE("a skill that hangs or ends while it is waited for is gone") {
   CHECK(b.runtime->started.size() == 1);
 }
 
-TEST_CASE("a restart of the node goes on waiting for a skill to be safe") {
-  safe_bench b;
+TEST_CASE("a restart of the node goes on waiting for a skill to be stop-safe") {
+  stop_safe_bench b;
   b.config.row.unsafe_since_unix_ms = 5;
   b.config.row.reason = "asked to";
   b.adopt_as(instance_state::running, {true, "c1", -1});
@@ -193,13 +193,13 @@ TEST_CASE("a restart of the node goes on waiting for a skill to be safe") {
   CHECK(b.reason() == "asked to");
 }
 
-TEST_CASE("a skill that is to be started again is waited for to be safe") {
-  safe_bench b;
+TEST_CASE("a skill that is to be started again is waited for to be stop-safe") {
+  stop_safe_bench b;
   b.config.renewal = "the address of this host has changed";
   b.adopt_as(instance_state::running, {true, "c1", -1});
   CHECK(b.state() == instance_state::running);
   CHECK(b.runtime->asked_for_safety.size() == 1);
-  CHECK(b.row().waits == "waits to be safe");
+  CHECK(b.row().waits == "waits to be stop-safe");
   CHECK(b.runtime->stopped.empty());
   b.says(safe_word::safe);
   CHECK(b.state() == instance_state::backing_off);
@@ -208,8 +208,8 @@ TEST_CASE("a skill that is to be started again is waited for to be safe") {
   CHECK(b.runtime->started.size() == 1);
 }
 
-TEST_CASE("one that is not safe in time is started again all the same") {
-  safe_bench b;
+TEST_CASE("one that is not stop-safe in time is started again all the same") {
+  stop_safe_bench b;
   b.config.row.spec.life.safe_timeout_s = 5;
   b.config.renewal = "the address of this host has changed";
   b.adopt_as(instance_state::running, {true, "c1", -1});
@@ -256,7 +256,7 @@ TEST_CASE("what the fence has ended waits until the cell wants it again") {
   b.live_on(52s);
   b.exits(137);
   CHECK(b.state() == instance_state::backing_off);
-  CHECK(b.told->last().next_start_unix_ms == 0);
+  CHECK(b.reported->last().next_start_unix_ms == 0);
   b.advance(10min);
   b.contact();
   CHECK(b.runtime->started.size() == 1);
@@ -302,7 +302,8 @@ TEST_CASE("a step that waits for its node has no fence") {
   CHECK(b.runtime->fenced.empty());
 }
 
-TEST_CASE("a step that may move is asked to be safe when the cell is lost") {
+TEST_CASE(
+    "a step that may move is asked to be stop-safe when the cell is lost") {
   fenced_bench b;
   b.config.row.spec.life.safe_state = true;
   b.config.row.spec.life.safe_timeout_s = 10;

@@ -12,12 +12,12 @@ const quiet_notice::time_point notice_zero{1000s};
 struct notice_bench {
   notice_bench() {
     row.spec.input = {{"ros2", "/a", "std_msgs/msg/String"}};
-    row.figures.streams.resize(1);
-    row.figures.streams[0].end = "input:0";
+    row.metrics.streams.resize(1);
+    row.metrics.streams[0].end = "input:0";
   }
 
   bool hear(double quiet_s, std::chrono::seconds when) {
-    row.figures.streams[0].quiet_s = quiet_s;
+    row.metrics.streams[0].quiet_s = quiet_s;
     return notice.hear(row, notice_zero + when);
   }
 
@@ -39,12 +39,12 @@ TEST_CASE("a silence is told once, and its end") {
 
 TEST_CASE("a stream that is often silent is told of seldom") {
   notice_bench b;
-  int told = 0;
+  int reported = 0;
   for (auto when = 0s; when < 24h; when += 40s) {
-    told += b.hear(35, when) ? 1 : 0;
-    told += b.hear(0, when + 5s) ? 1 : 0;
+    reported += b.hear(35, when) ? 1 : 0;
+    reported += b.hear(0, when + 5s) ? 1 : 0;
   }
-  CHECK(told == 2 * 24);
+  CHECK(reported == 2 * 24);
 }
 
 TEST_CASE("the silence of what is no topic, or is not counted, is not told") {
@@ -53,7 +53,7 @@ TEST_CASE("the silence of what is no topic, or is not counted, is not told") {
     b.row.spec.input[0].protocol = "file";
   }
   SECTION("an output") {
-    b.row.figures.streams[0].end = "output:0";
+    b.row.metrics.streams[0].end = "output:0";
   }
   CHECK_FALSE(b.hear(60, 60s));
 }

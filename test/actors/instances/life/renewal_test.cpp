@@ -1,4 +1,4 @@
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 #include "test/actors/fakes/instance_bench.hpp"
 
 #include <map>
@@ -12,8 +12,8 @@ using namespace std::chrono_literals;
 namespace {
 
 /// Its program was started at an address that is gone, and can be told so.
-struct told_bench : instance_bench {
-  told_bench() {
+struct renewal_bench : instance_bench {
+  renewal_bench() {
     config.row.spec.life.restart.policy = restart_when::never;
     config.address = "10.0.0.9";
     config.started_at = "10.0.0.5";
@@ -22,26 +22,26 @@ struct told_bench : instance_bench {
                                    {"ROS_DOMAIN_ID", "3"},
                                    {"SECRET", "x"}};
     config.environment = {{"ROS_DISCOVERY_SERVER", "10.0.0.9:11811"}};
-    config.tell_environment = [this](const std::string& instance,
-                                     const auto& variables) {
+    config.write_environment_update = [this](const std::string& instance,
+                                             const auto& variables) {
       CHECK(instance == "i");
-      told_variables.push_back(variables);
+      reported_variables.push_back(variables);
       return listens;
     };
   }
 
   bool listens = true;
-  std::vector<std::map<std::string, std::string>> told_variables;
+  std::vector<std::map<std::string, std::string>> reported_variables;
 };
 
 } // namespace
 
 TEST_CASE("what goes on at another address when it is told is not restarted") {
-  told_bench b;
+  renewal_bench b;
   b.adopt_as(instance_state::running, {true, "c1", -1});
-  REQUIRE(b.told_variables.size() == 1);
+  REQUIRE(b.reported_variables.size() == 1);
   CHECK(
-      b.told_variables[0]
+      b.reported_variables[0]
       == std::map<std::string, std::string>{
           {"ROS_DISCOVERY_SERVER", "10.0.0.9:11811"}, {"ROS_DOMAIN_ID", "3"}});
   CHECK(b.runtime->stopped.empty());
@@ -58,7 +58,7 @@ TEST_CASE("what goes on at another address when it is told is not restarted") {
 }
 
 TEST_CASE("what does not listen is started again at another address") {
-  told_bench b;
+  renewal_bench b;
   b.listens = false;
   b.adopt_as(instance_state::running, {true, "c1", -1});
   REQUIRE(b.runtime->stopped.size() == 1);
@@ -67,7 +67,7 @@ TEST_CASE("what does not listen is started again at another address") {
 }
 
 TEST_CASE("what fails when it is told of another address is started again") {
-  told_bench b;
+  renewal_bench b;
   b.adopt_as(instance_state::running, {true, "c1", -1});
   b.exits(4);
   CHECK(b.state() == instance_state::backing_off);
@@ -82,7 +82,7 @@ TEST_CASE("what fails when it is told of another address is started again") {
 
 TEST_CASE(
     "what ends by itself after it was told of another address has ended") {
-  told_bench b;
+  renewal_bench b;
   b.adopt_as(instance_state::running, {true, "c1", -1});
   b.exits(0);
   CHECK(b.state() == instance_state::stopped);

@@ -1,4 +1,4 @@
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 #include "actors/instances/life/restart_delay.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 #include "messages/failure.hpp"
 #include "test/actors/fakes/instance_bench.hpp"
 
@@ -38,7 +38,7 @@ TEST_CASE("what has run and fails is started again after a pause") {
   b.exits(3);
   CHECK(b.state() == instance_state::backing_off);
   CHECK(b.reason() == "it ended with exit code 3");
-  CHECK(b.told->last().next_start_unix_ms > 0);
+  CHECK(b.reported->last().next_start_unix_ms > 0);
   b.advance(900ms);
   CHECK(b.runtime->started.size() == 1);
   b.advance(300ms);
@@ -47,11 +47,11 @@ TEST_CASE("what has run and fails is started again after a pause") {
   CHECK(b.runtime->removed.size() == 1);
   b.ready();
   CHECK(b.state() == instance_state::running);
-  CHECK(b.told->last().restarts == 1);
-  CHECK(b.told->last().next_start_unix_ms == 0);
-  REQUIRE(b.told->last().ends.size() == 1);
-  CHECK(b.told->last().ends[0].exit_code == 3);
-  CHECK(b.told->last().ends[0].log == "first line\nlast line");
+  CHECK(b.reported->last().restarts == 1);
+  CHECK(b.reported->last().next_start_unix_ms == 0);
+  REQUIRE(b.reported->last().ends.size() == 1);
+  CHECK(b.reported->last().ends[0].exit_code == 3);
+  CHECK(b.reported->last().ends[0].log == "first line\nlast line");
 }
 
 TEST_CASE("a new start after a short pause is written down once") {
@@ -80,7 +80,7 @@ TEST_CASE("new starts one soon after the other are written down once") {
   const auto written = b.store->states("i").size() - before;
   CHECK(written >= 1);
   CHECK(written <= 3);
-  CHECK(b.told->last().restarts == 20);
+  CHECK(b.reported->last().restarts == 20);
 }
 
 TEST_CASE("an end is told with the words of its own run") {
@@ -88,8 +88,8 @@ TEST_CASE("an end is told with the words of its own run") {
   b.runtime->log = "of before\n[shim: started again]\nlast words\n";
   b.start_ready();
   b.exits(3);
-  REQUIRE(b.told->last().ends.size() == 1);
-  CHECK(b.told->last().ends[0].log == "last words");
+  REQUIRE(b.reported->last().ends.size() == 1);
+  CHECK(b.reported->last().ends[0].log == "last words");
 }
 
 TEST_CASE("a pause that a restarted node could not guess is written down") {
@@ -149,7 +149,7 @@ TEST_CASE("a new start that comes to nothing is tried again, too") {
   b.advance(3s);
   b.ready();
   CHECK(b.state() == instance_state::running);
-  CHECK(b.told->last().restarts == 2);
+  CHECK(b.reported->last().restarts == 2);
 }
 
 TEST_CASE("after the last attempt it has failed, and says how often") {
@@ -221,8 +221,8 @@ TEST_CASE("a restart of the node keeps attempts and the rest of the pause") {
   b.advance(2s);
   CHECK(b.runtime->started.size() == 1);
   b.ready();
-  CHECK(b.told->last().restarts == 7);
-  CHECK(b.told->last().attempts == 5);
+  CHECK(b.reported->last().restarts == 7);
+  CHECK(b.reported->last().attempts == 5);
 }
 
 TEST_CASE("what ended while the node was away is started again") {
@@ -265,8 +265,8 @@ TEST_CASE("what was started at an address that is gone is started again") {
   REQUIRE(b.runtime->started.size() == 1);
   b.ready();
   CHECK(b.state() == instance_state::running);
-  REQUIRE(b.told->last().ends.size() == 1);
-  CHECK(b.told->last().ends[0].reason
+  REQUIRE(b.reported->last().ends.size() == 1);
+  CHECK(b.reported->last().ends[0].reason
         == "the address of this host has changed");
   // Once, and it is written down where it is now.
   CHECK(json::parse(b.store->records.back().value).at("address") == "10.0.0.9");

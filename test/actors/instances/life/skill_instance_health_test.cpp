@@ -28,11 +28,11 @@ struct measured_skill : instance_bench {
   void measure(double input_hz, double output_hz, int seconds) {
     for (int i = 0; i < seconds; ++i) {
       advance(1s);
-      tell({{"input:0", input_hz, 0.1}, {"output:0", output_hz, 0.1}});
+      report({{"input:0", input_hz, 0.1}, {"output:0", output_hz, 0.1}});
     }
   }
 
-  void tell(std::vector<stream_figure> streams) {
+  void report(std::vector<stream_metrics> streams) {
     instance_notified words;
     words.instance = "i";
     words.alive = true;
@@ -42,11 +42,11 @@ struct measured_skill : instance_bench {
   }
 
   const instance_row& row() const {
-    return told->last();
+    return reported->last();
   }
 
   /// What was recorded of health, oldest first.
-  std::vector<std::string> facts() {
+  std::vector<std::string> published_events() {
     const auto kept = ask<kept_events>(context.events, kept_events_query{});
     settle();
     std::vector<std::string> result;
@@ -70,7 +70,7 @@ TEST_CASE("a starved instance goes on, and says what should feed it") {
         == "input '/image' comes at 2 Hz, at least 5 Hz are wanted; it is fed "
            "by step 'camera'");
   CHECK(s.runtime->stopped.empty());
-  CHECK(s.facts() == std::vector<std::string>{"instance_starved"});
+  CHECK(s.published_events() == std::vector<std::string>{"instance_starved"});
 }
 
 TEST_CASE("an instance whose input comes again is good again") {
@@ -80,7 +80,7 @@ TEST_CASE("an instance whose input comes again is good again") {
   s.measure(10, 10, 1);
   CHECK(s.row().health == instance_health::good);
   CHECK(s.row().health_reason.empty());
-  CHECK(s.facts()
+  CHECK(s.published_events()
         == std::vector<std::string>{"instance_starved", "instance_recovered"});
 }
 
@@ -88,7 +88,7 @@ TEST_CASE("an unhealthy instance is started again, and judged anew") {
   measured_skill s;
   s.start_ready();
   s.measure(10, 0, 12);
-  CHECK(s.facts() == std::vector<std::string>{"instance_unhealthy"});
+  CHECK(s.published_events() == std::vector<std::string>{"instance_unhealthy"});
   CHECK(s.runtime->stopped.size() == 1);
   CHECK(s.row().state == instance_state::backing_off);
   CHECK(s.row().reason

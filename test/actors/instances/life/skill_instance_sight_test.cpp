@@ -62,10 +62,10 @@ struct sighted_skill : instance_bench {
   }
 
   const instance_row& row() const {
-    return told->last();
+    return reported->last();
   }
 
-  std::vector<std::string> facts() {
+  std::vector<std::string> published_events() {
     const auto kept = ask<kept_events>(context.events, kept_events_query{});
     settle();
     std::vector<std::string> result;
@@ -94,11 +94,11 @@ TEST_CASE_METHOD(sighted_skill, "a skill that its node's discovery server does "
                                  "/poses, a reader of /image")
         == 0);
   lives_for(60s);
-  CHECK(facts() == std::vector<std::string>{"instance_starved"});
+  CHECK(published_events() == std::vector<std::string>{"instance_starved"});
   server_hears_of_it();
   CHECK(row().health == instance_health::good);
   CHECK(row().health_reason.empty());
-  CHECK(facts()
+  CHECK(published_events()
         == std::vector<std::string>{"instance_starved", "instance_recovered"});
   CHECK(runtime->stopped.empty());
 }
@@ -125,7 +125,7 @@ TEST_CASE_METHOD(sighted_skill, "a node that restarts finds what its server "
   CHECK(row().health == instance_health::starved);
   server_hears_of_it();
   CHECK(row().health == instance_health::good);
-  CHECK(facts() == std::vector<std::string>{"instance_recovered"});
+  CHECK(published_events() == std::vector<std::string>{"instance_recovered"});
 }
 
 TEST_CASE_METHOD(sighted_skill, "a program that is started again is judged "

@@ -1,4 +1,4 @@
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 #include "actors/instances/life/skill_instance.hpp"
 
 #include "actors/instances/instance_environment.hpp"
@@ -34,9 +34,9 @@ TEST_CASE("the intent is on disk before anything is started") {
 TEST_CASE("an instance goes from intent to running in the order drawn") {
   instance_bench b;
   b.start_ready();
-  CHECK(b.told->states()
+  CHECK(b.reported->states()
         == words{"pending", "building", "starting", "starting", "running"});
-  CHECK(b.told->last().container == "c1");
+  CHECK(b.reported->last().container == "c1");
   CHECK(b.store->states("i") == words{"pending", "starting", "running"});
 }
 
@@ -44,7 +44,7 @@ TEST_CASE("nothing is built for a runtime that needs no image") {
   instance_bench b;
   b.config.builds_images = false;
   b.start_ready();
-  CHECK(b.told->states()
+  CHECK(b.reported->states()
         == words{"pending", "starting", "starting", "running"});
 }
 
@@ -55,7 +55,7 @@ TEST_CASE("a program that is ready before the runtime answers is running") {
   CHECK(b.state() == instance_state::starting);
   b.answer_start();
   CHECK(b.state() == instance_state::running);
-  CHECK(b.told->last().container == "c1");
+  CHECK(b.reported->last().container == "c1");
 }
 
 TEST_CASE("an image that cannot be made ends the instance without a start") {
@@ -77,8 +77,8 @@ TEST_CASE("the end of a failed build's log goes along with the failure") {
                 R"({"log_tail":"Step 2/5 : COPY opt /opt\n"})"});
   b.runtime->log.clear();
   b.start();
-  CHECK(b.told->last().state == instance_state::failed);
-  CHECK(b.told->last().log_tail == "Step 2/5 : COPY opt /opt\n");
+  CHECK(b.reported->last().state == instance_state::failed);
+  CHECK(b.reported->last().log_tail == "Step 2/5 : COPY opt /opt\n");
 }
 
 TEST_CASE("a start that fails is cleaned up and told") {
@@ -109,7 +109,7 @@ TEST_CASE("a program that is not ready in time is ended and its log told") {
   b.advance(2s);
   CHECK(b.state() == instance_state::failed);
   CHECK(b.reason() == "it was not ready within 30 s");
-  CHECK(b.told->last().log_tail == "first line\nlast line\n");
+  CHECK(b.reported->last().log_tail == "first line\nlast line\n");
 }
 
 TEST_CASE("signs of life keep a program, silence ends it by force at once") {

@@ -27,34 +27,34 @@ namespace roscell::test {
 constexpr std::chrono::seconds patience{30};
 
 /// What the runtime tells, for the thread of the test.
-class facts {
+class event_inbox {
 public:
-  void put(std::string fact) {
+  void put(std::string event) {
     const std::lock_guard guard{mutex_};
-    facts_.push_back(std::move(fact));
+    events_.push_back(std::move(event));
     changed_.notify_all();
   }
 
   std::string take() {
     std::unique_lock lock{mutex_};
-    if (!changed_.wait_for(lock, patience, [this] { return !facts_.empty(); }))
+    if (!changed_.wait_for(lock, patience, [this] { return !events_.empty(); }))
       throw std::runtime_error{"the test waited in vain"};
-    auto result = std::move(facts_.front());
-    facts_.pop_front();
+    auto result = std::move(events_.front());
+    events_.pop_front();
     return result;
   }
 
-  /// Skips everything before `fact`.
-  void await(const std::string& fact) {
+  /// Skips everything before `event`.
+  void await(const std::string& event) {
     auto last = take();
-    while (last != fact)
+    while (last != event)
       last = take();
   }
 
 private:
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::deque<std::string> facts_;
+  std::deque<std::string> events_;
 };
 
 /// Ends an actor and waits until it is gone, so that nothing that it points to
@@ -67,7 +67,8 @@ void end_and_await(caf::scoped_actor& self, const Handle& whom) {
 }
 
 /// An event log that a test reads.
-inline event_log_actor keep_events(caf::actor_system& system, facts& events) {
+inline event_log_actor keep_events(caf::actor_system& system,
+                                   event_inbox& events) {
   const auto result = system.spawn([&events]() -> caf::behavior {
     return {[&events](const record_event& x) {
       events.put(x.what + ' ' + x.subject);
@@ -101,24 +102,24 @@ struct process_bench {
         std::filesystem::path{test::build_dir()} / "bin/roscell-instance-shim";
     config.io = io.core();
     config.context = context;
-    config.context.events = events = keep_events(system, told_events);
+    config.context.events = events = keep_events(system, reported_events);
     config.environment = basic_environment();
     using handle = container_listener_actor;
     listener = system.spawn([this](handle::pointer) -> handle::behavior_type {
       return {
           [this](const container_exited& x) {
-            told.put("exit " + std::to_string(x.exit_code)
-                     + (x.cause == end_cause::usual
-                            ? ""
-                            : ", " + std::string{to_string(x.cause)}));
+            reported.put("exit " + std::to_string(x.exit_code)
+                         + (x.cause == end_cause::usual
+                                ? ""
+                                : ", " + std::string{to_string(x.cause)}));
           },
           [this](const instance_notified& x) {
             if (x.ready)
-              told.put("ready");
+              reported.put("ready");
             if (x.heard)
-              told.put("heard");
+              reported.put("heard");
           },
-          [](const runtime_troubled&) {
+          [](const runtime_problem_changed&) {
             // Processes have no engine.
           },
       };
@@ -171,13 +172,13 @@ struct process_bench {
                     int64_t fence_boot_ms = 0) {
     folder.write("skill/bin/run", "#!/bin/sh\n" + script + "\n", true);
     instances.push_back(instance);
-    start_container wish;
-    wish.instance = instance;
-    wish.image = folder.path() / "skill";
-    wish.command = {"bin/run", "an argument"};
-    wish.environment = {{"GIVEN", "yes"}};
-    wish.fence_boot_ms = fence_boot_ms;
-    return get<container_started>(wish).container;
+    start_container order;
+    order.instance = instance;
+    order.image = folder.path() / "skill";
+    order.command = {"bin/run", "an argument"};
+    order.environment = {{"GIVEN", "yes"}};
+    order.fence_boot_ms = fence_boot_ms;
+    return get<container_started>(order).container;
   }
 
   log_excerpt log(int64_t offset, int64_t wait_ms = 0,
@@ -193,10 +194,10 @@ struct process_bench {
   real_time_config system_config;
   caf::actor_system system{system_config};
   caf::scoped_actor self{system};
-  house context{std::make_shared<actor_directory>(), {}};
+  actor_context context{std::make_shared<actor_directory>(), {}};
   io_thread io;
-  facts told;
-  facts told_events;
+  event_inbox reported;
+  event_inbox reported_events;
   process_runtime_config config;
   event_log_actor events;
   container_listener_actor listener;

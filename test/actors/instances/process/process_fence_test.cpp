@@ -46,7 +46,7 @@ TEST_CASE("a node that was restarted moves the fence on of what it adopts") {
   caf::anon_send(b.runtime, fence_container{"i", container, first + 1'000});
   // An order that was late.
   caf::anon_send(b.runtime, fence_container{"i", container, first});
-  CHECK(b.told.take() == "exit 137");
+  CHECK(b.reported.take() == "exit 137");
   CHECK(boot_now_ms(b.system) >= first + 1'000);
 }
 
@@ -57,11 +57,11 @@ TEST_CASE("an order for an older container moves no fence on") {
   caf::anon_send(b.runtime, fence_container{"i", "1:1", first + 1});
   caf::anon_send(b.runtime, fence_container{"nobody", "1:1", first + 1});
   caf::anon_send(b.runtime, hear_container{"i"});
-  b.told.await("heard");
+  b.reported.await("heard");
   CHECK(fence_in(fence_of(b)) == first);
   caf::anon_send(b.runtime, fence_container{"i", container, first + 1});
   caf::anon_send(b.runtime, hear_container{"i"});
-  b.told.await("heard");
+  b.reported.await("heard");
   CHECK(fence_in(fence_of(b)) == first + 1);
 }
 
@@ -83,16 +83,16 @@ TEST_CASE("a fence that cannot be moved on is told, once") {
   move("i", one);
   remove_fence(fence_path(b.config.instances_dir / "j"));
   move("j", other);
-  CHECK(b.told_events.take() == "fence_failed i");
-  CHECK(b.told_events.take() == "fence_failed j");
+  CHECK(b.reported_events.take() == "fence_failed i");
+  CHECK(b.reported_events.take() == "fence_failed j");
   // When it has succeeded meanwhile it is told again.
   REQUIRE_FALSE(make_fence(fence_of(b), first));
   move("i", one);
   caf::anon_send(b.runtime, hear_container{"i"});
-  b.told.await("heard");
+  b.reported.await("heard");
   remove_fence(fence_of(b));
   move("i", one);
-  CHECK(b.told_events.take() == "fence_failed i");
+  CHECK(b.reported_events.take() == "fence_failed i");
 }
 
 TEST_CASE("an instance that is removed leaves no fence") {
@@ -115,26 +115,26 @@ TEST_CASE("what may not go on any more is not started") {
   process_bench b;
   b.instances.push_back("i");
   b.folder.write("skill/bin/run", "#!/bin/sh\n", true);
-  start_container wish;
-  wish.instance = "i";
-  wish.image = b.folder.path() / "skill";
-  wish.command = {"bin/run"};
-  wish.fence_boot_ms = 1;
-  const auto answer = b.ask<container_started>(wish);
+  start_container order;
+  order.instance = "i";
+  order.image = b.folder.path() / "skill";
+  order.command = {"bin/run"};
+  order.fence_boot_ms = 1;
+  const auto answer = b.ask<container_started>(order);
   REQUIRE_FALSE(answer);
   const auto why = to_failure(answer.error());
   CHECK(why.code == error_code::engine_failed);
   CHECK(why.message.find("cannot keep the fence") != std::string::npos);
 }
 
-TEST_CASE("who is to be safe is told by SIGUSR1") {
+TEST_CASE("who is to be stop-safe is told by SIGUSR1") {
   process_bench b;
   const auto container = b.start("trap 'exit 8' USR1; echo up; " + endless);
   CHECK(b.log(0, 20'000).text == "up\n");
   caf::anon_send(b.runtime, ask_for_safety{"i", "1:1"});
   caf::anon_send(b.runtime, hear_container{"i"});
-  b.told.await("heard");
+  b.reported.await("heard");
   CHECK(b.get<container_adopted>(adopt_container{"i", container}).running);
   caf::anon_send(b.runtime, ask_for_safety{"i", container});
-  CHECK(b.told.take() == "exit 8");
+  CHECK(b.reported.take() == "exit 8");
 }

@@ -15,7 +15,7 @@ TEST_CASE("a log is kept with a bound and can be read on") {
   b.config.log_bytes = 8192;
   b.restart();
   b.start("i=0; while [ $i -lt 5000 ]; do echo line $i; i=$((i+1)); done");
-  b.told.await("exit 0");
+  b.reported.await("exit 0");
   const auto kept = b.log(0);
   CHECK(kept.text.size() <= 8192);
   CHECK(kept.text.find("line 4999\n") != std::string::npos);

@@ -20,13 +20,13 @@ namespace fs = std::filesystem;
 TEST_CASE("a program's exit is told at once, with its code") {
   process_bench b;
   b.start("exit 3");
-  CHECK(b.told.take() == "exit 3");
+  CHECK(b.reported.take() == "exit 3");
 }
 
 TEST_CASE("a program gets its arguments, environment and working folder") {
   process_bench b;
   b.start("echo \"$1 $GIVEN $(pwd) $LANG\"");
-  CHECK(b.told.take() == "exit 0");
+  CHECK(b.reported.take() == "exit 0");
   CHECK(b.log(0).text
         == "an argument yes " + (b.folder.path() / "skill").string() + " "
                + b.config.environment.at("LANG") + "\n");
@@ -36,12 +36,12 @@ TEST_CASE("a program that cannot be run ends with 127 and says why") {
   process_bench b;
   b.folder.write("skill/bin/run", "", true);
   b.instances.push_back("i");
-  start_container wish;
-  wish.instance = "i";
-  wish.image = b.folder.path() / "skill";
-  wish.command = {"bin/none"};
-  b.get<container_started>(wish);
-  CHECK(b.told.take() == "exit 127");
+  start_container order;
+  order.instance = "i";
+  order.image = b.folder.path() / "skill";
+  order.command = {"bin/none"};
+  b.get<container_started>(order);
+  CHECK(b.reported.take() == "exit 127");
   CHECK(b.log(0).text.find("No such file") != std::string::npos);
 }
 
@@ -49,11 +49,11 @@ TEST_CASE("a shim that is not there is a clear error") {
   process_bench b;
   b.config.shim = "/no/such/shim";
   b.restart();
-  start_container wish;
-  wish.instance = "i";
-  wish.image = b.folder.path();
-  wish.command = {"run"};
-  const auto answer = b.ask<container_started>(wish);
+  start_container order;
+  order.instance = "i";
+  order.image = b.folder.path();
+  order.command = {"run"};
+  const auto answer = b.ask<container_started>(order);
   REQUIRE_FALSE(answer);
   const auto why = to_failure(answer.error());
   CHECK(why.code == error_code::engine_failed);
@@ -88,7 +88,7 @@ TEST_CASE("a killed program is told of by its signal") {
   process_bench b;
   b.start(endless);
   ::kill(child_of(b), SIGKILL);
-  CHECK(b.told.take() == "exit 137");
+  CHECK(b.reported.take() == "exit 137");
 }
 
 TEST_CASE("a killed shim takes its program along and is told of") {
@@ -97,7 +97,7 @@ TEST_CASE("a killed shim takes its program along and is told of") {
   const auto child = child_of(b);
   ::kill(pid_of(container), SIGKILL);
   // The signal was not the program's.
-  CHECK(b.told.take() == "exit -1, supervision");
+  CHECK(b.reported.take() == "exit -1, supervision");
   CHECK(b.log(0).ended);
   // The program dies by the kernel's hand, a moment later at most.
   const unique_fd pidfd{::pidfd_open(child, 0)};
@@ -117,7 +117,7 @@ TEST_CASE("what a killed shim's program has started elsewhere ends, too") {
   REQUIRE(pidfd);
   SECTION("while the node is there") {
     ::kill(pid_of(container), SIGKILL);
-    CHECK(b.told.take() == "exit -1, supervision");
+    CHECK(b.reported.take() == "exit -1, supervision");
   }
   SECTION("while it is away") {
     b.leave();
@@ -138,9 +138,9 @@ TEST_CASE("words that wait at a socket are told before the answer to hearing") {
   process_bench b;
   b.start(endless);
   caf::anon_send(b.runtime, hear_container{"i"});
-  CHECK(b.told.take() == "heard");
+  CHECK(b.reported.take() == "heard");
   caf::anon_send(b.runtime, hear_container{"nobody"});
-  CHECK(b.told.take() == "heard");
+  CHECK(b.reported.take() == "heard");
 }
 
 TEST_CASE("stopping asks first, and force follows after the grace") {
@@ -196,7 +196,7 @@ TEST_CASE("removing ends by force and leaves no file") {
 
 TEST_CASE("a log that is kept goes to the history") {
   process_bench b;
-  facts kept;
+  event_inbox kept;
   const auto history = b.system.spawn([&kept]() -> caf::behavior {
     return {[&kept](const log_kept&) { kept.put("kept"); }};
   });
@@ -204,7 +204,7 @@ TEST_CASE("a log that is kept goes to the history") {
   b.config.history = caf::actor_cast<node_history_actor>(history);
   b.restart();
   b.start("echo one; exit 3");
-  b.told.await("exit 3");
+  b.reported.await("exit 3");
   kept_log about;
   about.instance = "i";
   about.ended_unix_ms = 1000;
@@ -223,30 +223,30 @@ TEST_CASE("a log that is kept goes to the history") {
 TEST_CASE("an instance that runs is not started twice") {
   process_bench b;
   b.start(endless);
-  start_container wish;
-  wish.instance = "i";
-  wish.image = b.folder.path() / "skill";
-  wish.command = {"bin/run"};
-  CHECK_FALSE(b.ask<container_started>(wish));
+  start_container order;
+  order.instance = "i";
+  order.image = b.folder.path() / "skill";
+  order.command = {"bin/run"};
+  CHECK_FALSE(b.ask<container_started>(order));
   // Not even by a runtime that does not know of it.
   b.restart();
-  CHECK_FALSE(b.ask<container_started>(wish));
+  CHECK_FALSE(b.ask<container_started>(order));
 }
 
 TEST_CASE("the log of an instance that is started again goes on") {
   process_bench b;
   b.start("echo one");
-  b.told.await("exit 0");
+  b.reported.await("exit 0");
   b.get<container_removed>(remove_container{"i", {}, true});
   b.start("echo two");
-  b.told.await("exit 0");
+  b.reported.await("exit 0");
   CHECK(b.log(0).text == "one\n[shim: started again]\ntwo\n");
 }
 
 TEST_CASE("the last program of an instance is adopted, whatever is on record") {
   process_bench b;
   const auto before = b.start("echo one");
-  b.told.await("exit 0");
+  b.reported.await("exit 0");
   const auto present = b.start(endless);
   b.restart();
   const auto adopted = b.get<container_adopted>(adopt_container{"i", before});
@@ -268,14 +268,14 @@ TEST_CASE("a restarted runtime adopts what runs and sees its end") {
   CHECK(adopted.container == container);
   CHECK(b.get<container_adopted>(adopt_container{"i", known}).running);
   ::kill(child_of(b), SIGKILL);
-  CHECK(b.told.take() == "exit 137");
+  CHECK(b.reported.take() == "exit 137");
   CHECK_FALSE(b.get<container_adopted>(adopt_container{"i", known}).running);
 }
 
 TEST_CASE("a restarted runtime learns how an instance has ended meanwhile") {
   process_bench b;
   const auto container = b.start("exit 6");
-  b.told.await("exit 6");
+  b.reported.await("exit 6");
   b.restart();
   const auto adopted =
       b.get<container_adopted>(adopt_container{"i", container});
@@ -283,7 +283,7 @@ TEST_CASE("a restarted runtime learns how an instance has ended meanwhile") {
   CHECK(adopted.exit_code == 6);
 }
 
-TEST_CASE("a stranger with the same number is not adopted") {
+TEST_CASE("another process with the same number is not adopted") {
   process_bench b;
   const auto self_pid = std::to_string(::getpid());
   const auto start = to_container(*identify(::getpid()));
@@ -324,22 +324,22 @@ TEST_CASE("the echo skill says that it is ready, and again after a restart") {
   fs::create_directory(input);
   fs::create_directory(b.folder.path() / "out");
   b.instances.push_back("i");
-  start_container wish;
-  wish.instance = "i";
-  wish.image = skill;
-  wish.command = {"bin/echo"};
+  start_container order;
+  order.instance = "i";
+  order.image = skill;
+  order.command = {"bin/echo"};
   const auto stream = [](const fs::path& path) {
     return R"([{"protocol":"file","endpoint":")" + path.string()
            + R"(","data_type":"text/plain"}])";
   };
-  wish.environment = {{"ROSCELL_MODEL", "plain"},
-                      {"ROSCELL_INPUTS", stream(input)},
-                      {"ROSCELL_OUTPUTS", stream(b.folder.path() / "out")},
-                      {"WATCHDOG_USEC", "200000"}};
-  b.get<container_started>(wish);
-  CHECK(b.told.take() == "ready");
+  order.environment = {{"ROSCELL_MODEL", "plain"},
+                       {"ROSCELL_INPUTS", stream(input)},
+                       {"ROSCELL_OUTPUTS", stream(b.folder.path() / "out")},
+                       {"WATCHDOG_USEC", "200000"}};
+  b.get<container_started>(order);
+  CHECK(b.reported.take() == "ready");
   b.restart();
   CHECK(b.get<container_adopted>(adopt_container{"i", {}}).running);
-  b.told.await("ready");
+  b.reported.await("ready");
   b.get<container_stopped>(stop_container{"i", {}, 20'000});
 }

@@ -25,12 +25,12 @@ const std::vector<stream_count> counted(1);
 
 TEST_CASE("the topics of a skill of our engine are looked for at the "
           "participant of its instance") {
-  const auto wish = engine_ends(spec_of_poses(), counted);
-  REQUIRE(wish);
-  CHECK(wish->instance == "fleet-poses.poses-1");
-  CHECK(wish->program == "fleet_poses_poses_1");
-  CHECK(wish->read == topics{"/image"});
-  CHECK(wish->written == topics{"/poses"});
+  const auto request = engine_ends(spec_of_poses(), counted);
+  REQUIRE(request);
+  CHECK(request->instance == "fleet-poses.poses-1");
+  CHECK(request->program == "fleet_poses_poses_1");
+  CHECK(request->read == topics{"/image"});
+  CHECK(request->written == topics{"/poses"});
 }
 
 TEST_CASE("what is not of our engine, or has no topics, is not looked for") {

@@ -33,14 +33,14 @@ struct watch_bench : virtual_time {
     kill(watch);
   }
 
-  /// Sends `wish` and keeps what is told.
-  caf::actor ask(const watch_endpoints& wish) {
-    auto told_to = &told;
+  /// Sends `request` and keeps what is told.
+  caf::actor ask(const watch_endpoints& request) {
+    auto reported_to = &reported;
     auto result = system.spawn(
         [=, to = watch](caf::event_based_actor* self) -> caf::behavior {
-          self->send(to, wish);
+          self->send(to, request);
           return {[=](const endpoints_missing& x) {
-            told_to->push_back(x.missing);
+            reported_to->push_back(x.missing);
           }};
         });
     settle();
@@ -49,7 +49,7 @@ struct watch_bench : virtual_time {
 
   std::shared_ptr<ros_graph> graph = std::make_shared<ros_graph>();
   graph_watch_actor watch;
-  std::vector<words> told;
+  std::vector<words> reported;
 };
 
 } // namespace
@@ -57,19 +57,19 @@ struct watch_bench : virtual_time {
 TEST_CASE_METHOD(watch_bench, "what a program lacks is told at once and when "
                               "it changes") {
   const auto who = ask({"i", "/i", {"/image"}, {"/image"}});
-  REQUIRE(told.size() == 1);
-  CHECK(told[0] == words{"a writer of /image", "a reader of /image"});
+  REQUIRE(reported.size() == 1);
+  CHECK(reported[0] == words{"a writer of /image", "a reader of /image"});
   graph->name_participant({1}, "/i");
   graph->add(guid(1, 1), image(true));
   settle();
-  REQUIRE(told.size() == 2);
-  CHECK(told[1] == words{"a reader of /image"});
+  REQUIRE(reported.size() == 2);
+  CHECK(reported[1] == words{"a reader of /image"});
   graph->add(guid(1, 2), image(false));
   settle();
-  CHECK(told.back().empty());
+  CHECK(reported.back().empty());
   graph->remove(guid(1, 1));
   settle();
-  CHECK(told.back() == words{"a writer of /image"});
+  CHECK(reported.back() == words{"a writer of /image"});
   caf::anon_send_exit(who, caf::exit_reason::kill);
 }
 
@@ -78,9 +78,9 @@ TEST_CASE_METHOD(watch_bench, "ends of other programs count only where any "
   graph->name_participant({2}, "/");
   graph->add(guid(2, 1), image(true));
   const auto strict = ask({"i", "/i", {"/image"}, {}});
-  CHECK(told.back() == words{"a writer of /image"});
+  CHECK(reported.back() == words{"a writer of /image"});
   const auto any = ask({"j", "", {"/image"}, {}});
-  CHECK(told.back().empty());
+  CHECK(reported.back().empty());
   caf::anon_send_exit(strict, caf::exit_reason::kill);
   caf::anon_send_exit(any, caf::exit_reason::kill);
 }
@@ -92,7 +92,7 @@ TEST_CASE_METHOD(watch_bench, "who has ended is forgotten") {
   graph->name_participant({1}, "/i");
   graph->add(guid(1, 1), image(true));
   settle();
-  CHECK(told.size() == 1);
+  CHECK(reported.size() == 1);
 }
 
 TEST_CASE_METHOD(watch_bench, "without a server nobody is missing, with one "
@@ -100,19 +100,19 @@ TEST_CASE_METHOD(watch_bench, "without a server nobody is missing, with one "
   graph->end_service();
   settle();
   const auto who = ask({"i", "/i", {"/image"}, {}});
-  CHECK(told.empty());
+  CHECK(reported.empty());
   graph->begin_service();
   settle();
-  CHECK(told == std::vector<words>{{"a writer of /image"}});
+  CHECK(reported == std::vector<words>{{"a writer of /image"}});
   graph->name_participant({1}, "/i");
   graph->add(guid(1, 1), image(true));
   settle();
-  CHECK(told.back().empty());
+  CHECK(reported.back().empty());
   graph->end_service();
   settle();
-  CHECK(told.size() == 2);
+  CHECK(reported.size() == 2);
   graph->begin_service();
   settle();
-  CHECK(told.back() == words{"a writer of /image"});
+  CHECK(reported.back() == words{"a writer of /image"});
   caf::anon_send_exit(who, caf::exit_reason::kill);
 }

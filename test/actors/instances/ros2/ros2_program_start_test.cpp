@@ -43,7 +43,7 @@ ros2_start must_start(const ros2_program& program) {
   return std::get<ros2_start>(result);
 }
 
-words own_words(const ros2_start& start) {
+words own_announcement(const ros2_start& start) {
   return {start.command.begin() + script_words, start.command.end()};
 }
 
@@ -52,7 +52,7 @@ words own_words(const ros2_start& start) {
 TEST_CASE("a ROS 2 program gets its names, topics and parameters as ROS "
           "arguments") {
   const auto start = must_start(apriltag());
-  CHECK(own_words(start)
+  CHECK(own_announcement(start)
         == words{"--ros-args", "-r", "__node:=tags_1", "-r", "__ns:=/fleet",
                  "--enclave", "/fleet_tags_0a1b2c3d", "-r",
                  "camera_info:=/fleet/camera/info", "-r",
@@ -92,7 +92,7 @@ TEST_CASE("a launch file gets topics and parameters as its arguments") {
   CHECK(start.command[4] == "launch");
   CHECK(start.command[6] == "tags.launch.py");
   CHECK(start.command[7] == "1");
-  CHECK(own_words(start)
+  CHECK(own_announcement(start)
         == words{"/opt/line/setup.bash", "mode:=fast",
                  "camera_info:=/fleet/camera/info", "detections:=/fleet/tags",
                  "image_rect:=/fleet/camera/image", "family:=36h11",
@@ -115,7 +115,7 @@ TEST_CASE("a ROS 2 program gets values in the types that its model declares") {
   spec.arguments = {"--log-level", "debug"};
   const auto start = ros2_start_of(skill, spec);
   REQUIRE(std::holds_alternative<ros2_start>(start));
-  const auto said = own_words(std::get<ros2_start>(start));
+  const auto said = own_announcement(std::get<ros2_start>(start));
   CHECK(words{said.begin(), said.begin() + 2} == words{"--log-level", "debug"});
   CHECK(words{said.end() - 6, said.end()}
         == words{"-p", "at:=[1.0,2.0]", "-p", "n:=3", "-p", "size:=2.0"});

@@ -1,4 +1,4 @@
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 #include "actors/instances/life/skill_instance.hpp"
 #include "actors/instances/ros2/graph_watch.hpp"
 
@@ -33,7 +33,7 @@ struct stock_bench : virtual_time {
     graph->begin_service();
     watch = roscell::spawn(system, context, graph_watch, graph);
     config.context = context;
-    config.supervisor = fake_supervisor(system, told);
+    config.supervisor = fake_supervisor(system, reported);
     config.runtime = fake_runtime(system, runtime);
     config.store = fake_store(system, store);
     config.graph = watch;
@@ -70,13 +70,14 @@ struct stock_bench : virtual_time {
   }
 
   instance_state state() const {
-    return told->last().state;
+    return reported->last().state;
   }
 
   scratch_folder folder;
   std::shared_ptr<ros_graph> graph = std::make_shared<ros_graph>();
   graph_watch_actor watch;
-  std::shared_ptr<told_changes> told = std::make_shared<told_changes>();
+  std::shared_ptr<reported_changes> reported =
+      std::make_shared<reported_changes>();
   std::shared_ptr<runtime_script> runtime = std::make_shared<runtime_script>();
   std::shared_ptr<store_script> store = std::make_shared<store_script>();
   skill_instance_config config;
@@ -99,10 +100,10 @@ TEST_CASE_METHOD(stock_bench, "a stock program is started by its own command "
                               "and asked to end as ROS 2 asks") {
   start();
   REQUIRE(runtime->started.size() == 1);
-  const auto& wish = runtime->started[0];
-  CHECK(wish.command.front() == "/bin/bash");
-  CHECK(wish.stop_signal == SIGINT);
-  CHECK(wish.environment.at("RMW_IMPLEMENTATION") == "rmw_fastrtps_cpp");
+  const auto& request = runtime->started[0];
+  CHECK(request.command.front() == "/bin/bash");
+  CHECK(request.stop_signal == SIGINT);
+  CHECK(request.environment.at("RMW_IMPLEMENTATION") == "rmw_fastrtps_cpp");
   CHECK(runtime->prepared.at(0).entry_point.empty());
 }
 
@@ -112,7 +113,8 @@ TEST_CASE_METHOD(stock_bench, "a stock program that is never seen is ended, "
   writer_comes("/another");
   advance(limits::instance::ready + 1s);
   CHECK(state() == instance_state::failed);
-  CHECK(told->last().reason.find("a writer of /t/words") != std::string::npos);
+  CHECK(reported->last().reason.find("a writer of /t/words")
+        != std::string::npos);
 }
 
 TEST_CASE_METHOD(stock_bench, "a stock program whose endpoints have gone is "
@@ -128,7 +130,7 @@ TEST_CASE_METHOD(stock_bench, "a stock program whose endpoints have gone is "
   writer_goes();
   advance(limits::instance::watchdog + 1s);
   CHECK(state() == instance_state::failed);
-  CHECK(told->last().reason.find("has not seen a writer of /t/words")
+  CHECK(reported->last().reason.find("has not seen a writer of /t/words")
         != std::string::npos);
 }
 
@@ -150,5 +152,6 @@ TEST_CASE_METHOD(stock_bench, "a step without what the program's topics stand "
   start();
   CHECK(state() == instance_state::failed);
   CHECK(runtime->started.empty());
-  CHECK(told->last().reason.find("stands for 'output") != std::string::npos);
+  CHECK(reported->last().reason.find("stands for 'output")
+        != std::string::npos);
 }

@@ -98,7 +98,7 @@ private:
     return chance(0.15) ? 0 : amount(tight_ ? 2 : 3);
   }
 
-  oracle::way make_way() {
+  oracle::way preempt_instances() {
     oracle::way made;
     made.gpu = chance(0.4);
     made.cpu = make_request();
@@ -116,7 +116,7 @@ private:
     oracle::task made;
     auto ways = between(1, 2);
     for (int d = 0; d < ways; ++d)
-      made.ways.push_back(make_way());
+      made.ways.push_back(preempt_instances());
     for (int v = 0; v < nodes; ++v)
       made.skill.push_back(!picky_ || chance(0.85));
     return made;

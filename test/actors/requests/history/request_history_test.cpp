@@ -11,7 +11,7 @@ namespace {
 using std::chrono::microseconds;
 
 struct history_fixture {
-  request_history book;
+  request_history table;
   request_history::time_point start{std::chrono::hours{1}};
 
   request_history::time_point at(int us) const {
@@ -19,11 +19,11 @@ struct history_fixture {
   }
 
   request_history::ticket begin(const std::string& subject) {
-    return book.begin("task_request", subject, 1000, start);
+    return table.begin("task_request", subject, 1000, start);
   }
 
   std::vector<request_trace> of(const std::string& subject) const {
-    return book.traces(
+    return table.traces(
         subject, [](uint64_t id) { return "actor " + std::to_string(id); });
   }
 };
@@ -38,13 +38,13 @@ TEST_CASE_METHOD(history_fixture,
                  "A trace tells each hop, whom it asked, and how long it took",
                  "[request_history]") {
   const auto id = begin("t");
-  book.enter(id, "claim", at(10));
-  const auto asked = book.ask(id, 7, "", at(11));
-  book.answer(asked, false, at(15));
-  book.enter(id, "deploy", at(20));
-  const auto late = book.ask(id, 8, "arm", at(21));
-  book.answer(late, true, at(40));
-  book.end(id, "timeout", at(50));
+  table.enter(id, "claim", at(10));
+  const auto asked = table.ask(id, 7, "", at(11));
+  table.answer(asked, false, at(15));
+  table.enter(id, "deploy", at(20));
+  const auto late = table.ask(id, 8, "arm", at(21));
+  table.answer(late, true, at(40));
+  table.end(id, "timeout", at(50));
   const auto traces = of("t");
   REQUIRE(traces.size() == 1);
   const auto& x = traces[0];
@@ -62,8 +62,8 @@ TEST_CASE_METHOD(history_fixture,
                  "What goes on has no end, also while others come",
                  "[request_history]") {
   const auto id = begin("t");
-  book.enter(id, "claim", at(1));
-  book.ask(id, 7, "", at(2));
+  table.enter(id, "claim", at(1));
+  table.ask(id, 7, "", at(2));
   begin("u");
   const auto x = of("t").at(0);
   CHECK(x.span_us == -1);
@@ -74,10 +74,10 @@ TEST_CASE_METHOD(history_fixture,
 TEST_CASE_METHOD(history_fixture, "An answer after the next hop is its own's",
                  "[request_history]") {
   const auto id = begin("t");
-  book.enter(id, "undo", at(1));
-  const auto asked = book.ask(id, 7, "", at(2));
-  book.enter(id, "next", at(3));
-  book.answer(asked, false, at(9));
+  table.enter(id, "undo", at(1));
+  const auto asked = table.ask(id, 7, "", at(2));
+  table.enter(id, "next", at(3));
+  table.answer(asked, false, at(9));
   const auto x = of("t").at(0);
   CHECK(x.hops[0].asked[0].span_us == 7);
   CHECK(x.hops[1].asked.empty());
@@ -102,9 +102,9 @@ TEST_CASE_METHOD(history_fixture,
   CHECK(of("first").empty());
   CHECK(of("").size() == request_history::max_requests);
   // What it still does is not anybody else's.
-  book.enter(first, "claim", at(1));
-  book.answer(book.ask(first, 7, "", at(2)), false, at(3));
-  book.end(first, "", at(4));
+  table.enter(first, "claim", at(1));
+  table.answer(table.ask(first, 7, "", at(2)), false, at(3));
+  table.end(first, "", at(4));
   for (const auto& x : of(""))
     CHECK(x.hops.empty());
 }
@@ -112,14 +112,14 @@ TEST_CASE_METHOD(history_fixture,
 TEST_CASE_METHOD(history_fixture, "Hops and questions are bounded",
                  "[request_history]") {
   const auto id = begin("t");
-  book.enter(id, "deploy", at(1));
+  table.enter(id, "deploy", at(1));
   for (size_t i = 0; i < request_history::max_questions + 3; ++i)
-    book.answer(book.ask(id, i, "", at(2)), false, at(3));
+    table.answer(table.ask(id, i, "", at(2)), false, at(3));
   const auto hop = of("t").at(0).hops.at(0);
   CHECK(hop.asked.size() == request_history::max_questions);
   CHECK(hop.dropped == 3);
   for (size_t i = 0; i < 2 * request_history::max_hops; ++i)
-    book.enter(id, "again", at(4));
+    table.enter(id, "again", at(4));
   CHECK(of("t").at(0).hops.size() == request_history::max_hops);
 }
 
@@ -131,9 +131,9 @@ TEST_CASE_METHOD(history_fixture,
   const auto work = [this](const std::string& subject) {
     const auto id = begin(subject);
     for (size_t i = 0; i < hops; ++i) {
-      book.enter(id, "deploy", at(1));
+      table.enter(id, "deploy", at(1));
       for (size_t j = 0; j < many; ++j)
-        book.ask(id, j, "arm", at(2));
+        table.ask(id, j, "arm", at(2));
     }
   };
   constexpr size_t enough = request_history::max_parts / (hops * many);
@@ -147,37 +147,37 @@ TEST_CASE_METHOD(history_fixture,
 
 TEST_CASE_METHOD(history_fixture, "A request without a ticket leaves no trace",
                  "[request_history]") {
-  book.enter(0, "claim", at(1));
-  book.answer(book.ask(0, 7, "", at(2)), false, at(3));
-  book.end(0, "", at(4));
+  table.enter(0, "claim", at(1));
+  table.answer(table.ask(0, 7, "", at(2)), false, at(3));
+  table.end(0, "", at(4));
   CHECK(of("").empty());
 }
 
 TEST_CASE_METHOD(history_fixture, "A task has its latest decision alone",
                  "[request_history]") {
-  book.decide(decision("t"));
-  book.decide({"t", 6, "", "{}"});
-  const auto x = book.placement("t");
+  table.decide(decision("t"));
+  table.decide({"t", 6, "", "{}"});
+  const auto x = table.placement("t");
   REQUIRE(x);
   CHECK(x->decided_unix_ms == 6);
   CHECK(x->plan.empty());
-  CHECK_FALSE(book.placement("u"));
+  CHECK_FALSE(table.placement("u"));
 }
 
 TEST_CASE_METHOD(history_fixture,
                  "The oldest decisions go when they are too many or too large",
                  "[request_history]") {
-  book.decide(decision("first"));
+  table.decide(decision("first"));
   for (size_t i = 0; i < request_history::max_placements; ++i)
-    book.decide(decision("t" + std::to_string(i)));
-  CHECK_FALSE(book.placement("first"));
-  CHECK(book.placement("t0"));
-  book.decide(decision("large", request_history::max_placement_bytes - 10));
-  CHECK_FALSE(book.placement("t0"));
-  CHECK(book.placement("large"));
+    table.decide(decision("t" + std::to_string(i)));
+  CHECK_FALSE(table.placement("first"));
+  CHECK(table.placement("t0"));
+  table.decide(decision("large", request_history::max_placement_bytes - 10));
+  CHECK_FALSE(table.placement("t0"));
+  CHECK(table.placement("large"));
   // One that is larger than all of the room is not kept at all.
-  book.decide(decision("huge", request_history::max_placement_bytes));
-  CHECK_FALSE(book.placement("huge"));
+  table.decide(decision("huge", request_history::max_placement_bytes));
+  CHECK_FALSE(table.placement("huge"));
 }
 
 namespace {
@@ -196,19 +196,19 @@ json many_rejected() {
 TEST_CASE_METHOD(history_fixture,
                  "A large decision is cut, says so, and drives out no other",
                  "[request_history]") {
-  book.decide(decision("small"));
+  table.decide(decision("small"));
   const auto rejected = many_rejected();
   const json plan{{"score", 1}, {"rejected", rejected}};
   const json error{
       {"type", "error"},
       {"error", {{"message", "it fits nowhere"}, {"rejected", rejected}}}};
   for (int i = 0; i < 3; ++i) {
-    book.decide({"plan" + std::to_string(i), 5, plan.dump(), ""});
-    book.decide({"error" + std::to_string(i), 5, "", error.dump()});
+    table.decide({"plan" + std::to_string(i), 5, plan.dump(), ""});
+    table.decide({"error" + std::to_string(i), 5, "", error.dump()});
   }
-  CHECK(book.placement("small"));
-  CHECK(book.placement("plan0"));
-  const auto kept = json::parse(book.placement("plan2")->plan);
+  CHECK(table.placement("small"));
+  CHECK(table.placement("plan0"));
+  const auto kept = json::parse(table.placement("plan2")->plan);
   CHECK(kept["score"] == 1);
   CHECK(kept["rejected"].size() > 100);
   CHECK(kept["rejected"][99] == plan["rejected"][99]);
@@ -216,7 +216,7 @@ TEST_CASE_METHOD(history_fixture,
                      + " rejected candidates, "
                      + std::to_string(kept["rejected"].size()) + " are kept";
   CHECK(kept["warnings"] == json{words});
-  const auto refused = json::parse(book.placement("error2")->refusal);
+  const auto refused = json::parse(table.placement("error2")->refusal);
   CHECK(refused["error"]["message"] == "it fits nowhere; " + words);
 }
 

@@ -38,11 +38,11 @@ TEST_CASE("who asks for OpenMetrics gets it", "[metrics]") {
 }
 
 TEST_CASE("a histogram's buckets include the smaller ones", "[metrics]") {
-  metric_book book;
+  metric_table table;
   for (const double x : {1.0, 1.0, 100.0, 1e9})
-    book.observe(metric::allocation_states, {}, x);
+    table.observe(metric::allocation_states, {}, x);
   exposition text{exposition_format::text};
-  text.write(metric::allocation_states, book);
+  text.write(metric::allocation_states, table);
   const auto whole = text.finish();
   CHECK(has(whole, "roscell_allocation_states_bucket{le=\"1\"} 2\n"));
   CHECK(has(whole, "roscell_allocation_states_bucket{le=\"100\"} 3\n"));
@@ -75,14 +75,14 @@ TEST_CASE("an instance's times are a histogram in seconds", "[metrics]") {
   row.task = "t";
   row.step = "a";
   row.node = "arm";
-  row.figures.latency_counts = {1, 2, 0, 4, 0, 0, 3, 0, 0, 1, 1};
-  row.figures.latency_sum_ms = 2500;
+  row.metrics.latency_counts = {1, 2, 0, 4, 0, 0, 3, 0, 0, 1, 1};
+  row.metrics.latency_sum_ms = 2500;
   auto silent = row;
   silent.instance = "t-a-2";
-  silent.figures = {};
+  silent.metrics = {};
   auto half = row;
   half.instance = "t-a-3";
-  half.figures.latency_sum_ms = -1;
+  half.metrics.latency_sum_ms = -1;
   exposition text{exposition_format::text};
   write_instances({row, silent, half}, text);
   const auto whole = text.finish();

@@ -1,6 +1,6 @@
 #include "actors/requests/metrics/scrape.hpp"
 
-#include "actors/house/limits.hpp"
+#include "actors/core/limits.hpp"
 #include "test/actors/fakes/coordinator_fakes.hpp"
 
 #include <catch2/catch.hpp>
@@ -25,7 +25,7 @@ struct kept_answer : reply_sink {
   }
 };
 
-/// A coordinator whose node `arm` runs a skill that tells figures.
+/// A coordinator whose node `arm` runs a skill that tells metrics.
 struct scraped_cell : paper_cell {
   fake_agent& arm;
   instance_row& row;
@@ -35,7 +35,7 @@ struct scraped_cell : paper_cell {
       : arm(add("arm")),
         row((request(echo_task("t", {echo_step("s0", 1, "arm")})),
              arm.running.begin()->second)) {
-    row.figures.frames = 120;
+    row.metrics.frames = 120;
   }
 
   std::shared_ptr<kept_answer> scrape() {
@@ -98,15 +98,15 @@ TEST_CASE_METHOD(scraped_cell,
                  "what a node tells too late is in the next scrape",
                  "[metrics]") {
   scrape();
-  row.figures.frames = 150;
+  row.metrics.frames = 150;
   CHECK(has_frames(scrape_muted(), 120));
-  arm.tell_figures();
+  arm.report_metrics();
   time.settle();
   CHECK(has_frames(scrape_muted(), 150));
 }
 
 TEST_CASE_METHOD(scraped_cell,
-                 "figures of a node that stays silent are not told any more",
+                 "metrics of a node that stays silent are not told any more",
                  "[metrics]") {
   scrape();
   CHECK(has_frames(scrape_muted(), 120));
@@ -114,7 +114,7 @@ TEST_CASE_METHOD(scraped_cell,
   CHECK_FALSE(has_frames(scrape_muted(), 120));
 }
 
-TEST_CASE_METHOD(scraped_cell, "a node that is away has no figures",
+TEST_CASE_METHOD(scraped_cell, "a node that is away has no metrics",
                  "[metrics]") {
   scrape();
   lose(arm);

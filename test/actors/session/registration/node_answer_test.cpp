@@ -18,7 +18,8 @@ failure refusal(const std::string& text) {
 
 } // namespace
 
-TEST_CASE("a stranger's answer is no node's, whatever it is", "[node_answer]") {
+TEST_CASE("an unauthenticated peer's answer is no node's, whatever it is",
+          "[node_answer]") {
   for (const auto* text :
        {"", "<html>", "7", "[]", "{}", R"({"type":7})", R"({"type":["error"]})",
         R"({"type":"error"})", R"({"type":"error","error":{"code":7}})",

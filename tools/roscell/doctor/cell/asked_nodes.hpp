@@ -3,7 +3,7 @@
 #include "messages/failure.hpp"
 #include "tools/roscell/client/node_client.hpp"
 #include "tools/roscell/doctor/finding.hpp"
-#include "tools/roscell/doctor/node/answer_trouble.hpp"
+#include "tools/roscell/doctor/node/answer_problem.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-/// INTERNAL to the examination of a cell: questions to its nodes.
+/// INTERNAL to the check of a cell: questions to its nodes.
 namespace roscell::cli {
 
 /// Longer than a coordinator waits for a node that has to look.
@@ -25,15 +25,15 @@ template <class Reply>
 struct answer_of {
   std::string node;
   Reply reply;
-  finding trouble; ///< Its `seen` is empty if there is a reply.
+  finding problem; ///< Its `seen` is empty if there is a reply.
 };
 
 /// A node of an older program, or one that embeds it.
-inline bool cannot_look(const std::exception& why) {
-  const auto* told = dynamic_cast<const refused*>(&why);
-  if (told == nullptr)
+inline bool cannot_check(const std::exception& why) {
+  const auto* reported = dynamic_cast<const refused*>(&why);
+  if (reported == nullptr)
     return false;
-  const auto code = failure_from(told->reply).code;
+  const auto code = failure_from(reported->reply).code;
   return code == error_code::unknown_type || code == error_code::conflict;
 }
 
@@ -46,9 +46,9 @@ answer_of<Reply> ask_node(const node_client& to, const std::string& name,
   try {
     result.reply = to.ask(request, answer_limit).template get<Reply>();
   } catch (const std::exception& e) {
-    result.trouble =
-        trouble_of(e, cannot_look(e) ? judgement::skipped : judgement::broken);
-    result.trouble.seen.insert(0, name + ": ");
+    result.problem = finding_of_failure(e, cannot_check(e) ? judgement::skipped
+                                                           : judgement::broken);
+    result.problem.seen.insert(0, name + ": ");
   }
   return result;
 }

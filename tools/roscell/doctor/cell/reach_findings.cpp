@@ -12,17 +12,17 @@ namespace roscell::cli {
 namespace {
 
 /// What a way is for.
-struct way_words {
+struct path_text {
   const char* protocol;
   const char* name;
   const char* matters;
 };
 
 /// In the order of `reach_way`.
-constexpr way_words words[] = {
+constexpr path_text words[] = {
     {"tcp", "sessions",
      "a node cannot join, or its coordinator cannot call it"},
-    {"udp", "beats", "a node is taken for lost again and again"},
+    {"udp", "heartbeats", "a node is taken for lost again and again"},
     {"udp", "discovery", "skills and ROS 2 programs do not find each other"},
     {"udp", "data", "no topic that both nodes share brings any data"},
     {"udp", "large data",
@@ -30,7 +30,7 @@ constexpr way_words words[] = {
     {"udp", "multicast",
      "nodes that are started without --join do not find this one"}};
 
-const way_words& words_of(reach_way way) {
+const path_text& texts_of_path(reach_way way) {
   return words[static_cast<size_t>(way)];
 }
 
@@ -50,7 +50,7 @@ std::string remedy_of(const reach_row& x, const std::string& from,
   case port_answer::unreachable:
     return on_host(from, "ip route get " + shell_word(to));
   case port_answer::closed:
-  case port_answer::stranger:
+  case port_answer::unauthenticated_peer:
     return on_host(to, "roscell doctor --only ports");
   default:
     break;
@@ -60,8 +60,9 @@ std::string remedy_of(const reach_row& x, const std::string& from,
   if (x.way == reach_way::multicast)
     return on_host(to, "sudo roscell doctor --only multicast,firewall");
   return on_host(to, "sudo nft insert rule inet filter input ip saddr "
-                         + shell_word(from) + " " + words_of(x.way).protocol
-                         + " dport " + ports_of(x) + " accept");
+                         + shell_word(from) + " "
+                         + texts_of_path(x.way).protocol + " dport "
+                         + ports_of(x) + " accept");
 }
 
 std::string meaning_of(const reach_row& x) {
@@ -87,7 +88,7 @@ bool is_used(const reach_row& x, const std::string& from,
 
 finding judge_row(const reach_row& x, const std::string& from,
                   const reached_cell& cell) {
-  const auto& way = words_of(x.way);
+  const auto& way = texts_of_path(x.way);
   const bool used = is_used(x, from, cell.coordinator);
   std::string matters = way.matters;
   if (!used && x.way != reach_way::multicast)
@@ -109,10 +110,10 @@ bool is_loopback(const reached_cell& cell, const std::string& node) {
 bool is_of_others(const reach_row& x, const reach_opened& to) {
   return x.way == reach_way::data && x.port != to.data_port
          && (x.answer == port_answer::closed
-             || x.answer == port_answer::stranger);
+             || x.answer == port_answer::unauthenticated_peer);
 }
 
-/// What comes of another trouble that is told is not told as well.
+/// What comes of another problem that is told is not told as well.
 bool is_consequence(const reach_row& x, const std::vector<reach_row>& all,
                     const reach_opened& to) {
   return x.way >= reach_way::data
@@ -125,17 +126,17 @@ bool is_consequence(const reach_row& x, const std::vector<reach_row>& all,
 }
 
 /// "arm reaches base, leg (0.2 to 0.9 ms)"
-finding all_reached(const reach_report& told,
+finding all_reached(const reach_report& reported,
                     const std::vector<std::string>& names) {
   double least = -1;
   double most = -1;
-  for (const auto& x : told.rows)
+  for (const auto& x : reported.rows)
     if (x.round_trip_ms >= 0) {
       least = least < 0 ? x.round_trip_ms : std::min(least, x.round_trip_ms);
       most = std::max(most, x.round_trip_ms);
     }
-  return {judgement::ok, told.node + " reaches " + joined(names, ", ") + " ("
-                             + format_number(least) + " to "
+  return {judgement::ok, reported.node + " reaches " + joined(names, ", ")
+                             + " (" + format_number(least) + " to "
                              + format_number(most) + " ms)"};
 }
 
@@ -152,29 +153,29 @@ std::string host_of(const reach_opened& x) {
   return at ? at->address : x.address;
 }
 
-findings judge_reach(const reach_report& told, const reached_cell& cell) {
+findings judge_reach(const reach_report& reported, const reached_cell& cell) {
   findings result;
   std::map<std::string, bool> all_ways;
-  if (cell.nodes.count(told.node) == 0)
+  if (cell.nodes.count(reported.node) == 0)
     return result;
-  for (const auto& x : told.rows) {
+  for (const auto& x : reported.rows) {
     if (cell.nodes.count(x.node) == 0
         || (x.way == reach_way::multicast && is_loopback(cell, x.node)))
       continue;
     auto& reached = all_ways.emplace(x.node, true).first->second;
     const auto& to = cell.nodes.at(x.node);
     if (x.answer == port_answer::found || is_of_others(x, to)
-        || is_consequence(x, told.rows, to))
+        || is_consequence(x, reported.rows, to))
       continue;
     reached = false;
-    result.push_back(named(judge_row(x, told.node, cell), "reach"));
+    result.push_back(named(judge_row(x, reported.node, cell), "reach"));
   }
   std::vector<std::string> names;
   for (const auto& [name, reached] : all_ways)
     if (reached)
       names.push_back(name);
   if (!names.empty())
-    result.push_back(named(all_reached(told, names), "reach"));
+    result.push_back(named(all_reached(reported, names), "reach"));
   return result;
 }
 

@@ -21,7 +21,7 @@ std::string host_of(const reach_opened& x);
 
 /// What one node has tried. What its way back needs, too, is tried by the other
 /// one.
-findings judge_reach(const reach_report& told, const reached_cell& cell);
+findings judge_reach(const reach_report& reported, const reached_cell& cell);
 
 /// Nodes of other versions than the coordinator's.
 findings judge_versions(const reached_cell& cell);

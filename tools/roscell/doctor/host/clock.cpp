@@ -6,7 +6,7 @@
 
 namespace roscell::cli {
 
-clock_facts look_at_clock() {
+clock_readings read_clock() {
   timex clock{};
   const auto state = adjtimex(&clock);
   if (state < 0)
@@ -15,9 +15,9 @@ clock_facts look_at_clock() {
           clock.maxerror};
 }
 
-finding judge_clock(const clock_facts& clock) {
-  if (!clock.told)
-    return {judgement::skipped, "the kernel does not tell"};
+finding judge_clock(const clock_readings& clock) {
+  if (!clock.reported)
+    return {judgement::skipped, "the kernel does not report it"};
   constexpr auto why =
       "ages of frames between hosts, and the order of events and logs, are as "
       "wrong as the clocks differ";
@@ -37,8 +37,8 @@ finding judge_clock(const clock_facts& clock) {
   return {judgement::ok, seen};
 }
 
-findings examine_clock(const examined_host& /*host*/) {
-  return {judge_clock(look_at_clock())};
+findings check_clock(const checked_host& /*host*/) {
+  return {judge_clock(read_clock())};
 }
 
 } // namespace roscell::cli

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "tools/roscell/doctor/examined_host.hpp"
+#include "tools/roscell/doctor/checked_host.hpp"
 #include "tools/roscell/doctor/finding.hpp"
 
 #include <cstdint>
@@ -8,16 +8,16 @@
 namespace roscell::cli {
 
 /// What the kernel knows of the clock that people and messages go by.
-struct clock_facts {
-  bool told = false;
+struct clock_readings {
+  bool reported = false;
   bool synchronised = false;
   int64_t most_error_us = 0; ///< How wrong it may be.
 };
 
-clock_facts look_at_clock();
+clock_readings read_clock();
 
-finding judge_clock(const clock_facts& clock);
+finding judge_clock(const clock_readings& clock);
 
-findings examine_clock(const examined_host& host);
+findings check_clock(const checked_host& host);
 
 } // namespace roscell::cli

@@ -51,7 +51,7 @@ unique_fd nameless_file(const fs::path& folder) {
   return file;
 }
 
-finding may_not_write(const disk_facts& disk) {
+finding may_not_write(const disk_readings& disk) {
   const auto there = shell_word(disk.existing.string());
   const auto seen = "this user cannot write to " + disk.existing.string() + ": "
                     + std::strerror(disk.write_error);
@@ -68,7 +68,7 @@ finding may_not_write(const disk_facts& disk) {
               + shell_word(disk.data_dir.string())};
 }
 
-finding judge_room(const disk_facts& disk) {
+finding judge_room(const disk_readings& disk) {
   const auto room = format_bytes(static_cast<double>(disk.free_bytes));
   const auto at = disk.existing.string();
   const auto look = "du -xhd 1 " + shell_word(at) + " | sort -h";
@@ -88,8 +88,8 @@ finding judge_room(const disk_facts& disk) {
 
 } // namespace
 
-disk_facts look_at_disk(const fs::path& data_dir) {
-  disk_facts result;
+disk_readings read_disk(const fs::path& data_dir) {
+  disk_readings result;
   result.data_dir = data_dir;
   result.existing = nearest_folder(data_dir);
   struct statvfs room {};
@@ -105,7 +105,7 @@ disk_facts look_at_disk(const fs::path& data_dir) {
   return result;
 }
 
-findings judge_disk(const disk_facts& disk) {
+findings judge_disk(const disk_readings& disk) {
   findings result;
   if (disk.write_error != 0)
     result.push_back(may_not_write(disk));
@@ -151,12 +151,12 @@ finding judge_fsync(const fs::path& folder, std::vector<double> took_ms) {
           "findmnt -T " + shell_word(folder.string())};
 }
 
-findings examine_disk(const examined_host& host) {
-  return judge_disk(look_at_disk(host.config.data_dir));
+findings check_disk(const checked_host& host) {
+  return judge_disk(read_disk(host.config.data_dir));
 }
 
-findings examine_fsync(const examined_host& host) {
-  const auto folder = look_at_disk(host.config.data_dir).existing;
+findings check_fsync(const checked_host& host) {
+  const auto folder = read_disk(host.config.data_dir).existing;
   const auto took = measure_fsync(folder);
   if (!took || took->empty())
     return {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "tools/roscell/doctor/examined_host.hpp"
+#include "tools/roscell/doctor/checked_host.hpp"
 #include "tools/roscell/doctor/finding.hpp"
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 /// Where a node keeps its files.
 namespace roscell::cli {
 
-struct disk_facts {
+struct disk_readings {
   std::filesystem::path data_dir;
   std::filesystem::path existing; ///< It, or the folder that it would be in.
   int write_error = 0;            ///< 0: this user may write there.
@@ -21,9 +21,9 @@ struct disk_facts {
   bool counts_files = false;      ///< Not all file systems have a number.
 };
 
-disk_facts look_at_disk(const std::filesystem::path& data_dir);
+disk_readings read_disk(const std::filesystem::path& data_dir);
 
-findings judge_disk(const disk_facts& disk);
+findings judge_disk(const disk_readings& disk);
 
 /// How long it took to keep 4 KiB, each time, in ms. Takes a second at most,
 /// and leaves no file. Nothing: it cannot be written there.
@@ -34,7 +34,7 @@ measure_fsync(const std::filesystem::path& folder);
 finding judge_fsync(const std::filesystem::path& folder,
                     std::vector<double> took_ms);
 
-findings examine_disk(const examined_host& host);
-findings examine_fsync(const examined_host& host);
+findings check_disk(const checked_host& host);
+findings check_fsync(const checked_host& host);
 
 } // namespace roscell::cli

@@ -29,8 +29,8 @@ token_place place_for(const node_config& config) {
   if (!config.site_token_file.empty())
     return {config.site_token_file, "given by --site-token"};
   const auto own = own_site_token();
-  const auto* told = std::getenv(site_token_variable);
-  return {own, told != nullptr && own == fs::path{told}
+  const auto* reported = std::getenv(site_token_variable);
+  return {own, reported != nullptr && own == fs::path{reported}
                    ? std::string{"named by $"} + site_token_variable
                    : "the one of " + own_user() + " on this host"};
 }
@@ -44,7 +44,7 @@ finding judge_missing(const token_place& place) {
 
 } // namespace
 
-findings examine_site_token(const examined_host& host) {
+findings check_site_token(const checked_host& host) {
   const auto place = place_for(host.config);
   std::error_code problem;
   if (place.file.empty() || (!fs::exists(place.file, problem) && !problem))
@@ -66,7 +66,7 @@ findings examine_site_token(const examined_host& host) {
                               + " tells whether another host has the same"}};
 }
 
-findings examine_skill_owners(const examined_host& host) {
+findings check_skill_owners(const checked_host& host) {
   findings result;
   for (const auto& x : find_open_skills(host.config))
     result.push_back({judgement::warning, x.what,

@@ -101,7 +101,7 @@ findings judge_engines(const std::string& runtime,
   return {judge_silence(runtime, first, std::get<edge_error>(first.answer))};
 }
 
-findings examine_engines(const examined_host& host) {
+findings check_engines(const checked_host& host) {
   const auto& runtime = host.config.runtime;
   std::error_code error;
   return judge_engines(

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "actors/edge/engine/engine_search.hpp"
-#include "tools/roscell/doctor/examined_host.hpp"
+#include "tools/roscell/doctor/checked_host.hpp"
 #include "tools/roscell/doctor/finding.hpp"
 
 #include <string>
@@ -24,6 +24,6 @@ findings judge_engines(const std::string& runtime,
                        const std::vector<asked_engine>& engines,
                        bool unified_cgroups);
 
-findings examine_engines(const examined_host& host);
+findings check_engines(const checked_host& host);
 
 } // namespace roscell::cli

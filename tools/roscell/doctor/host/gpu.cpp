@@ -78,7 +78,7 @@ std::string group_of(const std::string& device) {
 }
 
 /// Who is in the group of root may do more than use a GPU.
-std::string device_remedy(const gpu_facts& gpu) {
+std::string device_remedy(const gpu_readings& gpu) {
   if (!gpu.device_group.empty())
     return "sudo usermod -aG " + shell_word(gpu.device_group) + " "
            + own_user();
@@ -87,7 +87,7 @@ std::string device_remedy(const gpu_facts& gpu) {
 }
 
 /// Whether the library is there, and why it does not begin.
-void ask_library(const std::string& name, gpu_facts& gpu) {
+void ask_library(const std::string& name, gpu_readings& gpu) {
   const std::unique_ptr<void, int (*)(void*)> library{
       dlopen(name.c_str(), RTLD_LAZY | RTLD_LOCAL),
       [](void* x) { return x == nullptr ? 0 : dlclose(x); }};
@@ -113,8 +113,8 @@ void ask_library(const std::string& name, gpu_facts& gpu) {
 
 } // namespace
 
-gpu_facts look_at_gpu(const examined_host& host) {
-  gpu_facts result;
+gpu_readings read_gpu(const checked_host& host) {
+  gpu_readings result;
   result.card = has_card(host.sys + "/bus/pci/devices");
   result.module = module_version(host.proc);
   result.devices = gpu_devices(host.dev);
@@ -132,7 +132,7 @@ gpu_facts look_at_gpu(const examined_host& host) {
   return result;
 }
 
-finding judge_gpu(const gpu_facts& gpu) {
+finding judge_gpu(const gpu_readings& gpu) {
   constexpr auto why =
       "this host offers no GPU, and steps that want one are placed elsewhere";
   const bool hardware = gpu.card || !gpu.devices.empty();
@@ -162,12 +162,12 @@ finding judge_gpu(const gpu_facts& gpu) {
             gpu.library_error.find("mismatch") != std::string::npos
                 ? "sudo reboot   # loads the module that fits the library"
                 : "nvidia-smi"};
-  return {judgement::warning, "NVIDIA's library tells of no GPU", why,
+  return {judgement::warning, "NVIDIA's library reports no GPU", why,
           "nvidia-smi"};
 }
 
-findings examine_gpu(const examined_host& host) {
-  return {judge_gpu(look_at_gpu(host))};
+findings check_gpu(const checked_host& host) {
+  return {judge_gpu(read_gpu(host))};
 }
 
 } // namespace roscell::cli

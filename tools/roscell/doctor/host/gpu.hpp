@@ -1,6 +1,6 @@
 #pragma once
 
-#include "tools/roscell/doctor/examined_host.hpp"
+#include "tools/roscell/doctor/checked_host.hpp"
 #include "tools/roscell/doctor/finding.hpp"
 
 #include <string>
@@ -10,7 +10,7 @@ namespace roscell::cli {
 
 /// What of NVIDIA is there. A GPU needs all of it: the card, the kernel's
 /// module, its device files, and the library of the same version.
-struct gpu_facts {
+struct gpu_readings {
   bool card = false;                ///< On the PCI bus.
   std::string module;               ///< Version of the module; empty: none.
   std::vector<std::string> devices; ///< "/dev/nvidia0", ...
@@ -21,10 +21,10 @@ struct gpu_facts {
   std::vector<std::string> gpus; ///< "NVIDIA H100, 80 GiB".
 };
 
-gpu_facts look_at_gpu(const examined_host& host);
+gpu_readings read_gpu(const checked_host& host);
 
-finding judge_gpu(const gpu_facts& gpu);
+finding judge_gpu(const gpu_readings& gpu);
 
-findings examine_gpu(const examined_host& host);
+findings check_gpu(const checked_host& host);
 
 } // namespace roscell::cli

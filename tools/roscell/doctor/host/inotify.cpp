@@ -42,8 +42,8 @@ int64_t instances_in(const fs::path& process) {
 
 } // namespace
 
-inotify_facts look_at_inotify(const std::string& proc, uid_t user) {
-  inotify_facts result;
+inotify_readings read_inotify(const std::string& proc, uid_t user) {
+  inotify_readings result;
   const fs::path root{proc};
   std::ifstream file{root / "sys/fs/inotify/max_user_instances"};
   if (!(file >> result.most))
@@ -56,9 +56,9 @@ inotify_facts look_at_inotify(const std::string& proc, uid_t user) {
   return result;
 }
 
-finding judge_inotify(const inotify_facts& seen) {
+finding judge_inotify(const inotify_readings& seen) {
   if (seen.most < 0)
-    return {judgement::skipped, "the kernel does not tell of inotify"};
+    return {judgement::skipped, "the kernel does not report inotify"};
   const auto words = std::to_string(seen.used) + " of "
                      + std::to_string(seen.most)
                      + " inotify instances of this user are in use";
@@ -73,8 +73,8 @@ finding judge_inotify(const inotify_facts& seen) {
           + std::to_string(std::max(advised_instances, 2 * seen.most))};
 }
 
-findings examine_inotify(const examined_host& host) {
-  return {judge_inotify(look_at_inotify(host.proc, ::geteuid()))};
+findings check_inotify(const checked_host& host) {
+  return {judge_inotify(read_inotify(host.proc, ::geteuid()))};
 }
 
 } // namespace roscell::cli

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "tools/roscell/doctor/examined_host.hpp"
+#include "tools/roscell/doctor/checked_host.hpp"
 #include "tools/roscell/doctor/finding.hpp"
 
 #include <sys/types.h>
@@ -11,15 +11,15 @@
 namespace roscell::cli {
 
 /// How many inotify instances one user may have, and has.
-struct inotify_facts {
+struct inotify_readings {
   int64_t most = -1; ///< Negative: not known.
   int64_t used = 0;  ///< In the processes that may be looked at.
 };
 
-inotify_facts look_at_inotify(const std::string& proc, uid_t user);
+inotify_readings read_inotify(const std::string& proc, uid_t user);
 
-finding judge_inotify(const inotify_facts& seen);
+finding judge_inotify(const inotify_readings& seen);
 
-findings examine_inotify(const examined_host& host);
+findings check_inotify(const checked_host& host);
 
 } // namespace roscell::cli

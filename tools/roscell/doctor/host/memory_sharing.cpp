@@ -207,7 +207,7 @@ findings judge_memory_sharing(const dds_programs& programs,
                + std::to_string(programs.closed)}};
 }
 
-findings examine_memory_sharing(const examined_host& host) {
+findings check_memory_sharing(const checked_host& host) {
   const auto folder = fs::path{host.dev} / "shm";
   struct stat own {};
   const bool known = ::stat(folder.c_str(), &own) == 0;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "tools/roscell/doctor/examined_host.hpp"
+#include "tools/roscell/doctor/checked_host.hpp"
 #include "tools/roscell/doctor/finding.hpp"
 
 #include <cstdint>
@@ -38,6 +38,6 @@ dds_programs find_dds_programs(const std::filesystem::path& proc,
 findings judge_memory_sharing(const dds_programs& programs,
                               const std::string& host_memory);
 
-findings examine_memory_sharing(const examined_host& host);
+findings check_memory_sharing(const checked_host& host);
 
 } // namespace roscell::cli

@@ -43,7 +43,7 @@ finding judge_node_user(std::optional<uid_t> owner, bool kept) {
                : "adduser --system --group roscell; see docs/service.md"};
 }
 
-findings examine_node_user(const examined_host& host) {
+findings check_node_user(const checked_host& host) {
   // What is there belongs to the node's user, whoever looks.
   struct stat status {};
   const auto state = host.config.data_dir / "state.db";

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "tools/roscell/doctor/examined_host.hpp"
+#include "tools/roscell/doctor/checked_host.hpp"
 #include "tools/roscell/doctor/finding.hpp"
 
 #include <sys/types.h>
@@ -21,6 +21,6 @@ std::string root_warning(uid_t user, bool kept);
 /// `owner` of the node's state; none where no node has run yet.
 finding judge_node_user(std::optional<uid_t> owner, bool kept);
 
-findings examine_node_user(const examined_host& host);
+findings check_node_user(const checked_host& host);
 
 } // namespace roscell::cli

@@ -1,7 +1,7 @@
 #include "tools/roscell/doctor/host/programs.hpp"
 
+#include "actors/core/program_version.hpp"
 #include "actors/edge/host/installed_files.hpp"
-#include "actors/house/program_version.hpp"
 #include "actors/instances/skill_catalogue.hpp"
 #include "actors/node/node_runtime.hpp"
 #include "tools/roscell/doctor/command_text.hpp"
@@ -80,18 +80,18 @@ findings judge_skills(size_t good, const std::vector<skill_problem>& problems) {
   return result;
 }
 
-findings examine_descriptors(const examined_host& /*host*/) {
+findings check_descriptors(const checked_host& /*host*/) {
   rlimit limit{};
   if (getrlimit(RLIMIT_NOFILE, &limit) != 0)
-    return {{judgement::skipped, "the kernel does not tell"}};
+    return {{judgement::skipped, "the kernel does not report it"}};
   return {judge_descriptors(limit.rlim_max)};
 }
 
-findings examine_versions(const examined_host& /*host*/) {
+findings check_versions(const checked_host& /*host*/) {
   return {judge_versions(FASTRTPS_VERSION_STR, loaded_fast_dds())};
 }
 
-findings examine_skills(const examined_host& host) {
+findings check_skills(const checked_host& host) {
   auto dirs = host.config.skill_dirs;
   dirs.push_back(installed_skills(program_folder()));
   dirs.push_back(host.config.data_dir / "skills");

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "messages/skill.hpp"
-#include "tools/roscell/doctor/examined_host.hpp"
+#include "tools/roscell/doctor/checked_host.hpp"
 #include "tools/roscell/doctor/finding.hpp"
 
 #include <cstddef>
@@ -22,8 +22,8 @@ finding judge_versions(const std::string& built, const std::string& loaded);
 /// A problem each, or how many skills can be loaded.
 findings judge_skills(size_t good, const std::vector<skill_problem>& problems);
 
-findings examine_descriptors(const examined_host& host);
-findings examine_versions(const examined_host& host);
-findings examine_skills(const examined_host& host);
+findings check_descriptors(const checked_host& host);
+findings check_versions(const checked_host& host);
+findings check_skills(const checked_host& host);
 
 } // namespace roscell::cli

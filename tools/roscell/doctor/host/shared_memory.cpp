@@ -55,8 +55,8 @@ int64_t boot_clock_ms() {
 
 } // namespace
 
-shared_memory_facts look_at_shared_memory(const fs::path& folder) {
-  shared_memory_facts result;
+shared_memory_readings read_shared_memory(const fs::path& folder) {
+  shared_memory_readings result;
   struct stat info {};
   struct statfs kind {};
   struct statvfs room {};
@@ -75,7 +75,7 @@ shared_memory_facts look_at_shared_memory(const fs::path& folder) {
 }
 
 finding judge_shared_memory(const fs::path& folder,
-                            const shared_memory_facts& memory) {
+                            const shared_memory_readings& memory) {
   const auto at = folder.string();
   const auto word = shell_word(at);
   constexpr auto why =
@@ -154,15 +154,15 @@ findings judge_fence_folders(const fs::path& folder) {
   return result;
 }
 
-findings examine_shared_memory(const examined_host& host) {
+findings check_shared_memory(const checked_host& host) {
   const auto folder = fs::path{host.dev} / "shm";
-  findings result{judge_shared_memory(folder, look_at_shared_memory(folder))};
+  findings result{judge_shared_memory(folder, read_shared_memory(folder))};
   for (auto& x : judge_fence_folders(folder))
     result.push_back(std::move(x));
   return result;
 }
 
-findings examine_leftovers(const examined_host& host) {
+findings check_leftovers(const checked_host& host) {
   const auto folder = fs::path{host.dev} / "shm";
   findings result;
   for (auto& x :

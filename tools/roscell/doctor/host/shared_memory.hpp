@@ -1,6 +1,6 @@
 #pragma once
 
-#include "tools/roscell/doctor/examined_host.hpp"
+#include "tools/roscell/doctor/checked_host.hpp"
 #include "tools/roscell/doctor/finding.hpp"
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 /// programs of one host.
 namespace roscell::cli {
 
-struct shared_memory_facts {
+struct shared_memory_readings {
   bool exists = false;
   bool in_memory = false; ///< A tmpfs.
   bool all_write = false; ///< Mode 1777.
@@ -19,16 +19,16 @@ struct shared_memory_facts {
   uint64_t free = 0;
 };
 
-shared_memory_facts look_at_shared_memory(const std::filesystem::path& folder);
+shared_memory_readings read_shared_memory(const std::filesystem::path& folder);
 
 finding judge_shared_memory(const std::filesystem::path& folder,
-                            const shared_memory_facts& memory);
+                            const shared_memory_readings& memory);
 
 /// The folders of fences, roscell-UID, that are not that user's own: one that
 /// somebody else has made is in the way of whatever may move to another node.
 findings judge_fence_folders(const std::filesystem::path& folder);
 
-findings examine_shared_memory(const examined_host& host);
-findings examine_leftovers(const examined_host& host);
+findings check_shared_memory(const checked_host& host);
+findings check_leftovers(const checked_host& host);
 
 } // namespace roscell::cli

@@ -35,7 +35,7 @@ int fragments_at(int mtu) {
 
 finding no_address(const std::string& wanted,
                    const std::vector<interface_address>& all,
-                   const link_facts& link) {
+                   const link_readings& link) {
   constexpr auto why = "a node cannot start: all of its traffic goes through "
                        "one address of this host";
   if (link.exists && !link.up)
@@ -55,13 +55,13 @@ finding no_address(const std::string& wanted,
 
 /// The finding of a check that has no interface to look at.
 finding no_interface() {
-  return {judgement::skipped, "no interface was found to look at"};
+  return {judgement::skipped, "no interface was found to check"};
 }
 
 } // namespace
 
-link_facts look_at_link(const std::string& name) {
-  link_facts result;
+link_readings read_link_state(const std::string& name) {
+  link_readings result;
   const unique_fd fd{socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0)};
   ifreq request{};
   if (!fd || name.empty() || name.size() >= sizeof(request.ifr_name))
@@ -80,8 +80,8 @@ link_facts look_at_link(const std::string& name) {
 }
 
 std::optional<interface_address>
-examined_address(const std::string& wanted,
-                 const std::vector<interface_address>& all) {
+checked_address(const std::string& wanted,
+                const std::vector<interface_address>& all) {
   if (wanted.empty())
     return all.empty() ? std::nullopt : std::optional{all.front()};
   const auto found = resolve_interface(wanted, all);
@@ -91,8 +91,8 @@ examined_address(const std::string& wanted,
 
 finding judge_interface(const std::string& wanted,
                         const std::vector<interface_address>& all,
-                        const link_facts& link) {
-  const auto at = examined_address(wanted, all);
+                        const link_readings& link) {
+  const auto at = checked_address(wanted, all);
   if (!at)
     return no_address(wanted, all, link);
   const auto seen = at->name + " has " + at->address;
@@ -109,7 +109,7 @@ finding judge_interface(const std::string& wanted,
   return {judgement::ok, seen};
 }
 
-finding judge_mtu(const interface_address& at, const link_facts& link) {
+finding judge_mtu(const interface_address& at, const link_readings& link) {
   const auto seen =
       at.name + " takes packets of " + std::to_string(link.mtu) + " bytes";
   if (link.mtu >= ethernet_mtu || link.mtu <= ip_header)
@@ -124,7 +124,7 @@ finding judge_mtu(const interface_address& at, const link_facts& link) {
           "sudo ip link set dev " + shell_word(at.name) + " mtu 1500"};
 }
 
-multicast_route look_at_multicast_route() {
+multicast_route read_multicast_route() {
   multicast_route result;
   const unique_fd fd{socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0)};
   sockaddr_in to{};
@@ -147,7 +147,7 @@ multicast_route look_at_multicast_route() {
   return result;
 }
 
-finding judge_multicast(const interface_address& at, const link_facts& link,
+finding judge_multicast(const interface_address& at, const link_readings& link,
                         const multicast_route& route) {
   if (at.loopback)
     return {judgement::skipped, at.name + " reaches this host only"};
@@ -171,22 +171,22 @@ finding judge_multicast(const interface_address& at, const link_facts& link,
           at.name + " takes multicast, and 239.255.0.1 leaves by it"};
 }
 
-findings examine_interface(const examined_host& host) {
+findings check_interface(const checked_host& host) {
   const auto all = list_interfaces();
-  const auto at = examined_address(host.interface, all);
+  const auto at = checked_address(host.interface, all);
   return {judge_interface(host.interface, all,
-                          look_at_link(at ? at->name : host.interface))};
+                          read_link_state(at ? at->name : host.interface))};
 }
 
-findings examine_mtu(const examined_host& host) {
-  const auto at = examined_address(host.interface, list_interfaces());
-  return {at ? judge_mtu(*at, look_at_link(at->name)) : no_interface()};
+findings check_mtu(const checked_host& host) {
+  const auto at = checked_address(host.interface, list_interfaces());
+  return {at ? judge_mtu(*at, read_link_state(at->name)) : no_interface()};
 }
 
-findings examine_multicast(const examined_host& host) {
-  const auto at = examined_address(host.interface, list_interfaces());
-  return {at ? judge_multicast(*at, look_at_link(at->name),
-                               look_at_multicast_route())
+findings check_multicast(const checked_host& host) {
+  const auto at = checked_address(host.interface, list_interfaces());
+  return {at ? judge_multicast(*at, read_link_state(at->name),
+                               read_multicast_route())
              : no_interface()};
 }
 

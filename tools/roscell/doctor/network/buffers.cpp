@@ -11,18 +11,19 @@ namespace roscell::cli {
 
 namespace {
 
-/// The kernel tells twice of what it gives, for its own books.
+/// The kernel tells twice of what it gives, for its own accounts.
 int64_t given_buffer(int fd, int name) {
   int wanted = wanted_buffer_bytes;
   socklen_t size = sizeof wanted;
   setsockopt(fd, SOL_SOCKET, name, &wanted, size);
-  int told = 0;
-  return getsockopt(fd, SOL_SOCKET, name, &told, &size) == 0 ? told / 2 : 0;
+  int reported = 0;
+  return getsockopt(fd, SOL_SOCKET, name, &reported, &size) == 0 ? reported / 2
+                                                                 : 0;
 }
 
 } // namespace
 
-buffer_facts look_at_buffers() {
+buffer_readings read_buffers() {
   const unique_fd fd{socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0)};
   if (!fd)
     return {};
@@ -42,7 +43,7 @@ sent_image usual_image() {
   return result;
 }
 
-finding judge_buffers(const buffer_facts& given, const sent_image& image) {
+finding judge_buffers(const buffer_readings& given, const sent_image& image) {
   const auto least = std::min(given.receive, given.send);
   const auto receive = format_bytes(static_cast<double>(given.receive));
   const auto send = format_bytes(static_cast<double>(given.send));
@@ -64,8 +65,8 @@ finding judge_buffers(const buffer_facts& given, const sent_image& image) {
               + " net.core.wmem_max=" + wanted};
 }
 
-findings examine_buffers(const examined_host& /*host*/) {
-  return {judge_buffers(look_at_buffers())};
+findings check_buffers(const checked_host& /*host*/) {
+  return {judge_buffers(read_buffers())};
 }
 
 } // namespace roscell::cli

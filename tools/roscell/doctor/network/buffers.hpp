@@ -1,6 +1,6 @@
 #pragma once
 
-#include "tools/roscell/doctor/examined_host.hpp"
+#include "tools/roscell/doctor/checked_host.hpp"
 #include "tools/roscell/doctor/finding.hpp"
 
 #include <cstdint>
@@ -13,12 +13,12 @@ namespace roscell::cli {
 constexpr int64_t wanted_buffer_bytes = 8L * 1024 * 1024;
 
 /// What the kernel gives a socket that asks for `wanted_buffer_bytes`.
-struct buffer_facts {
+struct buffer_readings {
   int64_t receive = 0;
   int64_t send = 0;
 };
 
-buffer_facts look_at_buffers();
+buffer_readings read_buffers();
 
 /// What has to find room.
 struct sent_image {
@@ -31,9 +31,9 @@ sent_image image_of(int64_t width, int64_t height);
 /// For a host of which it is not known what flows.
 sent_image usual_image();
 
-finding judge_buffers(const buffer_facts& given,
+finding judge_buffers(const buffer_readings& given,
                       const sent_image& image = usual_image());
 
-findings examine_buffers(const examined_host& host);
+findings check_buffers(const checked_host& host);
 
 } // namespace roscell::cli

@@ -82,9 +82,9 @@ finding not_listed(const command_result& listed) {
 
 } // namespace
 
-std::vector<needed_packet> needed_packets(const examined_host& host) {
+std::vector<needed_packet> needed_packets(const checked_host& host) {
   const auto& config = host.config;
-  const auto at = examined_address(host.interface, list_interfaces());
+  const auto at = checked_address(host.interface, list_interfaces());
   const auto by = at ? at->name : std::string{};
   std::vector<needed_packet> result;
   const auto add = [&](const char* protocol, port_range ports,
@@ -95,7 +95,7 @@ std::vector<needed_packet> needed_packets(const examined_host& host) {
   const auto skills = ports_of_domain(config.ros_domain_id);
   const port_range http{config.http_port, config.http_port};
   add("tcp", http, "requests and sessions");
-  add("udp", http, "beats");
+  add("udp", http, "heartbeats");
   add("udp", {config.discovery_port, config.discovery_port},
       "the discovery server");
   add("udp", public_ports(config.public_domain_id),
@@ -135,7 +135,7 @@ findings judge_older_rules(findings found, const std::string& tables) {
   return found;
 }
 
-findings examine_firewall(const examined_host& host) {
+findings check_firewall(const checked_host& host) {
   constexpr size_t most_names = 256;
   return judge_older_rules(
       judge_firewall(

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "tools/roscell/doctor/bounded_command.hpp"
-#include "tools/roscell/doctor/examined_host.hpp"
+#include "tools/roscell/doctor/checked_host.hpp"
 #include "tools/roscell/doctor/finding.hpp"
 #include "tools/roscell/doctor/network/ruleset.hpp"
 
@@ -17,7 +17,7 @@ struct needed_packet {
   std::string what;       ///< "requests and sessions".
 };
 
-std::vector<needed_packet> needed_packets(const examined_host& host);
+std::vector<needed_packet> needed_packets(const checked_host& host);
 
 /// @param listed what `nft -j list ruleset` has said.
 findings judge_firewall(const command_result& listed,
@@ -27,6 +27,6 @@ findings judge_firewall(const command_result& listed,
 /// tables of /proc/net/ip_tables_names have.
 findings judge_older_rules(findings found, const std::string& tables);
 
-findings examine_firewall(const examined_host& host);
+findings check_firewall(const checked_host& host);
 
 } // namespace roscell::cli

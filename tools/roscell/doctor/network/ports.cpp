@@ -50,9 +50,9 @@ int try_to_bind(const std::string& protocol, const std::string& address,
              : errno;
 }
 
-port_facts look_at_port(const examined_host& host, const std::string& protocol,
+port_readings read_port(const checked_host& host, const std::string& protocol,
                         const std::string& address, uint16_t port) {
-  port_facts result{
+  port_readings result{
       protocol, port, try_to_bind(protocol, address, port), {}, 0};
   if (result.error == EADDRINUSE) {
     const auto holder = find_port_holder(host.proc, protocol, port);
@@ -83,7 +83,7 @@ bool is_reserved(const port_range& wanted,
   return next > wanted.last;
 }
 
-std::string kernel_setting(const examined_host& host, const char* name) {
+std::string kernel_setting(const checked_host& host, const char* name) {
   auto text =
       read_small_file(host.proc + "/sys/net/ipv4/" + name, longest_port_text)
           .value_or("");
@@ -91,8 +91,8 @@ std::string kernel_setting(const examined_host& host, const char* name) {
   return text;
 }
 
-ephemeral_facts look_at_ephemeral(const examined_host& host) {
-  ephemeral_facts result;
+ephemeral_readings read_ephemeral_ports(const checked_host& host) {
+  ephemeral_readings result;
   std::istringstream range{kernel_setting(host, "ip_local_port_range")};
   range >> result.range.first >> result.range.last;
   result.reserved_text = kernel_setting(host, "ip_local_reserved_ports");
@@ -129,54 +129,57 @@ std::vector<port_range> parse_port_ranges(const std::string& text) {
   return result;
 }
 
-finding judge_port(const port_facts& facts, bool vital) {
-  const auto name = facts.protocol + " port " + std::to_string(facts.port);
+finding judge_port(const port_readings& readings, bool vital) {
+  const auto name =
+      readings.protocol + " port " + std::to_string(readings.port);
   const auto option = vital ? "--port" : "--discovery-port";
-  if (facts.error == 0)
+  if (readings.error == 0)
     return {judgement::ok, name + " is free"};
   const auto why =
       vital ? std::string{"a node cannot start; or give it another --port"}
             : std::string{"a coordinator cannot start, and a member takes "
                           "another port; or give it another --discovery-port"};
-  if (facts.error != EADDRINUSE)
-    return {judgement::broken, name + ": " + std::strerror(facts.error), why,
+  if (readings.error != EADDRINUSE)
+    return {judgement::broken, name + ": " + std::strerror(readings.error), why,
             std::string{"roscell node "} + option + " 0"};
-  return {vital ? judgement::broken : judgement::warning,
-          name + " is taken by "
-              + (facts.holder.empty() ? "a program that this user may not see"
-                                      : facts.holder),
-          why,
-          facts.pid != 0
-              ? "ps -o pid,user,lstart,args -p " + std::to_string(facts.pid)
-              : "sudo ss -lntup 'sport = :" + std::to_string(facts.port) + "'"};
+  return {
+      vital ? judgement::broken : judgement::warning,
+      name + " is taken by "
+          + (readings.holder.empty() ? "a program that this user may not see"
+                                     : readings.holder),
+      why,
+      readings.pid != 0
+          ? "ps -o pid,user,lstart,args -p " + std::to_string(readings.pid)
+          : "sudo ss -lntup 'sport = :" + std::to_string(readings.port) + "'"};
 }
 
 finding judge_node_there(const std::string& name, const std::string& address) {
   return {judgement::warning, "node '" + name + "' has them, at " + address,
-          "it runs already: what it knows is looked at when it is named. "
+          "it runs already: what it knows is checked when it is named. "
           "Another node of this host needs another --port",
           "roscell doctor --to " + shell_word(address)};
 }
 
-finding judge_ephemeral(const ephemeral_facts& facts,
+finding judge_ephemeral(const ephemeral_readings& readings,
                         const std::vector<port_range>& wanted) {
-  const auto given = range_text(facts.range);
+  const auto given = range_text(readings.range);
   std::string inside;
   for (const auto& x : wanted)
-    if (do_overlap(x, facts.range) && !is_reserved(x, facts.reserved))
+    if (do_overlap(x, readings.range) && !is_reserved(x, readings.reserved))
       inside += (inside.empty() ? "" : ",") + range_text(x);
-  if (facts.range.last == 0)
-    return {judgement::skipped, "the kernel does not tell its port range"};
+  if (readings.range.last == 0)
+    return {judgement::skipped, "the kernel does not report its port range"};
   if (inside.empty())
     return {judgement::ok,
             "any program may get " + given + ", none of ROSCell's"};
-  return {judgement::warning,
-          "any program may get " + given + ", with " + inside + " of ROSCell",
-          "a connection of another program may hold a port by chance, and then "
-          "a node does not start, or is not found",
-          "sudo sysctl -w net.ipv4.ip_local_reserved_ports="
-              + (facts.reserved_text.empty() ? "" : facts.reserved_text + ",")
-              + inside};
+  return {
+      judgement::warning,
+      "any program may get " + given + ", with " + inside + " of ROSCell",
+      "a connection of another program may hold a port by chance, and then "
+      "a node does not start, or is not found",
+      "sudo sysctl -w net.ipv4.ip_local_reserved_ports="
+          + (readings.reserved_text.empty() ? "" : readings.reserved_text + ",")
+          + inside};
 }
 
 std::vector<unsigned> program_ports(unsigned domain) {
@@ -214,8 +217,8 @@ finding judge_domain(unsigned domain, const std::set<unsigned>& bound) {
           + " and sport <= :" + std::to_string(tried.back() + 1) + "'"};
 }
 
-findings examine_ports(const examined_host& host) {
-  const auto at = examined_address(host.interface, list_interfaces());
+findings check_node_ports(const checked_host& host) {
+  const auto at = checked_address(host.interface, list_interfaces());
   const auto address = at ? at->address : "0.0.0.0";
   const auto& config = host.config;
   if (host.node_runs)
@@ -224,18 +227,18 @@ findings examine_ports(const examined_host& host) {
   if (config.http_port != 0)
     for (const auto* protocol : {"tcp", "udp"})
       result.push_back(judge_port(
-          look_at_port(host, protocol, address, config.http_port), true));
+          read_port(host, protocol, address, config.http_port), true));
   if (is_broken(result))
     if (const auto name = node_at(address, config.http_port); !name.empty())
       return {judge_node_there(name, address + ":"
                                          + std::to_string(config.http_port))};
   if (config.discovery_port != 0)
     result.push_back(judge_port(
-        look_at_port(host, "udp", address, config.discovery_port), false));
+        read_port(host, "udp", address, config.discovery_port), false));
   return result;
 }
 
-findings examine_dds_ports(const examined_host& host) {
+findings check_dds_ports(const checked_host& host) {
   const auto& config = host.config;
   const auto skills = ports_of_domain(config.ros_domain_id);
   std::vector<port_range> wanted{skills, public_ports(config.public_domain_id)};
@@ -244,7 +247,7 @@ findings examine_dds_ports(const examined_host& host) {
     if (port != 0 && !host.node_runs)
       wanted.push_back({port, port});
   return {judge_domain(config.ros_domain_id, bound_udp_ports(host.proc)),
-          judge_ephemeral(look_at_ephemeral(host), wanted)};
+          judge_ephemeral(read_ephemeral_ports(host), wanted)};
 }
 
 } // namespace roscell::cli

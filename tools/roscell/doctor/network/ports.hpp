@@ -1,6 +1,6 @@
 #pragma once
 
-#include "tools/roscell/doctor/examined_host.hpp"
+#include "tools/roscell/doctor/checked_host.hpp"
 #include "tools/roscell/doctor/finding.hpp"
 
 #include <cstdint>
@@ -24,7 +24,7 @@ port_range ports_of_domain(unsigned domain);
 port_range public_ports(unsigned domain);
 
 /// A port that a node needs.
-struct port_facts {
+struct port_readings {
   std::string protocol; ///< "tcp" or "udp".
   uint16_t port = 0;
   int error = 0;      ///< Of binding it; 0: it is free.
@@ -33,14 +33,14 @@ struct port_facts {
 };
 
 /// @param vital a node cannot start without it.
-finding judge_port(const port_facts& facts, bool vital);
+finding judge_port(const port_readings& readings, bool vital);
 
 /// A node has the ports, and this program had not been told where it is.
 /// @param address "ip:port" of its HTTP.
 finding judge_node_there(const std::string& name, const std::string& address);
 
 /// Ports that the kernel gives to whoever asks for any.
-struct ephemeral_facts {
+struct ephemeral_readings {
   port_range range{0, 0};
   std::vector<port_range> reserved; ///< Which are not given away.
   std::string reserved_text;        ///< The same as the kernel tells them.
@@ -49,7 +49,7 @@ struct ephemeral_facts {
 /// "11811,32150-32166"; what is none of it is left out.
 std::vector<port_range> parse_port_ranges(const std::string& text);
 
-finding judge_ephemeral(const ephemeral_facts& facts,
+finding judge_ephemeral(const ephemeral_readings& readings,
                         const std::vector<port_range>& wanted);
 
 /// The ports of a domain that a ROS 2 program tries one after the other until
@@ -59,7 +59,7 @@ std::vector<unsigned> program_ports(unsigned domain);
 /// @param bound UDP ports of this host that are in use.
 finding judge_domain(unsigned domain, const std::set<unsigned>& bound);
 
-findings examine_ports(const examined_host& host);
-findings examine_dds_ports(const examined_host& host);
+findings check_node_ports(const checked_host& host);
+findings check_dds_ports(const checked_host& host);
 
 } // namespace roscell::cli

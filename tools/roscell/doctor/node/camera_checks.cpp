@@ -7,7 +7,7 @@
 #include "skills/ros2/topic_listener.hpp"
 #include "tools/roscell/doctor/command_text.hpp"
 #include "tools/roscell/doctor/network/buffers.hpp"
-#include "tools/roscell/doctor/node/answer_trouble.hpp"
+#include "tools/roscell/doctor/node/answer_problem.hpp"
 #include "tools/roscell/ros2/echo/message_value.hpp"
 #include "tools/roscell/ros2/found_topic.hpp"
 
@@ -23,7 +23,7 @@ namespace {
 using calibration = std::optional<std::vector<double>>;
 
 /// What a camera says of its images, or the images say themselves.
-struct camera_words {
+struct camera_text {
   calibration k;
   sent_image image; ///< Of no bytes where it says nothing.
   std::optional<seen_image> seen;
@@ -38,7 +38,7 @@ constexpr size_t most_cameras = 8;
 constexpr auto camera_info = "sensor_msgs/msg/CameraInfo";
 constexpr auto image_message = "sensor_msgs/msg/Image";
 
-camera_words words_of_info(const std::string& payload) {
+camera_text text_of_info(const std::string& payload) {
   message_library library{{}};
   const auto value = message_value(library, camera_info, payload, 16);
   return {value.at("k").get<std::vector<double>>(),
@@ -47,7 +47,7 @@ camera_words words_of_info(const std::string& payload) {
           {}};
 }
 
-camera_words words_of_image(const std::string& payload) {
+camera_text text_of_image(const std::string& payload) {
   try {
     return {{}, {}, seen_image{ros2::view_image(payload).encoding, ""}};
   } catch (const ros2::cdr_error& e) {
@@ -67,11 +67,12 @@ public:
         });
   }
 
-  camera_words words(std::chrono::steady_clock::time_point deadline) {
-    auto told = said_->promise.get_future();
-    const bool came = told.wait_until(deadline) == std::future_status::ready;
+  camera_text words(std::chrono::steady_clock::time_point deadline) {
+    auto reported = said_->promise.get_future();
+    const bool came =
+        reported.wait_until(deadline) == std::future_status::ready;
     listener_.reset();
-    return came ? told.get() : camera_words{};
+    return came ? reported.get() : camera_text{};
   }
 
   const topic_row& row() const {
@@ -84,7 +85,7 @@ public:
 
 private:
   struct first_word {
-    std::promise<camera_words> promise;
+    std::promise<camera_text> promise;
     bool heard = false;
   };
 
@@ -94,8 +95,8 @@ private:
     if (std::exchange(said.heard, true))
       return;
     try {
-      said.promise.set_value(is_image ? words_of_image(x.payload)
-                                      : words_of_info(x.payload));
+      said.promise.set_value(is_image ? text_of_image(x.payload)
+                                      : text_of_info(x.payload));
     } catch (const std::exception&) {
       said.promise.set_value({});
     }
@@ -135,7 +136,7 @@ findings listen_to(const node_client& node,
       largest = words.image;
   }
   // `buffers` does not know what flows.
-  const auto given = look_at_buffers();
+  const auto given = read_buffers();
   if (std::min(given.receive, given.send) < largest.bytes)
     result.push_back(judge_buffers(given, largest));
   return result;
@@ -194,16 +195,16 @@ finding judge_images(const topic_row& topic,
           echo};
 }
 
-findings examine_cameras(const node_client& node) {
+findings check_cameras(const node_client& node) {
   try {
     const auto cameras = cameras_in(node.get("/v1/topics").get<topic_list>());
     if (cameras.empty())
-      return {{judgement::ok, "no camera tells anything"}};
+      return {{judgement::ok, "no camera publishes anything"}};
     return listen_to(node, cameras);
   } catch (const engine::start_error& e) {
     return {{judgement::skipped, e.what()}};
   } catch (const std::exception& e) {
-    return {trouble_of(e, judgement::skipped)};
+    return {finding_of_failure(e, judgement::skipped)};
   }
 }
 

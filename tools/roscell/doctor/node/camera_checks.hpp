@@ -13,7 +13,7 @@ namespace roscell::cli {
 
 /// Listens to each camera of the cell until it has told its calibration, and to
 /// each topic of images until one has come.
-findings examine_cameras(const node_client& node);
+findings check_cameras(const node_client& node);
 
 /// @param k row-major 3 x 3, in pixels (sensor_msgs/msg/CameraInfo); none if
 /// nothing came in time.

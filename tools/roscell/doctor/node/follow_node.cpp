@@ -31,15 +31,15 @@ void follow_cell(node_config& config, const node_client& node,
 
 } // namespace
 
-void follow_node(examined_host& host, const node_client& node,
-                 const node_description& told) {
+void follow_node(checked_host& host, const node_client& node,
+                 const node_description& reported) {
   host.node_runs = true;
-  if (const auto at = parse_socket_address(told.identity.address)) {
+  if (const auto at = parse_socket_address(reported.identity.address)) {
     if (host.interface.empty())
       host.interface = at->address;
     host.config.http_port = at->port;
   }
-  follow_cell(host.config, node, told.environment);
+  follow_cell(host.config, node, reported.environment);
 }
 
 } // namespace roscell::cli

@@ -1,9 +1,9 @@
 #include "tools/roscell/doctor/node/node_checks.hpp"
 
-#include "actors/house/program_version.hpp"
+#include "actors/core/program_version.hpp"
 #include "tools/roscell/doctor/command_text.hpp"
 #include "tools/roscell/doctor/host/programs.hpp"
-#include "tools/roscell/doctor/node/answer_trouble.hpp"
+#include "tools/roscell/doctor/node/answer_problem.hpp"
 #include "tools/roscell/doctor/node/camera_checks.hpp"
 #include "tools/roscell/doctor/node/use_findings.hpp"
 #include "tools/roscell/view/format.hpp"
@@ -16,7 +16,7 @@ namespace roscell::cli {
 namespace {
 
 /// What is asked of a node, and what the answer means.
-struct told_check {
+struct reported_check {
   const char* name;
   const char* about;
   const char* path;
@@ -36,7 +36,7 @@ findings judge_described(const instance_description& answer) {
   return judge_instances(answer.instances);
 }
 
-const told_check told_checks[] = {
+const reported_check reported_checks[] = {
     {"node-version", "the node is of this program's version", "/v1/node",
      judge_answer_of<node_description, judge_this_version>},
     {"limits", "instances are held to what they ask for", "/v1/node",
@@ -53,11 +53,11 @@ const told_check told_checks[] = {
      judge_answer_of<topic_list, judge_topics>},
 };
 
-findings ask_and_judge(const node_client& node, const told_check& what) {
+findings ask_and_judge(const node_client& node, const reported_check& what) {
   try {
     return what.judge(node.get(what.path));
   } catch (const std::exception& e) {
-    return {trouble_of(e, judgement::skipped)};
+    return {finding_of_failure(e, judgement::skipped)};
   }
 }
 
@@ -74,7 +74,7 @@ bool is_of_ros(const std::string& topic) {
 /// A share of frames that a busy moment does not explain.
 constexpr double many_dropped = 0.02;
 
-bool drops_many(const instance_figures& x) {
+bool drops_many(const instance_metrics& x) {
   return x.dropped > 0
          && static_cast<double>(x.dropped)
                 > many_dropped * static_cast<double>(x.frames + x.dropped);
@@ -87,12 +87,12 @@ findings judge_instance(const instance_row& row) {
   if (row.state == instance_state::failed)
     return {{judgement::broken, name + " has failed: " + row.reason,
              "its task is not whole", logs}};
-  if (row.unknown_since_unix_ms != 0 || !row.trouble.empty())
+  if (row.unknown_since_unix_ms != 0 || !row.problem.empty())
     return {{judgement::warning,
              name + " cannot be asked"
-                 + (row.trouble.empty() ? "" : ": " + row.trouble),
+                 + (row.problem.empty() ? "" : ": " + row.problem),
              "whether it runs is not known",
-             row.trouble.empty()
+             row.problem.empty()
                  ? "roscell describe node " + shell_word(row.node)
                  : logs}};
   if (row.state == instance_state::running
@@ -100,16 +100,16 @@ findings judge_instance(const instance_row& row) {
     return {{judgement::warning,
              name + " is " + to_string(row.health) + ": " + row.health_reason,
              "what reads its outputs gets too little", logs}};
-  if (row.state == instance_state::running && !row.figures.remark.empty())
-    return {{judgement::warning, name + " gives nothing: " + row.figures.remark,
+  if (row.state == instance_state::running && !row.metrics.remark.empty())
+    return {{judgement::warning, name + " gives nothing: " + row.metrics.remark,
              "what reads its outputs gets nothing", logs}};
   if (auto found = judge_use(row); !found.empty())
     return found;
-  if (drops_many(row.figures))
+  if (drops_many(row.metrics))
     return {{judgement::warning,
-             name + " has dropped " + std::to_string(row.figures.dropped)
+             name + " has dropped " + std::to_string(row.metrics.dropped)
                  + " frames and processed "
-                 + std::to_string(row.figures.frames),
+                 + std::to_string(row.metrics.frames),
              "frames come faster than it works: give it more CPU, or fewer "
              "frames",
              "roscell describe instance " + shell_word(name)}};
@@ -120,15 +120,14 @@ findings judge_instance(const instance_row& row) {
 
 std::vector<check> node_checks(std::shared_ptr<const node_client> node) {
   std::vector<check> result;
-  for (const auto& x : told_checks)
+  for (const auto& x : reported_checks)
     result.push_back(
-        {x.name, "node", x.about, [node, &x](const examined_host& /*host*/) {
+        {x.name, "node", x.about, [node, &x](const checked_host& /*host*/) {
            return ask_and_judge(*node, x);
          }});
-  result.push_back({"cameras", "node", "cameras tell how they are calibrated",
-                    [node](const examined_host& /*host*/) {
-                      return examine_cameras(*node);
-                    }});
+  result.push_back(
+      {"cameras", "node", "cameras publish their calibration",
+       [node](const checked_host& /*host*/) { return check_cameras(*node); }});
   return result;
 }
 
@@ -152,7 +151,7 @@ findings judge_joining(const node_description& node) {
   const auto where = x.address.empty() ? "any visible cell" : x.address;
   return {{judgement::broken,
            node.identity.name + " does not come into " + where + ": "
-               + (x.trouble.empty() ? "it still tries" : x.trouble),
+               + (x.problem.empty() ? "it still tries" : x.problem),
            x.hint, "roscell status"}};
 }
 

@@ -2,7 +2,7 @@
 
 #include "tools/roscell/doctor/command_text.hpp"
 #include "tools/roscell/view/format.hpp"
-#include "tools/roscell/view/instance_words.hpp"
+#include "tools/roscell/view/instance_text.hpp"
 
 #include <algorithm>
 
@@ -16,7 +16,7 @@ constexpr double beyond_asked = 1.2;
 } // namespace
 
 findings judge_use(const instance_row& row) {
-  const auto& use = row.figures.use;
+  const auto& use = row.metrics.use;
   const auto& asked = row.spec.resources;
   const auto look =
       "roscell describe instance " + shell_word(row.spec.instance);

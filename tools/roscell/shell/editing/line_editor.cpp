@@ -22,8 +22,8 @@ namespace roscell::cli {
 
 namespace {
 
-constexpr std::string_view tell_pastes = "\x1b[?2004h";
-constexpr std::string_view tell_no_pastes = "\x1b[?2004l";
+constexpr std::string_view enable_bracketed_paste = "\x1b[?2004h";
+constexpr std::string_view disable_bracketed_paste = "\x1b[?2004l";
 
 /// More are not listed at once.
 constexpr size_t most_listed = 200;
@@ -94,13 +94,14 @@ line_editor::outcome line_editor::read(std::string& line) {
   interrupted_ = false;
   if (at_end_)
     return outcome::ended;
-  std::fwrite(tell_pastes.data(), 1, tell_pastes.size(), stdout);
+  std::fwrite(enable_bracketed_paste.data(), 1, enable_bracketed_paste.size(),
+              stdout);
   // Before the prompt: what is typed as soon as that is seen, Ctrl-D above all,
   // would still be taken by the terminal itself.
   el_set(editor_.get(), EL_PREP_TERM, 1);
   int count = 0;
   const auto* text = el_gets(editor_.get(), &count);
-  print(tell_no_pastes);
+  print(disable_bracketed_paste);
   if (interrupted_)
     return outcome::interrupted;
   if (at_end_ || text == nullptr || count <= 0)

@@ -65,8 +65,8 @@ void asker::answer(const questions& due) {
     ask_for_cell();
   if (due.skills)
     to_.put(node_.get("/v1/skills").get<skill_list>());
-  if (due.figures)
-    to_.put(figures_answer{
+  if (due.metrics)
+    to_.put(metrics_answer{
         node_.get("/v1/instances").get<instance_description>().instances});
 }
 

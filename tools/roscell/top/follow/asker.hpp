@@ -2,7 +2,7 @@
 
 #include "tools/roscell/top/follow/mailbox.hpp"
 #include "tools/roscell/top/follow/node_link.hpp"
-#include "tools/roscell/top/model/book.hpp"
+#include "tools/roscell/top/model/cell_model.hpp"
 
 #include <chrono>
 #include <condition_variable>

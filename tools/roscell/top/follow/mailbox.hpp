@@ -28,7 +28,7 @@ struct cell_answer {
   cell_description cell;
 };
 
-struct figures_answer {
+struct metrics_answer {
   std::vector<instance_row> instances;
 };
 
@@ -42,7 +42,7 @@ struct log_line {
 };
 
 using news =
-    std::variant<events_opened, events_lost, event, cell_answer, figures_answer,
+    std::variant<events_opened, events_lost, event, cell_answer, metrics_answer,
                  skill_list, question_failed, log_line>;
 
 /// What threads have to tell the one that draws, which waits for a descriptor.

@@ -51,7 +51,7 @@ void node_link::follow(const std::string& path,
 std::string reason_in(const std::exception& e) {
   if (dynamic_cast<const no_answer*>(&e) != nullptr)
     return e.what();
-  return std::string{"the answer is none of this version: "} + e.what();
+  return std::string{"the answer is not of this version: "} + e.what();
 }
 
 } // namespace roscell::cli::top

@@ -42,22 +42,22 @@ size_t moved(size_t from, const key& pressed, size_t page, size_t last) {
   }
 }
 
-void open(controls& now, room where) {
+void open(controls& now, top_page where) {
   now.where = where;
   now.text_filter.clear();
   now.scroll = 0;
-  now.at_end = where == room::log || where == room::events;
+  now.at_end = where == top_page::log || where == top_page::events;
 }
 
 /// The details or the log of what is selected.
-void open_selected(controls& now, const surroundings& around, room where) {
+void open_selected(controls& now, const surroundings& around, top_page where) {
   const auto& items = list_of(now, around).items;
   const auto kind = listed_kinds.at(now.list);
   if (items.empty()) {
     now.note = "nothing is selected";
     return;
   }
-  if (where == room::log && kind != thing_kind::instance) {
+  if (where == top_page::log && kind != thing_kind::instance) {
     now.note = "only instances have a log: Tab leads to them";
     return;
   }
@@ -102,9 +102,9 @@ bool press_anywhere(controls& now, const key& pressed) {
   if (pressed.text == "/")
     now.typing = true;
   else if (pressed.text == "?")
-    open(now, room::help);
+    open(now, top_page::help);
   else if (pressed.text == "e")
-    open(now, room::events);
+    open(now, top_page::events);
   else
     return false;
   return true;
@@ -120,11 +120,12 @@ void press_in_text(controls& now, const key& pressed,
   if (pressed.name == key_name::escape && !now.text_filter.empty())
     now.text_filter.clear();
   else if (leaves)
-    open(now, room::overview);
+    open(now, top_page::overview);
   else {
     const auto from = now.at_end ? last : std::min(now.scroll, last);
     now.scroll = moved(from, pressed, around.page, last);
-    const bool grows = now.where == room::log || now.where == room::events;
+    const bool grows =
+        now.where == top_page::log || now.where == top_page::events;
     now.at_end = grows && now.scroll == last;
   }
 }
@@ -141,9 +142,9 @@ void press_in_lists(controls& now, const key& pressed,
   else if (pressed.text == "S")
     choice.order.backwards = !choice.order.backwards;
   else if (pressed.text == "l")
-    open_selected(now, around, room::log);
+    open_selected(now, around, top_page::log);
   else if (pressed.name == key_name::enter)
-    open_selected(now, around, room::details);
+    open_selected(now, around, top_page::details);
   else if (pressed.name == key_name::tab)
     now.list = (now.list + 1) % count;
   else if (pressed.name == key_name::back_tab)
@@ -159,11 +160,11 @@ void press_in_lists(controls& now, const key& pressed,
 } // namespace
 
 std::string& filter_of(controls& now) {
-  return now.where == room::overview ? now.filter : now.text_filter;
+  return now.where == top_page::overview ? now.filter : now.text_filter;
 }
 
 const std::string& filter_of(const controls& now) {
-  return now.where == room::overview ? now.filter : now.text_filter;
+  return now.where == top_page::overview ? now.filter : now.text_filter;
 }
 
 size_t selected_index(const listing& shown, const std::string& selected) {
@@ -181,7 +182,7 @@ void press(controls& now, const key& pressed, const surroundings& around) {
     type(now, pressed);
   else if (press_anywhere(now, pressed))
     return;
-  else if (now.where == room::overview)
+  else if (now.where == top_page::overview)
     press_in_lists(now, pressed, around);
   else
     press_in_text(now, pressed, around);

@@ -29,7 +29,7 @@ struct key {
 };
 
 /// What is on the screen.
-enum class room { overview, details, log, events, help };
+enum class top_page { overview, details, log, events, help };
 
 /// What somebody has chosen in one of the lists.
 struct list_choice {
@@ -42,7 +42,7 @@ constexpr std::array<thing_kind, 3> listed_kinds{
     thing_kind::node, thing_kind::task, thing_kind::instance};
 
 struct controls {
-  room where = room::overview;
+  top_page where = top_page::overview;
   size_t list = 0; ///< That keys mean.
   std::array<list_choice, listed_kinds.size()> lists;
   std::string filter;      ///< Of the lists.

@@ -1,10 +1,10 @@
 #include "tools/roscell/top/layout/frame.hpp"
 
-#include "tools/roscell/client/event_words.hpp"
+#include "tools/roscell/client/event_text.hpp"
 #include "tools/roscell/top/layout/listing_lines.hpp"
 #include "tools/roscell/top/layout/texts.hpp"
 #include "tools/roscell/top/layout/things.hpp"
-#include "tools/roscell/top/model/troubles.hpp"
+#include "tools/roscell/top/model/problems.hpp"
 #include "tools/roscell/view/format.hpp"
 
 #include <algorithm>
@@ -17,11 +17,11 @@ namespace {
 constexpr size_t lines_around = 4;
 constexpr size_t least_list = 3;
 
-std::string counted_words(size_t count, const char* what) {
+std::string counted_text(size_t count, const char* what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
 
-line link_words(const connection_state& state, int64_t now_unix_ms) {
+line link_text(const connection_state& state, int64_t now_unix_ms) {
   line result;
   if (state.live)
     put(result, "live", look::good);
@@ -42,34 +42,34 @@ line first_line(const scene& shown, const frame_style& style) {
   put(result, cell.cell.empty() ? "in no cell" : "cell " + cell.cell,
       look::strong);
   put(result, "  ");
-  const auto link = link_words(shown.known.connection(), style.now_unix_ms);
+  const auto link = link_text(shown.known.connection(), style.now_unix_ms);
   result.spans.insert(result.spans.end(), link.spans.begin(), link.spans.end());
-  put(result, "  " + counted_words(cell.nodes.size(), "node") + "  "
-                  + counted_words(cell.tasks.size(), "task") + "  "
-                  + counted_words(known.instances.size(), "instance") + "  "
+  put(result, "  " + counted_text(cell.nodes.size(), "node") + "  "
+                  + counted_text(cell.tasks.size(), "task") + "  "
+                  + counted_text(known.instances.size(), "instance") + "  "
                   + known.asked.identity.name + " "
                   + known.asked.identity.address);
   return result;
 }
 
 /// What is wrong: the worst, and how much else.
-line trouble_line(const scene& shown, const frame_style& style) {
+line problem_line(const scene& shown, const frame_style& style) {
   line result;
   const auto& state = shown.known.connection();
-  if (!state.trouble.empty()) {
+  if (!state.problem.empty()) {
     put(result,
         (state.live ? "" : "what follows is as it was last; looking again: ")
-            + state.trouble,
+            + state.problem,
         look::bad);
     return result;
   }
   const auto& known = shown.known.known();
-  const auto troubles = troubles_of(known, style.now_unix_ms);
-  if (!troubles.empty()) {
-    const auto others = troubles.size() == 1
+  const auto problems = problems_of(known, style.now_unix_ms);
+  if (!problems.empty()) {
+    const auto others = problems.size() == 1
                             ? ""
-                            : "(1 of " + std::to_string(troubles.size()) + ") ";
-    put(result, others + troubles.front(), look::bad);
+                            : "(1 of " + std::to_string(problems.size()) + ") ";
+    put(result, others + problems.front(), look::bad);
   } else if (shown.known.begun() && known.asked.role != node_role::coordinator)
     put(result,
         "this node only"
@@ -102,7 +102,7 @@ line key_line(const controls& now) {
     put(result, "filter: " + filter_of(now) + "  ", look::strong);
   if (!now.note.empty())
     put(result, now.note, look::busy);
-  else if (now.where == room::overview)
+  else if (now.where == top_page::overview)
     put(result, "Tab list  Enter details  l log  e events  s S sort  / filter  "
                 "? help  q quit");
   else
@@ -181,8 +181,8 @@ frame make_frame(const scene& shown, const frame_style& style) {
   for (size_t i = 0; i < result.lists.size(); ++i)
     result.lists.at(i) = chosen(std::move(result.lists.at(i)), shown.now.filter,
                                 shown.now.lists.at(i).order);
-  result.lines = {first_line(shown, style), trouble_line(shown, style)};
-  if (shown.now.where == room::overview)
+  result.lines = {first_line(shown, style), problem_line(shown, style)};
+  if (shown.now.where == top_page::overview)
     put_lists(result, shown, style);
   else
     put_text(result, shown, style);

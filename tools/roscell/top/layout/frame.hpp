@@ -2,7 +2,7 @@
 
 #include "tools/roscell/top/layout/controls.hpp"
 #include "tools/roscell/top/layout/line.hpp"
-#include "tools/roscell/top/model/book.hpp"
+#include "tools/roscell/top/model/cell_model.hpp"
 
 #include <array>
 #include <string>
@@ -20,7 +20,7 @@ struct frame_style {
 
 /// Everything that is shown, from which each frame is made anew.
 struct scene {
-  const book& known;
+  const cell_model& known;
   const std::vector<std::string>& log; ///< Lines of the log that is open.
   const controls& now;
 };

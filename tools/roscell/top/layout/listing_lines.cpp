@@ -39,10 +39,10 @@ struct fitted_listing {
 };
 
 /// @param words columns behind its bars; 0: there are none.
-column_wish wish_for(const listing& shown, size_t i, size_t heading,
-                     size_t words) {
+column_request request_of_column(const listing& shown, size_t i, size_t heading,
+                                 size_t words) {
   const auto& what = shown.columns[i];
-  column_wish result;
+  column_request result;
   result.natural = std::max(heading, words > 0 ? least_bar + 1 + words : 0);
   bool empty = true;
   for (const auto& x : shown.items) {
@@ -68,7 +68,7 @@ size_t longest_words(const listing& shown, size_t i, std::string cell::*words) {
 }
 
 /// Exact numbers behind the bars of a column, if they all find room.
-void choose_words(const listing& shown, fitted_listing& fit) {
+void choose_texts(const listing& shown, fitted_listing& fit) {
   for (size_t i = 0; i < fit.bars.size(); ++i) {
     const auto exact = longest_words(shown, i, &cell::more);
     if (fit.bars[i].words > 0 && fit.widths[i] >= least_bar + 1 + exact)
@@ -94,17 +94,17 @@ void stretch_bars(fitted_listing& fit, size_t width) {
 
 fitted_listing fit_listing(const listing& shown, const listing_style& style) {
   fitted_listing result;
-  std::vector<column_wish> wishes;
+  std::vector<column_request> requests;
   for (size_t i = 0; i < shown.columns.size(); ++i) {
     const auto words = longest_words(shown, i, &cell::text);
     result.bars.push_back({words, false});
-    wishes.push_back(
-        wish_for(shown, i, display_width(heading_of(shown, i, style)), words));
+    requests.push_back(request_of_column(
+        shown, i, display_width(heading_of(shown, i, style)), words));
   }
   const auto width = style.width > mark_width ? style.width - mark_width : 0;
-  result.widths = fitted(wishes, width);
+  result.widths = fitted(requests, width);
   stretch_bars(result, width);
-  choose_words(shown, result);
+  choose_texts(shown, result);
   return result;
 }
 

@@ -55,7 +55,7 @@ cell usage_cell(const amount& a, double reserved, bool is_memory) {
   return result;
 }
 
-std::string state_words_of(const registry_row& row) {
+std::string state_text_of(const registry_row& row) {
   return row.draining_since_unix_ms > 0 ? to_string(row.state) + ", draining"
                                         : to_string(row.state);
 }
@@ -80,7 +80,7 @@ std::vector<std::vector<cell>> gpu_lines(const node_resources& r,
 item member_item(const registry_row& row, const reservations& held,
                  int64_t now_unix_ms) {
   const auto& r = row.resources;
-  const auto state = state_words_of(row);
+  const auto state = state_text_of(row);
   item result;
   result.id = row.identity.name;
   result.cells = {{row.identity.name},
@@ -97,7 +97,7 @@ item member_item(const registry_row& row, const reservations& held,
 }
 
 /// Of a node that is in no cell little is known.
-item free_item(const free_node& node, int64_t now_unix_ms) {
+item unassigned_item(const unassigned_node& node, int64_t now_unix_ms) {
   const bool silent = node.silent_since_unix_ms != 0;
   const auto state = silent ? "silent" : to_string(node.state);
   item result;
@@ -136,7 +136,7 @@ listing list_nodes(const known_cell& known, int64_t now_unix_ms) {
         row, found == held.end() ? none : found->second, now_unix_ms));
   }
   for (const auto& node : known.cell.free)
-    result.items.push_back(free_item(node, now_unix_ms));
+    result.items.push_back(unassigned_item(node, now_unix_ms));
   return result;
 }
 

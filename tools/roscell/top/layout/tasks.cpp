@@ -1,7 +1,7 @@
 #include "tools/roscell/top/layout/things.hpp"
 
 #include "tools/roscell/view/format.hpp"
-#include "tools/roscell/view/instance_words.hpp"
+#include "tools/roscell/view/instance_text.hpp"
 
 #include <algorithm>
 #include <set>
@@ -49,7 +49,7 @@ item task_item(const task_row& task, int64_t now_unix_ms) {
 }
 
 item instance_item(const instance_row& row, int64_t now_unix_ms) {
-  const auto& x = row.figures;
+  const auto& x = row.metrics;
   const auto state = state_text(row);
   const auto since =
       is_unknown(row) ? row.unknown_since_unix_ms : row.since_unix_ms;
@@ -60,8 +60,8 @@ item instance_item(const instance_row& row, int64_t now_unix_ms) {
       {row.spec.step},
       {row.node},
       {state, look_of_state(state)},
-      {figure(x.rate_hz, 1, " Hz")},
-      {figure(x.latency_ms, 1, " ms")},
+      {number_with_unit(x.rate_hz, 1, " Hz")},
+      {number_with_unit(x.latency_ms, 1, " ms")},
       {count_text(x.dropped), x.dropped > 0 ? look::busy : look::plain},
       {std::to_string(row.restarts),
        row.restarts > 0 ? look::busy : look::plain},

@@ -1,6 +1,6 @@
 #include "tools/roscell/top/layout/texts.hpp"
 
-#include "tools/roscell/client/event_words.hpp"
+#include "tools/roscell/client/event_text.hpp"
 #include "tools/roscell/view/describe/describe_view.hpp"
 #include "tools/roscell/view/format.hpp"
 
@@ -67,12 +67,12 @@ std::vector<std::string> event_lines(const scene& shown,
 open_text whole_text(const scene& shown, const frame_style& style) {
   const auto& name = shown.now.subject.name;
   switch (shown.now.where) {
-  case room::details:
+  case top_page::details:
     return {to_string(shown.now.subject.kind) + " " + name,
             details_lines(shown, style)};
-  case room::log:
+  case top_page::log:
     return {"log of " + name, shown.log};
-  case room::events:
+  case top_page::events:
     return {event_heading(style.width), event_lines(shown, style)};
   default:
     return {"keys", lines_in(help)};

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "tools/roscell/top/model/book.hpp"
+#include "tools/roscell/top/model/cell_model.hpp"
 
 #include <string_view>
 

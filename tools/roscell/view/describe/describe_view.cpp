@@ -1,6 +1,6 @@
 #include "tools/roscell/view/describe/describe_view.hpp"
 
-#include "tools/roscell/client/event_words.hpp"
+#include "tools/roscell/client/event_text.hpp"
 #include "tools/roscell/view/describe/parts.hpp"
 #include "tools/roscell/view/describe/things.hpp"
 #include "tools/roscell/view/format.hpp"
@@ -49,8 +49,8 @@ std::vector<event> events_of(const known_cell& known, const known_thing& what) {
 std::string describe_view(const known_cell& known, const known_thing& what,
                           const std::string& log, const view_style& style) {
   page out{style.text};
-  out.fact("Kind", to_string(what.kind));
-  out.fact("Name", what.name);
+  out.detail("Kind", to_string(what.kind));
+  out.detail("Name", what.name);
   switch (what.kind) {
   case thing_kind::node:
     describe_node(out, known, what.name, style);

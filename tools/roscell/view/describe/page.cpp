@@ -13,7 +13,7 @@ constexpr size_t indent = 2;
 
 } // namespace
 
-void page::fact(const std::string& name, const std::string& value) {
+void page::detail(const std::string& name, const std::string& value) {
   if (value.empty())
     return;
   const auto used = name.size() + 1;

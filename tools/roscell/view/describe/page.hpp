@@ -6,13 +6,13 @@
 
 namespace roscell::cli {
 
-/// All that is known of one thing: facts, then sections under their headings.
+/// All that is known of one thing: events, then sections under their headings.
 class page {
 public:
   explicit page(const text_style& style) : style_{style} {}
 
   /// "Name:  value"; left out if the value is empty.
-  void fact(const std::string& name, const std::string& value);
+  void detail(const std::string& name, const std::string& value);
 
   /// A table under a heading; "none" if it has no rows.
   void section(const std::string& heading, const table& rows);

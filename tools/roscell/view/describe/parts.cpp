@@ -1,10 +1,10 @@
 #include "tools/roscell/view/describe/parts.hpp"
 
 #include "actors/edge/io/time_text.hpp"
-#include "tools/roscell/client/event_words.hpp"
+#include "tools/roscell/client/event_text.hpp"
 #include "tools/roscell/view/format.hpp"
 #include "tools/roscell/view/graph/task_graph.hpp"
-#include "tools/roscell/view/instance_words.hpp"
+#include "tools/roscell/view/instance_text.hpp"
 
 #include <algorithm>
 
@@ -62,7 +62,8 @@ table instances_table(const std::vector<instance_row>& rows,
           {}};
   for (const auto& row : rows)
     t.rows.push_back({row.spec.instance, row.spec.step, row.node,
-                      state_words(row, style), figures_text(row.figures)});
+                      instance_state_text(row, style),
+                      metrics_text(row.metrics)});
   return t;
 }
 
@@ -78,7 +79,7 @@ table ports_table(const instance_row& row) {
   for (size_t i = 0; i < row.spec.output.size(); ++i)
     add("out", row.spec.output[i], output_count(row, i));
   // The cells of a row are cut to the number of columns.
-  if (!row.figures.streams.empty())
+  if (!row.metrics.streams.empty())
     t.columns.push_back({"FIGURES", align::left, 2});
   return t;
 }
@@ -93,7 +94,8 @@ table parameters_table(const std::string& parameters) {
   return t;
 }
 
-std::string state_words(const instance_row& row, const view_style& style) {
+std::string instance_state_text(const instance_row& row,
+                                const view_style& style) {
   const auto since = [&](int64_t unix_ms) {
     return format_since(unix_ms, style.now_unix_ms);
   };
@@ -103,13 +105,13 @@ std::string state_words(const instance_row& row, const view_style& style) {
   return state_text(row) + " since " + since(row.since_unix_ms);
 }
 
-std::string time_words(int64_t unix_ms, const view_style& style) {
+std::string time_and_age_text(int64_t unix_ms, const view_style& style) {
   return unix_ms <= 0 ? ""
                       : format_since(unix_ms, style.now_unix_ms) + " ago ("
                             + local_time(unix_ms) + ")";
 }
 
-std::string request_words(const resource_request& r) {
+std::string resource_request_text(const resource_request& r) {
   auto result = "cpu " + format_number(r.cpu) + ", memory "
                 + format_memory(r.memory_mib) + ", disk "
                 + format_memory(r.disk_mib);

@@ -23,12 +23,13 @@ table ports_table(const instance_row& row);
 table parameters_table(const std::string& parameters);
 
 /// "running, since 5m03s (2026-11-22 17:01:02)", or "unknown, ...".
-std::string state_words(const instance_row& row, const view_style& style);
+std::string instance_state_text(const instance_row& row,
+                                const view_style& style);
 
 /// "5m03s ago (2026-11-22 17:01:02.345)"; empty for a time that is not known.
-std::string time_words(int64_t unix_ms, const view_style& style);
+std::string time_and_age_text(int64_t unix_ms, const view_style& style);
 
 /// "cpu 1, memory 96 MiB, disk 150 MiB"
-std::string request_words(const resource_request& r);
+std::string resource_request_text(const resource_request& r);
 
 } // namespace roscell::cli

@@ -21,8 +21,8 @@ void describe_skill(page& out, const known_cell& known, const std::string& name,
                     const view_style& style) {
   const auto builds = builds_of(known, name);
   const auto& first = builds.front().skill.descriptor;
-  out.fact("Engine", first.engine);
-  out.fact("Program", joined(first.entry_point, " "));
+  out.detail("Engine", first.engine);
+  out.detail("Program", joined(first.entry_point, " "));
   auto inner = style.text;
   inner.width = page::inner_width(inner.width);
   out.section("How it is used", skill_view(builds, inner));

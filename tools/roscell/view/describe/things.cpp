@@ -1,10 +1,10 @@
 #include "tools/roscell/view/describe/things.hpp"
 
-#include "tools/roscell/client/event_words.hpp"
+#include "tools/roscell/client/event_text.hpp"
 #include "tools/roscell/view/describe/parts.hpp"
 #include "tools/roscell/view/format.hpp"
 #include "tools/roscell/view/graph/task_graph.hpp"
-#include "tools/roscell/view/instance_words.hpp"
+#include "tools/roscell/view/instance_text.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -44,52 +44,54 @@ std::string skills_on(const known_cell& known, const std::string& node) {
 void describe_member(page& out, const known_cell& known,
                      const registry_row& row, const view_style& style) {
   const auto& name = row.identity.name;
-  out.fact("Role", role_text(row.role));
-  out.fact("State", to_string(row.state));
-  out.fact("Since", time_words(row.since_unix_ms, style));
-  out.fact("Reason", row.reason);
-  out.fact("Cell", known.cell.cell);
-  out.fact("Address", row.identity.address);
-  out.fact("UUID", row.identity.uuid);
-  out.fact("Epoch", std::to_string(row.identity.epoch));
-  out.fact("Architecture", row.resources.architecture);
-  out.fact("Labels", listed(row.resources.labels));
-  out.fact("Devices", joined(row.resources.devices, ", "));
-  out.fact("Grants", joined(row.resources.grants, ", "));
-  out.fact("Skills", skills_on(known, name));
+  out.detail("Role", role_text(row.role));
+  out.detail("State", to_string(row.state));
+  out.detail("Since", time_and_age_text(row.since_unix_ms, style));
+  out.detail("Reason", row.reason);
+  out.detail("Cell", known.cell.cell);
+  out.detail("Address", row.identity.address);
+  out.detail("UUID", row.identity.uuid);
+  out.detail("Epoch", std::to_string(row.identity.epoch));
+  out.detail("Architecture", row.resources.architecture);
+  out.detail("Labels", listed(row.resources.labels));
+  out.detail("Devices", joined(row.resources.devices, ", "));
+  out.detail("Grants", joined(row.resources.grants, ", "));
+  out.detail("Skills", skills_on(known, name));
   out.section("Resources", resources_table(row.resources));
   out.section("Instances", instances_table(on_node(known, name), style));
 }
 
-void describe_free(page& out, const free_node& node, const view_style& style) {
+void describe_unassigned(page& out, const unassigned_node& node,
+                         const view_style& style) {
   const bool silent = node.silent_since_unix_ms != 0;
-  out.fact("State", silent ? "silent" : to_string(node.state));
-  out.fact("Missed", time_words(node.silent_since_unix_ms, style));
-  out.fact("Former cell", node.cell);
-  out.fact("Address", node.address);
-  out.fact("UUID", node.uuid);
+  out.detail("State", silent ? "silent" : to_string(node.state));
+  out.detail("Last seen", time_and_age_text(node.silent_since_unix_ms, style));
+  out.detail("Former cell", node.cell);
+  out.detail("Address", node.address);
+  out.detail("UUID", node.uuid);
 }
 
 /// A process has no container and no image: its runtime's id of it is "<pid of
 /// its shim>:<start>", and what stands for the image the folder of its skill.
 void describe_program(page& out, const instance_row& row) {
   const auto pid =
-      row.figures.use.pid > 0 ? std::to_string(row.figures.use.pid) : "";
+      row.metrics.use.pid > 0 ? std::to_string(row.metrics.use.pid) : "";
   if (row.image.rfind('/', 0) != 0) {
-    out.fact("Process", pid);
-    out.fact("Container", row.container);
-    out.fact("Image", row.image);
+    out.detail("Process", pid);
+    out.detail("Container", row.container);
+    out.detail("Image", row.image);
     return;
   }
   if (!row.container.empty())
-    out.fact("Process", (pid.empty() ? "" : pid + ", ") + "its shim is "
-                            + row.container.substr(0, row.container.find(':')));
-  out.fact("Folder", row.image);
+    out.detail("Process",
+               (pid.empty() ? "" : pid + ", ") + "its shim is "
+                   + row.container.substr(0, row.container.find(':')));
+  out.detail("Folder", row.image);
 }
 
 /// Where the task's steps were placed, and the score of that, if the node still
 /// has the event.
-std::string allocation_words(const known_cell& known, const std::string& task) {
+std::string allocation_text(const known_cell& known, const std::string& task) {
   const auto& all = known.events;
   const auto last = std::find_if(all.rbegin(), all.rend(), [&](const auto& e) {
     return e.what == "allocation_chosen" && e.subject == task;
@@ -106,7 +108,7 @@ void describe_node(page& out, const known_cell& known, const std::string& name,
       return describe_member(out, known, row, style);
   for (const auto& node : known.cell.free)
     if (node.name == name)
-      return describe_free(out, node, style);
+      return describe_unassigned(out, node, style);
 }
 
 void describe_task(page& out, const known_cell& known, const std::string& name,
@@ -114,11 +116,11 @@ void describe_task(page& out, const known_cell& known, const std::string& name,
   for (const auto& row : known.cell.tasks) {
     if (row.task != name)
       continue;
-    out.fact("State", to_string(row.state));
-    out.fact("Submitted", time_words(row.submitted_unix_ms, style));
-    out.fact("Run", std::to_string(row.run));
+    out.detail("State", to_string(row.state));
+    out.detail("Submitted", time_and_age_text(row.submitted_unix_ms, style));
+    out.detail("Run", std::to_string(row.run));
   }
-  out.fact("Allocation", allocation_words(known, name));
+  out.detail("Allocation", allocation_text(known, name));
   const auto steps = of_task(known, name);
   out.section("Steps", instances_table(steps, style));
   for (const auto& x : steps) {
@@ -138,29 +140,30 @@ void describe_instance(page& out, const known_cell& known,
       known.instances, [&](const auto& x) { return x.spec.instance == name; });
   const auto& row = found.front();
   const auto& spec = row.spec;
-  out.fact("Task", spec.task);
-  out.fact("Step", spec.step);
-  out.fact("Node", row.node);
-  out.fact("State", state_words(row, style));
-  out.fact("Reason", row.reason);
-  out.fact("Health", row.health_reason);
-  out.fact("Gives nothing", row.figures.remark);
-  out.fact("May be ended", safety_words(row));
-  out.fact("Waits", row.waits);
-  out.fact("Interrupted", time_words(row.interrupted_unix_ms, style));
-  out.fact("Exit code", row.exit_code < 0 ? "" : std::to_string(row.exit_code));
-  out.fact("Trouble", row.trouble);
-  out.fact("Frames",
-           row.figures.frames < 0 ? "" : std::to_string(row.figures.frames));
-  out.fact("Figures", figures_text(row.figures));
-  out.fact("Memory", memory_text(row));
-  out.fact("CPU", cpu_text(row));
-  out.fact("Says", row.status);
-  out.fact("Operation", spec.operation);
-  out.fact("Model", spec.model + "/" + spec.deployment);
-  out.fact("Build", spec.skill.substr(0, 12));
-  out.fact("Needs", request_words(spec.resources));
-  out.fact("GPU", spec.gpu < 0 ? "" : std::to_string(spec.gpu));
+  out.detail("Task", spec.task);
+  out.detail("Step", spec.step);
+  out.detail("Node", row.node);
+  out.detail("State", instance_state_text(row, style));
+  out.detail("Reason", row.reason);
+  out.detail("Health", row.health_reason);
+  out.detail("Gives nothing", row.metrics.remark);
+  out.detail("Stop-safe", safety_text(row));
+  out.detail("Waits", row.waits);
+  out.detail("Interrupted", time_and_age_text(row.interrupted_unix_ms, style));
+  out.detail("Exit code",
+             row.exit_code < 0 ? "" : std::to_string(row.exit_code));
+  out.detail("Problem", row.problem);
+  out.detail("Frames",
+             row.metrics.frames < 0 ? "" : std::to_string(row.metrics.frames));
+  out.detail("Metrics", metrics_text(row.metrics));
+  out.detail("Memory", memory_text(row));
+  out.detail("CPU", cpu_text(row));
+  out.detail("Status text", row.status);
+  out.detail("Operation", spec.operation);
+  out.detail("Model", spec.model + "/" + spec.deployment);
+  out.detail("Build", spec.skill.substr(0, 12));
+  out.detail("Needs", resource_request_text(spec.resources));
+  out.detail("GPU", spec.gpu < 0 ? "" : std::to_string(spec.gpu));
   describe_program(out, row);
   out.section("Ports", ports_table(row));
   out.section("Parameters", parameters_table(spec.parameters));
@@ -173,11 +176,11 @@ void describe_instance(page& out, const known_cell& known,
 void describe_cell(page& out, const known_cell& known,
                    const view_style& style) {
   const auto& cell = known.cell;
-  out.fact("Coordinator", cell.coordinator);
-  out.fact("Address", cell.address);
-  out.fact("Discovery", cell.discovery_server);
-  out.fact("Incarnation",
-           cell.incarnation == 0 ? "" : std::to_string(cell.incarnation));
+  out.detail("Coordinator", cell.coordinator);
+  out.detail("Address", cell.address);
+  out.detail("Discovery", cell.discovery_server);
+  out.detail("Incarnation",
+             cell.incarnation == 0 ? "" : std::to_string(cell.incarnation));
   auto inner = style;
   inner.text.width = page::inner_width(style.text.width);
   out.section("Nodes", members_view(cell, inner));

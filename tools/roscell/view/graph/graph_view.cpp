@@ -2,7 +2,7 @@
 
 #include "tools/roscell/view/format.hpp"
 #include "tools/roscell/view/graph/drawing.hpp"
-#include "tools/roscell/view/instance_words.hpp"
+#include "tools/roscell/view/instance_text.hpp"
 
 #include <map>
 #include <utility>
@@ -24,8 +24,8 @@ std::string rate_of(const task_graph& graph, const graph_stream& x) {
     return {};
   const auto* written = written_of(graph, x);
   const auto rate =
-      written ? written->rate_hz : graph.steps[*x.from].figures.rate_hz;
-  return figure(rate, 1, " Hz");
+      written ? written->rate_hz : graph.steps[*x.from].metrics.rate_hz;
+  return number_with_unit(rate, 1, " Hz");
 }
 
 std::vector<std::string> box_of(const task_graph& graph, size_t i) {
@@ -33,8 +33,8 @@ std::vector<std::string> box_of(const task_graph& graph, size_t i) {
   std::vector<std::string> lines{step.spec.step,
                                  step.spec.operation + " " + step.spec.model,
                                  "on " + step.node + ", " + state_text(step)};
-  if (auto figures = figures_text(step.figures); !figures.empty())
-    lines.push_back(std::move(figures));
+  if (auto metrics = metrics_text(step.metrics); !metrics.empty())
+    lines.push_back(std::move(metrics));
   for (const auto& x : graph.streams)
     if (x.to == i && !x.from)
       lines.push_back("in  " + x.what.endpoint);
@@ -120,7 +120,7 @@ json graph_json(const task_graph& graph) {
                      {"deployment", x.spec.deployment},
                      {"node", x.node},
                      {"state", is_unknown(x) ? "unknown" : to_string(x.state)},
-                     {"figures", x.figures}});
+                     {"figures", x.metrics}});
   json streams = json::array();
   for (const auto& x : graph.streams)
     streams.push_back({{"name", x.what.endpoint},

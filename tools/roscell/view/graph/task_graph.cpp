@@ -1,7 +1,7 @@
 #include "tools/roscell/view/graph/task_graph.hpp"
 
 #include "tools/roscell/view/format.hpp"
-#include "tools/roscell/view/instance_words.hpp"
+#include "tools/roscell/view/instance_text.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -70,8 +70,8 @@ std::string name_of(const graph_stream& x, const std::optional<size_t>& end,
 std::string step_text(const instance_row& step, const char* line_end) {
   std::vector<std::string> lines{unquoted(step.spec.step),
                                  "on " + unquoted(step.node)};
-  if (const auto figures = figures_text(step.figures); !figures.empty())
-    lines.push_back(figures);
+  if (const auto metrics = metrics_text(step.metrics); !metrics.empty())
+    lines.push_back(metrics);
   return '"' + joined(lines, line_end) + '"';
 }
 
@@ -100,14 +100,14 @@ const stream_count* read_of(const task_graph& graph, const graph_stream& x) {
   return input_count(step, place_of(step.spec.input, x.what));
 }
 
-std::string figures_text(const instance_figures& figures) {
+std::string metrics_text(const instance_metrics& metrics) {
   std::vector<std::string> words;
-  if (figures.rate_hz >= 0)
-    words.push_back(format_number(figures.rate_hz, 1) + " Hz");
-  if (figures.dropped >= 0)
-    words.push_back(std::to_string(figures.dropped) + " dropped");
-  if (figures.latency_ms >= 0)
-    words.push_back(format_number(figures.latency_ms, 2) + " ms");
+  if (metrics.rate_hz >= 0)
+    words.push_back(format_number(metrics.rate_hz, 1) + " Hz");
+  if (metrics.dropped >= 0)
+    words.push_back(std::to_string(metrics.dropped) + " dropped");
+  if (metrics.latency_ms >= 0)
+    words.push_back(format_number(metrics.latency_ms, 2) + " ms");
   return joined(words, ", ");
 }
 

@@ -36,7 +36,7 @@ task_graph graph_of(const std::string& task, std::vector<instance_row> steps);
 std::string dot_text(const task_graph& graph);
 std::string mermaid_text(const task_graph& graph);
 
-/// "10 Hz, 0 dropped, 3.1 ms": what is known of the figures.
-std::string figures_text(const instance_figures& figures);
+/// "10 Hz, 0 dropped, 3.1 ms": what is known of the metrics.
+std::string metrics_text(const instance_metrics& metrics);
 
 } // namespace roscell::cli

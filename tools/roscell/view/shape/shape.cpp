@@ -74,19 +74,19 @@ bool is_free_form(const std::string& name) {
 
 } // namespace
 
-json shaped(const json& told) {
-  if (told.is_array()) {
+json shaped(const json& reported) {
+  if (reported.is_array()) {
     auto result = json::array();
-    for (const auto& x : told)
+    for (const auto& x : reported)
       result.push_back(shaped(x));
     return result;
   }
-  if (!told.is_object())
-    return told;
+  if (!reported.is_object())
+    return reported;
   auto result = json::object();
-  if (auto name = name_of(told); !name.is_null())
+  if (auto name = name_of(reported); !name.is_null())
     result["name"] = std::move(name);
-  for (const auto& [name, value] : told.items()) {
+  for (const auto& [name, value] : reported.items()) {
     if (is_time(name))
       result[name.substr(0, name.size() - time_suffix.size())] =
           shaped_time(value);

@@ -12,7 +12,7 @@ namespace roscell::cli {
 /// What a node tells of a thing, as programs get it: with its `name`; times as
 /// ISO 8601 in UTC, `since` instead of `since_unix_ms`, null where they are not
 /// known; ends of a stream always as a list. The same for what is inside it.
-json shaped(const json& told);
+json shaped(const json& reported);
 
 /// Members of a reply; an empty name is none.
 using reply_parts = std::array<std::string_view, 2>;

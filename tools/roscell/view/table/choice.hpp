@@ -9,7 +9,7 @@
 namespace roscell::cli {
 
 /// The columns that the options choose, and the rows in the order that they
-/// wish. Throws command_error for a column that there is not.
+/// request. Throws command_error for a column that there is not.
 table chosen(const table& all, const table_options& options);
 
 /// The value of a cell that begins with a number: "12", "-1.5", "0.8/3.8 GiB"

@@ -18,7 +18,7 @@ size_t total(const std::vector<size_t>& widths) {
 }
 
 /// The columns that are there, those that matter least first.
-std::vector<size_t> by_rank(const std::vector<column_wish>& columns,
+std::vector<size_t> by_rank(const std::vector<column_request>& columns,
                             const std::vector<size_t>& widths) {
   std::vector<size_t> result;
   for (size_t i = columns.size(); i-- > 0;)
@@ -31,7 +31,7 @@ std::vector<size_t> by_rank(const std::vector<column_wish>& columns,
 }
 
 /// Shortens as far as need be; false if that is not enough.
-bool shorten(const std::vector<column_wish>& columns, size_t width,
+bool shorten(const std::vector<column_request>& columns, size_t width,
              bool those_that_stay, std::vector<size_t>& widths) {
   for (const auto i : by_rank(columns, widths)) {
     const auto now = total(widths);
@@ -46,7 +46,7 @@ bool shorten(const std::vector<column_wish>& columns, size_t width,
 
 } // namespace
 
-std::vector<size_t> fitted(const std::vector<column_wish>& columns,
+std::vector<size_t> fitted(const std::vector<column_request>& columns,
                            size_t width) {
   std::vector<size_t> natural;
   natural.reserve(columns.size());

@@ -7,7 +7,7 @@
 namespace roscell::cli {
 
 /// A column that wants a place.
-struct column_wish {
+struct column_request {
   size_t natural = 0; ///< Of its widest cell, the heading included.
   size_t least = 0;   ///< It may be shortened to this.
   int rank = 0; ///< The highest is shortened and left out first; 0: it stays.
@@ -16,7 +16,7 @@ struct column_wish {
 /// Widths for the columns, two blanks apart, that make no line longer than
 /// `width`: columns are shortened, then left out (0). Only those that stay may
 /// be too wide together.
-std::vector<size_t> fitted(const std::vector<column_wish>& columns,
+std::vector<size_t> fitted(const std::vector<column_request>& columns,
                            size_t width);
 
 } // namespace roscell::cli

@@ -39,7 +39,7 @@ struct one_of_many {
   }
 
   /// Whether what this server tells of `who` goes to `to`.
-  bool tells(const guid_prefix& who, const guid_prefix& to) {
+  bool reports(const guid_prefix& who, const guid_prefix& to) {
     auto message = addressed(passed_on(who, own_id), to);
     return guard.let_out(message.data(), message.size());
   }
@@ -63,17 +63,17 @@ TEST_CASE_METHOD(one_of_many, "a server introduces itself to another one only "
                               "from time to time") {
   const auto self = server_prefix(own_id);
   const auto first = guard.lives().present(other_id);
-  CHECK(tells(self, first));
-  CHECK_FALSE(tells(self, first));
-  CHECK(tells(make_probe_prefix(), first));
-  CHECK(tells(self, server_prefix(other_id + 1)));
+  CHECK(reports(self, first));
+  CHECK_FALSE(reports(self, first));
+  CHECK(reports(make_probe_prefix(), first));
+  CHECK(reports(self, server_prefix(other_id + 1)));
   const auto program = make_probe_prefix();
-  CHECK(tells(self, program));
-  CHECK(tells(self, program));
+  CHECK(reports(self, program));
+  CHECK(reports(self, program));
   guard.lose(other_id);
-  CHECK_FALSE(tells(self, first));
+  CHECK_FALSE(reports(self, first));
   guard.lives().meet(other_id, {});
-  CHECK(tells(self, guard.lives().present(other_id)));
+  CHECK(reports(self, guard.lives().present(other_id)));
 }
 
 TEST_CASE("an introduction that is put off is not lost") {

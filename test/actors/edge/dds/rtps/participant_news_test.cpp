@@ -15,8 +15,8 @@ namespace {
 
 using datagram = std::vector<std::uint8_t>;
 
-std::optional<own_words> words_in(datagram x) {
-  return own_words_in(x.data(), x.size());
+std::optional<own_announcement> words_in(datagram x) {
+  return own_announcement_in(x.data(), x.size());
 }
 
 datagram question() {

@@ -50,7 +50,7 @@ TEST_CASE("a question is answered at once, and Fast DDS hears neither it nor "
   CHECK(x.take(probe_question(who, x.asks.local())));
   auto got = x.answer();
   CHECK(probe_answer(got.data(), got.size()) == server_prefix(3));
-  const auto said = own_words_in(got.data(), got.size());
+  const auto said = own_announcement_in(got.data(), got.size());
   REQUIRE(said);
   CHECK(said->announcement == "hello");
   CHECK(x.take(probe_farewell(who)));

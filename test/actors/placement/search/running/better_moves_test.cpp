@@ -13,7 +13,7 @@ using namespace roscell::allocation::test;
 
 namespace {
 
-constexpr move_wish all_moves{1e-9, 100};
+constexpr move_request all_moves{1e-9, 100};
 
 std::vector<seat> seats_of(const result& answer) {
   std::vector<seat> found;

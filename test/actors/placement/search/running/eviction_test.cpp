@@ -97,7 +97,7 @@ std::vector<holder> add_holders(problem& to, std::uint32_t seed) {
 
 } // namespace
 
-TEST_CASE("Of what could make way the fewest go, then the lowest",
+TEST_CASE("Of what could be preempted the fewest go, then the lowest",
           "[eviction]") {
   SECTION("one instead of two that are lower") {
     const auto found = find_eviction(

@@ -1,0 +1,225 @@
+#pragma once
+
+#include "actors/cell/tables/deployment_table.hpp"
+#include "actors/cell/tables/ordered_ends.hpp"
+#include "actors/core/limits.hpp"
+#include "messages/allocation_report.hpp"
+#include "messages/failure.hpp"
+#include "messages/task.hpp"
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace roscell {
+
+/// An instance that its task has given up, and that may run on where its node
+/// is away.
+struct left_instance {
+  std::string instance;
+  std::string step;
+  std::string node;
+  life_policy life; ///< What it does there.
+
+  static constexpr auto fields() {
+    return field_list{required("instance", &left_instance::instance),
+                      required("step", &left_instance::step),
+                      required("node", &left_instance::node),
+                      required("life", &left_instance::life)};
+  }
+};
+
+/// What of a task outlives the coordinator's process: its entry in the task
+/// table and what it has in the deployment table, together.
+struct task_record {
+  std::string task;
+  std::string request;  ///< JSON of the task request, to compare bodies.
+  std::string accepted; ///< JSON of the reply once all steps run.
+  task_state state = task_state::deploying;
+  int64_t submitted_unix_ms = 0;
+  std::vector<instance_spec> specs;
+  std::vector<std::string> nodes;     ///< Node of each spec.
+  std::vector<instance_end> ends;     ///< Of those that have ended.
+  std::vector<std::string> tentative; ///< Instances of a move that goes on.
+  int64_t ended_unix_ms = 0; ///< When its last step ended; 0: it goes on.
+  int64_t run = 1;           ///< How often it has been started as a whole.
+  /// Of the requests that are of this run, the newest last.
+  std::vector<std::string> request_ids;
+  std::vector<end_order> orders;   ///< Instances that were told to end.
+  std::vector<left_instance> left; ///< As of when this was written.
+
+  static constexpr auto fields() {
+    return field_list{
+        required("task", &task_record::task),
+        required("request", &task_record::request),
+        required("accepted", &task_record::accepted),
+        required("state", &task_record::state),
+        required("submitted_unix_ms", &task_record::submitted_unix_ms),
+        required("specs", &task_record::specs),
+        required("nodes", &task_record::nodes),
+        optional("ends", &task_record::ends),
+        optional("tentative", &task_record::tentative),
+        optional("ended_unix_ms", &task_record::ended_unix_ms),
+        optional("run", &task_record::run),
+        optional("request_ids", &task_record::request_ids),
+        optional("orders", &task_record::orders),
+        optional("left", &task_record::left)};
+  }
+};
+
+/// What the table knows of a task besides what it has deployed.
+struct task_entry {
+  std::string request;
+  std::string accepted; ///< Without its instances; empty until placed.
+  task_state state = task_state::deploying; ///< As it is stored.
+  int64_t submitted_unix_ms = 0;
+  bool ending = false; ///< Its instances are being removed.
+  int64_t ended_unix_ms = 0;
+  int64_t run = 1;
+  std::vector<std::string> request_ids;
+  std::vector<end_order> orders;
+};
+
+/// How a claim stands to what the table knows.
+enum class claim_status {
+  unknown,    ///< It may take its turn.
+  other_body, ///< Another request has that id.
+  ending,     ///< The task is being terminated.
+  deploying,  ///< The same request is being deployed.
+  accepted,   ///< The same request has been done.
+  next_run,   ///< It has been done, has ended, and is asked for once more.
+};
+
+/// The coordinator's tasks. Pure. What changes of a task is proposed as a
+/// record first and applied when the store has kept it.
+class task_table {
+public:
+  const task_entry* find(const std::string& task) const;
+
+  /// @param id Of the request; empty: it has none, and asks for no other run.
+  claim_status claim_status_of(const std::string& task,
+                               const std::string& request,
+                               const std::string& id) const;
+
+  /// Whether the task's present run, or its last one, was asked for under that
+  /// id.
+  bool is_of_run(const std::string& task, const std::string& id) const;
+
+  bool is_full() const {
+    return entries_.size() >= limits::task::most;
+  }
+
+  /// A task begins to be deployed, for the first time or once more. Nothing of
+  /// it is durable yet.
+  void begin(const std::string& task, const std::string& request,
+             const std::string& id, int64_t now_unix_ms);
+
+  /// Its instances are being removed from now on. False if they were already.
+  bool begin_ending(const std::string& task);
+
+  /// The store has kept this.
+  void apply(const task_record& record);
+
+  /// Its next run has come to nothing: it is as it was before that.
+  void take_back(const task_record& former);
+
+  /// The store has removed it, or never had it.
+  void forget(const std::string& task);
+
+  // -- is it still so? ------------------------------------------------------
+
+  bool is_deploying(const std::string& task) const;
+  bool is_running(const std::string& task) const;
+
+  /// Whether nodes keep its instances.
+  bool is_kept(const std::string& task) const;
+
+  /// Settled tasks beyond the limit, the oldest first.
+  std::vector<std::string> superfluous() const;
+
+  void remember_terminated(const task_terminated& reply);
+  const task_terminated* find_terminated(const std::string& task) const;
+
+  const std::map<std::string, task_entry>& entries() const {
+    return entries_;
+  }
+
+private:
+  std::map<std::string, task_entry> entries_;
+  std::deque<task_terminated> terminated_;
+};
+
+/// True for a task whose steps have all ended.
+constexpr bool is_settled(task_state x) {
+  return x == task_state::finished || x == task_state::failed;
+}
+
+// -- proposals --------------------------------------------------------------
+
+/// A task as it stands in both tables.
+task_record record_of(const std::string& task, const task_entry& entry,
+                      const deployment_table& deployments);
+
+/// What the record says is deployed where.
+std::vector<deployment> deployments_in(const task_record& record);
+
+/// With what was placed, in place of what an earlier run had placed.
+task_record with_placement(task_record record, const task_accepted& decision,
+                           std::vector<instance_spec> specs,
+                           std::vector<std::string> nodes);
+
+task_record with_state(task_record record, task_state state);
+
+/// With a request that has found the task's run going on.
+task_record with_request(task_record record, const std::string& id);
+
+/// With ends of instances. The state follows when it was the last one.
+task_record with_ends(task_record record, const std::vector<instance_end>& ends,
+                      int64_t now_unix_ms);
+
+/// With the word that an instance is told to end, unless it has ended.
+task_record with_order(task_record record, const end_order& order);
+task_record without_order(task_record record, const std::string& instance);
+
+/// An instance and the one whose place it takes.
+struct replacement {
+  std::string old_instance;
+  instance_spec spec;
+  step_allocation place;
+};
+
+/// With new instances beside the old ones.
+task_record with_tentative(task_record record,
+                           const std::vector<replacement>& moved);
+
+/// With new instances instead of the old ones, but for those that have done
+/// their work meanwhile.
+task_record with_replaced(task_record record,
+                          const std::vector<replacement>& moved);
+
+/// With new instances instead of old ones that have ended, or are to be taken
+/// for ended. The task runs.
+task_record with_restarted(task_record record,
+                           const std::vector<replacement>& restarted);
+
+/// Without these instances.
+task_record without(task_record record,
+                    const std::vector<std::string>& instances);
+
+/// As a restarted coordinator takes it up: without what was tentative. None for
+/// a task that was being deployed or ended: nodes stop its instances when they
+/// register.
+std::optional<task_record> restored(task_record record);
+
+/// What each node that has another name now is called, in all of a record.
+task_record with_renamed(task_record record, const std::string& from,
+                         const std::string& to);
+
+/// The reply to the request, with its instances where they are now.
+task_accepted reply_of(const std::string& task, const task_entry& entry,
+                       const deployment_table& deployments);
+
+} // namespace roscell

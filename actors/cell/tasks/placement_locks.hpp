@@ -1,0 +1,22 @@
+#pragma once
+
+#include "actors/cell/state/coordinator_state.hpp"
+
+#include <cstdint>
+#include <functional>
+
+/// Whatever is placed takes the placement lock, so that two never count on the
+/// same resources: it is held until what was placed is reserved.
+namespace roscell {
+
+/// Calls `begin` with the number of the lock when it is granted: at once when
+/// nobody has it.
+void take_placement_lock(coordinator_pointer self, const caf::actor_addr& owner,
+                         const std::function<void(uint64_t)>& begin);
+
+void release_placement_lock(coordinator_pointer self, uint64_t number);
+
+/// An owner that is gone waits no more.
+void leave_line(coordinator_pointer self, const caf::actor_addr& owner);
+
+} // namespace roscell

@@ -1,7 +1,0 @@
-#include "actors/house/program_version.hpp"
-
-namespace roscell {
-
-const char* const program_version = ROSCELL_VERSION;
-
-} // namespace roscell

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "messages/failure.hpp"
+#include "messages/inside/runtime.hpp"
+#include "messages/instance.hpp"
+#include "messages/kept_log.hpp"
+
+#include <string>
+
+/// What is said of instances to people.
+namespace roscell {
+
+/// "with exit code 3", "by signal 9", or "in an unknown way" for a negative
+/// one.
+std::string exit_code_text(int code);
+
+/// Why a program of that row has ended: "out of memory: it may use 64 MiB"
+/// where that is known, else how, "it ended by signal 9".
+std::string end_reason_text(const instance_row& row, end_cause cause,
+                            double most_memory_mib);
+
+/// What a shim is told of it: "fifo:20:0"; empty: as any program.
+std::string scheduling_word(const scheduling_request& request);
+
+/// The last bytes of a text, beginning with a whole line where there is one.
+std::string last_bytes(const std::string& text, size_t max_bytes);
+
+/// Why an ended instance does not run, for whoever has asked for it:
+/// engine_failed with details, or conflict if it was stopped on purpose.
+failure deployment_failure(const instance_row& row);
+
+/// With what the log of an instance's last run is kept.
+kept_log about_log_of(const instance_row& row);
+
+} // namespace roscell

@@ -1,0 +1,113 @@
+#include "actors/cell/tables/ordered_ends.hpp"
+#include "actors/core/limits.hpp"
+
+#include <catch2/catch.hpp>
+
+namespace roscell::test {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+ordered_ends::time_point hour_and(std::chrono::milliseconds x) {
+  return ordered_ends::time_point{1h + x};
+}
+
+end_order order_of(const std::string& instance, int64_t priority = 5) {
+  return {instance, "it is preempted by task 'high'", "high", priority};
+}
+
+constexpr auto never = ordered_ends::time_point::max();
+
+} // namespace
+
+TEST_CASE("What was told to end is started anew once nobody needs its room",
+          "[ordered_ends]") {
+  ordered_ends x;
+  x.add("low", order_of("i"));
+  CHECK_FALSE(x.is_asked("i"));
+  x.ask("i");
+  CHECK(x.is_asked("i"));
+  const bool ends_late = GENERATE(false, true);
+  if (ends_late) {
+    x.let_go_of("high", hour_and(0s));
+    CHECK(x.next_due() == never);
+    x.end("i", hour_and(1s));
+  } else {
+    x.end("i", hour_and(0s));
+    CHECK(x.next_due() == never);
+    x.let_go_of("other", hour_and(1s));
+    CHECK(x.next_due() == never);
+    x.let_go_of("high", hour_and(1s));
+  }
+  CHECK(x.next_due() == hour_and(1s));
+  const auto due = x.take_due(hour_and(1s));
+  REQUIRE(due.size() == 1);
+  CHECK(due[0].task == "low");
+  // It is being started.
+  CHECK(x.take_due(hour_and(1h)).empty());
+}
+
+TEST_CASE("Those of the highest priority are started first", "[ordered_ends]") {
+  ordered_ends x;
+  x.add("low", order_of("i", 2));
+  x.add("mid", order_of("j", 4));
+  for (const auto* instance : {"i", "j"}) {
+    x.ask(instance);
+    x.end(instance, hour_and(0s));
+  }
+  x.let_go_of("high", hour_and(0s));
+  const auto due = x.take_due(hour_and(0s));
+  REQUIRE(due.size() == 2);
+  CHECK(due[0].task == "mid");
+}
+
+TEST_CASE("What has no place is tried once, or while nodes come back",
+          "[ordered_ends]") {
+  ordered_ends x;
+  SECTION("once") {
+    x.add("low", order_of("i"));
+    x.end("i", hour_and(0s));
+    x.let_go("i", hour_and(0s));
+    REQUIRE(x.take_due(hour_and(0s)).size() == 1);
+    CHECK_FALSE(x.postpone("i", false, hour_and(0s)));
+    // What is busy is none of its fault, for some time.
+    CHECK(x.postpone("i", true, hour_and(limits::task::eviction - 1ms)));
+    CHECK_FALSE(x.postpone("i", true, hour_and(limits::task::eviction)));
+  }
+  SECTION("while nodes come back after a restart") {
+    x.restore("low", order_of("i"), true, hour_and(0s));
+    constexpr auto span = limits::task::return_of_nodes;
+    REQUIRE(x.take_due(hour_and(0s)).size() == 1);
+    CHECK(x.postpone("i", false, hour_and(span - 1ms)));
+    CHECK(x.next_due() > hour_and(span - 1ms));
+    CHECK_FALSE(x.postpone("i", false, hour_and(span)));
+  }
+}
+
+TEST_CASE("After a restart an order stands until its instance has ended",
+          "[ordered_ends]") {
+  ordered_ends x;
+  x.restore("low", order_of("i"), false, hour_and(0s));
+  CHECK(x.is_asked("i"));
+  CHECK(x.next_due() == never);
+  x.end("i", hour_and(1h));
+  CHECK(x.take_due(hour_and(1h)).size() == 1);
+  CHECK(x.postpone("i", false, hour_and(1h + 1s)));
+}
+
+TEST_CASE("What its task has no order for any more is forgotten",
+          "[ordered_ends]") {
+  ordered_ends x;
+  x.add("low", order_of("i"));
+  x.add("low", order_of("j"));
+  x.add("other", order_of("k"));
+  x.keep_only("low", {order_of("j")});
+  CHECK(x.find("i") == nullptr);
+  CHECK(x.find("j") != nullptr);
+  CHECK(x.size() == 2);
+  x.keep_only("other", {});
+  CHECK(x.size() == 1);
+}
+
+} // namespace roscell::test

@@ -1,0 +1,106 @@
+#include "actors/edge/dds/lives/discovery_guard.hpp"
+#include "actors/edge/dds/rtps/discovery_filter.hpp"
+#include "actors/edge/dds/rtps/discovery_probe.hpp"
+
+#include "test/actors/edge/dds/lives/addressed.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+using namespace roscell;
+using namespace roscell::test;
+
+namespace {
+
+using datagram = std::vector<std::uint8_t>;
+
+constexpr std::uint8_t asked = 3;
+constexpr std::uint8_t reporter = 7;
+constexpr std::uint8_t hearer = 8;
+
+struct guarded {
+  discovery_guard guard{asked, std::make_shared<number_reserve>(),
+                        std::get<udp_socket>(udp_socket::bind("127.0.0.1", 0))};
+
+  void hear(datagram what) {
+    REQUIRE(guard.take_in(what.data(), what.size(), sockaddr_in{}));
+  }
+
+  /// What the wire gets.
+  datagram report(const guid_prefix& who, std::uint8_t to) {
+    auto result = addressed(passed_on(who, asked), guard.lives().present(to));
+    REQUIRE(guard.let_out(result.data(), result.size()));
+    CHECK(make_safe(result.data(), result.size()));
+    return result;
+  }
+
+  std::size_t reported(const guid_prefix& who, std::uint8_t to) {
+    auto what = report(who, to);
+    return participants_in(what.data(), what.size()).size();
+  }
+};
+
+std::vector<submessage_kind> kinds_in(datagram what) {
+  std::vector<submessage_kind> result;
+  for_each_submessage(what.data(), what.size(), [&](const auto& x) {
+    result.push_back(x.kind);
+    return true;
+  });
+  return result;
+}
+
+} // namespace
+
+TEST_CASE_METHOD(guarded, "a server is not told of whom it has told of, in "
+                          "whichever of its lives") {
+  const auto who = make_probe_prefix();
+  CHECK(reported(who, reporter) == 1);
+  hear(passed_on(who, reporter));
+  CHECK(reported(who, reporter) == 0);
+  CHECK(reported(who, hearer) == 1);
+  guard.lose(reporter);
+  CHECK(reported(who, reporter) == 0);
+  // Whoever speaks here is of this host now.
+  hear(probe_question(who, {}));
+  CHECK(reported(who, reporter) == 1);
+}
+
+TEST_CASE_METHOD(guarded, "what a server is not told is skipped by its number, "
+                          "so that it is not asked for") {
+  const auto who = make_probe_prefix();
+  hear(passed_on(who, reporter));
+  const auto what = report(who, reporter);
+  const std::vector<submessage_kind> expected{
+      submessage_kind::info_dst, submessage_kind::gap, submessage_kind::pad};
+  CHECK(kinds_in(what) == expected);
+  auto said = report(who, hearer);
+  std::int64_t number = 0;
+  for_each_submessage(said.data(), said.size(), [&](const auto& x) {
+    auto at = x.body;
+    if (x.kind == submessage_kind::data && at.skip(12))
+      number = at.sequence_number();
+    return true;
+  });
+  auto skipped = what;
+  for_each_submessage(skipped.data(), skipped.size(), [&](const auto& x) {
+    auto at = x.body;
+    if (x.kind == submessage_kind::gap && at.skip(8)) {
+      CHECK(at.sequence_number() == number);
+      CHECK(at.sequence_number() == number + 1);
+      CHECK(at.u32() == 0);
+    }
+    return true;
+  });
+}
+
+TEST_CASE_METHOD(guarded, "an end is told to whoever has told of it") {
+  const auto who = make_probe_prefix();
+  hear(passed_on(who, reporter));
+  auto what = addressed(death_notice(server_prefix(asked), 5, who),
+                        guard.lives().present(reporter));
+  REQUIRE(guard.let_out(what.data(), what.size()));
+  CHECK(participants_in(what.data(), what.size()).size() == 1);
+}

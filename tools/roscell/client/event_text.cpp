@@ -1,0 +1,217 @@
+#include "tools/roscell/client/event_text.hpp"
+
+#include "actors/edge/io/time_text.hpp"
+#include "tools/roscell/view/format.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace roscell::cli {
+
+namespace {
+
+constexpr size_t max_value_width = 60;
+
+/// The particulars of an event; an empty object if there are none.
+json particulars(const event& e) {
+  auto data = json::parse(e.data, nullptr, false);
+  return data.is_object() ? data : json::object();
+}
+
+std::string value_text(const json& value);
+
+/// The elements of an array, or the members of an object, in one line.
+std::string inner_text(const json& value) {
+  std::vector<std::string> words;
+  for (const auto& [key, inner] : value.items()) {
+    const auto text = value_text(inner);
+    words.push_back(value.is_object() ? key + " " + text : text);
+  }
+  return joined(words, ", ");
+}
+
+/// A value as people write it.
+std::string value_text(const json& value) {
+  if (value.is_string())
+    return value.get<std::string>();
+  if (value.is_boolean())
+    return value.get<bool>() ? "yes" : "no";
+  if (value.is_number_float())
+    return format_significant(value.get<double>(), 4);
+  if (!value.is_structured())
+    return value.dump(-1, ' ', false, json::error_handler_t::replace);
+  return "(" + inner_text(value) + ")";
+}
+
+std::string text_at(const json& data, const char* key) {
+  const auto found = data.find(key);
+  return found != data.end() && found->is_string() ? found->get<std::string>()
+                                                   : "";
+}
+
+std::string words(std::string what) {
+  std::replace(what.begin(), what.end(), '_', ' ');
+  return what;
+}
+
+/// Where the allocation puts each step.
+std::vector<std::string> placements(const json& data) {
+  const auto found = data.find("allocations");
+  if (found == data.end() || !found->is_array())
+    return {};
+  std::vector<std::string> lines;
+  for (const auto& a : *found)
+    if (a.is_object())
+      lines.push_back(printable("step " + text_at(a, "step") + ": placed on "
+                                + text_at(a, "node") + " ("
+                                + text_at(a, "deployment") + ")"));
+  return lines;
+}
+
+/// "camera→head, poses→arm"; empty if the value is no allocation.
+std::string placement_text(const json& value) {
+  std::vector<std::string> words;
+  if (value.is_array())
+    for (const auto& a : value)
+      if (a.is_object() && a.contains("step") && a.contains("node"))
+        words.push_back(text_at(a, "step") + "→" + text_at(a, "node"));
+  return joined(words, ", ");
+}
+
+/// "camera_1 starting on arm-1"; the task is in the instance's id.
+std::string change_text(const json& data) {
+  const auto step = text_at(data, "step");
+  const auto state = text_at(data, "state");
+  const auto node = text_at(data, "node");
+  if (step.empty() || state.empty())
+    return {};
+  return step + " " + state + (node.empty() ? "" : " on " + node);
+}
+
+/// One particular of an event; empty if it says nothing.
+std::string particular(const std::string& key, const json& value) {
+  if (value.is_null() || (value.is_string() && value.get<std::string>().empty())
+      || (value.is_structured() && value.empty()))
+    return {};
+  if (key == "allocations")
+    if (auto words = placement_text(value); !words.empty())
+      return words;
+  // Of a score people want the total.
+  if (key == "score" && value.is_object() && value.contains("total"))
+    return "score=" + value_text(value["total"]);
+  return key + "=" + shortened(value_text(value), max_value_width);
+}
+
+} // namespace
+
+namespace {
+
+/// Of the date in "2026-11-21 14:03:07.250", and the blank behind it.
+constexpr size_t date_width = 11;
+
+/// Of a terminal on which a line with its date has room for what it says.
+constexpr size_t roomy_width = 120;
+
+bool is_narrow(size_t width) {
+  return width != 0 && width < roomy_width;
+}
+
+std::string padded(std::string text, size_t width) {
+  text.resize(text.size() + width - std::min(width, display_width(text)), ' ');
+  return text;
+}
+
+/// The step is told with what has become of it, so the task says the rest.
+std::string subject_of(const event& e) {
+  const auto data = particulars(e);
+  const auto task = text_at(data, "task");
+  return change_text(data).empty() || task.empty() ? e.subject : task;
+}
+
+} // namespace
+
+std::string event_heading(size_t width) {
+  const std::string heading =
+      "TIME                        SEQ  EVENT                 SUBJECT";
+  return is_narrow(width) ? "TIME" + heading.substr(4 + date_width) : heading;
+}
+
+std::string event_line(const event& e, size_t width) {
+  std::array<char, 24> sequence{};
+  std::snprintf(sequence.data(), sequence.size(), "%7llu",
+                static_cast<unsigned long long>(e.sequence));
+  const auto time = local_time(e.time_unix_ms);
+  const auto rest = event_particulars(e);
+  const auto subject = subject_of(e);
+  auto line = (is_narrow(width) ? time.substr(date_width) : time) + " "
+              + sequence.data() + "  " + padded(e.what, 20) + "  ";
+  line += rest.empty() ? subject : padded(subject, 16) + "  " + rest;
+  return printable(line);
+}
+
+std::string event_particulars(const event& e) {
+  std::vector<std::string> words;
+  auto data = particulars(e);
+  if (e.what == "instance_changed")
+    if (auto change = change_text(data); !change.empty()) {
+      words.push_back(std::move(change));
+      for (const auto* key : {"step", "state", "node", "task"})
+        data.erase(key);
+    }
+  for (const auto& [key, value] : data.items())
+    if (auto text = particular(key, value); !text.empty())
+      words.push_back(std::move(text));
+  return joined(words, " ");
+}
+
+std::string event_text(const event& e, const char* key) {
+  return text_at(particulars(e), key);
+}
+
+bool is_on_the_way(const event& e, node_role asked) {
+  if (e.what != "instance_changed")
+    return false;
+  return event_text(e, "state") == to_string(instance_state::pending)
+         || (asked == node_role::coordinator && event_text(e, "node").empty());
+}
+
+std::vector<std::string> progress_lines(const event& e,
+                                        const std::string& task) {
+  const auto data = particulars(e);
+  if (text_at(data, "by") == task)
+    return {printable(text_at(data, "task") + "/" + text_at(data, "step")
+                      + " is preempted on " + text_at(data, "node"))};
+  if (e.subject != task && text_at(data, "task") != task)
+    return {};
+  if (auto lines = placements(data); !lines.empty())
+    return lines;
+  const auto step = text_at(data, "step");
+  const auto state = text_at(data, "state");
+  const auto node = text_at(data, "node");
+  const auto reason = text_at(data, "reason");
+  // The coordinator's own node tells of its instances without saying where;
+  // the coordinator then says it again for the cell.
+  if (!step.empty() && node.empty())
+    return {};
+  auto line = step.empty() ? words(e.what)
+                           : "step " + step + ": "
+                                 + (state.empty() ? words(e.what) : state)
+                                 + " on " + node;
+  if (!reason.empty())
+    line += ": " + reason;
+  return {printable(line)};
+}
+
+std::vector<std::string> movement_lines(const event& e,
+                                        const std::vector<std::string>& nodes) {
+  if (std::find(nodes.begin(), nodes.end(), e.subject) == nodes.end())
+    return {};
+  auto line = e.subject + ": " + words(e.what);
+  const auto data = particulars(e);
+  for (const auto* key : {"state", "reason"})
+    if (const auto text = text_at(data, key); !text.empty())
+      line += ": " + text;
+  return {printable(line)};
+}
+
+} // namespace roscell::cli
