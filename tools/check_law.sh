@@ -93,6 +93,26 @@ if grep -rnE 'sleep_for|sleep_until|usleep\(' --include='*.?pp' \
   broken=1
 fi
 
+# A skill that is started must not hold what is this program's. Only the shim
+# gives standard streams away on purpose.
+if grep -rPzo '(?<![.>\w])(open|openat|socket)\((?![^;]*CLOEXEC)[^;]*\b(O_RDONLY|O_WRONLY|O_RDWR|SOCK_STREAM|SOCK_DGRAM|SOCK_RAW)\b[^;]*;' \
+     --include='*.?pp' actors client dds embedding skills tools \
+     | tr '\0' '\n' | grep -v '^$' | grep -v '^tools/instance_shim/main.cpp:open("/dev/null", O_RDWR)' \
+   || grep -rnE '(^|[^A-Za-z_])::(dup|accept|pipe|inotify_init|epoll_create|mkstemp)\(|F_DUPFD\b' \
+     --include='*.?pp' actors client dds embedding skills tools; then
+  echo "law: a descriptor is opened with CLOEXEC"
+  broken=1
+fi
+
+# What hangs in the kernel ends no wait, even after SIGKILL. The shell waits for
+# the program that its user sees.
+if grep -rnE 'waitpid\([^;]*, 0\)|waitid\([^;]*WEXITED\)' --include='*.?pp' \
+     actors client dds embedding skills tools/roscell \
+     | grep -v '^tools/roscell/shell/child.cpp:'; then
+  echo "law: the end of a process is waited for by its pidfd, for so long"
+  broken=1
+fi
+
 # What watches an actor stays in that one's memory until it is taken back.
 if grep -rnE '(->|\.)monitor\(' --include='*.?pp' actors embedding skills tools \
      | grep -v '^actors/core/watching.hpp:'; then

@@ -15,6 +15,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -263,7 +264,7 @@ pid_t run_child(Work work) {
 struct pipe_ends {
   pipe_ends() {
     int fds[2];
-    if (::pipe(fds) != 0)
+    if (::pipe2(fds, O_CLOEXEC) != 0)
       throw std::runtime_error{"no pipe"};
     read = fds[0];
     write = fds[1];

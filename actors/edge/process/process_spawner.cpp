@@ -128,10 +128,25 @@ std::string trimmed(const std::string& words) {
   return valid_utf8(words.substr(0, end == std::string::npos ? 0 : end + 1));
 }
 
+/// What hangs in the kernel does not even die of SIGKILL: after so much time
+/// it is left to the end of this process, which nothing waits for.
+constexpr std::chrono::seconds last_patience{1};
+
 void kill_and_reap(int pidfd) {
   ::pidfd_send_signal(pidfd, SIGKILL, nullptr, 0);
+  await_input(pidfd, std::chrono::steady_clock::now() + last_patience);
   siginfo_t info{};
-  ::waitid(P_PIDFD, static_cast<id_t>(pidfd), &info, WEXITED);
+  ::waitid(P_PIDFD, static_cast<id_t>(pidfd), &info, WEXITED | WNOHANG);
+}
+
+/// The same where there is no descriptor of it: its output is closed when it
+/// ends.
+void kill_and_reap(pid_t pid, int output) {
+  ::kill(pid, SIGKILL);
+  std::string unread;
+  read_words(output, std::chrono::steady_clock::now() + last_patience, 0,
+             unread);
+  ::waitpid(pid, nullptr, WNOHANG);
 }
 
 /// A child whose standard output and error can be read.
@@ -154,8 +169,8 @@ edge_result<speaking_child> start(const program& what) {
   result.child.pidfd = unique_fd{::pidfd_open(pid, 0)};
   if (!result.child.pidfd) {
     const std::string why = std::strerror(errno);
-    ::kill(pid, SIGKILL);
-    ::waitpid(pid, nullptr, 0);
+    writing.reset();
+    kill_and_reap(pid, result.output.get());
     return failed(what, "pidfd_open: " + why + " (needs Linux 5.3)");
   }
   result.child.identity = identify(pid).value_or(process_identity{pid, 0});

@@ -6,8 +6,14 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <sys/ptrace.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <string>
 
 using namespace roscell;
@@ -184,4 +190,51 @@ TEST_CASE("a program that fails, or does not end, is a clear error") {
   const auto silent =
       error_of(run_program(shell("exec >&- 2>&-; sleep 60"), 50ms, 100));
   CHECK(silent.code == error_code::timeout);
+}
+
+namespace {
+
+/// A process that holds another one back from its end, as a disk does that
+/// hangs: who is traced by it is reaped by it first. It lets go when it is
+/// killed.
+pid_t hold_back(const std::string& fifo, int ready) {
+  const auto tracer = ::fork();
+  if (tracer != 0)
+    return tracer;
+  // Only a test that fails waits so long.
+  ::alarm(30);
+  char text[16] = {};
+  const int from = ::open(fifo.c_str(), O_RDONLY | O_CLOEXEC);
+  const bool heard = ::read(from, text, sizeof text - 1) > 0;
+  const char held =
+      heard && ::ptrace(PTRACE_SEIZE, std::atoi(text), nullptr, nullptr) == 0;
+  if (::write(ready, &held, 1) == 1)
+    ::pause();
+  ::_exit(0);
+}
+
+} // namespace
+
+TEST_CASE("a program that not even force ends is waited for no longer") {
+  own_folder folder;
+  const auto fifo = (folder.path() / "pid").string();
+  REQUIRE(::mkfifo(fifo.c_str(), 0600) == 0);
+  int ready[2];
+  REQUIRE(::pipe2(ready, O_CLOEXEC) == 0);
+  const unique_fd reading{ready[0]}, writing{ready[1]};
+  const auto tracer = hold_back(fifo, writing.get());
+  const auto begin = std::chrono::steady_clock::now();
+  const auto late = error_of(run_program(
+      shell("echo $$ > " + fifo + "; exec /usr/bin/tail -f /dev/null"), 500ms,
+      100));
+  const auto took = std::chrono::steady_clock::now() - begin;
+  char held = 0;
+  CHECK(::read(reading.get(), &held, 1) == 1);
+  ::kill(tracer, SIGKILL);
+  ::waitpid(tracer, nullptr, 0);
+  // Not every host lets processes be traced.
+  if (held == 0)
+    return;
+  CHECK(late.code == error_code::timeout);
+  CHECK(took < 10s);
 }

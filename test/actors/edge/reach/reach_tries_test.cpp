@@ -5,9 +5,13 @@
 #include "actors/edge/reach/reach_tries.hpp"
 #include "test/actors/edge/io/edge_fixture.hpp"
 
-#include <map>
-
+#include <fcntl.h>
 #include <unistd.h>
+
+#include <filesystem>
+#include <map>
+#include <set>
+#include <string>
 
 using namespace roscell;
 using namespace roscell::test::wire;
@@ -152,6 +156,42 @@ TEST_CASE("a node of another site does not answer", "[reach]") {
     CHECK(found.at("beat") == "silent");
     CHECK(found.at("data") == "silent");
     CHECK(arm.sockets.heartbeat->counters().malformed > 0);
+  }
+  io.stop();
+}
+
+namespace {
+
+/// Descriptors that a program which is started now would have too.
+std::set<int> inherited_descriptors() {
+  std::set<int> result;
+  for (const auto& x : std::filesystem::directory_iterator{"/proc/self/fd"}) {
+    const auto fd = std::stoi(x.path().filename().string());
+    const int flags = ::fcntl(fd, F_GETFD);
+    if (flags >= 0 && (flags & FD_CLOEXEC) == 0)
+      result.insert(fd);
+  }
+  return result;
+}
+
+} // namespace
+
+TEST_CASE("no program that is started meanwhile gets a socket of a question",
+          "[reach]") {
+  const auto before = inherited_descriptors();
+  io_thread io{[](const std::string&) {}};
+  {
+    // Nobody answers at once who does not know the token.
+    const reachable_node arm{io, "another token"};
+    auto goal = arm.goal("arm");
+    goal.discovery_server = "127.0.0.1:1";
+    inbox<std::vector<reach_row>> reported;
+    try_to_reach(
+        {io.core(), loopback, reach_key("token")}, {goal},
+        [&](std::vector<reach_row> rows) { reported.put(std::move(rows)); });
+    settle(io);
+    CHECK(inherited_descriptors() == before);
+    reported.take();
   }
   io.stop();
 }
