@@ -1,4 +1,4 @@
-#include "tools/roscell/doctor/cell/reach_findings.hpp"
+#include "tools/roscell/doctor/cell/cell_findings.hpp"
 #include "tools/roscell/doctor/findings_view.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,7 +1,5 @@
-#include "tools/roscell/doctor/bounded_command.hpp"
 #include "tools/roscell/doctor/checks.hpp"
 #include "tools/roscell/doctor/findings_view.hpp"
-#include "tools/roscell/doctor/host/leftovers.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -99,18 +97,6 @@ TEST_CASE("a check that still hangs is not begun again", "[doctor]") {
         == judgement::ok);
 }
 
-TEST_CASE("a command that does not end is ended", "[doctor]") {
-  using namespace std::chrono_literals;
-  CHECK(run_bounded({"sh", "-c", "echo said; exit 3"}, 5s).said == "said\n");
-  CHECK(run_bounded({"sh", "-c", "exit 3"}, 5s).code == 3);
-  CHECK(run_bounded({"/nowhere/nft"}, 5s).code == command_not_found);
-  // It says nothing more, and does not end.
-  CHECK(run_bounded({"sh", "-c", "exec >&- 2>&-; exec sleep 1000"}, 20ms).code
-        == command_took_too_long);
-  CHECK(run_bounded({"tail", "-f", "/dev/null"}, 20ms).code
-        == command_took_too_long);
-}
-
 TEST_CASE("each area is a table, and what is wrong has its command",
           "[doctor]") {
   CHECK(findings_view(two_findings(), {}, true)
@@ -143,11 +129,4 @@ TEST_CASE("findings are JSON for programs", "[doctor]") {
                  {"seen", "it is full"},
                  {"matters", "nothing is kept"},
                  {"remedy", "rm /full"}}));
-}
-
-TEST_CASE("what is left of nobody is no finding", "[doctor]") {
-  CHECK(judge_leftovers({}, "Fast DDS", "").how == judgement::ok);
-  CHECK(judge_leftovers({{"/dev/shm/a", "/dev/shm/b"}, 4096}, "Fast DDS", "")
-            .remedy
-        == "rm -f /dev/shm/a /dev/shm/b");
 }

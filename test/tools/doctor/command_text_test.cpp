@@ -1,5 +1,5 @@
-#include "tools/roscell/doctor/bounded_command.hpp"
-#include "tools/roscell/doctor/cell/reach_findings.hpp"
+#include "actors/edge/process/process_spawner.hpp"
+#include "tools/roscell/doctor/cell/cell_findings.hpp"
 #include "tools/roscell/doctor/command_text.hpp"
 #include "tools/roscell/doctor/node/camera_checks.hpp"
 #include "tools/roscell/doctor/node/node_checks.hpp"
@@ -15,13 +15,15 @@ namespace {
 /// What a command has said, with programs of these names that say what they
 /// were given.
 std::string said_by(const std::string& command) {
-  using namespace std::chrono_literals;
-  return run_bounded({"sh", "-c",
-                      "roscell() { printf '%s\n' \"$@\"; }; "
-                      "ssh() { shift 2; eval \"$@\"; }; "
-                          + command},
-                     5s)
-      .said;
+  constexpr std::chrono::seconds patience{5};
+  constexpr size_t most_bytes = 4096;
+  const auto said = run_program({"/bin/sh",
+                                 {"-c", "roscell() { printf '%s\n' \"$@\"; }; "
+                                        "ssh() { shift 2; eval \"$@\"; }; "
+                                            + command},
+                                 {}},
+                                patience, most_bytes);
+  return std::get<std::string>(said);
 }
 
 const std::vector<std::string> hostile_words{"$(echo run)",

@@ -1,4 +1,4 @@
-#include "tools/roscell/doctor/host/doors.hpp"
+#include "tools/roscell/doctor/host/rights.hpp"
 
 #include "actors/edge/site/site_token_file.hpp"
 #include "tools/roscell/client/open_skills.hpp"

@@ -1,11 +1,9 @@
 #include "actors/edge/io/unique_fd.hpp"
 #include "test/actors/edge/process/supervision_fixture.hpp"
 #include "test/places.hpp"
-#include "tools/roscell/doctor/host/clock.hpp"
 #include "tools/roscell/doctor/host/disk.hpp"
-#include "tools/roscell/doctor/host/engines.hpp"
 #include "tools/roscell/doctor/host/gpu.hpp"
-#include "tools/roscell/doctor/host/inotify.hpp"
+#include "tools/roscell/doctor/host/kernel.hpp"
 #include "tools/roscell/doctor/host/programs.hpp"
 #include "tools/roscell/doctor/host/shared_memory.hpp"
 

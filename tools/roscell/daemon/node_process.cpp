@@ -11,7 +11,7 @@
 #include "tools/roscell/daemon/waiting_answers.hpp"
 #include "tools/roscell/dashboard/pages.hpp"
 #include "tools/roscell/doctor/checks.hpp"
-#include "tools/roscell/doctor/host/node_user.hpp"
+#include "tools/roscell/doctor/host/rights.hpp"
 #include "tools/roscell/view/format.hpp"
 
 #include <caf/actor_system_config.hpp>

@@ -6,10 +6,9 @@
 #include "tools/roscell/daemon/node_options.hpp"
 #include "tools/roscell/doctor/cell/cell_checks.hpp"
 #include "tools/roscell/doctor/command_text.hpp"
-#include "tools/roscell/doctor/node/answer_problem.hpp"
-#include "tools/roscell/doctor/node/follow_node.hpp"
+#include "tools/roscell/doctor/node/asked_nodes.hpp"
 #include "tools/roscell/doctor/node/node_checks.hpp"
-#include "tools/roscell/doctor/node/own_checks.hpp"
+#include "tools/roscell/doctor/node/own_node.hpp"
 #include "tools/roscell/exit_code.hpp"
 
 #include <CLI/CLI.hpp>
@@ -61,13 +60,6 @@ void ask_node(const doctor_options& options, bool here, check_plan& what) {
   }
   for (auto& x : node_checks(what.node))
     what.checks.push_back(std::move(x));
-}
-
-/// A finding that no check has made.
-finding named_finding(const std::string& check, const char* area, finding x) {
-  x.check = check;
-  x.area = area;
-  return x;
 }
 
 /// A node that does not answer is worth a word where it was named, or where

@@ -42,7 +42,7 @@ runuser -u ann -- roscell env
 roscell topics
 cat /tmp/holds.out
 ls -la /dev/shm | grep -v sem | head -n 12
-roscell doctor --only shm-sharing || true
+roscell doctor --only leftovers || true
 
 say "a stock program of the node's beside one of ann's"
 mkdir -p "$skills/pass"
@@ -74,6 +74,6 @@ JSON
   ps -o user=,args= -C stock_program
   if comes /passed; then echo "ok: data arrive"; else
     echo "no data arrive"
-    roscell doctor --only shm-sharing || true
+    roscell doctor --only leftovers || true
   fi
 done

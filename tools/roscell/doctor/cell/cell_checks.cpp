@@ -1,10 +1,9 @@
 #include "tools/roscell/doctor/cell/cell_checks.hpp"
 
 #include "messages/cell.hpp"
-#include "tools/roscell/doctor/cell/asked_nodes.hpp"
-#include "tools/roscell/doctor/cell/reach_findings.hpp"
+#include "tools/roscell/doctor/cell/cell_findings.hpp"
 #include "tools/roscell/doctor/command_text.hpp"
-#include "tools/roscell/doctor/node/answer_problem.hpp"
+#include "tools/roscell/doctor/node/asked_nodes.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -19,12 +18,6 @@ using std::chrono::system_clock;
 
 /// As many goals as a question may have.
 constexpr size_t most_goals = 64;
-
-finding cell_finding(const char* check, finding x) {
-  x.check = check;
-  x.area = "cell";
-  return x;
-}
 
 /// What is pasted here, so that it is done on the host where it was found.
 std::string remedy_there(const reach_opened& host, const finding& x) {
@@ -68,7 +61,8 @@ private:
         if (x.state == row_state::active)
           names_.push_back(x.identity.name);
     } catch (const std::exception& e) {
-      add({cell_finding("reach", finding_of_failure(e, judgement::broken))});
+      add({named_finding("reach", "cell",
+                         finding_of_failure(e, judgement::broken))});
     }
   }
 
@@ -81,7 +75,7 @@ private:
           ask_node<reach_opened>(node_, name, {{"type", reach_opening::type}});
       const auto came = system_clock::now();
       if (!x.problem.seen.empty()) {
-        add({cell_finding("reach", x.problem)});
+        add({named_finding("reach", "cell", x.problem)});
         continue;
       }
       cell_.nodes[name] = x.reply;
@@ -140,8 +134,9 @@ private:
       return all;
     });
     for (const auto& x : reported)
-      add(x.problem.seen.empty() ? judge_reach(x.reply, cell_)
-                                 : findings{cell_finding("reach", x.problem)});
+      add(x.problem.seen.empty()
+              ? judge_reach(x.reply, cell_)
+              : findings{named_finding("reach", "cell", x.problem)});
   }
 
   void check_hosts(const std::string& own) {
@@ -155,7 +150,7 @@ private:
                                         {{"type", examination_query::type}});
          })) {
       if (!x.problem.seen.empty())
-        x.reply.found = {cell_finding("host", x.problem)};
+        x.reply.found = {named_finding("host", "cell", x.problem)};
       for (auto& one : x.reply.found) {
         one.node = x.node;
         one.remedy = remedy_there(cell_.nodes.at(x.node), one);

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "tools/roscell/doctor/checked_host.hpp"
-#include "tools/roscell/doctor/finding.hpp"
+#include "tools/roscell/doctor/check.hpp"
 
 #include <cstdint>
 #include <filesystem>

@@ -2,7 +2,6 @@
 
 #include "actors/edge/io/unique_fd.hpp"
 #include "tools/roscell/doctor/command_text.hpp"
-#include "tools/roscell/doctor/host/leftovers.hpp"
 #include "tools/roscell/view/format.hpp"
 
 #include <fcntl.h>
@@ -14,9 +13,7 @@
 
 #include <cerrno>
 #include <charconv>
-#include <chrono>
 #include <cstring>
-#include <ctime>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -45,12 +42,6 @@ int try_to_make_a_file(const fs::path& folder) {
     return errno == EOPNOTSUPP ? 0 : errno;
   const char byte = 0;
   return pwrite(file.get(), &byte, 1, 0) == 1 ? 0 : errno;
-}
-
-int64_t boot_clock_ms() {
-  timespec now{};
-  clock_gettime(CLOCK_BOOTTIME, &now);
-  return static_cast<int64_t>(now.tv_sec) * 1000 + now.tv_nsec / 1'000'000;
 }
 
 } // namespace
@@ -159,24 +150,6 @@ findings check_shared_memory(const checked_host& host) {
   findings result{judge_shared_memory(folder, read_shared_memory(folder))};
   for (auto& x : judge_fence_folders(folder))
     result.push_back(std::move(x));
-  return result;
-}
-
-findings check_leftovers(const checked_host& host) {
-  const auto folder = fs::path{host.dev} / "shm";
-  findings result;
-  for (auto& x :
-       {judge_leftovers(find_dds_leftovers(folder, host.proc), "Fast DDS",
-                        "they take room until the next start of the host, and "
-                        "one of another user is in the way of a new program"),
-        judge_leftovers(find_fence_leftovers(folder, boot_clock_ms()),
-                        "ROSCell's fences",
-                        "they do no harm but take a little room")})
-    if (x.how != judgement::ok)
-      result.push_back(x);
-  if (result.empty())
-    result.push_back(
-        {judgement::ok, "nothing that nobody uses lies in " + folder.string()});
   return result;
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "tools/roscell/doctor/checked_host.hpp"
-#include "tools/roscell/doctor/finding.hpp"
+#include "tools/roscell/doctor/check.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -29,6 +28,5 @@ finding judge_shared_memory(const std::filesystem::path& folder,
 findings judge_fence_folders(const std::filesystem::path& folder);
 
 findings check_shared_memory(const checked_host& host);
-findings check_leftovers(const checked_host& host);
 
 } // namespace roscell::cli

@@ -1,8 +1,7 @@
 #pragma once
 
 #include "actors/edge/host/interfaces.hpp"
-#include "tools/roscell/doctor/checked_host.hpp"
-#include "tools/roscell/doctor/finding.hpp"
+#include "tools/roscell/doctor/check.hpp"
 
 #include <optional>
 #include <string>

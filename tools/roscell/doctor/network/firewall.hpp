@@ -1,27 +1,29 @@
 #pragma once
 
-#include "tools/roscell/doctor/bounded_command.hpp"
-#include "tools/roscell/doctor/checked_host.hpp"
-#include "tools/roscell/doctor/finding.hpp"
-#include "tools/roscell/doctor/network/ruleset.hpp"
+#include "actors/edge/io/edge_error.hpp"
+#include "tools/roscell/doctor/check.hpp"
+#include "tools/roscell/doctor/network/ports.hpp"
 
 #include <string>
 #include <vector>
 
+/// What stands between this host and others. Whether a packet passes is not
+/// worked out: `roscell doctor --cell` sends real ones.
 namespace roscell::cli {
 
-/// A packet that other hosts send to a node, and what for.
-struct needed_packet {
-  arriving_packet packet;
-  unsigned last_port = 0; ///< Of a range that begins with the packet's.
-  std::string what;       ///< "requests and sessions".
+/// Ports that other hosts send to.
+struct needed_ports {
+  std::vector<port_range> tcp; ///< Requests and sessions.
+  std::vector<port_range> udp; ///< Heartbeats, discovery, topics of skills.
 };
 
-std::vector<needed_packet> needed_packets(const checked_host& host);
+needed_ports ports_of_node(const checked_host& host);
 
-/// @param listed what `nft -j list ruleset` has said.
-findings judge_firewall(const command_result& listed,
-                        const std::vector<needed_packet>& needed);
+/// A finding for each chain that packets from other hosts go through and whose
+/// policy, or a rule of whose table, drops or rejects.
+/// @param listed what `nft -j list ruleset` has said, or why it has not.
+findings judge_firewall(const edge_result<std::string>& listed,
+                        const needed_ports& needed);
 
 /// What is found where the kernel has rules that `nft` does not list, as those
 /// tables of /proc/net/ip_tables_names have.

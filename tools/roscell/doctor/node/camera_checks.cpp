@@ -7,7 +7,7 @@
 #include "skills/ros2/topic_listener.hpp"
 #include "tools/roscell/doctor/command_text.hpp"
 #include "tools/roscell/doctor/network/buffers.hpp"
-#include "tools/roscell/doctor/node/answer_problem.hpp"
+#include "tools/roscell/doctor/node/asked_nodes.hpp"
 #include "tools/roscell/ros2/echo/message_value.hpp"
 #include "tools/roscell/ros2/found_topic.hpp"
 

@@ -2,7 +2,7 @@
 
 #include "messages/topic.hpp"
 #include "tools/roscell/client/node_client.hpp"
-#include "tools/roscell/doctor/finding.hpp"
+#include "tools/roscell/doctor/check.hpp"
 
 #include <optional>
 #include <string>

@@ -3,9 +3,9 @@
 #include "actors/core/program_version.hpp"
 #include "tools/roscell/doctor/command_text.hpp"
 #include "tools/roscell/doctor/host/programs.hpp"
-#include "tools/roscell/doctor/node/answer_problem.hpp"
+#include "tools/roscell/doctor/node/asked_nodes.hpp"
 #include "tools/roscell/doctor/node/camera_checks.hpp"
-#include "tools/roscell/doctor/node/use_findings.hpp"
+#include "tools/roscell/doctor/node/instance_findings.hpp"
 #include "tools/roscell/view/format.hpp"
 
 #include <set>
@@ -69,51 +69,6 @@ findings all_is_well(const std::string& seen) {
 /// Topics on which every ROS 2 program speaks, whether somebody listens or not.
 bool is_of_ros(const std::string& topic) {
   return topic == "/rosout" || topic == "/parameter_events";
-}
-
-/// A share of frames that a busy moment does not explain.
-constexpr double many_dropped = 0.02;
-
-bool drops_many(const instance_metrics& x) {
-  return x.dropped > 0
-         && static_cast<double>(x.dropped)
-                > many_dropped * static_cast<double>(x.frames + x.dropped);
-}
-
-/// Nothing, if the instance does as it should.
-findings judge_instance(const instance_row& row) {
-  const auto& name = row.spec.instance;
-  const auto logs = "roscell logs " + shell_word(name);
-  if (row.state == instance_state::failed)
-    return {{judgement::broken, name + " has failed: " + row.reason,
-             "its task is not whole", logs}};
-  if (row.unknown_since_unix_ms != 0 || !row.problem.empty())
-    return {{judgement::warning,
-             name + " cannot be asked"
-                 + (row.problem.empty() ? "" : ": " + row.problem),
-             "whether it runs is not known",
-             row.problem.empty()
-                 ? "roscell describe node " + shell_word(row.node)
-                 : logs}};
-  if (row.state == instance_state::running
-      && row.health != instance_health::good)
-    return {{judgement::warning,
-             name + " is " + to_string(row.health) + ": " + row.health_reason,
-             "what reads its outputs gets too little", logs}};
-  if (row.state == instance_state::running && !row.metrics.remark.empty())
-    return {{judgement::warning, name + " gives nothing: " + row.metrics.remark,
-             "what reads its outputs gets nothing", logs}};
-  if (auto found = judge_use(row); !found.empty())
-    return found;
-  if (drops_many(row.metrics))
-    return {{judgement::warning,
-             name + " has dropped " + std::to_string(row.metrics.dropped)
-                 + " frames and processed "
-                 + std::to_string(row.metrics.frames),
-             "frames come faster than it works: give it more CPU, or fewer "
-             "frames",
-             "roscell describe instance " + shell_word(name)}};
-  return {};
 }
 
 } // namespace
@@ -203,16 +158,6 @@ findings judge_cell(const cell_description& cell) {
   return result.empty() ? all_is_well(std::to_string(cell.nodes.size())
                                       + " nodes are in cell " + cell.cell)
                         : result;
-}
-
-findings judge_instances(const std::vector<instance_row>& rows) {
-  findings result;
-  for (const auto& row : rows)
-    for (auto& x : judge_instance(row))
-      result.push_back(std::move(x));
-  return result.empty()
-             ? all_is_well(std::to_string(rows.size()) + " instances are well")
-             : result;
 }
 
 } // namespace roscell::cli

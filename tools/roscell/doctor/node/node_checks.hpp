@@ -24,6 +24,5 @@ findings judge_joining(const node_description& node);
 findings judge_refused_skills(const node_description& node);
 findings judge_topics(const topic_list& topics);
 findings judge_cell(const cell_description& cell);
-findings judge_instances(const std::vector<instance_row>& rows);
 
 } // namespace roscell::cli

@@ -1,17 +1,16 @@
 #pragma once
 
-#include "messages/failure.hpp"
 #include "tools/roscell/client/node_client.hpp"
-#include "tools/roscell/doctor/finding.hpp"
-#include "tools/roscell/doctor/node/answer_problem.hpp"
+#include "tools/roscell/doctor/check.hpp"
 
 #include <algorithm>
 #include <chrono>
+#include <exception>
 #include <future>
 #include <string>
 #include <vector>
 
-/// INTERNAL to the check of a cell: questions to its nodes.
+/// Questions to nodes, and what comes instead of an answer.
 namespace roscell::cli {
 
 /// Longer than a coordinator waits for a node that has to look.
@@ -28,14 +27,12 @@ struct answer_of {
   finding problem; ///< Its `seen` is empty if there is a reply.
 };
 
+/// Why a question to a node has no answer: it was refused, did not arrive, or
+/// the answer is one that this program does not understand.
+finding finding_of_failure(const std::exception& why, judgement how);
+
 /// A node of an older program, or one that embeds it.
-inline bool cannot_check(const std::exception& why) {
-  const auto* reported = dynamic_cast<const refused*>(&why);
-  if (reported == nullptr)
-    return false;
-  const auto code = failure_from(reported->reply).code;
-  return code == error_code::unknown_type || code == error_code::conflict;
-}
+bool cannot_check(const std::exception& why);
 
 template <class Reply>
 answer_of<Reply> ask_node(const node_client& to, const std::string& name,

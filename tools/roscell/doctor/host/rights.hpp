@@ -1,7 +1,6 @@
 #pragma once
 
-#include "tools/roscell/doctor/checked_host.hpp"
-#include "tools/roscell/doctor/finding.hpp"
+#include "tools/roscell/doctor/check.hpp"
 
 #include <sys/types.h>
 
@@ -9,7 +8,15 @@
 #include <optional>
 #include <string>
 
+/// Who is let in: what proves a node of this host to others, and who decides
+/// what it runs.
 namespace roscell::cli {
+
+/// Which site token a node has, where it comes from, and what is wrong with it.
+findings check_site_token(const checked_host& host);
+
+/// Skills of a node of root that others may change.
+findings check_skill_owners(const checked_host& host);
 
 /// Whether a unit of this host makes its node root's, since before nodes had a
 /// user of their own.

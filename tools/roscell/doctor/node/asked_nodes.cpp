@@ -1,7 +1,6 @@
-#include "tools/roscell/doctor/node/answer_problem.hpp"
+#include "tools/roscell/doctor/node/asked_nodes.hpp"
 
 #include "messages/failure.hpp"
-#include "tools/roscell/client/node_client.hpp"
 #include "tools/roscell/exit_code.hpp"
 
 namespace roscell::cli {
@@ -15,6 +14,14 @@ finding finding_of_failure(const std::exception& why, judgement how) {
     return {how, x->what(), x->hint};
   return {how, std::string{"the answer is not understood: "} + why.what(),
           "the node is of another version than this program"};
+}
+
+bool cannot_check(const std::exception& why) {
+  const auto* reported = dynamic_cast<const refused*>(&why);
+  if (reported == nullptr)
+    return false;
+  const auto code = failure_from(reported->reply).code;
+  return code == error_code::unknown_type || code == error_code::conflict;
 }
 
 } // namespace roscell::cli

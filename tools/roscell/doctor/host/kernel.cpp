@@ -1,6 +1,10 @@
-#include "tools/roscell/doctor/host/inotify.hpp"
+#include "tools/roscell/doctor/host/kernel.hpp"
 
+#include "tools/roscell/view/format.hpp"
+
+#include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/timex.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -11,7 +15,46 @@
 
 namespace roscell::cli {
 
+clock_readings read_clock() {
+  timex clock{};
+  const auto state = adjtimex(&clock);
+  if (state < 0)
+    return {};
+  return {true, state != TIME_ERROR && (clock.status & STA_UNSYNC) == 0,
+          clock.maxerror};
+}
+
+finding judge_clock(const clock_readings& clock) {
+  if (!clock.reported)
+    return {judgement::skipped, "the kernel does not report it"};
+  constexpr auto why =
+      "ages of frames between hosts, and the order of events and logs, are as "
+      "wrong as the clocks differ";
+  constexpr auto synchronise = "sudo timedatectl set-ntp true";
+  if (!clock.synchronised)
+    return {judgement::warning, "nothing synchronises the clock of this host",
+            why, synchronise};
+  // What a frame's age is good for is some milliseconds.
+  constexpr int64_t most_error_us = 500'000;
+  const auto seen =
+      "the clock is synchronised, and wrong by "
+      + format_number(static_cast<double>(clock.most_error_us) / 1000, 1)
+      + " ms at most";
+  if (clock.most_error_us > most_error_us)
+    return {judgement::warning, seen, why,
+            "chronyc tracking || timedatectl status"};
+  return {judgement::ok, seen};
+}
+
+findings check_clock(const checked_host& /*host*/) {
+  return {judge_clock(read_clock())};
+}
+
 namespace {
+
+/// Sockets of members, peers, clients and instances of a large cell.
+constexpr uint64_t few_descriptors = 4096;
+constexpr uint64_t no_descriptors = 256;
 
 namespace fs = std::filesystem;
 
@@ -75,6 +118,24 @@ finding judge_inotify(const inotify_readings& seen) {
 
 findings check_inotify(const checked_host& host) {
   return {judge_inotify(read_inotify(host.proc, ::geteuid()))};
+}
+
+finding judge_descriptors(uint64_t most) {
+  const auto seen = "a process may open " + std::to_string(most) + " files";
+  if (most >= few_descriptors)
+    return {judgement::ok, seen};
+  return {most < no_descriptors ? judgement::broken : judgement::warning, seen,
+          "a node needs some for each member, client and instance, and refuses "
+          "what it has none for",
+          "sudo prlimit --pid $$ --nofile=65536:65536   # of this shell; of a "
+          "service LimitNOFILE=65536"};
+}
+
+findings check_descriptors(const checked_host& /*host*/) {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_NOFILE, &limit) != 0)
+    return {{judgement::skipped, "the kernel does not report it"}};
+  return {judge_descriptors(limit.rlim_max)};
 }
 
 } // namespace roscell::cli

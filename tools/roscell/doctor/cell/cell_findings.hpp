@@ -1,13 +1,13 @@
 #pragma once
 
 #include "messages/insight/reach.hpp"
-#include "tools/roscell/doctor/finding.hpp"
+#include "tools/roscell/doctor/check.hpp"
 
 #include <map>
 #include <string>
 #include <vector>
 
-/// What each node of a cell reaches of the others.
+/// What each node of a cell reaches of the others, and what they differ in.
 namespace roscell::cli {
 
 /// The nodes of a cell that answer.
