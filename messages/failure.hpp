@@ -6,7 +6,10 @@
 #include <caf/error.hpp>
 #include <caf/make_message.hpp>
 
+#include <functional>
+#include <optional>
 #include <string>
+#include <utility>
 
 namespace roscell {
 
@@ -27,6 +30,33 @@ struct failure {
                       raw_json("details", &failure::details)};
   }
 };
+
+/// Whether something has been done, or why it has not: an `expected<void>`
+/// whose error is a failure. A continuation that takes one is called once.
+class [[nodiscard]] outcome {
+public:
+  /// It has been done.
+  outcome() = default;
+
+  outcome(failure why) : why_{std::move(why)} {}
+
+  /// @param why none: it has been done.
+  outcome(std::optional<failure> why) : why_{std::move(why)} {}
+
+  explicit operator bool() const {
+    return !why_;
+  }
+
+  /// Only where it has not been done.
+  const failure& error() const {
+    return *why_;
+  }
+
+private:
+  std::optional<failure> why_;
+};
+
+using outcome_handler = std::function<void(const outcome&)>;
 
 void to_json(json& j, error_code code);
 void from_json(const json& j, error_code& code);

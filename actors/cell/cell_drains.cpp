@@ -94,20 +94,20 @@ node_drained progress_of(const cell_coordinator_state& st,
 }
 
 void on_moved(coordinator_pointer self, const drain_record& drain,
-              const failure* why) {
+              const outcome& moved) {
   auto& st = self->state;
   const auto* known = st.drains.find(drain.uuid);
   if (!known)
     return;
   const auto node = name_of(st, drain);
   const auto left = left_on(st, node);
-  if (why && known->problem != why->message)
+  const auto problem = moved ? std::string{} : moved.error().message;
+  if (!moved && known->problem != problem)
     st.context.publish_event("node_drain_stuck", node,
-                             {{"reason", why->message}, {"left", left}});
+                             {{"reason", problem}, {"left", left}});
   if (left.empty())
     st.context.publish_event("node_drained", node);
-  st.drains.end(drain.uuid, why ? why->message : "", left.empty(),
-                self->clock().now());
+  st.drains.end(drain.uuid, problem, left.empty(), self->clock().now());
   set_timer(self);
 }
 
@@ -119,8 +119,7 @@ bool is_there(const cell_coordinator_state& st, const std::string& uuid) {
 }
 
 void refuse_absent(coordinator_pointer self, const drain_record& drain) {
-  const failure away{error_code::conflict, "the node is away"};
-  on_moved(self, drain, &away);
+  on_moved(self, drain, failure{error_code::conflict, "the node is away"});
 }
 
 /// What is being deployed cannot be moved before it runs; meanwhile the node
@@ -134,8 +133,8 @@ void move_away(coordinator_pointer self, const drain_record& drain) {
     if (!is_there(self->state, drain.uuid))
       return refuse_absent(self, drain);
     const auto tasks = self->state.deployments.tasks_bound_to(node);
-    move_tasks(self, node, tasks, [self, drain](const failure* why) {
-      on_moved(self, drain, why);
+    move_tasks(self, node, tasks, [self, drain](const outcome& moved) {
+      on_moved(self, drain, moved);
     });
   });
 }

@@ -41,8 +41,8 @@ formation_outcome joined(const std::string& node, const std::string& from) {
 void answer_on_arrival(coordinator_pointer self, const std::string& uuid,
                        const formation_outcome& success,
                        const outcome_done& done) {
-  await_arrival(self, uuid, [success, done](const failure* why) {
-    done(why ? failed(success.node, *why) : success);
+  await_arrival(self, uuid, [success, done](const outcome& came) {
+    done(came ? success : failed(success.node, came.error()));
   });
 }
 
@@ -74,7 +74,7 @@ void bring_in_unassigned(coordinator_pointer self, const node_presence& who,
               // What it announced may be long out of date.
               if (why.code == error_code::unreachable)
                 state.unassigned_nodes.forget(who.uuid);
-              settle_arrivals(self, who.uuid, &why);
+              settle_arrivals(self, who.uuid, why);
             });
 }
 

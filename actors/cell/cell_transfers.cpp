@@ -58,9 +58,9 @@ caf::result<Reply> let_go(coordinator_pointer self, const Request& request) {
   auto promise = self->make_response_promise<Reply>();
   start_transfer(
       self, transfer_order_of(request),
-      [promise, request](const cell_transfer& x, const failure* why) mutable {
-        if (why)
-          promise.deliver(to_error(*why));
+      [promise, request](const cell_transfer& x, const outcome& left) mutable {
+        if (!left)
+          promise.deliver(to_error(left.error()));
         else
           promise.deliver(reply_of(request, x));
       });
@@ -116,7 +116,7 @@ void settle_overdue(coordinator_pointer self, cell_transfer& x) {
                     "`roscell transfers` shows how it stands; it resolves "
                     "itself when the parties meet again"};
   for (const auto& done : waiting)
-    done(reported, &why);
+    done(reported, why);
 }
 
 } // namespace
@@ -151,7 +151,7 @@ void restore_transfers(coordinator_pointer self) {
       continue;
     // The row is dropped first, when it is known that the node has gone.
     if (!st.registry.find_uuid(row.uuid))
-      end_transfer(self, row.transfer, transfer_state::done, "", nullptr);
+      end_transfer(self, row.transfer, transfer_state::done, "", {});
     else
       st.transfers.set_unresolved(*x, "the coordinator was started again",
                                   now_of(self).unix_ms);

@@ -45,9 +45,9 @@ void retry_placement(coordinator_pointer self,
   auto move = std::make_shared<task_move>();
   move->what = "the lost steps of task '" + steps.front().task + "'";
   move->kind = move_kind::lost;
-  move->done = [self, steps](const failure* why) {
-    if (why)
-      postpone(self, steps, *why);
+  move->done = [self, steps](const outcome& placed) {
+    if (!placed)
+      postpone(self, steps, placed.error());
   };
   take_placement_lock(
       self, caf::actor_addr{}, [self, move, steps](uint64_t placement_lock) {

@@ -39,7 +39,7 @@ void forget_new(coordinator_pointer self, const std::string& task,
   change.make = [added](task_record record) {
     return without(std::move(record), added);
   };
-  change.done = [self, task](const failure*) { record_ends(self, task); };
+  change.done = [self, task](const outcome&) { record_ends(self, task); };
   change_task(self, task, std::move(change));
 }
 
@@ -75,7 +75,7 @@ void keep_old(coordinator_pointer self, const task_move& move,
 void end_move(coordinator_pointer self, const move_ptr& move) {
   release_placement_lock(self, std::exchange(move->placement_lock, 0));
   self->state.moves.end(move->id);
-  move->done(move->problem ? &*move->problem : nullptr);
+  move->done(move->problem);
 }
 
 void fail_move(coordinator_pointer self, const move_ptr& move,

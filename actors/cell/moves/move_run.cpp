@@ -43,9 +43,9 @@ void change_tasks(coordinator_pointer self, const move_ptr& move,
     change.make = [make, moved = moved](task_record record) {
       return make(std::move(record), moved);
     };
-    change.done = [self, move, next, task = task](const failure* why) {
-      if (why && (self->state.tasks.*still_of(*move))(task))
-        add_problem(move, *why);
+    change.done = [self, move, next, task = task](const outcome& kept) {
+      if (!kept && (self->state.tasks.*still_of(*move))(task))
+        add_problem(move, kept.error());
       end_part(self, move, next, undo_move);
     };
     change_task(self, task, std::move(change));
@@ -166,13 +166,13 @@ void end_old(coordinator_pointer self, const move_ptr& move, size_t i) {
     move->steps[i].was_asked = true;
     enter(self, move, i, move_stage::ending);
   };
-  stop.done = [self, move, i](stop_outcome outcome, const failure* why) {
-    if (outcome == stop_outcome::ended)
+  stop.done = [self, move, i](stop_outcome how, const outcome& stopped) {
+    if (how == stop_outcome::ended)
       start_new(self, move, i);
-    else if (outcome == stop_outcome::had_ended)
+    else if (how == stop_outcome::had_ended)
       leave_out(self, move, i);
     else
-      fail_step(self, move, i, *why);
+      fail_step(self, move, i, stopped.error());
   };
   stop_by_order(self, stop);
 }

@@ -43,7 +43,8 @@ struct task_move {
   std::vector<moved_step> steps;
   size_t open = 0;                ///< Parts of the present stage.
   std::optional<failure> problem; ///< The first.
-  std::function<void(const failure*)> done;
+  /// Called once, when nothing of the move goes on: all run, or some do not.
+  outcome_handler done;
 };
 
 using move_ptr = std::shared_ptr<task_move>;

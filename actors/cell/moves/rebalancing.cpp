@@ -84,10 +84,10 @@ const deployment* successor_of(const cell_coordinator_state& st,
 }
 
 void on_moved(coordinator_pointer self, const rebalance_move& move,
-              const failure* why) {
+              const outcome& moved) {
   auto& st = self->state;
-  if (why)
-    return fail_moves(self, why->message);
+  if (!moved)
+    return fail_moves(self, moved.error().message);
   const auto* now = successor_of(st, move);
   if (!now)
     return fail_moves(self, "step '" + move.step + "' of task '" + move.task
@@ -103,7 +103,7 @@ void make_next_move(coordinator_pointer self) {
     return end_moves(self);
   move_instance(
       self, next->instance, next->to, self->state.rebalance.force(),
-      [self, move = *next](const failure* why) { on_moved(self, move, why); });
+      [self, move = *next](const outcome& x) { on_moved(self, move, x); });
 }
 
 cell_rebalanced report_of(coordinator_pointer self, moves_planned plan) {

@@ -12,16 +12,17 @@ namespace roscell {
 /// members, where the scheduler places it. There is room for all of it, or
 /// nothing happens. First all move whose new instances run before the old ones
 /// end, all or nothing; then, one by one, those that have to be stop-safe. If
-/// one does not come up, `done` gets the failure, and what has not moved yet
-/// stays. The tasks run.
+/// one does not come up what has not moved yet stays. The tasks run.
+/// @param done called once: when all has moved, or something cannot, with the
+/// first problem then.
 void move_tasks(coordinator_pointer self, const std::string& node,
                 const std::vector<std::string>& tasks,
-                const std::function<void(const failure*)>& done);
+                const outcome_handler& done);
 
 /// Moves one instance to that node, in the same way. With `force` nothing is
 /// waited for to be stop-safe.
 void move_instance(coordinator_pointer self, const std::string& instance,
                    const std::string& to, bool force,
-                   const std::function<void(const failure*)>& done);
+                   const outcome_handler& done);
 
 } // namespace roscell

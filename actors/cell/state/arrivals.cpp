@@ -8,19 +8,17 @@
 namespace roscell {
 
 void await_arrival(coordinator_pointer self, const std::string& uuid,
-                   std::function<void(const failure*)> done) {
+                   outcome_handler done) {
   if (self->state.slots.await_arrival(uuid, done, self->clock().now()))
     return set_timer(self);
-  const failure why{error_code::conflict,
-                    "too many requests wait for nodes to join", "",
-                    "send the request again when some have joined"};
-  done(&why);
+  done(failure{error_code::conflict, "too many requests wait for nodes to join",
+               "", "send the request again when some have joined"});
 }
 
 void settle_arrivals(coordinator_pointer self, const std::string& uuid,
-                     const failure* why) {
+                     const outcome& how) {
   for (const auto& x : self->state.slots.take_arrivals(uuid))
-    x.done(why);
+    x.done(how);
 }
 
 void settle_overdue_arrivals(coordinator_pointer self) {
@@ -30,7 +28,7 @@ void settle_overdue_arrivals(coordinator_pointer self) {
                     "node shows why"};
   auto& table = self->state.slots;
   for (const auto& x : table.take_overdue_arrivals(self->clock().now()))
-    x.done(&why);
+    x.done(why);
 }
 
 } // namespace roscell

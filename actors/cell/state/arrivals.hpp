@@ -8,14 +8,14 @@
 /// Those who wait for a node to register with this cell.
 namespace roscell {
 
-/// `done` is called once: when the node has registered, or with why it will
-/// not, or when it took too long.
+/// @param done called once: when the node has registered, will not, or took too
+/// long.
 void await_arrival(coordinator_pointer self, const std::string& uuid,
-                   std::function<void(const failure*)> done);
+                   outcome_handler done);
 
 /// Tells those who wait for that node that it has joined, or why it will not.
 void settle_arrivals(coordinator_pointer self, const std::string& uuid,
-                     const failure* why);
+                     const outcome& how);
 
 /// Gives up waiting for nodes that are overdue.
 void settle_overdue_arrivals(coordinator_pointer self);

@@ -28,10 +28,10 @@ void on_node_elsewhere(coordinator_pointer self, const std::string& uuid,
     return;
   const auto id = x->row.transfer;
   if (x->row.to == cell)
-    return end_transfer(self, id, transfer_state::done, "", nullptr);
+    return end_transfer(self, id, transfer_state::done, "", {});
   const failure why{error_code::conflict,
                     "node '" + name + "' went elsewhere meanwhile", "/node"};
-  end_transfer(self, id, transfer_state::returned, why.message, &why);
+  end_transfer(self, id, transfer_state::returned, why.message, why);
 }
 
 void on_node_returned(coordinator_pointer self, const std::string& uuid) {
@@ -52,7 +52,7 @@ void on_node_returned(coordinator_pointer self, const std::string& uuid) {
                         + "' and has come back",
                     "/target",
                     "`roscell events --since 0` on the node shows why"};
-  end_transfer(self, id, transfer_state::returned, why.message, &why);
+  end_transfer(self, id, transfer_state::returned, why.message, why);
 }
 
 bool fail_departing_node(coordinator_pointer self, registry_entry& entry,

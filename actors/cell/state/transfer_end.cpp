@@ -33,7 +33,7 @@ void publish_transfer_end(coordinator_pointer self, const transfer_row& row) {
 
 void end_transfer(coordinator_pointer self, const std::string& id,
                   transfer_state state, const std::string& reason,
-                  const failure* why) {
+                  const outcome& how) {
   auto& table = self->state.transfers;
   const auto ended = table.end(id, state, reason, now_of(self).unix_ms);
   if (!ended)
@@ -42,9 +42,10 @@ void end_transfer(coordinator_pointer self, const std::string& id,
   for (const auto& old : table.forget_oldest())
     persist_record(self, {"transfers", old, ""});
   publish_transfer_end(self, ended->row);
-  const auto reported = why ? with_losses(*why, *ended) : failure{};
+  const auto reported =
+      how ? outcome{} : outcome{with_losses(how.error(), *ended)};
   for (const auto& done : ended->waiting)
-    done(*ended, why ? &reported : nullptr);
+    done(*ended, reported);
 }
 
 void call_off_transfer(coordinator_pointer self, const std::string& id,
@@ -64,7 +65,7 @@ void call_off_transfer(coordinator_pointer self, const std::string& id,
     publish(self, {entry->row.identity.uuid});
     arm_balance(self);
   }
-  end_transfer(self, id, transfer_state::returned, why.message, &why);
+  end_transfer(self, id, transfer_state::returned, why.message, why);
 }
 
 } // namespace roscell

@@ -48,8 +48,7 @@ void slot_table::drop_overdue_slots(time_point now) {
     i = i->second.until <= now ? by_node_.erase(i) : std::next(i);
 }
 
-bool slot_table::await_arrival(const std::string& node,
-                               std::function<void(const failure*)> done,
+bool slot_table::await_arrival(const std::string& node, outcome_handler done,
                                time_point now) {
   if (arrivals_.size() >= limits::cell::waiting)
     return false;

@@ -11,10 +11,11 @@
 
 namespace roscell {
 
-/// Somebody waits for a node to join. Called once, with why it will not.
+/// Somebody waits for a node to join.
 struct awaited_arrival {
   std::chrono::steady_clock::time_point deadline;
-  std::function<void(const failure*)> done;
+  /// Called once: when it has joined, will not, or has not in time.
+  outcome_handler done;
 };
 
 /// Somebody waits until the sizes of all cells are known. Called once.
@@ -59,8 +60,8 @@ public:
   // -- arrivals ---------------------------------------------------------------
 
   /// False if too many wait.
-  bool await_arrival(const std::string& node,
-                     std::function<void(const failure*)> done, time_point now);
+  bool await_arrival(const std::string& node, outcome_handler done,
+                     time_point now);
   std::vector<awaited_arrival> take_arrivals(const std::string& node);
   std::vector<awaited_arrival> take_overdue_arrivals(time_point now);
 

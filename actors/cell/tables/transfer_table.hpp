@@ -16,8 +16,9 @@ namespace roscell {
 
 struct cell_transfer;
 
-/// Called once, with the failure if there is one.
-using transfer_done = std::function<void(const cell_transfer&, const failure*)>;
+/// Called once: when the transfer has ended, could not begin, or nothing of it
+/// is known in time; with the transfer as it is then.
+using transfer_done = std::function<void(const cell_transfer&, const outcome&)>;
 
 /// A transfer, or a release: that has no target. See docs/protocols.md.
 struct cell_transfer {

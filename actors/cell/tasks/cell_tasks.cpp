@@ -149,9 +149,10 @@ caf::result<intent_recorded> hold_placement(coordinator_pointer self,
     return with_placement(std::move(record), intent.decision, specs,
                           intent.nodes);
   };
-  change.done = [self, intent, reply, promise](const failure* why) mutable {
-    if (why)
-      return refuse_unwritten(self, intent.task, *why, intent.nodes, promise);
+  change.done = [self, intent, reply, promise](const outcome& kept) mutable {
+    if (!kept)
+      return refuse_unwritten(self, intent.task, kept.error(), intent.nodes,
+                              promise);
     // From here on the pipeline may start them at any time.
     for (size_t i = 0; i < reply.specs.size(); ++i)
       note_start(self, reply.specs[i], intent.nodes[i]);
@@ -172,9 +173,9 @@ caf::result<task_accepted> accept_task(coordinator_pointer self,
     return with_ends(with_state(std::move(record), task_state::running),
                      self->state.deployments.untaken_ends(task), unix_now_ms());
   };
-  change.done = [self, task = event.task, promise](const failure* why) {
-    if (why)
-      refuse_unwritten(self, task, *why, {}, promise);
+  change.done = [self, task = event.task, promise](const outcome& kept) {
+    if (!kept)
+      refuse_unwritten(self, task, kept.error(), {}, promise);
     else
       on_accepted(self, task, promise);
   };

@@ -16,7 +16,7 @@ namespace {
 void on_stopped(coordinator_pointer self, const ordered_stop& stop) {
   const auto& instance = stop.order.instance;
   if (is_surely_gone(self, instance))
-    return stop.done(stop_outcome::ended, nullptr);
+    return stop.done(stop_outcome::ended, {});
   const failure why{error_code::conflict, "it is unknown whether '" + instance
                                               + "' on node '" + stop.node
                                               + "' has ended"};
@@ -27,7 +27,7 @@ void on_stopped(coordinator_pointer self, const ordered_stop& stop) {
                          + "' is not stop-safe yet, or does not end",
                      "", "`roscell tasks` shows what is waited for"};
   const bool waits = !is_away(self->state, stop.node);
-  stop.done(stop_outcome::failed, waits ? &late : &why);
+  stop.done(stop_outcome::failed, waits ? late : why);
 }
 
 void on_order_persisted(coordinator_pointer self, const ordered_stop& stop) {
@@ -37,10 +37,10 @@ void on_order_persisted(coordinator_pointer self, const ordered_stop& stop) {
   const bool is_over = !placed || placed->end || has_ordered_end(st, *placed);
   if (is_over || (stop.still && !stop.still())) {
     drop_order(self, stop.task, instance);
-    return stop.done(stop_outcome::had_ended, nullptr);
+    return stop.done(stop_outcome::had_ended, {});
   }
   if (const auto why = why_not_ordered(st, instance))
-    return stop.done(stop_outcome::failed, &*why);
+    return stop.done(stop_outcome::failed, *why);
   st.orders.add(stop.task, stop.order);
   st.orders.ask(instance);
   if (stop.has_successor)
@@ -70,19 +70,19 @@ bool runs_on(const cell_coordinator_state& st, const std::string& instance) {
 
 void stop_by_order(coordinator_pointer self, const ordered_stop& stop) {
   if (const auto why = why_not_ordered(self->state, stop.order.instance))
-    return stop.done(stop_outcome::failed, &*why);
+    return stop.done(stop_outcome::failed, *why);
   pending_change change;
   change.still = &task_table::is_kept;
   change.make = [order = stop.order](task_record record) {
     return with_order(std::move(record), order);
   };
-  change.done = [self, stop](const failure* why) {
-    if (!why)
+  change.done = [self, stop](const outcome& kept) {
+    if (kept)
       on_order_persisted(self, stop);
     else if (self->state.tasks.is_kept(stop.task))
-      stop.done(stop_outcome::failed, why);
+      stop.done(stop_outcome::failed, kept);
     else
-      stop.done(stop_outcome::had_ended, nullptr);
+      stop.done(stop_outcome::had_ended, {});
   };
   change_task(self, stop.task, std::move(change));
 }
@@ -94,7 +94,7 @@ void end_as_ordered(coordinator_pointer self, const std::string& task,
     return st.deployments.heed_end(instance);
   // What its fence has ended is to be placed anew: it has not failed.
   if (is_surely_gone(self, instance) && !st.failures.find_abandoned(instance)) {
-    record_forced_end(self, task, instance, reason, [](const failure*) {});
+    record_forced_end(self, task, instance, reason, [](const outcome&) {});
     return drop_order(self, task, instance);
   }
   st.orders.let_go(instance, self->clock().now());

@@ -34,8 +34,9 @@ struct ordered_stop {
   std::function<bool()> still = nullptr;
   /// Called before the node is asked; may be null.
   std::function<void()> asked = nullptr;
-  /// Called once. With a failure for `failed`.
-  std::function<void(stop_outcome, const failure*)> done;
+  /// Called once: when it is known what has become of it, or the time is over.
+  /// Only `failed` has an error.
+  std::function<void(stop_outcome, const outcome&)> done;
 };
 
 /// Ends an instance by order, and waits until it is stop-safe, or the time is

@@ -3,6 +3,7 @@
 #include "actors/cell/tables/removal_table.hpp"
 #include "actors/cell/tables/task_table.hpp"
 #include "actors/core/backoff.hpp"
+#include "messages/failure.hpp"
 #include "messages/inside/coordination.hpp"
 
 #include <caf/actor_addr.hpp>
@@ -49,8 +50,9 @@ struct pending_change {
   bool insistent = false;
   /// Takes up all ends that are told until it is written.
   bool takes_ends = false;
-  /// Null: the store has kept it, and the tables show it.
-  std::function<void(const failure*)> done;
+  /// Called once: when the store has kept it and the tables show it, or when it
+  /// is not written any more. May be empty.
+  outcome_handler done;
   /// Told of every try that failed, of one that is tried again.
   std::function<void(const failure&)> on_problem;
 };

@@ -52,8 +52,8 @@ void record_ends(coordinator_pointer self, const std::string& task) {
     return with_ends(std::move(record), ends_of(self->state, task),
                      unix_now_ms());
   };
-  change.done = [self, task](const failure* why) {
-    if (why)
+  change.done = [self, task](const outcome& kept) {
+    if (!kept)
       return;
     record_ends(self, task);
     settle_ended(self, task);
@@ -63,7 +63,7 @@ void record_ends(coordinator_pointer self, const std::string& task) {
 
 void record_forced_end(coordinator_pointer self, const std::string& task,
                        const std::string& instance, const std::string& reason,
-                       const std::function<void(const failure*)>& done) {
+                       const outcome_handler& done) {
   const instance_end end{instance, instance_state::failed, -1, reason,
                          unix_now_ms()};
   pending_change change;
@@ -72,11 +72,11 @@ void record_forced_end(coordinator_pointer self, const std::string& task,
   change.make = [end](task_record record) {
     return with_ends(std::move(record), {end}, end.unix_ms);
   };
-  change.done = [self, task, instance, done](const failure* why) {
+  change.done = [self, task, instance, done](const outcome& kept) {
     self->state.deployments.heed_end(instance);
-    if (!why)
+    if (kept)
       settle_ended(self, task);
-    done(why);
+    done(kept);
   };
   change_task(self, task, std::move(change));
 }

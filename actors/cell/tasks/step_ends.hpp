@@ -13,11 +13,11 @@ namespace roscell {
 void record_ends(coordinator_pointer self, const std::string& task);
 
 /// Writes down that an instance whose end is ignored so far was ended for that
-/// reason, whatever its exit code, and heeds its ends again. Then `done` is
-/// called: with a failure if the task is gone.
+/// reason, whatever its exit code, and heeds its ends again.
+/// @param done called once: when that is written, or the task is gone.
 void record_forced_end(coordinator_pointer self, const std::string& task,
                        const std::string& instance, const std::string& reason,
-                       const std::function<void(const failure*)>& done);
+                       const outcome_handler& done);
 
 /// Tells what has become of a task whose steps have all ended, and forgets the
 /// oldest of these. Nothing happens while a step of it runs.

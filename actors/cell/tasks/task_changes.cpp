@@ -26,14 +26,14 @@ void write_next_change(coordinator_pointer self, const std::string& task);
 
 /// The first change is over, one way or the other.
 void end_change(coordinator_pointer self, const std::string& task,
-                const failure* why) {
+                const outcome& kept) {
   auto& line = self->state.pending.lines.at(task);
   line.writing = false;
   line.pause.reset();
   const auto change = std::move(line.changes.front());
   line.changes.pop_front();
   if (change.done)
-    change.done(why);
+    change.done(kept);
   write_next_change(self, task);
 }
 
@@ -59,7 +59,7 @@ void on_change_persisted(coordinator_pointer self, const std::string& task,
     st.deployments.forget_task(task);
   }
   follow_orders(self, task, record ? *record : task_record{});
-  end_change(self, task, nullptr);
+  end_change(self, task, {});
 }
 
 void on_change_not_persisted(coordinator_pointer self, const std::string& task,
@@ -67,7 +67,7 @@ void on_change_not_persisted(coordinator_pointer self, const std::string& task,
   auto& line = self->state.pending.lines.at(task);
   const auto& change = line.changes.front();
   if (!change.insistent)
-    return end_change(self, task, &why);
+    return end_change(self, task, why);
   line.writing = false;
   line.retry =
       self->clock().now() + std::min(line.pause.next(), longest_wait_for_room);
@@ -106,9 +106,10 @@ void write_next_change(coordinator_pointer self, const std::string& task) {
     return write_change(self, task, std::nullopt);
   const auto* entry = st.tasks.find(task);
   if (!entry || (change.still && !(st.tasks.*change.still)(task))) {
-    const failure why{error_code::conflict,
-                      "task '" + task + "' was terminated meanwhile", "/task"};
-    return end_change(self, task, &why);
+    return end_change(self, task,
+                      failure{error_code::conflict,
+                              "task '" + task + "' was terminated meanwhile",
+                              "/task"});
   }
   write_change(
       self, task,

@@ -54,9 +54,9 @@ void answer_accepted(coordinator_pointer self, const claim_task& request,
     return;
   }
   heal_task(self, task,
-            [self, task, healed, promise](const failure* why) mutable {
-              if (why) {
-                promise.deliver(to_error(*why));
+            [self, task, healed, promise](const outcome& started) mutable {
+              if (!started) {
+                promise.deliver(to_error(started.error()));
               } else if (!self->state.tasks.is_kept(task)) {
                 promise.deliver(terminated_meanwhile(task));
               } else {

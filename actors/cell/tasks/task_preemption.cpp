@@ -18,17 +18,15 @@ namespace roscell {
 
 namespace {
 
-using outcome_handler = std::function<void(const failure*)>;
-
 /// It is gone. Its task knows, and what it was preempted for may have come to
 /// nothing meanwhile.
 void record_eviction(coordinator_pointer self, const preempt_instances& request,
                      const preempted_instance& x, const outcome_handler& done) {
   record_forced_end(self, x.task, x.instance,
                     "it is preempted by task '" + request.task + "'",
-                    [self, by = request.task, done](const failure*) {
+                    [self, by = request.task, done](const outcome&) {
                       auto& st = self->state;
-                      done(nullptr);
+                      done({});
                       if (st.tasks.is_deploying(by))
                         return;
                       st.orders.let_go_of(by, self->clock().now());
@@ -52,7 +50,7 @@ void evict(coordinator_pointer self, const preempt_instances& request,
   auto& st = self->state;
   const auto* placed = st.deployments.find(x.instance, x.node);
   if (!placed || placed->end)
-    return done(nullptr);
+    return done({});
   ordered_stop stop;
   stop.task = x.task;
   stop.node = x.node;
@@ -64,12 +62,12 @@ void evict(coordinator_pointer self, const preempt_instances& request,
     return self->state.tasks.is_deploying(by);
   };
   stop.asked = [self, request, x] { publish_preempted(self, request, x); };
-  stop.done = [self, request, x, done](stop_outcome outcome,
-                                       const failure* why) {
-    if (outcome == stop_outcome::ended)
+  stop.done = [self, request, x, done](stop_outcome how,
+                                       const outcome& stopped) {
+    if (how == stop_outcome::ended)
       record_eviction(self, request, x, done);
     else
-      done(why);
+      done(stopped);
   };
   stop_by_order(self, stop);
 }
@@ -95,9 +93,9 @@ void start_one_again(coordinator_pointer self, const ordered_end& x) {
   const auto* placed = self->state.deployments.find(instance);
   if (!placed || !placed->end || !self->state.tasks.is_kept(x.task))
     return self->state.orders.forget(instance);
-  start_ended(self, x.task, {instance}, [self, x](const failure* why) {
-    if (why)
-      put_off(self, x, *why);
+  start_ended(self, x.task, {instance}, [self, x](const outcome& started) {
+    if (!started)
+      put_off(self, x, started.error());
     else
       self->state.orders.forget(x.order.instance);
   });
@@ -116,9 +114,9 @@ preempt_for_task(coordinator_pointer self, const preempt_instances& request) {
   };
   auto all = std::make_shared<tally>();
   all->open = request.preempted.size() + 1;
-  auto finish = [all, promise](const failure* why) mutable {
-    if (why)
-      all->problem = *why;
+  auto finish = [all, promise](const outcome& evicted) mutable {
+    if (!evicted)
+      all->problem = evicted.error();
     if (--all->open > 0)
       return;
     if (all->problem)
@@ -128,7 +126,7 @@ preempt_for_task(coordinator_pointer self, const preempt_instances& request) {
   };
   for (const auto& x : request.preempted)
     evict(self, request, x, finish);
-  finish(nullptr);
+  finish({});
   return promise;
 }
 

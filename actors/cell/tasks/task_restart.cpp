@@ -19,7 +19,6 @@ namespace roscell {
 namespace {
 
 using instance_list = std::vector<std::string>;
-using done_handler = std::function<void(const failure*)>;
 
 bool has_failed(const deployment& x) {
   return x.end
@@ -79,7 +78,7 @@ void take_placement_lock_to_start(coordinator_pointer self,
                                   const std::string& task,
                                   const instance_list& wanted,
                                   const instance_list& stay,
-                                  const done_handler& done) {
+                                  const outcome_handler& done) {
   auto move = std::make_shared<task_move>();
   move->what = "the instances of task '" + task + "'";
   move->kind = move_kind::restarted;
@@ -92,22 +91,23 @@ void take_placement_lock_to_start(coordinator_pointer self,
       });
 }
 
-/// Ends these instances of a task on their nodes, then goes on, with the first
-/// problem or null.
+/// Ends these instances of a task on their nodes.
+/// @param next called once, when all have ended, or with the first problem.
 ///
 /// Meanwhile each may end by itself, and is started again all the same.
 void end_instances(coordinator_pointer self, const task_restart& request,
-                   const instance_list& instances, const done_handler& next) {
+                   const instance_list& instances,
+                   const outcome_handler& next) {
   struct tally {
     size_t open = 1;
     std::optional<failure> problem;
   };
   auto all = std::make_shared<tally>();
-  const auto finish = [all, next](const failure* why) {
-    if (why && !all->problem)
-      all->problem = *why;
+  const auto finish = [all, next](const outcome& stopped) {
+    if (!stopped && !all->problem)
+      all->problem = stopped.error();
     if (--all->open == 0)
-      next(all->problem ? &*all->problem : nullptr);
+      next(all->problem);
   };
   for (const auto& instance : instances) {
     const auto* x = self->state.deployments.find(instance);
@@ -121,10 +121,10 @@ void end_instances(coordinator_pointer self, const task_restart& request,
     stop.force = request.force;
     stop.until = self->clock().now() + limits::task::eviction;
     stop.has_successor = true;
-    stop.done = [finish](stop_outcome, const failure* why) { finish(why); };
+    stop.done = [finish](stop_outcome, const outcome& x) { finish(x); };
     stop_by_order(self, stop);
   }
-  finish(nullptr);
+  finish({});
 }
 
 /// What a restart is about; or why there can be none.
@@ -189,7 +189,7 @@ std::vector<std::string> steps_to_heal(const cell_coordinator_state& st,
 }
 
 void heal_task(coordinator_pointer self, const std::string& task,
-               const done_handler& done) {
+               const outcome_handler& done) {
   const auto& st = self->state;
   instance_list wanted;
   std::string gone;
@@ -203,18 +203,18 @@ void heal_task(coordinator_pointer self, const std::string& task,
                "place: ";
   }
   take_placement_lock_to_start(self, task, wanted, {},
-                               [gone, done](const failure* why) {
-                                 if (!why || gone.empty())
-                                   return done(why);
-                                 auto problem = *why;
+                               [gone, done](const outcome& started) {
+                                 if (started || gone.empty())
+                                   return done(started);
+                                 auto problem = started.error();
                                  problem.message = gone + problem.message;
-                                 done(&problem);
+                                 done(problem);
                                });
 }
 
 void start_ended(coordinator_pointer self, const std::string& task,
                  const std::vector<std::string>& instances,
-                 const std::function<void(const failure*)>& done) {
+                 const outcome_handler& done) {
   take_placement_lock_to_start(self, task, instances, {}, done);
 }
 
@@ -231,22 +231,22 @@ caf::result<task_restarted> restart_task(coordinator_pointer self,
   auto promise = self->make_response_promise<task_restarted>();
   const auto before = all_instances(st, request.task);
   auto finish = [self, request, before, plan,
-                 promise](const failure* why) mutable {
+                 promise](const outcome& started) mutable {
     for (const auto& instance : plan.running)
       end_as_ordered(self, request.task, instance,
                      "it was ended to be started again: "
-                         + (why ? why->message : ""));
+                         + (started ? "" : started.error().message));
     record_ends(self, request.task);
-    if (why)
-      promise.deliver(to_error(*why));
+    if (!started)
+      promise.deliver(to_error(started.error()));
     else
       promise.deliver(task_restarted{
           request.task, new_instances(self->state, request, before)});
   };
   end_instances(self, request, plan.running,
-                [self, request, plan, finish](const failure* why) mutable {
-                  if (why)
-                    finish(why);
+                [self, request, plan, finish](const outcome& ended) mutable {
+                  if (!ended)
+                    finish(ended);
                   else
                     take_placement_lock_to_start(
                         self, request.task, plan.wanted, plan.running, finish);

@@ -15,16 +15,16 @@ namespace roscell {
 std::vector<std::string> steps_to_heal(const cell_coordinator_state& st,
                                        const std::string& task);
 
-/// Starts these anew, where they fit. All or nothing; `done` gets the failure,
-/// or null once they run.
+/// Starts these anew, where they fit. All or nothing.
+/// @param done called once: when they run, or cannot.
 void heal_task(coordinator_pointer self, const std::string& task,
-               const std::function<void(const failure*)>& done);
+               const outcome_handler& done);
 
 /// Starts these instances of a task, which have ended, where they fit. All or
 /// nothing, as above; what is gone meanwhile is none.
 void start_ended(coordinator_pointer self, const std::string& task,
                  const std::vector<std::string>& instances,
-                 const std::function<void(const failure*)>& done);
+                 const outcome_handler& done);
 
 /// Ends instances of a task and starts them again on their nodes; what had
 /// ended, also with 0, where it fits.

@@ -50,12 +50,12 @@ void reschedule_tasks(coordinator_pointer self, const std::string& id,
     return;
   const auto node = x->row.node;
   const auto tasks = st.deployments.tasks_bound_to(node);
-  move_tasks(self, node, tasks, [=](const failure* why) {
+  move_tasks(self, node, tasks, [=](const outcome& moved) {
     auto* open = self->state.transfers.find_open(id);
     if (!open)
       return;
-    if (why)
-      return call_off_transfer(self, id, *why);
+    if (!moved)
+      return call_off_transfer(self, id, moved.error());
     open->rescheduled = tasks;
     next();
   });

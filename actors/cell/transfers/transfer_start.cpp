@@ -16,7 +16,7 @@ namespace roscell {
 namespace {
 
 void refuse_transfer(const transfer_done& done, const failure& why) {
-  done(cell_transfer{}, &why);
+  done(cell_transfer{}, why);
 }
 
 void withdraw_transfer(coordinator_pointer self, const std::string& id,
@@ -48,7 +48,7 @@ void drop_absent(coordinator_pointer self, const std::string& id) {
                            {{"reason", "it was released while it was away"},
                             {"size", st.registry.active_count()}});
   end_transfer(self, id, transfer_state::done,
-               "the node was away and could not be told", nullptr);
+               "the node was away and could not be told", {});
 }
 
 /// Removes the record first: what cannot be written down is not done.
@@ -85,7 +85,7 @@ void end_unresolved(coordinator_pointer self, const std::string& uuid) {
                     "node '" + x->row.node + "' was released while it was away",
                     "/node"};
   end_transfer(self, x->row.transfer, transfer_state::returned, why.message,
-               &why);
+               why);
 }
 
 /// The proposed transfer is kept. What spoke against it is asked once more: the
