@@ -1,7 +1,7 @@
 #include "roscell/node.hpp"
 
 #include "actors/core/limits.hpp"
-#include "actors/instances/skill_descriptor_file.hpp"
+#include "actors/instances/skills/skill_descriptor_file.hpp"
 #include "actors/node/spawn_node.hpp"
 #include "embedding/node_door.hpp"
 #include "embedding/program_callbacks.hpp"

@@ -86,6 +86,15 @@ if ! circle=$(grep -roE '#include "actors/cell/[^"]+' --include='*.?pp' actors/c
   broken=1
 fi
 
+# So do the folders of what runs instances.
+if ! circle=$(grep -roE '#include "actors/instances/[^"]+' --include='*.?pp' actors/instances \
+  | sed -E 's|^(.*)/[^/]+:#include "(.*)/[^/]+$|\1 \2|' | awk '$1 != $2' | sort -u \
+  | tsort 2>&1 > /dev/null); then
+  echo "law: these folders include each other in a circle:"
+  echo "$circle"
+  broken=1
+fi
+
 # Waiting is for events; a loop that sleeps wakes an idle robot.
 if grep -rnE 'sleep_for|sleep_until|usleep\(' --include='*.?pp' \
      client dds embedding include messages schemas actors skills tools test; then

@@ -2,10 +2,10 @@
 
 #include "actors/core/limits.hpp"
 #include "actors/core/wall_clock.hpp"
-#include "actors/instances/instance_id.hpp"
 #include "actors/instances/instance_removal.hpp"
 #include "actors/instances/instance_upkeep.hpp"
-#include "actors/instances/logs/supervised_logs.hpp"
+#include "actors/instances/life/any_runtime.hpp"
+#include "actors/instances/supervised_logs.hpp"
 #include "messages/failure.hpp"
 
 #include <caf/result.hpp>

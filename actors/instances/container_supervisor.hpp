@@ -4,8 +4,8 @@
 #include "actors/edge/process/environment_file.hpp"
 #include "actors/edge/process/skill_grants.hpp"
 #include "actors/instances/life/quiet_notice.hpp"
-#include "actors/instances/skill_catalogue.hpp"
-#include "actors/instances/skill_metrics.hpp"
+#include "actors/instances/life/skill_metrics.hpp"
+#include "actors/instances/skills/skill_catalogue.hpp"
 #include "messages/messages.hpp"
 
 #include <caf/error.hpp>

@@ -1,7 +1,7 @@
 #include "actors/instances/instance_removal.hpp"
 
 #include "actors/core/limits.hpp"
-#include "actors/instances/logs/supervised_logs.hpp"
+#include "actors/instances/supervised_logs.hpp"
 
 #include <caf/result.hpp>
 #include <caf/send.hpp>

@@ -3,8 +3,8 @@
 #include "actors/core/limits.hpp"
 #include "actors/core/wall_clock.hpp"
 #include "actors/core/watching.hpp"
-#include "actors/instances/instance_id.hpp"
-#include "actors/instances/instance_text.hpp"
+#include "actors/instances/life/any_runtime.hpp"
+#include "actors/instances/life/instance_text.hpp"
 #include "actors/instances/life/skill_instance.hpp"
 #include "messages/failure.hpp"
 

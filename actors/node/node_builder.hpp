@@ -2,7 +2,7 @@
 
 #include "actors/core/actor_context.hpp"
 #include "actors/edge/host/host_probe_capacity.hpp"
-#include "actors/instances/skill_catalogue.hpp"
+#include "actors/instances/skills/skill_catalogue.hpp"
 #include "actors/membership/membership.hpp"
 #include "actors/node/node.hpp"
 #include "actors/node/node_data.hpp"

@@ -2,7 +2,7 @@
 
 #include "actors/instances/engine/container_powers.hpp"
 #include "actors/instances/engine/dockerfile.hpp"
-#include "actors/instances/instance_text.hpp"
+#include "actors/instances/life/instance_text.hpp"
 
 #include <sys/resource.h>
 

@@ -1,7 +1,7 @@
 #include "actors/edge/process/process_identity.hpp"
 #include "actors/instances/engine/engine_containers.hpp"
 #include "actors/instances/engine/engine_parts.hpp"
-#include "actors/instances/instance_id.hpp"
+#include "actors/instances/life/any_runtime.hpp"
 #include "messages/failure.hpp"
 
 namespace roscell {

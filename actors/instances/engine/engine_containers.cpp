@@ -6,7 +6,7 @@
 #include "actors/edge/process/child_watch.hpp"
 #include "actors/edge/process/fence_file.hpp"
 #include "actors/edge/process/notify_socket.hpp"
-#include "actors/instances/life/status_notification.hpp"
+#include "actors/instances/life/any_runtime.hpp"
 #include "messages/failure.hpp"
 
 #include <caf/send.hpp>

@@ -4,7 +4,7 @@
 #include "actors/edge/http/http_target.hpp"
 #include "actors/instances/engine/engine_parts.hpp"
 #include "actors/instances/engine/image_packer.hpp"
-#include "actors/instances/life/status_notification.hpp"
+#include "actors/instances/life/any_runtime.hpp"
 #include "messages/failure.hpp"
 
 #include <caf/send.hpp>

@@ -3,7 +3,7 @@
 #include "actors/edge/http/http_target.hpp"
 #include "actors/instances/engine/engine_containers.hpp"
 #include "actors/instances/engine/engine_parts.hpp"
-#include "actors/instances/instance_id.hpp"
+#include "actors/instances/life/any_runtime.hpp"
 #include "actors/instances/logs/log_following.hpp"
 #include "messages/failure.hpp"
 

@@ -4,7 +4,7 @@
 #include "actors/edge/engine/build_context.hpp"
 #include "actors/instances/engine/engine_containers.hpp"
 #include "actors/instances/engine/engine_parts.hpp"
-#include "actors/instances/fence_keeping.hpp"
+#include "actors/instances/life/any_runtime.hpp"
 #include "messages/failure.hpp"
 
 #include <utility>

@@ -7,7 +7,7 @@
 #include "actors/instances/engine/engine_containers.hpp"
 #include "actors/instances/engine/engine_parts.hpp"
 #include "actors/instances/engine/podman_document.hpp"
-#include "actors/instances/instance_id.hpp"
+#include "actors/instances/life/any_runtime.hpp"
 #include "messages/failure.hpp"
 
 #include <fcntl.h>

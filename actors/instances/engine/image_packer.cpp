@@ -4,8 +4,7 @@
 #include "actors/core/watching.hpp"
 #include "actors/edge/engine/file_marks.hpp"
 #include "actors/instances/engine/dockerfile.hpp"
-#include "actors/instances/skill_folder.hpp"
-#include "actors/instances/skill_program.hpp"
+#include "actors/instances/skills/skill_program.hpp"
 #include "messages/failure.hpp"
 
 #include <caf/result.hpp>

@@ -2,8 +2,8 @@
 
 #include "actors/core/limits.hpp"
 #include "actors/core/watching.hpp"
-#include "actors/instances/instance_environment.hpp"
-#include "actors/instances/instance_text.hpp"
+#include "actors/instances/life/instance_environment.hpp"
+#include "actors/instances/life/instance_text.hpp"
 #include "actors/instances/life/skill_instance_steps.hpp"
 
 #include <utility>

@@ -6,7 +6,7 @@
 #include "actors/edge/process/skill_grants.hpp"
 #include "actors/instances/life/health_table.hpp"
 #include "actors/instances/life/server_sight.hpp"
-#include "actors/instances/skill_catalogue.hpp"
+#include "actors/instances/skills/skill_catalogue.hpp"
 #include "messages/messages.hpp"
 
 #include <chrono>

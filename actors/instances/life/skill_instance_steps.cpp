@@ -2,8 +2,8 @@
 
 #include "actors/core/limits.hpp"
 #include "actors/core/wall_clock.hpp"
-#include "actors/instances/instance_environment.hpp"
-#include "actors/instances/instance_text.hpp"
+#include "actors/instances/life/instance_environment.hpp"
+#include "actors/instances/life/instance_text.hpp"
 #include "messages/failure.hpp"
 #include "schemas/utf8.hpp"
 

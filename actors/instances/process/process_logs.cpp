@@ -3,7 +3,7 @@
 #include "actors/core/limits.hpp"
 #include "actors/edge/process/instance_log.hpp"
 #include "actors/edge/process/log_watch.hpp"
-#include "actors/instances/instance_id.hpp"
+#include "actors/instances/life/any_runtime.hpp"
 #include "messages/failure.hpp"
 
 #include <caf/result.hpp>

@@ -5,12 +5,9 @@
 #include "actors/core/watching.hpp"
 #include "actors/edge/process/fence_file.hpp"
 #include "actors/edge/process/pidfd.hpp"
-#include "actors/instances/fence_keeping.hpp"
-#include "actors/instances/instance_id.hpp"
-#include "actors/instances/life/status_notification.hpp"
+#include "actors/instances/life/any_runtime.hpp"
 #include "actors/instances/process/process_logs.hpp"
-#include "actors/instances/skill_folder.hpp"
-#include "actors/instances/skill_program.hpp"
+#include "actors/instances/skills/skill_program.hpp"
 #include "messages/failure.hpp"
 
 #include <caf/result.hpp>

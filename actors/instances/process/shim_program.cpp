@@ -2,7 +2,7 @@
 
 #include "actors/edge/process/fence_file.hpp"
 #include "actors/edge/process/notify_socket.hpp"
-#include "actors/instances/instance_text.hpp"
+#include "actors/instances/life/instance_text.hpp"
 
 #include <string>
 

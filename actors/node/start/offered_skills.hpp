@@ -1,6 +1,6 @@
 #pragma once
 
-#include "actors/instances/skill_catalogue.hpp"
+#include "actors/instances/skills/skill_catalogue.hpp"
 #include "actors/node/node_runtime.hpp"
 #include "roscell/node_config.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "actors/instances/skill_catalogue.hpp"
+#include "actors/instances/skills/skill_catalogue.hpp"
 #include "test/fixture.hpp"
 
 #include <caf/typed_event_based_actor.hpp>

@@ -1,5 +1,5 @@
 #include "actors/edge/process/skill_grants.hpp"
-#include "actors/instances/skill_catalogue.hpp"
+#include "actors/instances/skills/skill_catalogue.hpp"
 #include "messages/node.hpp"
 #include "tools/roscell/client/node_client.hpp"
 #include "tools/roscell/client/read_file.hpp"

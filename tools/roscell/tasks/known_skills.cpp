@@ -1,6 +1,6 @@
 #include "tools/roscell/tasks/known_skills.hpp"
 
-#include "actors/instances/skill_catalogue.hpp"
+#include "actors/instances/skills/skill_catalogue.hpp"
 #include "schemas/closest_word.hpp"
 #include "tools/roscell/exit_code.hpp"
 #include "tools/roscell/view/format.hpp"

@@ -2,7 +2,7 @@
 
 #include "actors/core/program_version.hpp"
 #include "actors/edge/host/installed_files.hpp"
-#include "actors/instances/skill_catalogue.hpp"
+#include "actors/instances/skills/skill_catalogue.hpp"
 #include "actors/node/node_runtime.hpp"
 #include "tools/roscell/doctor/command_text.hpp"
 

@@ -1,7 +1,7 @@
-#include "actors/instances/logs/supervised_logs.hpp"
+#include "actors/instances/supervised_logs.hpp"
 
 #include "actors/core/limits.hpp"
-#include "actors/instances/instance_text.hpp"
+#include "actors/instances/life/instance_text.hpp"
 #include "actors/instances/logs/log_following.hpp"
 #include "messages/failure.hpp"
 

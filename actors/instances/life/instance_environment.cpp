@@ -1,4 +1,4 @@
-#include "actors/instances/instance_environment.hpp"
+#include "actors/instances/life/instance_environment.hpp"
 
 #include "actors/core/limits.hpp"
 #include "actors/instances/life/health_table.hpp"

@@ -1,4 +1,4 @@
-#include "actors/instances/skill_folder.hpp"
+#include "actors/instances/skills/skill_program.hpp"
 
 #include "test/actors/fakes/supervision_fakes.hpp"
 

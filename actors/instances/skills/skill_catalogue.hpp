@@ -1,7 +1,7 @@
 #pragma once
 
 #include "actors/core/actor_context.hpp"
-#include "actors/instances/skill_program.hpp"
+#include "actors/instances/skills/skill_program.hpp"
 #include "messages/skill.hpp"
 #include "schemas/schema_error.hpp"
 

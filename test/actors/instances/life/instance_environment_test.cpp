@@ -1,4 +1,4 @@
-#include "actors/instances/instance_environment.hpp"
+#include "actors/instances/life/instance_environment.hpp"
 
 #include "messages/codec/json_codec.hpp"
 

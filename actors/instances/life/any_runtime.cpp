@@ -1,10 +1,21 @@
-#include "actors/instances/fence_keeping.hpp"
+#include "actors/instances/life/any_runtime.hpp"
 
 #include "actors/edge/process/fence_file.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace roscell {
+
+bool is_instance_id(const std::string& text) {
+  const auto fits = [](unsigned char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z')
+           || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.';
+  };
+  constexpr size_t max_bytes = 200; // A file name may have 255.
+  return !text.empty() && text.size() <= max_bytes && text[0] != '.'
+         && std::all_of(text.begin(), text.end(), fits);
+}
 
 void keep_fence(const actor_context& context, const std::filesystem::path& file,
                 const fence_container& request, bool& fails) {

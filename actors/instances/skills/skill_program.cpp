@@ -1,9 +1,10 @@
-#include "actors/instances/skill_program.hpp"
+#include "actors/instances/skills/skill_program.hpp"
 
+#include "actors/edge/disk/folder_hash.hpp"
 #include "actors/edge/engine/program_libraries.hpp"
 #include "actors/edge/host/host_probe.hpp"
 #include "actors/edge/program/elf_properties.hpp"
-#include "actors/instances/skill_descriptor_file.hpp"
+#include "actors/instances/skills/skill_descriptor_file.hpp"
 
 #include <sys/utsname.h>
 #include <unistd.h>
@@ -14,6 +15,7 @@
 #include <fstream>
 #include <optional>
 #include <set>
+#include <string>
 #include <system_error>
 #include <utility>
 
@@ -184,6 +186,24 @@ std::string own_architecture() {
   utsname system{};
   return ::uname(&system) == 0 ? architecture_of(system.machine)
                                : std::string{};
+}
+
+edge_result<bool> check_build(const prepare_image& request) {
+  const auto look = read_folder(request.skill_dir);
+  if (const auto* now = std::get_if<folder_fingerprint>(&look);
+      now != nullptr && now->state == request.look)
+    return true;
+  auto hash = hash_folder(request.skill_dir);
+  if (auto* why = std::get_if<edge_error>(&hash))
+    return std::move(*why);
+  if (std::get<std::string>(hash) == request.skill)
+    return true;
+  return edge_error{error_code::engine_failed,
+                    "the skill folder '" + request.skill_dir
+                        + "' was edited after this node had read it: it is not "
+                          "build "
+                        + request.skill.substr(0, 12) + " any more",
+                    "restart the node, so that it offers what is there now"};
 }
 
 } // namespace roscell

@@ -1,13 +1,16 @@
 #pragma once
 
 #include "actors/edge/io/edge_error.hpp"
+#include "messages/inside/runtime.hpp"
 #include "messages/skill_descriptor.hpp"
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
-/// The program that a skill folder's descriptor names.
+/// The program that a skill folder's descriptor names. The folder can be edited
+/// at any time, and what is in it then is another build than the one that was
+/// chosen.
 namespace roscell {
 
 /// Where it is, if it is there and can be run. Errors: engine_failed.
@@ -48,5 +51,12 @@ bool runs_on(const std::string& architecture, const std::string& host);
 
 /// Of the host that this process runs on.
 std::string own_architecture();
+
+/// Whether the folder still holds the build that `request` names. Reads its
+/// files only where it looks different than when it was hashed. Blocks on the
+/// disk.
+///
+/// Errors: engine_failed (it was edited; it cannot be read).
+edge_result<bool> check_build(const prepare_image& request);
 
 } // namespace roscell

@@ -1,4 +1,4 @@
-#include "actors/instances/instance_text.hpp"
+#include "actors/instances/life/instance_text.hpp"
 
 #include "messages/codec/json_codec.hpp"
 #include "schemas/utf8.hpp"

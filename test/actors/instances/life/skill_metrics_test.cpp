@@ -1,4 +1,4 @@
-#include "actors/instances/skill_metrics.hpp"
+#include "actors/instances/life/skill_metrics.hpp"
 
 #include "test/time_zero.hpp"
 

@@ -1,4 +1,4 @@
-#include "actors/instances/skill_descriptor_file.hpp"
+#include "actors/instances/skills/skill_descriptor_file.hpp"
 
 #include "actors/core/limits.hpp"
 #include "actors/edge/disk/small_file.hpp"

@@ -1,4 +1,4 @@
-#include "actors/instances/skill_catalogue.hpp"
+#include "actors/instances/skills/skill_catalogue.hpp"
 
 #include "test/actors/fakes/supervision_fakes.hpp"
 #include "test/places.hpp"
