@@ -1,4 +1,4 @@
-#include "tools/roscell/doctor/node/answer_problem.hpp"
+#include "tools/roscell/doctor/node/asked_nodes.hpp"
 #include "tools/roscell/doctor/node/camera_checks.hpp"
 #include "tools/roscell/doctor/node/node_checks.hpp"
 
@@ -80,26 +80,6 @@ TEST_CASE("nodes that are away are told by name", "[doctor]") {
   CHECK(found[0].seen == "arm is lost");
   cell.nodes.pop_back();
   CHECK(judge_cell(cell)[0].how == judgement::ok);
-}
-
-TEST_CASE("instances that fail, starve or drop frames are told", "[doctor]") {
-  instance_row row;
-  row.spec.instance = "a-1";
-  row.state = instance_state::running;
-  row.metrics.frames = 1000;
-  row.metrics.dropped = 3;
-  CHECK(judge_instances({row})[0].how == judgement::ok);
-  row.metrics.dropped = 300;
-  CHECK_THAT(judge_instances({row})[0].seen, Contains("dropped 300 frames"));
-  row.metrics.remark = "1000 frames in, none out";
-  CHECK_THAT(judge_instances({row})[0].seen,
-             Contains("gives nothing: 1000 frames in, none out"));
-  row.health = instance_health::starved;
-  CHECK_THAT(judge_instances({row})[0].seen, Contains("starved"));
-  row.unknown_since_unix_ms = 1;
-  CHECK(judge_instances({row})[0].how == judgement::warning);
-  row.state = instance_state::failed;
-  CHECK(judge_instances({row})[0].how == judgement::broken);
 }
 
 TEST_CASE("a camera that is not calibrated is broken for who reads it",

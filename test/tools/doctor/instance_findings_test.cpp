@@ -1,4 +1,4 @@
-#include "tools/roscell/doctor/node/use_findings.hpp"
+#include "tools/roscell/doctor/node/instance_findings.hpp"
 
 #include "tools/roscell/view/instance_text.hpp"
 
@@ -7,6 +7,8 @@
 #include <string>
 
 namespace roscell::cli {
+
+using Catch::Contains;
 
 namespace {
 
@@ -80,6 +82,26 @@ TEST_CASE("a node whose instances nothing holds to their limits is named",
                  "instances of arm have no limits: it was told so"));
   node.limits.clear();
   CHECK(judge_limits(node).at(0).how == judgement::ok);
+}
+
+TEST_CASE("instances that fail, starve or drop frames are told", "[doctor]") {
+  instance_row row;
+  row.spec.instance = "a-1";
+  row.state = instance_state::running;
+  row.metrics.frames = 1000;
+  row.metrics.dropped = 3;
+  CHECK(judge_instances({row})[0].how == judgement::ok);
+  row.metrics.dropped = 300;
+  CHECK_THAT(judge_instances({row})[0].seen, Contains("dropped 300 frames"));
+  row.metrics.remark = "1000 frames in, none out";
+  CHECK_THAT(judge_instances({row})[0].seen,
+             Contains("gives nothing: 1000 frames in, none out"));
+  row.health = instance_health::starved;
+  CHECK_THAT(judge_instances({row})[0].seen, Contains("starved"));
+  row.unknown_since_unix_ms = 1;
+  CHECK(judge_instances({row})[0].how == judgement::warning);
+  row.state = instance_state::failed;
+  CHECK(judge_instances({row})[0].how == judgement::broken);
 }
 
 } // namespace roscell::cli
