@@ -1,6 +1,6 @@
+#include "actors/node/limits.hpp"
 #include "roscell/node.hpp"
 
-#include "actors/core/limits.hpp"
 #include "actors/instances/skills/skill_descriptor_file.hpp"
 #include "actors/node/spawn_node.hpp"
 #include "embedding/node_door.hpp"

@@ -1,5 +1,6 @@
 #include "actors/core/alarm.hpp"
-#include "actors/core/limits.hpp"
+#include "actors/core/answer_limits.hpp"
+#include "actors/session/limits.hpp"
 #include "embedding/task_calls.hpp"
 
 #include <caf/send.hpp>

@@ -4,6 +4,7 @@
 #include "actors/cell/state/coordinator_timer.hpp"
 #include "actors/cell/tasks/cell_instances.hpp"
 #include "actors/cell/transfers/transfer_start.hpp"
+#include "actors/core/answer_limits.hpp"
 #include "actors/core/limits.hpp"
 #include "messages/failure.hpp"
 

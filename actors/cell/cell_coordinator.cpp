@@ -28,7 +28,6 @@
 #include "actors/cell/tasks/task_removals.hpp"
 #include "actors/cell/tasks/task_restart.hpp"
 #include "actors/cell/tasks/task_views.hpp"
-#include "actors/core/limits.hpp"
 #include "messages/failure.hpp"
 
 #include <utility>

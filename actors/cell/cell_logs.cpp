@@ -1,8 +1,11 @@
 #include "actors/cell/cell_logs.hpp"
 
+#include "actors/cell/limits.hpp"
 #include "actors/cell/state/open_questions.hpp"
 #include "actors/cell/tasks/task_views.hpp"
-#include "actors/core/limits.hpp"
+#include "actors/core/answer_limits.hpp"
+#include "actors/edge/history/limits.hpp"
+#include "actors/session/limits.hpp"
 #include "messages/failure.hpp"
 
 #include <caf/typed_response_promise.hpp>

@@ -1,5 +1,6 @@
 #include "actors/cell/cell_members.hpp"
 
+#include "actors/cell/limits.hpp"
 #include "actors/cell/member_proof.hpp"
 #include "actors/cell/moves/abandoned_steps.hpp"
 #include "actors/cell/state/arrivals.hpp"
@@ -12,8 +13,8 @@
 #include "actors/cell/tasks/cell_instances.hpp"
 #include "actors/cell/tasks/node_names.hpp"
 #include "actors/cell/tasks/task_removals.hpp"
-#include "actors/core/limits.hpp"
 #include "actors/core/watching.hpp"
+#include "actors/edge/session/limits.hpp"
 #include "actors/session/member/member.hpp"
 #include "messages/failure.hpp"
 

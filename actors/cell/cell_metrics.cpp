@@ -1,9 +1,9 @@
 #include "actors/cell/cell_metrics.hpp"
 
+#include "actors/cell/limits.hpp"
 #include "actors/cell/state/open_questions.hpp"
 #include "actors/cell/streams/cell_streams.hpp"
 #include "actors/cell/tasks/task_views.hpp"
-#include "actors/core/limits.hpp"
 
 #include <caf/typed_response_promise.hpp>
 

@@ -3,8 +3,8 @@
 #include "actors/cell/state/coordinator_publish.hpp"
 #include "actors/cell/state/coordinator_timer.hpp"
 #include "actors/cell/state/node_whereabouts.hpp"
-#include "actors/core/limits.hpp"
 #include "actors/core/watching.hpp"
+#include "actors/session/limits.hpp"
 #include "actors/session/peer.hpp"
 #include "messages/failure.hpp"
 

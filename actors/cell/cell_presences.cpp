@@ -1,10 +1,10 @@
 #include "actors/cell/cell_presences.hpp"
 
 #include "actors/cell/cell_peers.hpp"
+#include "actors/cell/limits.hpp"
 #include "actors/cell/state/coordinator_timer.hpp"
 #include "actors/cell/state/doubts.hpp"
 #include "actors/cell/state/node_whereabouts.hpp"
-#include "actors/core/limits.hpp"
 #include "actors/core/wall_clock.hpp"
 #include "messages/failure.hpp"
 

@@ -1,8 +1,9 @@
 #include "actors/cell/cell_slots.hpp"
 
+#include "actors/cell/limits.hpp"
 #include "actors/cell/state/coordinator_publish.hpp"
 #include "actors/cell/state/coordinator_timer.hpp"
-#include "actors/core/limits.hpp"
+#include "actors/session/limits.hpp"
 #include "messages/failure.hpp"
 
 #include <optional>

@@ -7,7 +7,7 @@
 #include "actors/cell/state/transfer_end.hpp"
 #include "actors/cell/transfers/named_node.hpp"
 #include "actors/cell/transfers/transfer_start.hpp"
-#include "actors/core/limits.hpp"
+#include "actors/core/answer_limits.hpp"
 #include "messages/failure.hpp"
 
 namespace roscell {

@@ -1,6 +1,6 @@
 #include "actors/cell/member_proof.hpp"
 
-#include "actors/core/limits.hpp"
+#include "actors/session/limits.hpp"
 #include "messages/failure.hpp"
 
 namespace roscell {

@@ -1,9 +1,7 @@
 #pragma once
 
-#include "actors/core/limits.hpp"
-
-#include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <random>
 
 namespace roscell {
@@ -14,22 +12,15 @@ class backoff {
 public:
   using duration = std::chrono::milliseconds;
 
-  explicit backoff(uint32_t seed = 1) : random_(seed) {}
+  explicit backoff(uint32_t seed = 1);
 
   /// The pause before the next attempt: half to all of the present step.
-  duration next() {
-    const auto step = step_;
-    step_ = std::min(2 * step, limits::retry::longest);
-    std::uniform_real_distribution<double> part{0.5, 1.0};
-    return std::chrono::duration_cast<duration>(part(random_) * step);
-  }
+  duration next();
 
-  void reset() {
-    step_ = limits::retry::first;
-  }
+  void reset();
 
 private:
-  duration step_ = limits::retry::first;
+  duration step_;
   std::minstd_rand random_;
 };
 

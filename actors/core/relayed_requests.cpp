@@ -1,6 +1,6 @@
 #include "actors/core/relayed_requests.hpp"
 
-#include "actors/core/limits.hpp"
+#include "actors/core/answer_limits.hpp"
 #include "messages/insight/actor_inspection.hpp"
 #include "messages/insight/examination.hpp"
 #include "messages/insight/node_cost.hpp"

@@ -1,10 +1,10 @@
 #include "actors/instances/container_supervisor.hpp"
 
-#include "actors/core/limits.hpp"
 #include "actors/core/wall_clock.hpp"
 #include "actors/instances/instance_removal.hpp"
 #include "actors/instances/instance_upkeep.hpp"
 #include "actors/instances/life/any_runtime.hpp"
+#include "actors/instances/limits.hpp"
 #include "actors/instances/supervised_logs.hpp"
 #include "messages/failure.hpp"
 

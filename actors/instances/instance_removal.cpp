@@ -1,6 +1,7 @@
 #include "actors/instances/instance_removal.hpp"
 
-#include "actors/core/limits.hpp"
+#include "actors/edge/limit_units.hpp"
+#include "actors/instances/limits.hpp"
 #include "actors/instances/supervised_logs.hpp"
 
 #include <caf/result.hpp>

@@ -1,11 +1,11 @@
 #include "actors/instances/instance_upkeep.hpp"
 
-#include "actors/core/limits.hpp"
 #include "actors/core/wall_clock.hpp"
 #include "actors/core/watching.hpp"
 #include "actors/instances/life/any_runtime.hpp"
 #include "actors/instances/life/instance_text.hpp"
 #include "actors/instances/life/skill_instance.hpp"
+#include "actors/instances/limits.hpp"
 #include "messages/failure.hpp"
 
 #include <caf/send.hpp>

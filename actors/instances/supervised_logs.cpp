@@ -1,7 +1,8 @@
 #include "actors/instances/supervised_logs.hpp"
 
-#include "actors/core/limits.hpp"
+#include "actors/core/answer_limits.hpp"
 #include "actors/instances/life/instance_text.hpp"
+#include "actors/instances/limits.hpp"
 #include "actors/instances/logs/log_following.hpp"
 #include "messages/failure.hpp"
 

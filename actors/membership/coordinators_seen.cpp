@@ -1,6 +1,6 @@
 #include "actors/membership/coordinators_seen.hpp"
 
-#include "actors/core/limits.hpp"
+#include "actors/membership/limits.hpp"
 
 namespace roscell {
 

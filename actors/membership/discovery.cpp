@@ -1,11 +1,11 @@
 #include "actors/membership/discovery.hpp"
 
 #include "actors/core/edge_failure.hpp"
-#include "actors/core/limits.hpp"
 #include "actors/edge/dds/announcement.hpp"
 #include "actors/edge/io/name_lookup.hpp"
 #include "actors/edge/io/plain_text.hpp"
 #include "actors/edge/io/socket_address.hpp"
+#include "actors/membership/limits.hpp"
 #include "actors/membership/program_servers.hpp"
 #include "messages/failure.hpp"
 

@@ -1,8 +1,8 @@
 #include "actors/membership/join_diagnoser.hpp"
 
-#include "actors/core/limits.hpp"
 #include "actors/edge/io/name_lookup.hpp"
 #include "actors/edge/session/address_probe.hpp"
+#include "actors/membership/limits.hpp"
 #include "messages/failure.hpp"
 
 #include <caf/send.hpp>

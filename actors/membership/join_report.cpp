@@ -1,8 +1,14 @@
 #include "actors/membership/join_report.hpp"
 
+#include "actors/membership/limits.hpp"
+
 #include <algorithm>
 
 namespace roscell {
+
+join_report::join_report() : pause_{limits::membership::complaint_pause} {
+  // nop
+}
 
 void join_report::begin(const std::string& address, int64_t now_unix_ms) {
   if (rows_.empty())

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "actors/core/limits.hpp"
 #include "messages/node.hpp"
 
 #include <chrono>
@@ -15,6 +14,8 @@ namespace roscell {
 class join_report {
 public:
   using time_point = std::chrono::steady_clock::time_point;
+
+  join_report();
 
   /// An attempt begins; `address` is empty where any cell will do.
   void begin(const std::string& address, int64_t now_unix_ms);
@@ -40,7 +41,7 @@ public:
 private:
   std::vector<join_problem> rows_;
   std::set<std::string> reported_;
-  std::chrono::milliseconds pause_ = limits::membership::complaint_pause;
+  std::chrono::milliseconds pause_;
   time_point next_; ///< When what was told before is told again.
 };
 

@@ -1,7 +1,7 @@
 #include "actors/membership/membership.hpp"
 
-#include "actors/core/limits.hpp"
 #include "actors/membership/membership_steps.hpp"
+#include "actors/session/limits.hpp"
 
 #include <algorithm>
 #include <functional>

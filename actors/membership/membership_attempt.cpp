@@ -1,7 +1,9 @@
-#include "actors/core/limits.hpp"
+#include "actors/core/answer_limits.hpp"
 #include "actors/core/wall_clock.hpp"
 #include "actors/membership/join_text.hpp"
+#include "actors/membership/limits.hpp"
 #include "actors/membership/membership_steps.hpp"
+#include "actors/session/limits.hpp"
 
 #include <utility>
 

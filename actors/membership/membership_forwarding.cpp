@@ -1,4 +1,3 @@
-#include "actors/core/limits.hpp"
 #include "actors/membership/membership_steps.hpp"
 #include "actors/session/forwarded_requests.hpp"
 #include "schemas/document.hpp"

@@ -1,4 +1,4 @@
-#include "actors/core/limits.hpp"
+#include "actors/core/answer_limits.hpp"
 #include "actors/edge/io/socket_address.hpp"
 #include "actors/membership/membership_steps.hpp"
 #include "dds/server_ids.hpp"

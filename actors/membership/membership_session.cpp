@@ -1,6 +1,8 @@
-#include "actors/core/limits.hpp"
+#include "actors/core/answer_limits.hpp"
 #include "actors/core/relayed_requests.hpp"
+#include "actors/edge/session/limits.hpp"
 #include "actors/membership/membership_steps.hpp"
+#include "actors/session/limits.hpp"
 #include "actors/session/session_envelope.hpp"
 
 #include <algorithm>

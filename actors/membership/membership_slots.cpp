@@ -1,6 +1,8 @@
-#include "actors/core/limits.hpp"
 #include "actors/core/wall_clock.hpp"
+#include "actors/edge/session/limits.hpp"
+#include "actors/membership/limits.hpp"
 #include "actors/membership/membership_steps.hpp"
+#include "actors/session/limits.hpp"
 
 #include <algorithm>
 #include <utility>

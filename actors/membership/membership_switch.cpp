@@ -1,4 +1,4 @@
-#include "actors/core/limits.hpp"
+#include "actors/core/answer_limits.hpp"
 #include "actors/membership/membership_steps.hpp"
 #include "actors/session/registration/registration_order.hpp"
 

@@ -1,4 +1,4 @@
-#include "actors/core/limits.hpp"
+#include "actors/core/answer_limits.hpp"
 #include "actors/core/wall_clock.hpp"
 #include "actors/membership/membership_steps.hpp"
 

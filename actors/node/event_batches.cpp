@@ -1,6 +1,6 @@
 #include "actors/node/event_batches.hpp"
 
-#include "actors/core/limits.hpp"
+#include "actors/node/limits.hpp"
 #include "messages/failure.hpp"
 
 #include <algorithm>

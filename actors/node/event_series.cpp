@@ -1,6 +1,6 @@
 #include "actors/node/event_series.hpp"
 
-#include "actors/core/limits.hpp"
+#include "actors/node/limits.hpp"
 
 #include <algorithm>
 #include <iterator>

@@ -1,9 +1,10 @@
 #include "actors/node/node.hpp"
 
-#include "actors/core/limits.hpp"
+#include "actors/core/answer_limits.hpp"
 #include "actors/core/program_version.hpp"
 #include "actors/core/wall_clock.hpp"
 #include "actors/core/watching.hpp"
+#include "actors/node/limits.hpp"
 #include "messages/failure.hpp"
 
 #include <caf/typed_response_promise.hpp>

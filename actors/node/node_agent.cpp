@@ -1,6 +1,7 @@
 #include "actors/node/node_agent.hpp"
 
-#include "actors/core/limits.hpp"
+#include "actors/core/answer_limits.hpp"
+#include "actors/instances/limits.hpp"
 #include "actors/node/node_metrics.hpp"
 #include "actors/placement/reservation.hpp"
 #include "actors/placement/search/report/text.hpp"

@@ -1,7 +1,6 @@
 #include "actors/node/node_data.hpp"
 
 #include "actors/core/edge_failure.hpp"
-#include "actors/core/limits.hpp"
 #include "actors/edge/disk/put_aside.hpp"
 #include "actors/edge/io/crypto.hpp"
 #include "actors/node/node_tokens.hpp"

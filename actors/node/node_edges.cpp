@@ -1,9 +1,9 @@
 #include "actors/node/node_edges.hpp"
 
 #include "actors/core/edge_failure.hpp"
-#include "actors/core/limits.hpp"
 #include "actors/edge/dds/announcement.hpp"
 #include "actors/edge/http/http_paths.hpp"
+#include "actors/node/limits.hpp"
 #include "actors/node/start/cell_claim.hpp"
 #include "actors/session/wire_session.hpp"
 #include "dds/server_ids.hpp"

@@ -1,6 +1,6 @@
 #include "actors/node/node_metrics.hpp"
 
-#include "actors/core/limits.hpp"
+#include "actors/core/answer_limits.hpp"
 
 #include <caf/typed_response_promise.hpp>
 

@@ -1,9 +1,9 @@
 #include "actors/node/node_tokens.hpp"
 
 #include "actors/core/edge_failure.hpp"
-#include "actors/core/limits.hpp"
 #include "actors/edge/disk/small_file.hpp"
 #include "actors/edge/io/crypto.hpp"
+#include "actors/edge/site/limits.hpp"
 #include "actors/edge/site/site_token_file.hpp"
 #include "messages/failure.hpp"
 

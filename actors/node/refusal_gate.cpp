@@ -1,6 +1,6 @@
 #include "actors/node/refusal_gate.hpp"
 
-#include "actors/core/limits.hpp"
+#include "actors/node/limits.hpp"
 
 #include <string_view>
 

@@ -1,6 +1,7 @@
 #include "actors/node/reservation_table.hpp"
 
-#include "actors/core/limits.hpp"
+#include "actors/instances/limits.hpp"
+#include "actors/node/limits.hpp"
 
 namespace roscell {
 

@@ -1,7 +1,7 @@
 #include "actors/node/resource_probe.hpp"
 
-#include "actors/core/limits.hpp"
 #include "actors/edge/host/instance_use.hpp"
+#include "actors/edge/host/limits.hpp"
 
 #include <algorithm>
 #include <utility>

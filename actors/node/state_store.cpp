@@ -1,8 +1,8 @@
 #include "actors/node/state_store.hpp"
 
 #include "actors/core/edge_failure.hpp"
-#include "actors/core/limits.hpp"
 #include "actors/core/shifted_times.hpp"
+#include "actors/node/limits.hpp"
 #include "messages/failure.hpp"
 
 #include <caf/result.hpp>

@@ -1,6 +1,6 @@
 #include "actors/placement/life_resolution.hpp"
 
-#include "actors/core/limits.hpp"
+#include "actors/edge/session/limits.hpp"
 #include "schemas/decode.hpp"
 
 #include <chrono>

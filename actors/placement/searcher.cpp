@@ -1,7 +1,7 @@
 #include "actors/placement/searcher.hpp"
 
-#include "actors/core/limits.hpp"
 #include "actors/core/watching.hpp"
+#include "actors/placement/limits.hpp"
 #include "actors/placement/questions/move_planning.hpp"
 #include "actors/placement/questions/task_allocation.hpp"
 #include "messages/failure.hpp"

@@ -1,6 +1,6 @@
 #include "actors/requests/answer_memory.hpp"
 
-#include "actors/core/limits.hpp"
+#include "actors/requests/limits.hpp"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 #include "actors/requests/handler_pipeline.hpp"
 
-#include "actors/core/limits.hpp"
 #include "actors/core/watching.hpp"
+#include "actors/requests/limits.hpp"
 
 #include <caf/typed_response_promise.hpp>
 

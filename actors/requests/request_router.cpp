@@ -1,9 +1,10 @@
 #include "actors/requests/request_router.hpp"
 
-#include "actors/core/limits.hpp"
+#include "actors/core/answer_limits.hpp"
 #include "actors/core/relayed_requests.hpp"
 #include "actors/core/wall_clock.hpp"
 #include "actors/core/watching.hpp"
+#include "actors/edge/http/limits.hpp"
 #include "actors/requests/handler_pipeline.hpp"
 #include "schemas/document.hpp"
 #include "schemas/message_catalogue.hpp"

@@ -1,6 +1,6 @@
 #include "actors/requests/rest.hpp"
 
-#include "actors/core/limits.hpp"
+#include "actors/core/answer_limits.hpp"
 #include "actors/core/shifted_times.hpp"
 #include "actors/core/watching.hpp"
 #include "actors/requests/metrics/scrape.hpp"

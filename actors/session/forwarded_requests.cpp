@@ -1,7 +1,8 @@
 #include "actors/session/forwarded_requests.hpp"
 
-#include "actors/core/limits.hpp"
+#include "actors/core/answer_limits.hpp"
 #include "actors/core/relayed_requests.hpp"
+#include "actors/session/limits.hpp"
 #include "messages/allocation_report.hpp"
 #include "messages/cell.hpp"
 #include "messages/formation.hpp"

@@ -1,6 +1,6 @@
 #include "actors/session/lease.hpp"
 
-#include "actors/core/limits.hpp"
+#include "actors/edge/session/limits.hpp"
 
 #include <algorithm>
 
@@ -63,6 +63,10 @@ lease::step lease::coordinator_due(time_point now) {
   }
   next_ = repeat_at(now);
   return {false, heartbeat_kind::probe};
+}
+
+lease::time_point lease::end() const {
+  return heard_ + limits::lease::span;
 }
 
 lease::time_point lease::repeat_at(time_point now) const {

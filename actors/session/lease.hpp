@@ -1,6 +1,5 @@
 #pragma once
 
-#include "actors/core/limits.hpp"
 #include "messages/inside/link.hpp"
 
 #include <chrono>
@@ -55,9 +54,7 @@ private:
   /// When a question sent now is to be repeated.
   time_point repeat_at(time_point now) const;
 
-  time_point end() const {
-    return heard_ + limits::lease::span;
-  }
+  time_point end() const;
 
   lease_side side_ = lease_side::member;
   time_point heard_;

@@ -1,6 +1,6 @@
 #include "actors/session/long_starts.hpp"
 
-#include "actors/core/limits.hpp"
+#include "actors/edge/session/limits.hpp"
 
 #include <cstddef>
 #include <utility>

@@ -1,7 +1,10 @@
 #include "actors/session/peer.hpp"
 
+#include "actors/core/answer_limits.hpp"
 #include "actors/core/limits.hpp"
 #include "actors/core/watching.hpp"
+#include "actors/edge/session/limits.hpp"
+#include "actors/session/limits.hpp"
 
 #include <utility>
 

@@ -1,6 +1,6 @@
 #include "actors/session/session_answers.hpp"
 
-#include "actors/core/limits.hpp"
+#include "actors/session/limits.hpp"
 
 #include <algorithm>
 

@@ -1,6 +1,7 @@
 #include "actors/session/session_calls.hpp"
 
-#include "actors/core/limits.hpp"
+#include "actors/edge/session/limits.hpp"
+#include "actors/session/limits.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -1,6 +1,6 @@
 #include "actors/session/session_envelope.hpp"
 
-#include "actors/core/limits.hpp"
+#include "actors/edge/session/limits.hpp"
 #include "messages/session.hpp"
 #include "schemas/document.hpp"
 #include "schemas/message_catalogue.hpp"

@@ -1,6 +1,6 @@
 #include "actors/session/session_exchange.hpp"
 
-#include "actors/core/limits.hpp"
+#include "actors/edge/session/limits.hpp"
 
 #include <utility>
 

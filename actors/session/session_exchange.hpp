@@ -1,6 +1,6 @@
 #pragma once
 
-#include "actors/core/limits.hpp"
+#include "actors/session/limits.hpp"
 #include "actors/session/session_answers.hpp"
 #include "actors/session/session_calls.hpp"
 #include "actors/session/session_envelope.hpp"

@@ -1,8 +1,9 @@
 #include "actors/session/wire_session.hpp"
 
-#include "actors/core/limits.hpp"
 #include "actors/core/shifted_times.hpp"
 #include "actors/core/watching.hpp"
+#include "actors/edge/session/limits.hpp"
+#include "actors/session/limits.hpp"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,7 +1,7 @@
 #include "embedding/skills/actor_runtime.hpp"
 
-#include "actors/core/limits.hpp"
 #include "actors/core/watching.hpp"
+#include "actors/instances/limits.hpp"
 #include "embedding/skills/skill_logs.hpp"
 #include "messages/failure.hpp"
 #include "roscell/ros2.hpp"

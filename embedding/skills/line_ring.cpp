@@ -1,6 +1,6 @@
 #include "embedding/skills/line_ring.hpp"
 
-#include "actors/core/limits.hpp"
+#include "actors/edge/process/limits.hpp"
 #include "actors/edge/process/line_times.hpp"
 #include "schemas/utf8.hpp"
 

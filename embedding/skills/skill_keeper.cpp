@@ -1,7 +1,7 @@
 #include "embedding/skills/skill_keeper.hpp"
 
-#include "actors/core/limits.hpp"
 #include "actors/core/watching.hpp"
+#include "actors/instances/limits.hpp"
 #include "roscell/skill/errors.hpp"
 #include "skills/engine/life/frame_text.hpp"
 #include "skills/engine/life/heartbeat.hpp"

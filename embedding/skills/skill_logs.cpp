@@ -1,6 +1,6 @@
 #include "embedding/skills/skill_logs.hpp"
 
-#include "actors/core/limits.hpp"
+#include "actors/edge/process/limits.hpp"
 
 #include <utility>
 

@@ -1,5 +1,5 @@
-#include "actors/core/limits.hpp"
 #include "actors/edge/dds/announcement.hpp"
+#include "actors/edge/dds/limits.hpp"
 #include "actors/edge/dds/rtps/discovery_probe.hpp"
 
 #include <cstdint>

@@ -1,6 +1,7 @@
 #include "test/site/disturbance.hpp"
 
-#include "actors/core/limits.hpp"
+#include "actors/edge/session/limits.hpp"
+#include "actors/session/limits.hpp"
 #include "test/site/site_skills.hpp"
 #include "test/site/watch/task_rest.hpp"
 

@@ -1,4 +1,5 @@
-#include "actors/core/limits.hpp"
+#include "actors/edge/session/limits.hpp"
+#include "actors/session/limits.hpp"
 #include "test/site/watch/site_watch.hpp"
 
 #include <iostream>

@@ -6,7 +6,7 @@
 #include "actors/cell/state/may_start.hpp"
 #include "actors/cell/state/task_story.hpp"
 #include "actors/cell/tasks/placement_locks.hpp"
-#include "actors/core/limits.hpp"
+#include "actors/core/answer_limits.hpp"
 #include "messages/failure.hpp"
 
 #include <memory>

@@ -2,8 +2,9 @@
 
 #include "actors/cell/moves/move_end.hpp"
 #include "actors/cell/tasks/cell_resources.hpp"
-#include "actors/core/limits.hpp"
+#include "actors/core/answer_limits.hpp"
 #include "actors/placement/instance_specs.hpp"
+#include "actors/placement/limits.hpp"
 #include "messages/failure.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "actors/cell/moves/move_table.hpp"
 
-#include "actors/core/limits.hpp"
+#include "actors/core/answer_limits.hpp"
 
 #include <algorithm>
 #include <set>

@@ -1,7 +1,7 @@
 #include "actors/cell/state/coordinator_store.hpp"
 
+#include "actors/cell/limits.hpp"
 #include "actors/cell/state/coordinator_timer.hpp"
-#include "actors/core/limits.hpp"
 #include "messages/failure.hpp"
 
 #include <chrono>

@@ -1,8 +1,8 @@
 #include "actors/cell/state/coordinator_timer.hpp"
 
+#include "actors/cell/limits.hpp"
 #include "actors/cell/state/doubts.hpp"
 #include "actors/cell/tasks/pending_operations.hpp"
-#include "actors/core/limits.hpp"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 #include "actors/cell/state/member_servers.hpp"
 
+#include "actors/core/answer_limits.hpp"
 #include "actors/core/delay.hpp"
-#include "actors/core/limits.hpp"
 
 #include <chrono>
 #include <utility>

@@ -1,8 +1,8 @@
 #include "actors/cell/state/task_story.hpp"
 
+#include "actors/cell/limits.hpp"
 #include "actors/cell/state/coordinator_store.hpp"
 #include "actors/cell/state/coordinator_timer.hpp"
-#include "actors/core/limits.hpp"
 #include "actors/core/wall_clock.hpp"
 #include "messages/failure.hpp"
 

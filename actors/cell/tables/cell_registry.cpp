@@ -1,6 +1,5 @@
 #include "actors/cell/tables/cell_registry.hpp"
 
-#include "actors/core/limits.hpp"
 #include "messages/codec/instantiate.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "actors/cell/tables/history_table.hpp"
 
-#include "actors/core/limits.hpp"
+#include "actors/cell/limits.hpp"
 #include "messages/codec/instantiate.hpp"
 
 #include <algorithm>

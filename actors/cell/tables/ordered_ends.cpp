@@ -1,5 +1,7 @@
 #include "actors/cell/tables/ordered_ends.hpp"
 
+#include "actors/cell/limits.hpp"
+#include "actors/core/answer_limits.hpp"
 #include "actors/core/limits.hpp"
 #include "messages/codec/instantiate.hpp"
 

@@ -1,8 +1,7 @@
 #include "actors/cell/tables/peer_table.hpp"
 
+#include "actors/cell/limits.hpp"
 #include "dds/server_ids.hpp"
-
-#include "actors/core/limits.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -11,7 +10,9 @@ namespace roscell {
 
 // -- what is announced --------------------------------------------------------
 
-peer_table::peer_table(std::string self) : self_(std::move(self)) {
+peer_table::peer_table(std::string self)
+    : self_(std::move(self)), calls_{
+                                  limits::unauthenticated_peers::peer_calls} {
   // nop
 }
 

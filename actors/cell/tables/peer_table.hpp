@@ -1,7 +1,6 @@
 #pragma once
 
 #include "actors/cell/tables/unauthenticated_calls.hpp"
-#include "actors/core/limits.hpp"
 #include "messages/inside/coordination.hpp"
 
 #include <chrono>
@@ -132,7 +131,7 @@ private:
 
   std::string self_;
   std::map<std::string, known> by_uuid_;
-  unauthenticated_calls calls_{limits::unauthenticated_peers::peer_calls};
+  unauthenticated_calls calls_;
 };
 
 } // namespace roscell

@@ -1,3 +1,4 @@
+#include "actors/cell/limits.hpp"
 #include "actors/cell/tables/cell_registry.hpp"
 
 #include "actors/core/limits.hpp"

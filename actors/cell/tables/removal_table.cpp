@@ -1,6 +1,6 @@
 #include "actors/cell/tables/removal_table.hpp"
 
-#include "actors/core/limits.hpp"
+#include "actors/cell/limits.hpp"
 
 #include <algorithm>
 #include <iterator>

@@ -1,5 +1,6 @@
 #include "actors/cell/tables/task_table.hpp"
 
+#include "actors/cell/limits.hpp"
 #include "messages/codec/instantiate.hpp"
 #include "schemas/decode.hpp"
 
@@ -125,6 +126,10 @@ bool task_table::is_of_run(const std::string& task,
                            const std::string& id) const {
   const auto* entry = find(task);
   return entry && has(entry->request_ids, id);
+}
+
+bool task_table::is_full() const {
+  return entries_.size() >= limits::task::most;
 }
 
 void task_table::begin(const std::string& task, const std::string& request,

@@ -2,7 +2,6 @@
 
 #include "actors/cell/tables/deployment_table.hpp"
 #include "actors/cell/tables/ordered_ends.hpp"
-#include "actors/core/limits.hpp"
 #include "messages/allocation_report.hpp"
 #include "messages/failure.hpp"
 #include "messages/task.hpp"
@@ -108,9 +107,7 @@ public:
   /// id.
   bool is_of_run(const std::string& task, const std::string& id) const;
 
-  bool is_full() const {
-    return entries_.size() >= limits::task::most;
-  }
+  bool is_full() const;
 
   /// A task begins to be deployed, for the first time or once more. Nothing of
   /// it is durable yet.

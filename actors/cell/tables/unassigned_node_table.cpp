@@ -1,8 +1,15 @@
 #include "actors/cell/tables/unassigned_node_table.hpp"
 
+#include "actors/cell/limits.hpp"
+
 #include <algorithm>
 
 namespace roscell {
+
+unassigned_node_table::unassigned_node_table()
+    : calls_{limits::unauthenticated_peers::proof_calls} {
+  // nop
+}
 
 unassigned_node_table::sighting
 unassigned_node_table::see(const node_presence& who, time_point now) {

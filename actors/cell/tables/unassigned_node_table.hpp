@@ -1,7 +1,6 @@
 #pragma once
 
 #include "actors/cell/tables/unauthenticated_calls.hpp"
-#include "actors/core/limits.hpp"
 #include "messages/cell.hpp"
 #include "messages/inside/link.hpp"
 
@@ -22,6 +21,8 @@ public:
   using doubt = std::function<bool(const node_presence&)>;
 
   enum class sighting { appeared, changed, repeated, ignored };
+
+  unassigned_node_table();
 
   sighting see(const node_presence& who, time_point now);
 
@@ -69,7 +70,7 @@ private:
 
   std::map<std::string, node_presence> by_uuid_;
   std::map<std::string, unassigned_node> silent_; ///< By UUID.
-  unauthenticated_calls calls_{limits::unauthenticated_peers::proof_calls};
+  unauthenticated_calls calls_;
 };
 
 } // namespace roscell

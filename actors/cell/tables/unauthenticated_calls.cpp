@@ -1,6 +1,6 @@
 #include "actors/cell/tables/unauthenticated_calls.hpp"
 
-#include "actors/core/limits.hpp"
+#include "actors/cell/limits.hpp"
 
 #include <algorithm>
 #include <functional>

@@ -1,6 +1,7 @@
 #include "actors/cell/tasks/cell_instances.hpp"
 
 #include "actors/cell/cell_metrics.hpp"
+#include "actors/cell/limits.hpp"
 #include "actors/cell/moves/abandoned_steps.hpp"
 #include "actors/cell/moves/rebalancing.hpp"
 #include "actors/cell/state/coordinator_timer.hpp"
@@ -12,7 +13,7 @@
 #include "actors/cell/tasks/ordered_stops.hpp"
 #include "actors/cell/tasks/step_ends.hpp"
 #include "actors/cell/tasks/task_removals.hpp"
-#include "actors/core/limits.hpp"
+#include "actors/core/answer_limits.hpp"
 #include "actors/core/wall_clock.hpp"
 #include "messages/failure.hpp"
 

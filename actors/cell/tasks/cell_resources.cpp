@@ -1,7 +1,7 @@
 #include "actors/cell/tasks/cell_resources.hpp"
 
 #include "actors/cell/cell_topics.hpp"
-#include "actors/core/limits.hpp"
+#include "actors/cell/limits.hpp"
 #include "actors/placement/reservation.hpp"
 
 #include <algorithm>

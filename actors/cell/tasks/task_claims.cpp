@@ -1,5 +1,6 @@
 #include "actors/cell/tasks/task_claims.hpp"
 
+#include "actors/cell/limits.hpp"
 #include "actors/cell/state/may_start.hpp"
 #include "actors/cell/tasks/cell_resources.hpp"
 #include "actors/cell/tasks/placement_locks.hpp"
@@ -7,7 +8,6 @@
 #include "actors/cell/tasks/task_endings.hpp"
 #include "actors/cell/tasks/task_restart.hpp"
 #include "actors/cell/tasks/task_views.hpp"
-#include "actors/core/limits.hpp"
 #include "actors/core/wall_clock.hpp"
 #include "actors/core/watching.hpp"
 #include "messages/failure.hpp"

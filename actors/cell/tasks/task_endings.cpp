@@ -1,5 +1,6 @@
 #include "actors/cell/tasks/task_endings.hpp"
 
+#include "actors/cell/limits.hpp"
 #include "actors/cell/state/coordinator_store.hpp"
 #include "actors/cell/state/coordinator_timer.hpp"
 #include "actors/cell/state/task_remains.hpp"
@@ -7,7 +8,6 @@
 #include "actors/cell/tasks/placement_locks.hpp"
 #include "actors/cell/tasks/task_changes.hpp"
 #include "actors/cell/tasks/task_removals.hpp"
-#include "actors/core/limits.hpp"
 #include "messages/failure.hpp"
 
 #include <algorithm>

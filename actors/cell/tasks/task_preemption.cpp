@@ -6,7 +6,7 @@
 #include "actors/cell/tasks/step_ends.hpp"
 #include "actors/cell/tasks/task_endings.hpp"
 #include "actors/cell/tasks/task_restart.hpp"
-#include "actors/core/limits.hpp"
+#include "actors/core/answer_limits.hpp"
 #include "messages/failure.hpp"
 
 #include <functional>

@@ -4,7 +4,7 @@
 #include "actors/cell/state/may_start.hpp"
 #include "actors/cell/state/task_remains.hpp"
 #include "actors/cell/state/task_story.hpp"
-#include "actors/core/limits.hpp"
+#include "actors/core/answer_limits.hpp"
 
 #include <algorithm>
 #include <iterator>

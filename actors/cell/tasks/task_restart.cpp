@@ -6,7 +6,7 @@
 #include "actors/cell/tasks/placement_locks.hpp"
 #include "actors/cell/tasks/step_ends.hpp"
 #include "actors/cell/tasks/task_views.hpp"
-#include "actors/core/limits.hpp"
+#include "actors/core/answer_limits.hpp"
 #include "messages/failure.hpp"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 #include "actors/cell/moves/task_move.hpp"
 #include "actors/cell/state/transfer_end.hpp"
 #include "actors/cell/tasks/task_endings.hpp"
-#include "actors/core/limits.hpp"
+#include "actors/core/answer_limits.hpp"
 #include "messages/failure.hpp"
 
 #include <utility>

@@ -6,7 +6,7 @@
 #include "actors/cell/state/transfer_end.hpp"
 #include "actors/cell/transfers/transfer_instances.hpp"
 #include "actors/cell/transfers/transfer_switch.hpp"
-#include "actors/core/limits.hpp"
+#include "actors/core/answer_limits.hpp"
 #include "messages/failure.hpp"
 
 #include <utility>

@@ -1,10 +1,11 @@
 #include "actors/cell/transfers/transfer_switch.hpp"
 
+#include "actors/cell/limits.hpp"
 #include "actors/cell/state/coordinator_store.hpp"
 #include "actors/cell/state/coordinator_timer.hpp"
 #include "actors/cell/state/node_whereabouts.hpp"
 #include "actors/cell/state/transfer_end.hpp"
-#include "actors/core/limits.hpp"
+#include "actors/session/limits.hpp"
 #include "messages/failure.hpp"
 
 namespace roscell {

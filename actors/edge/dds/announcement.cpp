@@ -1,6 +1,6 @@
 #include "actors/edge/dds/announcement.hpp"
 
-#include "actors/core/limits.hpp"
+#include "actors/edge/dds/limits.hpp"
 
 #include <array>
 #include <charconv>

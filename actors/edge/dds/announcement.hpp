@@ -1,7 +1,5 @@
 #pragma once
 
-#include "actors/core/limits.hpp"
-
 #include <cstddef>
 #include <cstdint>
 #include <optional>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "actors/core/limits.hpp"
 #include "actors/edge/dds/discovery_sighting.hpp"
+#include "actors/edge/dds/limits.hpp"
 #include "actors/edge/dds/lives/discovery_guard.hpp"
 #include "actors/edge/dds/ros_graph.hpp"
 #include "actors/edge/io/edge_error.hpp"

@@ -1,6 +1,6 @@
 #include "actors/edge/dds/presence_table.hpp"
 
-#include "actors/core/limits.hpp"
+#include "actors/edge/dds/limits.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -1,9 +1,9 @@
 #include "actors/edge/dds/public_presence.hpp"
 
-#include "actors/core/limits.hpp"
 #include "actors/edge/dds/discovery_address.hpp"
 #include "actors/edge/dds/discovery_participant.hpp"
 #include "actors/edge/dds/herald.hpp"
+#include "actors/edge/dds/limits.hpp"
 #include "actors/edge/dds/presence_table.hpp"
 
 #include <charconv>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "actors/core/limits.hpp"
 #include "actors/edge/dds/announcement.hpp"
+#include "actors/edge/dds/limits.hpp"
 #include "actors/edge/io/edge_error.hpp"
 
 #include <chrono>

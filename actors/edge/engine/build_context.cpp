@@ -1,6 +1,6 @@
 #include "actors/edge/engine/build_context.hpp"
 
-#include "actors/core/limits.hpp"
+#include "actors/edge/engine/limits.hpp"
 #include "actors/edge/process/process_spawner.hpp"
 
 #include <cerrno>

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "actors/edge/engine/limits.hpp"
 #include "actors/edge/http/client/http_call.hpp"
 
 #include <chrono>

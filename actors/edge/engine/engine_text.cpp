@@ -1,6 +1,6 @@
 #include "actors/edge/engine/engine_text.hpp"
 
-#include "actors/core/limits.hpp"
+#include "actors/edge/engine/limits.hpp"
 #include "schemas/utf8.hpp"
 
 #include <nlohmann/json.hpp>

@@ -1,6 +1,6 @@
 #include "actors/edge/engine/program_libraries.hpp"
 
-#include "actors/core/limits.hpp"
+#include "actors/edge/engine/limits.hpp"
 #include "actors/edge/process/process_spawner.hpp"
 #include "actors/edge/program/elf_properties.hpp"
 

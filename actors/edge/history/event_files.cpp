@@ -1,8 +1,8 @@
 #include "actors/edge/history/event_files.hpp"
 
-#include "actors/core/limits.hpp"
 #include "actors/edge/disk/small_file.hpp"
 #include "actors/edge/history/event_lines.hpp"
+#include "actors/edge/history/limits.hpp"
 #include "actors/edge/io/unique_fd.hpp"
 
 #include <fcntl.h>

@@ -1,6 +1,6 @@
 #include "actors/edge/history/event_files.hpp"
+#include "actors/edge/history/limits.hpp"
 
-#include "actors/core/limits.hpp"
 #include "actors/edge/history/event_lines.hpp"
 
 #include <algorithm>

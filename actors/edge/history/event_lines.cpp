@@ -1,6 +1,6 @@
 #include "actors/edge/history/event_lines.hpp"
 
-#include "actors/core/limits.hpp"
+#include "actors/edge/history/limits.hpp"
 #include "schemas/decode.hpp"
 #include "schemas/document.hpp"
 #include "schemas/message_catalogue.hpp"

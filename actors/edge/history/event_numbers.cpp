@@ -1,7 +1,7 @@
 #include "actors/edge/history/event_numbers.hpp"
 
-#include "actors/core/limits.hpp"
 #include "actors/edge/disk/small_file.hpp"
+#include "actors/edge/history/limits.hpp"
 #include "actors/edge/io/unique_fd.hpp"
 
 #include <fcntl.h>

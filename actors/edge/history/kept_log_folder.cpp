@@ -1,8 +1,8 @@
 #include "actors/edge/history/kept_log_folder.hpp"
 
-#include "actors/core/limits.hpp"
 #include "actors/edge/disk/small_file.hpp"
 #include "actors/edge/history/kept_files.hpp"
+#include "actors/edge/history/limits.hpp"
 #include "schemas/decode.hpp"
 #include "schemas/document.hpp"
 #include "schemas/message_catalogue.hpp"

@@ -1,9 +1,9 @@
 #include "actors/edge/host/host_probe.hpp"
 
-#include "actors/core/limits.hpp"
 #include "actors/edge/host/host_probe_capacity.hpp"
 #include "actors/edge/host/host_probe_files.hpp"
 #include "actors/edge/host/host_probe_limits.hpp"
+#include "actors/edge/host/limits.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "actors/core/limits.hpp"
 #include "actors/edge/host/gpu_probe.hpp"
 #include "messages/resources.hpp"
 

@@ -1,10 +1,10 @@
 #include "actors/edge/http/http_connection.hpp"
 
-#include "actors/core/limits.hpp"
 #include "actors/edge/http/error_body.hpp"
 #include "actors/edge/http/http_paths.hpp"
 #include "actors/edge/http/http_sink.hpp"
 #include "actors/edge/http/http_target.hpp"
+#include "actors/edge/http/limits.hpp"
 
 #include <boost/asio/buffer.hpp>
 #include <boost/asio/write.hpp>

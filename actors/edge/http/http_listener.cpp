@@ -1,7 +1,7 @@
 #include "actors/edge/http/http_listener.hpp"
 
-#include "actors/core/limits.hpp"
 #include "actors/edge/http/http_connection.hpp"
+#include "actors/edge/http/limits.hpp"
 
 #include <cerrno>
 #include <system_error>

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "actors/edge/http/http_access.hpp"
+#include "actors/edge/http/http_limits.hpp"
 #include "actors/edge/http/http_types.hpp"
 #include "actors/edge/io/io_core.hpp"
 #include "actors/edge/session/session_link.hpp"

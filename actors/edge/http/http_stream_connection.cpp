@@ -1,7 +1,7 @@
 #include "actors/edge/http/http_stream_connection.hpp"
 
-#include "actors/core/limits.hpp"
 #include "actors/edge/http/error_body.hpp"
+#include "actors/edge/http/limits.hpp"
 
 #include <boost/asio/buffer.hpp>
 #include <boost/asio/write.hpp>

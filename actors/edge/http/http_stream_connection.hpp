@@ -1,5 +1,6 @@
 #pragma once
 
+#include "actors/edge/http/http_limits.hpp"
 #include "actors/edge/http/http_types.hpp"
 #include "actors/edge/io/io_core.hpp"
 #include "actors/edge/io/stream_socket.hpp"

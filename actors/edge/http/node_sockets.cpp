@@ -1,6 +1,6 @@
 #include "actors/edge/http/node_sockets.hpp"
 
-#include "actors/core/limits.hpp"
+#include "actors/edge/http/limits.hpp"
 
 #include <utility>
 

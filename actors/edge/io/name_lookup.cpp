@@ -1,7 +1,7 @@
 #include "actors/edge/io/name_lookup.hpp"
 
-#include "actors/core/limits.hpp"
 #include "actors/edge/io/io_core.hpp"
+#include "actors/edge/io/limits.hpp"
 #include "actors/edge/io/socket_address.hpp"
 
 #include <boost/asio/steady_timer.hpp>

@@ -1,6 +1,6 @@
 #include "actors/edge/io/plain_text.hpp"
 
-#include "actors/core/limits.hpp"
+#include "actors/edge/io/limits.hpp"
 
 #include <algorithm>
 

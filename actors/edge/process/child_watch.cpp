@@ -1,7 +1,7 @@
 #include "actors/edge/process/child_watch.hpp"
 
-#include "actors/core/limits.hpp"
 #include "actors/edge/io/io_core.hpp"
+#include "actors/edge/process/limits.hpp"
 #include "actors/edge/process/notify_socket.hpp"
 
 #include <chrono>

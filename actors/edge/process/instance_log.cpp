@@ -1,7 +1,7 @@
 #include "actors/edge/process/instance_log.hpp"
 
-#include "actors/core/limits.hpp"
 #include "actors/edge/io/unique_fd.hpp"
+#include "actors/edge/process/limits.hpp"
 #include "schemas/base64.hpp"
 #include "schemas/utf8.hpp"
 

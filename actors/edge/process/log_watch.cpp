@@ -1,6 +1,6 @@
 #include "actors/edge/process/log_watch.hpp"
 
-#include "actors/core/limits.hpp"
+#include "actors/edge/process/limits.hpp"
 
 #include <sys/inotify.h>
 

@@ -1,10 +1,10 @@
 #include "actors/edge/reach/reach_tries.hpp"
 
-#include "actors/core/limits.hpp"
 #include "actors/edge/dds/rtps/server_question.hpp"
 #include "actors/edge/io/io_core.hpp"
 #include "actors/edge/reach/reach_port.hpp"
 #include "actors/edge/session/address_probe.hpp"
+#include "actors/edge/session/limits.hpp"
 
 #include <chrono>
 #include <utility>

@@ -1,7 +1,7 @@
 #include "actors/edge/session/registration_proof.hpp"
 
-#include "actors/core/limits.hpp"
 #include "actors/edge/io/crypto.hpp"
+#include "actors/edge/session/limits.hpp"
 #include "actors/edge/session/transcript.hpp"
 
 #include <cstring>

@@ -1,7 +1,5 @@
 #pragma once
 
-#include "actors/core/limits.hpp"
-
 #include <chrono>
 #include <cstdint>
 #include <map>

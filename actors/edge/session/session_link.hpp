@@ -1,9 +1,9 @@
 #pragma once
 
-#include "actors/core/limits.hpp"
 #include "actors/edge/io/edge_error.hpp"
 #include "actors/edge/io/io_thread.hpp"
 #include "actors/edge/session/fault_seam.hpp"
+#include "actors/edge/session/limits.hpp"
 #include "actors/edge/session/session_handshake.hpp"
 #include "actors/edge/site/site_secret.hpp"
 

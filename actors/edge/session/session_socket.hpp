@@ -1,7 +1,7 @@
 #pragma once
 
-#include "actors/core/limits.hpp"
 #include "actors/edge/io/stream_socket.hpp"
+#include "actors/edge/session/limits.hpp"
 
 #include <boost/beast/websocket/teardown.hpp>
 

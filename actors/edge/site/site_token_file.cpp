@@ -1,10 +1,10 @@
 #include "actors/edge/site/site_token_file.hpp"
 
-#include "actors/core/limits.hpp"
 #include "actors/edge/disk/small_file.hpp"
 #include "actors/edge/disk/trusted_path.hpp"
 #include "actors/edge/io/crypto.hpp"
 #include "actors/edge/io/unique_fd.hpp"
+#include "actors/edge/site/limits.hpp"
 
 #include <fcntl.h>
 #include <pwd.h>

@@ -1,8 +1,8 @@
 #include "actors/instances/engine/engine_calls.hpp"
 
 #include "actors/core/edge_failure.hpp"
-#include "actors/core/limits.hpp"
 #include "actors/edge/engine/engine_text.hpp"
+#include "actors/edge/engine/limits.hpp"
 #include "actors/edge/io/line_splitter.hpp"
 #include "messages/failure.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "actors/core/limits.hpp"
+#include "actors/edge/engine/limits.hpp"
 #include "actors/edge/process/process_identity.hpp"
 #include "actors/instances/engine/engine_calls.hpp"
 

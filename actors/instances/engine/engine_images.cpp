@@ -1,6 +1,6 @@
-#include "actors/core/limits.hpp"
 #include "actors/edge/engine/engine_text.hpp"
 #include "actors/edge/engine/file_marks.hpp"
+#include "actors/edge/engine/limits.hpp"
 #include "actors/edge/http/http_target.hpp"
 #include "actors/instances/engine/engine_parts.hpp"
 #include "actors/instances/engine/image_packer.hpp"

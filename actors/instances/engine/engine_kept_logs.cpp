@@ -1,8 +1,8 @@
-#include "actors/core/limits.hpp"
 #include "actors/edge/engine/engine_log.hpp"
 #include "actors/edge/history/kept_log_folder.hpp"
 #include "actors/instances/engine/engine_containers.hpp"
 #include "actors/instances/engine/engine_parts.hpp"
+#include "actors/instances/limits.hpp"
 #include "schemas/base64.hpp"
 
 #include <caf/send.hpp>

@@ -1,6 +1,6 @@
-#include "actors/core/limits.hpp"
 #include "actors/edge/engine/engine_log.hpp"
 #include "actors/edge/http/http_target.hpp"
+#include "actors/edge/process/limits.hpp"
 #include "actors/instances/engine/engine_containers.hpp"
 #include "actors/instances/engine/engine_parts.hpp"
 #include "actors/instances/life/any_runtime.hpp"

@@ -1,5 +1,5 @@
 #include "actors/core/edge_failure.hpp"
-#include "actors/core/limits.hpp"
+#include "actors/edge/engine/limits.hpp"
 #include "actors/edge/http/http_target.hpp"
 #include "actors/edge/io/unique_fd.hpp"
 #include "actors/edge/process/environment_file.hpp"

@@ -1,7 +1,8 @@
-#include "actors/core/limits.hpp"
+#include "actors/edge/engine/limits.hpp"
 #include "actors/instances/engine/engine_containers.hpp"
 #include "actors/instances/engine/engine_parts.hpp"
 #include "actors/instances/life/any_runtime.hpp"
+#include "actors/instances/limits.hpp"
 #include "messages/failure.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "actors/instances/life/instance_environment.hpp"
 
-#include "actors/core/limits.hpp"
 #include "actors/instances/life/health_table.hpp"
+#include "actors/instances/limits.hpp"
 #include "messages/codec/json_codec.hpp"
 
 namespace roscell {

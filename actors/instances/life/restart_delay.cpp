@@ -1,7 +1,7 @@
 #include "actors/instances/life/restart_delay.hpp"
 
-#include "actors/core/limits.hpp"
 #include "actors/instances/life/instance_text.hpp"
+#include "actors/instances/limits.hpp"
 
 #include <algorithm>
 #include <cmath>

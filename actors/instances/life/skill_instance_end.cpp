@@ -1,8 +1,8 @@
-#include "actors/core/limits.hpp"
 #include "actors/core/wall_clock.hpp"
 #include "actors/instances/life/instance_text.hpp"
 #include "actors/instances/life/restart_delay.hpp"
 #include "actors/instances/life/skill_instance_steps.hpp"
+#include "actors/instances/limits.hpp"
 #include "schemas/utf8.hpp"
 
 #include <caf/send.hpp>

@@ -1,5 +1,5 @@
-#include "actors/core/limits.hpp"
 #include "actors/core/wall_clock.hpp"
+#include "actors/edge/session/limits.hpp"
 #include "actors/instances/life/restart_delay.hpp"
 #include "actors/instances/life/skill_instance_steps.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "actors/core/limits.hpp"
 #include "actors/instances/life/skill_instance.hpp"
+#include "actors/instances/limits.hpp"
 
 #include <caf/send.hpp>
 

@@ -1,6 +1,6 @@
 #include "actors/instances/logs/log_following.hpp"
 
-#include "actors/core/limits.hpp"
+#include "actors/core/answer_limits.hpp"
 #include "messages/failure.hpp"
 
 #include <algorithm>

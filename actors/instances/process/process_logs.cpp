@@ -1,7 +1,7 @@
 #include "actors/instances/process/process_logs.hpp"
 
-#include "actors/core/limits.hpp"
 #include "actors/edge/process/instance_log.hpp"
+#include "actors/edge/process/limits.hpp"
 #include "actors/edge/process/log_watch.hpp"
 #include "actors/instances/life/any_runtime.hpp"
 #include "messages/failure.hpp"

@@ -1,9 +1,9 @@
 #include "actors/instances/skills/skill_catalogue.hpp"
 
-#include "actors/core/limits.hpp"
 #include "actors/edge/disk/folder_hash.hpp"
 #include "actors/edge/disk/small_file.hpp"
 #include "actors/edge/io/crypto.hpp"
+#include "actors/instances/limits.hpp"
 #include "actors/instances/skills/skill_descriptor_file.hpp"
 #include "schemas/utf8.hpp"
 

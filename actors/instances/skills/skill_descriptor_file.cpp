@@ -1,7 +1,7 @@
 #include "actors/instances/skills/skill_descriptor_file.hpp"
 
-#include "actors/core/limits.hpp"
 #include "actors/edge/disk/small_file.hpp"
+#include "actors/instances/limits.hpp"
 #include "schemas/document.hpp"
 #include "schemas/document_place.hpp"
 #include "schemas/message_catalogue.hpp"

@@ -1,7 +1,7 @@
 #include "actors/node/reach/reach_prober.hpp"
 
+#include "actors/core/answer_limits.hpp"
 #include "actors/core/edge_failure.hpp"
-#include "actors/core/limits.hpp"
 #include "actors/core/program_version.hpp"
 #include "actors/edge/reach/reach_tries.hpp"
 #include "messages/failure.hpp"

@@ -1,12 +1,13 @@
 #include "actors/node/start/cell_claim.hpp"
 
 #include "actors/core/edge_failure.hpp"
-#include "actors/core/limits.hpp"
 #include "actors/edge/dds/announcement.hpp"
 #include "actors/edge/dds/site_survey.hpp"
 #include "actors/edge/io/name_lookup.hpp"
 #include "actors/edge/io/socket_address.hpp"
 #include "actors/edge/session/session_link.hpp"
+#include "actors/membership/limits.hpp"
+#include "actors/node/limits.hpp"
 #include "messages/failure.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "actors/core/limits.hpp"
+#include "actors/placement/limits.hpp"
 #include "messages/allocation_report.hpp"
 #include "messages/failure.hpp"
 #include "messages/inside/placement.hpp"

@@ -1,6 +1,6 @@
 #include "actors/requests/handlers/actor_inspecting.hpp"
 
-#include "actors/core/limits.hpp"
+#include "actors/core/answer_limits.hpp"
 
 #include <memory>
 #include <utility>

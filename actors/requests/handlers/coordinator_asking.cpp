@@ -1,6 +1,6 @@
 #include "actors/requests/handlers/coordinator_asking.hpp"
 
-#include "actors/core/limits.hpp"
+#include "actors/core/answer_limits.hpp"
 #include "messages/codec/json_codec.hpp"
 
 #include <utility>

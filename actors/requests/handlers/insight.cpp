@@ -1,6 +1,6 @@
 #include "actors/requests/handlers/insight.hpp"
 
-#include "actors/core/limits.hpp"
+#include "actors/core/answer_limits.hpp"
 
 #include <map>
 #include <utility>

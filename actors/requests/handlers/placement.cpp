@@ -1,6 +1,8 @@
-#include "actors/core/limits.hpp"
+#include "actors/core/answer_limits.hpp"
 #include "actors/placement/instance_specs.hpp"
+#include "actors/placement/limits.hpp"
 #include "actors/requests/handlers/task_pipeline.hpp"
+#include "actors/requests/limits.hpp"
 
 #include <algorithm>
 #include <limits>

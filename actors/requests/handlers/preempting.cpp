@@ -1,4 +1,5 @@
-#include "actors/core/limits.hpp"
+#include "actors/core/answer_limits.hpp"
+#include "actors/placement/limits.hpp"
 #include "actors/requests/handlers/task_pipeline.hpp"
 
 #include <map>

@@ -1,8 +1,9 @@
 #include "actors/requests/handlers/task_change_waiting.hpp"
 
 #include "actors/core/alarm.hpp"
-#include "actors/core/limits.hpp"
+#include "actors/core/answer_limits.hpp"
 #include "actors/core/watching.hpp"
+#include "actors/requests/limits.hpp"
 #include "messages/event.hpp"
 
 #include <caf/send.hpp>

@@ -1,11 +1,13 @@
 #include "actors/requests/handlers/task_pipeline.hpp"
 
-#include "actors/core/limits.hpp"
+#include "actors/core/answer_limits.hpp"
 #include "actors/core/wall_clock.hpp"
 #include "actors/core/watching.hpp"
 #include "actors/placement/instance_specs.hpp"
+#include "actors/placement/limits.hpp"
 #include "actors/placement/reading/start_order.hpp"
 #include "actors/placement/reading/task_reading.hpp"
+#include "actors/requests/limits.hpp"
 
 #include <algorithm>
 #include <memory>

@@ -1,7 +1,8 @@
 #include "actors/requests/metrics/scrape.hpp"
 
-#include "actors/core/limits.hpp"
+#include "actors/core/answer_limits.hpp"
 #include "actors/edge/host/own_cost.hpp"
+#include "actors/requests/limits.hpp"
 #include "actors/requests/metrics/cell_metrics.hpp"
 
 #include <optional>

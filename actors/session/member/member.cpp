@@ -1,8 +1,9 @@
 #include "actors/session/member/member.hpp"
 
-#include "actors/core/limits.hpp"
+#include "actors/core/answer_limits.hpp"
 #include "actors/core/relayed_requests.hpp"
 #include "actors/core/watching.hpp"
+#include "actors/session/limits.hpp"
 #include "actors/session/member/member_steps.hpp"
 #include "schemas/document.hpp"
 

@@ -1,6 +1,7 @@
-#include "actors/core/limits.hpp"
+#include "actors/core/answer_limits.hpp"
 #include "actors/core/wall_clock.hpp"
 #include "actors/session/forwarded_requests.hpp"
+#include "actors/session/limits.hpp"
 #include "actors/session/long_starts.hpp"
 #include "actors/session/member/member_steps.hpp"
 #include "actors/session/session_envelope.hpp"

@@ -1,7 +1,6 @@
 #include "actors/session/registration/registration_client.hpp"
 
 #include "actors/core/edge_failure.hpp"
-#include "actors/core/limits.hpp"
 #include "actors/edge/http/client/http_call.hpp"
 #include "actors/edge/http/http_paths.hpp"
 #include "actors/edge/io/socket_address.hpp"

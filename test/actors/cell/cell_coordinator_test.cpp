@@ -1,4 +1,4 @@
-#include "actors/core/limits.hpp"
+#include "actors/cell/limits.hpp"
 #include "test/actors/fakes/coordinator_fakes.hpp"
 
 namespace roscell::test {

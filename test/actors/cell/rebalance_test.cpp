@@ -1,6 +1,5 @@
+#include "actors/cell/limits.hpp"
 #include "test/actors/fakes/crowded_cell.hpp"
-
-#include "actors/core/limits.hpp"
 
 /// Running steps that move to where the cell is better balanced.
 namespace roscell::test {

@@ -1,5 +1,5 @@
+#include "actors/cell/limits.hpp"
 #include "actors/cell/tables/history_table.hpp"
-#include "actors/core/limits.hpp"
 #include "test/actors/fakes/coordinator_fakes.hpp"
 
 /// What has happened to tasks, also to those that are gone.

@@ -1,6 +1,6 @@
 #include "test/actors/fakes/trial_node.hpp"
 
-#include "actors/core/limits.hpp"
+#include "actors/edge/session/limits.hpp"
 #include "actors/placement/reservation.hpp"
 
 #include <algorithm>

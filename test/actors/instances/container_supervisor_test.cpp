@@ -1,5 +1,6 @@
-#include "actors/core/limits.hpp"
+#include "actors/edge/limit_units.hpp"
 #include "actors/instances/container_supervisor.hpp"
+#include "actors/instances/limits.hpp"
 
 #include "messages/failure.hpp"
 #include "test/actors/fakes/supervision_fakes.hpp"

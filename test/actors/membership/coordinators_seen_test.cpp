@@ -1,6 +1,5 @@
 #include "actors/membership/coordinators_seen.hpp"
-
-#include "actors/core/limits.hpp"
+#include "actors/membership/limits.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,4 +1,4 @@
-#include "actors/core/limits.hpp"
+#include "actors/edge/session/limits.hpp"
 #include "test/actors/fakes/cell_fakes.hpp"
 
 namespace {

@@ -1,5 +1,5 @@
-#include "actors/core/limits.hpp"
 #include "actors/node/event_log.hpp"
+#include "actors/node/limits.hpp"
 #include "messages/failure.hpp"
 #include "test/fixture.hpp"
 

@@ -1,5 +1,5 @@
-#include "actors/core/limits.hpp"
 #include "actors/node/event_series.hpp"
+#include "actors/node/limits.hpp"
 
 #include "test/time_zero.hpp"
 

@@ -1,6 +1,6 @@
+#include "actors/core/answer_limits.hpp"
 #include "actors/node/node_agent.hpp"
 
-#include "actors/core/limits.hpp"
 #include "test/fixture.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "actors/core/limits.hpp"
+#include "actors/node/limits.hpp"
 #include "actors/node/refusal_gate.hpp"
 
 #include "test/time_zero.hpp"

@@ -1,6 +1,6 @@
+#include "actors/instances/limits.hpp"
+#include "actors/node/limits.hpp"
 #include "actors/node/reservation_table.hpp"
-
-#include "actors/core/limits.hpp"
 
 #include "test/time_zero.hpp"
 

@@ -1,3 +1,4 @@
+#include "actors/node/limits.hpp"
 #include "actors/node/state_store.hpp"
 
 #include "actors/core/limits.hpp"

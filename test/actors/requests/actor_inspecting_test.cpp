@@ -1,4 +1,4 @@
-#include "actors/core/limits.hpp"
+#include "actors/core/answer_limits.hpp"
 #include "actors/requests/handlers/actor_inspecting.hpp"
 #include "test/actors/requests/processing.hpp"
 

@@ -1,6 +1,5 @@
 #include "actors/requests/answer_memory.hpp"
-
-#include "actors/core/limits.hpp"
+#include "actors/requests/limits.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,4 +1,4 @@
-#include "actors/core/limits.hpp"
+#include "actors/requests/limits.hpp"
 #include "actors/requests/request_router.hpp"
 #include "test/actors/fakes/coordinator_fakes.hpp"
 

@@ -1,6 +1,7 @@
 #include "actors/requests/handlers/task_change_waiting.hpp"
+#include "actors/requests/limits.hpp"
+#include "actors/session/limits.hpp"
 
-#include "actors/core/limits.hpp"
 #include "test/actors/requests/processing.hpp"
 
 #include <vector>

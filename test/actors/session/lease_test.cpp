@@ -1,4 +1,4 @@
-#include "actors/core/limits.hpp"
+#include "actors/edge/session/limits.hpp"
 #include "actors/session/lease.hpp"
 
 #include "test/time_zero.hpp"

@@ -1,6 +1,6 @@
+#include "actors/edge/session/limits.hpp"
 #include "actors/session/long_starts.hpp"
 
-#include "actors/core/limits.hpp"
 #include "actors/session/session_envelope.hpp"
 
 #include <catch2/catch.hpp>

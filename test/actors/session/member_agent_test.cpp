@@ -1,4 +1,4 @@
-#include "actors/core/limits.hpp"
+#include "actors/session/limits.hpp"
 #include "test/actors/fakes/cell_fakes.hpp"
 
 /// Members with a real membership at the other end of the wire.

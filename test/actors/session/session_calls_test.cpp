@@ -1,4 +1,5 @@
-#include "actors/core/limits.hpp"
+#include "actors/edge/session/limits.hpp"
+#include "actors/session/limits.hpp"
 #include "actors/session/session_calls.hpp"
 
 #include "actors/session/session_answers.hpp"

@@ -1,6 +1,7 @@
+#include "actors/edge/session/limits.hpp"
+#include "actors/session/limits.hpp"
 #include "actors/session/wire_session.hpp"
 
-#include "actors/core/limits.hpp"
 #include "test/fixture.hpp"
 
 #include <catch2/catch.hpp>

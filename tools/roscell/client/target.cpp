@@ -1,6 +1,6 @@
 #include "tools/roscell/client/target.hpp"
 
-#include "actors/core/limits.hpp"
+#include "actors/edge/site/limits.hpp"
 #include "tools/roscell/client/open_secret.hpp"
 #include "tools/roscell/exit_code.hpp"
 #include "tools/roscell/view/format.hpp"

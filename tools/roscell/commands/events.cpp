@@ -1,5 +1,6 @@
-#include "actors/core/limits.hpp"
+#include "actors/edge/history/limits.hpp"
 #include "actors/edge/io/node_time.hpp"
+#include "actors/node/limits.hpp"
 #include "tools/roscell/client/event_start.hpp"
 #include "tools/roscell/client/event_text.hpp"
 #include "tools/roscell/client/node_client.hpp"

@@ -1,6 +1,6 @@
 #include "tools/roscell/daemon/drain_first.hpp"
 
-#include "actors/core/limits.hpp"
+#include "actors/core/answer_limits.hpp"
 #include "actors/core/watching.hpp"
 #include "messages/failure.hpp"
 #include "messages/formation.hpp"

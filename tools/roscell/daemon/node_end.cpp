@@ -1,6 +1,6 @@
 #include "tools/roscell/daemon/node_end.hpp"
 
-#include "actors/core/limits.hpp"
+#include "actors/node/limits.hpp"
 #include "tools/roscell/daemon/drain_first.hpp"
 #include "tools/roscell/view/format.hpp"
 

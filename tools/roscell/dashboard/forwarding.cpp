@@ -1,7 +1,8 @@
 #include "tools/roscell/dashboard/forwarding.hpp"
 
-#include "actors/core/limits.hpp"
+#include "actors/core/answer_limits.hpp"
 #include "actors/edge/http/http_target.hpp"
+#include "actors/edge/http/limits.hpp"
 
 #include <string_view>
 #include <utility>

@@ -1,6 +1,7 @@
 #include "actors/edge/http/client/http_call.hpp"
 
 #include "actors/edge/http/client/http_exchange.hpp"
+#include "actors/edge/http/limits.hpp"
 
 #include <cerrno>
 #include <system_error>
@@ -19,6 +20,13 @@ std::string text_of(int system_error) {
 std::string http_endpoint::name() const {
   return socket_path.empty() ? address + ":" + std::to_string(port)
                              : "'" + socket_path + "'";
+}
+
+http_call::http_call()
+    : timeout{limits::cell::registration_call},
+      max_header_bytes{limits::http::header_bytes},
+      max_reply_bytes{limits::http::exchanged_bytes} {
+  // nop
 }
 
 http_subscription::http_subscription(std::shared_ptr<io_core> core,

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "actors/core/limits.hpp"
 #include "actors/edge/http/http_types.hpp"
 #include "actors/edge/io/edge_error.hpp"
 #include "actors/edge/io/io_thread.hpp"
@@ -29,8 +28,10 @@ struct http_endpoint {
   std::string name() const;
 };
 
-/// One request.
+/// One request. As it is made it has the bounds of what nodes ask each other.
 struct http_call {
+  http_call();
+
   http_endpoint to;
   std::string method = "GET";
   std::string target; ///< Path and query, percent-encoded, begins with '/'.
@@ -38,12 +39,12 @@ struct http_call {
   std::string body;           ///< JSON; empty: none.
   std::filesystem::path file; ///< A tar file to be sent in place of `body`.
   /// From connecting to the last byte of the reply.
-  std::chrono::milliseconds timeout = limits::cell::registration_call;
+  std::chrono::milliseconds timeout;
   /// The timeout counts up to the reply's header; the rest may take forever.
   bool endless = false;
-  size_t max_header_bytes = limits::http::header_bytes;
+  size_t max_header_bytes;
   /// Longest body of a reply that is no stream.
-  size_t max_reply_bytes = limits::http::exchanged_bytes;
+  size_t max_reply_bytes;
 };
 
 /// Why there is no reply.

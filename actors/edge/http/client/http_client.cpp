@@ -2,6 +2,7 @@
 
 #include "actors/edge/http/client/http_exchange.hpp"
 #include "actors/edge/http/client/life_probe.hpp"
+#include "actors/edge/http/limits.hpp"
 #include "actors/edge/io/line_splitter.hpp"
 
 #include <boost/asio/posix/stream_descriptor.hpp>
@@ -164,6 +165,10 @@ http_cancel::~http_cancel() {
 void http_cancel::cancel() const {
   const uint64_t one = 1;
   [[maybe_unused]] const auto written = ::write(fd_, &one, sizeof one);
+}
+
+http_client::options::options() : timeout{limits::http::client_timeout} {
+  // nop
 }
 
 http_client::http_client(http_endpoint to) : to_(std::move(to)) {

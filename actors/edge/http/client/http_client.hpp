@@ -53,10 +53,12 @@ public:
   };
 
   struct options {
+    options();
+
     std::map<std::string, std::string> headers;
     /// For `request` from the first connection attempt to the last byte, for
     /// `follow` up to the beginning of the reply.
-    std::chrono::milliseconds timeout = limits::http::client_timeout;
+    std::chrono::milliseconds timeout;
     const http_cancel* cancel = nullptr;
     /// Ends the wait for a server that does not live, with `unreachable`;
     /// without it only the timeout does.

@@ -1,5 +1,5 @@
 #include "actors/cell/moves/move_table.hpp"
-#include "actors/core/limits.hpp"
+#include "actors/core/answer_limits.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,4 +1,3 @@
-#include "actors/core/limits.hpp"
 #include "test/actors/fakes/trial_node.hpp"
 
 #include <cstdlib>

@@ -1,3 +1,4 @@
+#include "actors/core/answer_limits.hpp"
 #include "actors/core/limits.hpp"
 #include "test/actors/fakes/careful_cell.hpp"
 

@@ -1,5 +1,5 @@
+#include "actors/cell/limits.hpp"
 #include "actors/cell/tables/node_failures.hpp"
-#include "actors/core/limits.hpp"
 
 #include <catch2/catch.hpp>
 

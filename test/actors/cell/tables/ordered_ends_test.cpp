@@ -1,5 +1,6 @@
+#include "actors/cell/limits.hpp"
 #include "actors/cell/tables/ordered_ends.hpp"
-#include "actors/core/limits.hpp"
+#include "actors/core/answer_limits.hpp"
 
 #include <catch2/catch.hpp>
 

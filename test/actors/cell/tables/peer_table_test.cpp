@@ -1,6 +1,5 @@
+#include "actors/cell/limits.hpp"
 #include "actors/cell/tables/peer_table.hpp"
-
-#include "actors/core/limits.hpp"
 
 #include <caf/actor_cast.hpp>
 #include <caf/actor_system.hpp>

@@ -1,6 +1,5 @@
+#include "actors/cell/limits.hpp"
 #include "actors/cell/tables/slot_table.hpp"
-
-#include "actors/core/limits.hpp"
 
 #include "test/time_zero.hpp"
 

@@ -1,3 +1,4 @@
+#include "actors/cell/limits.hpp"
 #include "actors/cell/tables/task_table.hpp"
 
 #include <catch2/catch.hpp>

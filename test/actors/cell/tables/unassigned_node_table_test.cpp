@@ -1,3 +1,4 @@
+#include "actors/cell/limits.hpp"
 #include "actors/cell/tables/unassigned_node_table.hpp"
 
 #include "test/time_zero.hpp"

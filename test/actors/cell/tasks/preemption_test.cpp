@@ -1,4 +1,4 @@
-#include "actors/core/limits.hpp"
+#include "actors/core/answer_limits.hpp"
 #include "test/actors/fakes/careful_cell.hpp"
 
 /// What runs is preempted for tasks of higher priority, if somebody says so.

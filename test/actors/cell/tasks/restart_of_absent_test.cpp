@@ -1,4 +1,4 @@
-#include "actors/core/limits.hpp"
+#include "actors/core/answer_limits.hpp"
 #include "test/actors/fakes/careful_cell.hpp"
 
 /// A restart that cannot be finished, since a node is away or a step is not

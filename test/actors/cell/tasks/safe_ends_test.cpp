@@ -1,6 +1,5 @@
+#include "actors/core/answer_limits.hpp"
 #include "test/actors/fakes/coordinator_fakes.hpp"
-
-#include "actors/core/limits.hpp"
 
 /// What is not stop-safe is waited for, wherever it is to end.
 namespace roscell::test {

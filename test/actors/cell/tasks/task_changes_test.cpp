@@ -1,6 +1,5 @@
+#include "actors/core/answer_limits.hpp"
 #include "test/actors/fakes/coordinator_fakes.hpp"
-
-#include "actors/core/limits.hpp"
 
 #include "test/words.hpp"
 

@@ -1,6 +1,5 @@
+#include "actors/cell/limits.hpp"
 #include "test/actors/fakes/coordinator_fakes.hpp"
-
-#include "actors/core/limits.hpp"
 
 /// How tasks end by themselves, and what is remembered of it.
 namespace roscell::test {

@@ -1,5 +1,6 @@
-#include "actors/core/limits.hpp"
 #include "actors/edge/dds/announcement.hpp"
+#include "actors/edge/dds/limits.hpp"
+#include "actors/edge/io/limits.hpp"
 #include "actors/edge/session/session_frames.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,6 +1,6 @@
-#include "actors/core/limits.hpp"
 #include "actors/edge/dds/announcement.hpp"
 #include "actors/edge/dds/discovery_address.hpp"
+#include "actors/edge/dds/limits.hpp"
 #include "discovery_fixture.hpp"
 
 #include <arpa/inet.h>

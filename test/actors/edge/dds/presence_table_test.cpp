@@ -1,4 +1,4 @@
-#include "actors/core/limits.hpp"
+#include "actors/edge/dds/limits.hpp"
 #include "actors/edge/dds/presence_table.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-#include "actors/core/limits.hpp"
+#include "actors/edge/dds/limits.hpp"
 #include "actors/edge/dds/public_presence.hpp"
 #include "actors/edge/dds/site_survey.hpp"
 #include "discovery_fixture.hpp"

@@ -1,6 +1,8 @@
-#include "actors/core/limits.hpp"
 #include "actors/edge/history/event_files.hpp"
 #include "actors/edge/history/event_lines.hpp"
+#include "actors/edge/history/limits.hpp"
+#include "actors/edge/limit_units.hpp"
+#include "actors/node/limits.hpp"
 #include "test/actors/edge/process/supervision_fixture.hpp"
 
 #include <chrono>

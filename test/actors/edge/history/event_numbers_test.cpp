@@ -1,5 +1,5 @@
-#include "actors/core/limits.hpp"
 #include "actors/edge/history/event_numbers.hpp"
+#include "actors/edge/history/limits.hpp"
 #include "test/actors/edge/process/supervision_fixture.hpp"
 
 #include <fstream>

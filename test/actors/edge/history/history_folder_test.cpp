@@ -1,5 +1,6 @@
-#include "actors/core/limits.hpp"
 #include "actors/edge/history/history_folder.hpp"
+#include "actors/edge/history/limits.hpp"
+#include "actors/edge/limit_units.hpp"
 #include "test/actors/edge/process/supervision_fixture.hpp"
 
 #include <sys/stat.h>

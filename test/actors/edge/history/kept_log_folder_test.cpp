@@ -1,6 +1,6 @@
 #include "actors/edge/history/kept_log_folder.hpp"
+#include "actors/edge/history/limits.hpp"
 
-#include "actors/core/limits.hpp"
 #include "test/actors/edge/process/supervision_fixture.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,3 +1,4 @@
+#include "actors/edge/http/limits.hpp"
 #include "test/actors/edge/io/edge_fixture.hpp"
 
 #include <algorithm>

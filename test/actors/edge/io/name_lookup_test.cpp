@@ -1,3 +1,4 @@
+#include "actors/edge/io/limits.hpp"
 #include "actors/edge/io/name_lookup.hpp"
 
 #include "actors/edge/dds/server_inquiry.hpp"

@@ -1,6 +1,5 @@
+#include "actors/edge/io/limits.hpp"
 #include "actors/edge/io/plain_text.hpp"
-
-#include "actors/core/limits.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,6 +1,6 @@
 #include "actors/edge/process/instance_log.hpp"
+#include "actors/edge/process/limits.hpp"
 
-#include "actors/core/limits.hpp"
 #include "schemas/base64.hpp"
 #include "test/actors/edge/process/supervision_fixture.hpp"
 

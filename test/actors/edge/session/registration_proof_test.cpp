@@ -1,4 +1,4 @@
-#include "actors/core/limits.hpp"
+#include "actors/edge/session/limits.hpp"
 #include "actors/edge/session/registration_proof.hpp"
 
 #include <catch2/catch.hpp>

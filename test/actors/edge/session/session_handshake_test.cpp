@@ -1,6 +1,5 @@
+#include "actors/edge/io/limits.hpp"
 #include "actors/edge/session/session_handshake.hpp"
-
-#include "actors/core/limits.hpp"
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>

@@ -1,6 +1,6 @@
+#include "actors/edge/site/limits.hpp"
 #include "actors/edge/site/site_token_file.hpp"
 
-#include "actors/core/limits.hpp"
 #include "actors/edge/site/site_secret.hpp"
 #include "test/actors/edge/process/supervision_fixture.hpp"
 

@@ -1,4 +1,5 @@
-#include "actors/core/limits.hpp"
+#include "actors/edge/session/limits.hpp"
+#include "actors/instances/limits.hpp"
 #include "test/actors/fakes/instance_bench.hpp"
 
 using namespace roscell;

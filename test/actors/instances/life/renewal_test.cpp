@@ -1,4 +1,4 @@
-#include "actors/core/limits.hpp"
+#include "actors/instances/limits.hpp"
 #include "test/actors/fakes/instance_bench.hpp"
 
 #include <map>

@@ -1,5 +1,5 @@
-#include "actors/core/limits.hpp"
 #include "actors/instances/life/restart_delay.hpp"
+#include "actors/instances/limits.hpp"
 
 #include <catch2/catch.hpp>
 

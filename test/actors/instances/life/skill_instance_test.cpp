@@ -1,5 +1,5 @@
-#include "actors/core/limits.hpp"
 #include "actors/instances/life/skill_instance.hpp"
+#include "actors/instances/limits.hpp"
 
 #include "actors/instances/life/instance_environment.hpp"
 #include "messages/failure.hpp"

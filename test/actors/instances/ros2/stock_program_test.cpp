@@ -1,5 +1,5 @@
-#include "actors/core/limits.hpp"
 #include "actors/instances/life/skill_instance.hpp"
+#include "actors/instances/limits.hpp"
 #include "actors/instances/ros2/graph_watch.hpp"
 
 #include "messages/failure.hpp"

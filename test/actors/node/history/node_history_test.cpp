@@ -1,4 +1,4 @@
-#include "actors/core/limits.hpp"
+#include "actors/edge/history/limits.hpp"
 #include "actors/node/history/node_history.hpp"
 #include "test/actors/edge/process/supervision_fixture.hpp"
 #include "test/fixture.hpp"

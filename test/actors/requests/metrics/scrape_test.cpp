@@ -1,3 +1,5 @@
+#include "actors/cell/limits.hpp"
+#include "actors/requests/limits.hpp"
 #include "actors/requests/metrics/scrape.hpp"
 
 #include "actors/core/limits.hpp"

@@ -1,5 +1,5 @@
-#include "actors/core/limits.hpp"
 #include "actors/edge/http/client/http_call.hpp"
+#include "actors/edge/http/limits.hpp"
 #include "test/actors/edge/http/canned_server.hpp"
 
 namespace roscell::test::wire {
