@@ -33,15 +33,15 @@ struct failure {
 
 /// Whether something has been done, or why it has not: an `expected<void>`
 /// whose error is a failure. A continuation that takes one is called once.
-class [[nodiscard]] outcome {
+class [[nodiscard]] completion {
 public:
   /// It has been done.
-  outcome() = default;
+  completion() = default;
 
-  outcome(failure why) : why_{std::move(why)} {}
+  completion(failure why) : why_{std::move(why)} {}
 
   /// @param why none: it has been done.
-  outcome(std::optional<failure> why) : why_{std::move(why)} {}
+  completion(std::optional<failure> why) : why_{std::move(why)} {}
 
   explicit operator bool() const {
     return !why_;
@@ -56,7 +56,7 @@ private:
   std::optional<failure> why_;
 };
 
-using outcome_handler = std::function<void(const outcome&)>;
+using completion_handler = std::function<void(const completion&)>;
 
 void to_json(json& j, error_code code);
 void from_json(const json& j, error_code& code);

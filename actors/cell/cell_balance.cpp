@@ -155,7 +155,7 @@ hand_over_members(coordinator_pointer self, const member_surrender& request) {
     order.origin = join_origin::discovered;
     start_transfer(self, order,
                    [state, finish_one, name](const cell_transfer&,
-                                             const outcome& left) mutable {
+                                             const completion& left) mutable {
                      if (left)
                        state->result.nodes.push_back(name);
                      finish_one();

@@ -94,7 +94,7 @@ node_drained progress_of(const cell_coordinator_state& st,
 }
 
 void on_moved(coordinator_pointer self, const drain_record& drain,
-              const outcome& moved) {
+              const completion& moved) {
   auto& st = self->state;
   const auto* known = st.drains.find(drain.uuid);
   if (!known)
@@ -133,7 +133,7 @@ void move_away(coordinator_pointer self, const drain_record& drain) {
     if (!is_there(self->state, drain.uuid))
       return refuse_absent(self, drain);
     const auto tasks = self->state.deployments.tasks_bound_to(node);
-    move_tasks(self, node, tasks, [self, drain](const outcome& moved) {
+    move_tasks(self, node, tasks, [self, drain](const completion& moved) {
       on_moved(self, drain, moved);
     });
   });

@@ -42,7 +42,7 @@ formation_outcome joined(const std::string& node, const std::string& from) {
 void answer_on_arrival(coordinator_pointer self, const std::string& uuid,
                        const formation_outcome& success,
                        const outcome_done& done) {
-  await_arrival(self, uuid, [success, done](const outcome& came) {
+  await_arrival(self, uuid, [success, done](const completion& came) {
     done(came ? success : failed(success.node, came.error()));
   });
 }

@@ -56,14 +56,14 @@ caf::result<Reply> let_go(coordinator_pointer self, const Request& request) {
       return forward_to_holder<Reply>(self, found.holder, request);
   }
   auto promise = self->make_response_promise<Reply>();
-  start_transfer(
-      self, transfer_order_of(request),
-      [promise, request](const cell_transfer& x, const outcome& left) mutable {
-        if (!left)
-          promise.deliver(to_error(left.error()));
-        else
-          promise.deliver(reply_of(request, x));
-      });
+  start_transfer(self, transfer_order_of(request),
+                 [promise, request](const cell_transfer& x,
+                                    const completion& left) mutable {
+                   if (!left)
+                     promise.deliver(to_error(left.error()));
+                   else
+                     promise.deliver(reply_of(request, x));
+                 });
   return promise;
 }
 

@@ -85,6 +85,7 @@ bool turn_elsewhere(self_pointer self, bool refused);
 
 // -- membership_switch.cpp: from one registration to another ------------------
 
+/// Called once: when the node has said that it goes, or with why it does not.
 using switch_reply = std::function<void(caf::expected<switch_accepted>)>;
 
 /// For whoever proves to be of the site.

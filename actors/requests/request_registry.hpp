@@ -12,7 +12,8 @@
 
 namespace roscell {
 
-/// A request as an edge sees it: a checked document in, a reply out.
+/// A request as an edge sees it: a checked document in, a reply out, by a call
+/// that is made once.
 using request_runner =
     std::function<void(const request_context&, const json& document,
                        std::function<void(std::variant<json, failure>)>)>;

@@ -45,7 +45,7 @@ void retry_placement(coordinator_pointer self,
   auto move = std::make_shared<task_move>();
   move->what = "the lost steps of task '" + steps.front().task + "'";
   move->kind = move_kind::lost;
-  move->done = [self, steps](const outcome& placed) {
+  move->done = [self, steps](const completion& placed) {
     if (!placed)
       postpone(self, steps, placed.error());
   };

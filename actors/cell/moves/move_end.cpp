@@ -39,7 +39,7 @@ void forget_new(coordinator_pointer self, const std::string& task,
   change.make = [added](task_record record) {
     return without(std::move(record), added);
   };
-  change.done = [self, task](const outcome&) { record_ends(self, task); };
+  change.done = [self, task](const completion&) { record_ends(self, task); };
   change_task(self, task, std::move(change));
 }
 

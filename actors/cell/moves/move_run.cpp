@@ -43,7 +43,7 @@ void change_tasks(coordinator_pointer self, const move_ptr& move,
     change.make = [make, moved = moved](task_record record) {
       return make(std::move(record), moved);
     };
-    change.done = [self, move, next, task = task](const outcome& kept) {
+    change.done = [self, move, next, task = task](const completion& kept) {
       if (!kept && (self->state.tasks.*still_of(*move))(task))
         add_problem(move, kept.error());
       end_part(self, move, next, undo_move);
@@ -166,7 +166,7 @@ void end_old(coordinator_pointer self, const move_ptr& move, size_t i) {
     move->steps[i].was_asked = true;
     enter(self, move, i, move_stage::ending);
   };
-  stop.done = [self, move, i](stop_outcome how, const outcome& stopped) {
+  stop.done = [self, move, i](stop_outcome how, const completion& stopped) {
     if (how == stop_outcome::ended)
       start_new(self, move, i);
     else if (how == stop_outcome::had_ended)

@@ -44,7 +44,7 @@ struct task_move {
   size_t open = 0;                ///< Parts of the present stage.
   std::optional<failure> problem; ///< The first.
   /// Called once, when nothing of the move goes on: all run, or some do not.
-  outcome_handler done;
+  completion_handler done;
 };
 
 using move_ptr = std::shared_ptr<task_move>;

@@ -85,7 +85,7 @@ const deployment* successor_of(const cell_coordinator_state& st,
 }
 
 void on_moved(coordinator_pointer self, const rebalance_move& move,
-              const outcome& moved) {
+              const completion& moved) {
   auto& st = self->state;
   if (!moved)
     return fail_moves(self, moved.error().message);
@@ -104,7 +104,7 @@ void make_next_move(coordinator_pointer self) {
     return end_moves(self);
   move_instance(
       self, next->instance, next->to, self->state.rebalance.force(),
-      [self, move = *next](const outcome& x) { on_moved(self, move, x); });
+      [self, move = *next](const completion& x) { on_moved(self, move, x); });
 }
 
 cell_rebalanced report_of(coordinator_pointer self, moves_planned plan) {

@@ -69,7 +69,7 @@ std::optional<failure> add_instance(coordinator_pointer self, task_move& move,
 
 void move_tasks(coordinator_pointer self, const std::string& node,
                 const std::vector<std::string>& tasks,
-                const outcome_handler& done) {
+                const completion_handler& done) {
   auto move = std::make_shared<task_move>();
   move->what = "the instances of node '" + node + "'";
   move->done = done;
@@ -88,7 +88,7 @@ void move_tasks(coordinator_pointer self, const std::string& node,
 
 void move_instance(coordinator_pointer self, const std::string& instance,
                    const std::string& to, bool force,
-                   const outcome_handler& done) {
+                   const completion_handler& done) {
   auto move = std::make_shared<task_move>();
   move->what = "instance '" + instance + "'";
   move->force = force;

@@ -17,12 +17,13 @@ namespace roscell {
 /// first problem then.
 void move_tasks(coordinator_pointer self, const std::string& node,
                 const std::vector<std::string>& tasks,
-                const outcome_handler& done);
+                const completion_handler& done);
 
 /// Moves one instance to that node, in the same way. With `force` nothing is
 /// waited for to be stop-safe.
+/// @param done called once, as above.
 void move_instance(coordinator_pointer self, const std::string& instance,
                    const std::string& to, bool force,
-                   const outcome_handler& done);
+                   const completion_handler& done);
 
 } // namespace roscell

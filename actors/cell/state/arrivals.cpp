@@ -8,7 +8,7 @@
 namespace roscell {
 
 void await_arrival(coordinator_pointer self, const std::string& uuid,
-                   outcome_handler done) {
+                   completion_handler done) {
   if (self->state.slots.await_arrival(uuid, done, self->clock().now()))
     return set_timer(self);
   done(failure{error_code::conflict, "too many requests wait for nodes to join",
@@ -16,7 +16,7 @@ void await_arrival(coordinator_pointer self, const std::string& uuid,
 }
 
 void settle_arrivals(coordinator_pointer self, const std::string& uuid,
-                     const outcome& how) {
+                     const completion& how) {
   for (const auto& x : self->state.slots.take_arrivals(uuid))
     x.done(how);
 }

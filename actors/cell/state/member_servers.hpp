@@ -8,8 +8,9 @@
 namespace roscell {
 
 /// The session with a member begins: its discovery server, if it has one, is
-/// met anew before `then`, whether that succeeds or not. `tells_anew`: see
-/// `node_registration`.
+/// met anew.
+/// @param tells_anew see `node_registration`.
+/// @param then called once: when that has succeeded or not, or at once.
 void meet_member_server(coordinator_pointer self, int64_t server_id,
                         bool tells_anew, std::function<void()> then);
 

@@ -33,7 +33,7 @@ void publish_transfer_end(coordinator_pointer self, const transfer_row& row) {
 
 void end_transfer(coordinator_pointer self, const std::string& id,
                   transfer_state state, const std::string& reason,
-                  const outcome& how) {
+                  const completion& how) {
   auto& table = self->state.transfers;
   const auto ended = table.end(id, state, reason, now_of(self).unix_ms);
   if (!ended)
@@ -43,7 +43,7 @@ void end_transfer(coordinator_pointer self, const std::string& id,
     persist_record(self, {"transfers", old, ""});
   publish_transfer_end(self, ended->row);
   const auto reported =
-      how ? outcome{} : outcome{with_losses(how.error(), *ended)};
+      how ? completion{} : completion{with_losses(how.error(), *ended)};
   for (const auto& done : ended->waiting)
     done(*ended, reported);
 }

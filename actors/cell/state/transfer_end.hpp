@@ -11,7 +11,7 @@ namespace roscell {
 /// it is told that tasks have been terminated nevertheless.
 void end_transfer(coordinator_pointer self, const std::string& id,
                   transfer_state state, const std::string& reason,
-                  const outcome& how);
+                  const completion& how);
 
 /// The node stays a member: its row is active again, or lost if it is away.
 void call_off_transfer(coordinator_pointer self, const std::string& id,

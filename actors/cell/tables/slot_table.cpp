@@ -48,7 +48,7 @@ void slot_table::drop_overdue_slots(time_point now) {
     i = i->second.until <= now ? by_node_.erase(i) : std::next(i);
 }
 
-bool slot_table::await_arrival(const std::string& node, outcome_handler done,
+bool slot_table::await_arrival(const std::string& node, completion_handler done,
                                time_point now) {
   if (arrivals_.size() >= limits::cell::waiting)
     return false;

@@ -15,7 +15,7 @@ namespace roscell {
 struct awaited_arrival {
   std::chrono::steady_clock::time_point deadline;
   /// Called once: when it has joined, will not, or has not in time.
-  outcome_handler done;
+  completion_handler done;
 };
 
 /// Somebody waits until the sizes of all cells are known. Called once.
@@ -59,15 +59,15 @@ public:
 
   // -- arrivals ---------------------------------------------------------------
 
-  /// False if too many wait.
-  bool await_arrival(const std::string& node, outcome_handler done,
+  /// False if too many wait; `done` is not kept then. Who takes it calls it.
+  bool await_arrival(const std::string& node, completion_handler done,
                      time_point now);
   std::vector<awaited_arrival> take_arrivals(const std::string& node);
   std::vector<awaited_arrival> take_overdue_arrivals(time_point now);
 
   // -- sizes ------------------------------------------------------------------
 
-  /// False if too many wait.
+  /// The same for the sizes.
   bool await_sizes(std::function<void()> done, time_point now);
   std::vector<awaited_sizes> take_all_who_await_sizes();
   std::vector<awaited_sizes> take_overdue_who_await_sizes(time_point now);

@@ -18,7 +18,8 @@ struct cell_transfer;
 
 /// Called once: when the transfer has ended, could not begin, or nothing of it
 /// is known in time; with the transfer as it is then.
-using transfer_done = std::function<void(const cell_transfer&, const outcome&)>;
+using transfer_done =
+    std::function<void(const cell_transfer&, const completion&)>;
 
 /// A transfer, or a release: that has no target. See docs/protocols.md.
 struct cell_transfer {

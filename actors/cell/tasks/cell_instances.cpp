@@ -254,7 +254,7 @@ std::vector<instance_verdict> take_up_instances(coordinator_pointer self,
       drop_order(self, x.spec.task, x.spec.instance);
   for (const auto& x : ended_by_order(st, node))
     record_forced_end(self, x.task, x.order.instance, x.order.reason,
-                      [](const outcome&) {});
+                      [](const completion&) {});
   // It has just been told what to stop. Nobody answers to that, so it is asked
   // for until it has ended.
   st.pending.removals.forget_node(name);

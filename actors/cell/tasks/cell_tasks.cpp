@@ -149,7 +149,7 @@ caf::result<intent_recorded> hold_placement(coordinator_pointer self,
     return with_placement(std::move(record), intent.decision, specs,
                           intent.nodes);
   };
-  change.done = [self, intent, reply, promise](const outcome& kept) mutable {
+  change.done = [self, intent, reply, promise](const completion& kept) mutable {
     if (!kept)
       return refuse_unwritten(self, intent.task, kept.error(), intent.nodes,
                               promise);
@@ -173,7 +173,7 @@ caf::result<task_accepted> accept_task(coordinator_pointer self,
     return with_ends(with_state(std::move(record), task_state::running),
                      self->state.deployments.untaken_ends(task), unix_now_ms());
   };
-  change.done = [self, task = event.task, promise](const outcome& kept) {
+  change.done = [self, task = event.task, promise](const completion& kept) {
     if (!kept)
       refuse_unwritten(self, task, kept.error(), {}, promise);
     else

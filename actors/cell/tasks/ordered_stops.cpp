@@ -76,7 +76,7 @@ void stop_by_order(coordinator_pointer self, const ordered_stop& stop) {
   change.make = [order = stop.order](task_record record) {
     return with_order(std::move(record), order);
   };
-  change.done = [self, stop](const outcome& kept) {
+  change.done = [self, stop](const completion& kept) {
     if (kept)
       on_order_persisted(self, stop);
     else if (self->state.tasks.is_kept(stop.task))
@@ -94,7 +94,7 @@ void end_as_ordered(coordinator_pointer self, const std::string& task,
     return st.deployments.heed_end(instance);
   // What its fence has ended is to be placed anew: it has not failed.
   if (is_surely_gone(self, instance) && !st.failures.find_abandoned(instance)) {
-    record_forced_end(self, task, instance, reason, [](const outcome&) {});
+    record_forced_end(self, task, instance, reason, [](const completion&) {});
     return drop_order(self, task, instance);
   }
   st.orders.let_go(instance, self->clock().now());

@@ -36,7 +36,7 @@ struct ordered_stop {
   std::function<void()> asked = nullptr;
   /// Called once: when it is known what has become of it, or the time is over.
   /// Only `failed` has an error.
-  std::function<void(stop_outcome, const outcome&)> done;
+  std::function<void(stop_outcome, const completion&)> done;
 };
 
 /// Ends an instance by order, and waits until it is stop-safe, or the time is

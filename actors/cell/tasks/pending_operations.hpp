@@ -23,8 +23,8 @@ namespace roscell {
 /// Somebody who waits for the placement lock.
 struct placement_lock_request {
   uint64_t number = 0;
-  caf::actor_addr owner; ///< Null: the coordinator itself.
-  std::function<void()> begin;
+  caf::actor_addr owner;       ///< Null: the coordinator itself.
+  std::function<void()> begin; ///< Called once, when its turn has come.
 };
 
 /// Who works on a task, and who waits for what becomes of it.
@@ -52,7 +52,7 @@ struct pending_change {
   bool takes_ends = false;
   /// Called once: when the store has kept it and the tables show it, or when it
   /// is not written any more. May be empty.
-  outcome_handler done;
+  completion_handler done;
   /// Told of every try that failed, of one that is tried again.
   std::function<void(const failure&)> on_problem;
 };

@@ -52,7 +52,7 @@ void record_ends(coordinator_pointer self, const std::string& task) {
     return with_ends(std::move(record), ends_of(self->state, task),
                      unix_now_ms());
   };
-  change.done = [self, task](const outcome& kept) {
+  change.done = [self, task](const completion& kept) {
     if (!kept)
       return;
     record_ends(self, task);
@@ -63,7 +63,7 @@ void record_ends(coordinator_pointer self, const std::string& task) {
 
 void record_forced_end(coordinator_pointer self, const std::string& task,
                        const std::string& instance, const std::string& reason,
-                       const outcome_handler& done) {
+                       const completion_handler& done) {
   const instance_end end{instance, instance_state::failed, -1, reason,
                          unix_now_ms()};
   pending_change change;
@@ -72,7 +72,7 @@ void record_forced_end(coordinator_pointer self, const std::string& task,
   change.make = [end](task_record record) {
     return with_ends(std::move(record), {end}, end.unix_ms);
   };
-  change.done = [self, task, instance, done](const outcome& kept) {
+  change.done = [self, task, instance, done](const completion& kept) {
     self->state.deployments.heed_end(instance);
     if (kept)
       settle_ended(self, task);

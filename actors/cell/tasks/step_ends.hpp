@@ -17,7 +17,7 @@ void record_ends(coordinator_pointer self, const std::string& task);
 /// @param done called once: when that is written, or the task is gone.
 void record_forced_end(coordinator_pointer self, const std::string& task,
                        const std::string& instance, const std::string& reason,
-                       const outcome_handler& done);
+                       const completion_handler& done);
 
 /// Tells what has become of a task whose steps have all ended, and forgets the
 /// oldest of these. Nothing happens while a step of it runs.

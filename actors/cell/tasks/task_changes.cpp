@@ -26,7 +26,7 @@ void write_next_change(coordinator_pointer self, const std::string& task);
 
 /// The first change is over, one way or the other.
 void end_change(coordinator_pointer self, const std::string& task,
-                const outcome& kept) {
+                const completion& kept) {
   auto& line = self->state.pending.lines.at(task);
   line.writing = false;
   line.pause.reset();

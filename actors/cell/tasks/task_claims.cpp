@@ -54,7 +54,7 @@ void answer_accepted(coordinator_pointer self, const claim_task& request,
     return;
   }
   heal_task(self, task,
-            [self, task, healed, promise](const outcome& started) mutable {
+            [self, task, healed, promise](const completion& started) mutable {
               if (!started) {
                 promise.deliver(to_error(started.error()));
               } else if (!self->state.tasks.is_kept(task)) {

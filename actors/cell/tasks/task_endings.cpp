@@ -79,7 +79,7 @@ void refuse_waiting_terminations(coordinator_pointer self,
 void remove_record(coordinator_pointer self, const task_terminated& reply) {
   pending_change change;
   change.insistent = true;
-  change.done = [self, reply](const outcome&) {
+  change.done = [self, reply](const completion&) {
     publish_terminated(self, reply);
   };
   change.on_problem = [self, task = reply.task,
@@ -259,7 +259,7 @@ void roll_back(coordinator_pointer self, const std::string& task,
     if (former)
       change.make = [former](const task_record&) { return *former; };
     change.done = [self, task, reason, begun, former,
-                   finish](const outcome& kept) {
+                   finish](const completion& kept) {
       take_back(self, task, former, !kept);
       publish_rolled_back(self, task, reason, begun);
       finish();

@@ -21,10 +21,11 @@ namespace {
 /// It is gone. Its task knows, and what it was preempted for may have come to
 /// nothing meanwhile.
 void record_eviction(coordinator_pointer self, const preempt_instances& request,
-                     const preempted_instance& x, const outcome_handler& done) {
+                     const preempted_instance& x,
+                     const completion_handler& done) {
   record_forced_end(self, x.task, x.instance,
                     "it is preempted by task '" + request.task + "'",
-                    [self, by = request.task, done](const outcome&) {
+                    [self, by = request.task, done](const completion&) {
                       auto& st = self->state;
                       done({});
                       if (st.tasks.is_deploying(by))
@@ -46,7 +47,7 @@ void publish_preempted(coordinator_pointer self,
 }
 
 void evict(coordinator_pointer self, const preempt_instances& request,
-           const preempted_instance& x, const outcome_handler& done) {
+           const preempted_instance& x, const completion_handler& done) {
   auto& st = self->state;
   const auto* placed = st.deployments.find(x.instance, x.node);
   if (!placed || placed->end)
@@ -63,7 +64,7 @@ void evict(coordinator_pointer self, const preempt_instances& request,
   };
   stop.asked = [self, request, x] { publish_preempted(self, request, x); };
   stop.done = [self, request, x, done](stop_outcome how,
-                                       const outcome& stopped) {
+                                       const completion& stopped) {
     if (how == stop_outcome::ended)
       record_eviction(self, request, x, done);
     else
@@ -93,7 +94,7 @@ void start_one_again(coordinator_pointer self, const ordered_end& x) {
   const auto* placed = self->state.deployments.find(instance);
   if (!placed || !placed->end || !self->state.tasks.is_kept(x.task))
     return self->state.orders.forget(instance);
-  start_ended(self, x.task, {instance}, [self, x](const outcome& started) {
+  start_ended(self, x.task, {instance}, [self, x](const completion& started) {
     if (!started)
       put_off(self, x, started.error());
     else
@@ -114,7 +115,7 @@ preempt_for_task(coordinator_pointer self, const preempt_instances& request) {
   };
   auto all = std::make_shared<tally>();
   all->open = request.preempted.size() + 1;
-  auto finish = [all, promise](const outcome& evicted) mutable {
+  auto finish = [all, promise](const completion& evicted) mutable {
     if (!evicted)
       all->problem = evicted.error();
     if (--all->open > 0)

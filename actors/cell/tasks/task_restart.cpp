@@ -78,7 +78,7 @@ void take_placement_lock_to_start(coordinator_pointer self,
                                   const std::string& task,
                                   const instance_list& wanted,
                                   const instance_list& stay,
-                                  const outcome_handler& done) {
+                                  const completion_handler& done) {
   auto move = std::make_shared<task_move>();
   move->what = "the instances of task '" + task + "'";
   move->kind = move_kind::restarted;
@@ -97,13 +97,13 @@ void take_placement_lock_to_start(coordinator_pointer self,
 /// Meanwhile each may end by itself, and is started again all the same.
 void end_instances(coordinator_pointer self, const task_restart& request,
                    const instance_list& instances,
-                   const outcome_handler& next) {
+                   const completion_handler& next) {
   struct tally {
     size_t open = 1;
     std::optional<failure> problem;
   };
   auto all = std::make_shared<tally>();
-  const auto finish = [all, next](const outcome& stopped) {
+  const auto finish = [all, next](const completion& stopped) {
     if (!stopped && !all->problem)
       all->problem = stopped.error();
     if (--all->open == 0)
@@ -121,7 +121,7 @@ void end_instances(coordinator_pointer self, const task_restart& request,
     stop.force = request.force;
     stop.until = self->clock().now() + limits::task::eviction;
     stop.has_successor = true;
-    stop.done = [finish](stop_outcome, const outcome& x) { finish(x); };
+    stop.done = [finish](stop_outcome, const completion& x) { finish(x); };
     stop_by_order(self, stop);
   }
   finish({});
@@ -189,7 +189,7 @@ std::vector<std::string> steps_to_heal(const cell_coordinator_state& st,
 }
 
 void heal_task(coordinator_pointer self, const std::string& task,
-               const outcome_handler& done) {
+               const completion_handler& done) {
   const auto& st = self->state;
   instance_list wanted;
   std::string gone;
@@ -203,7 +203,7 @@ void heal_task(coordinator_pointer self, const std::string& task,
                "place: ";
   }
   take_placement_lock_to_start(self, task, wanted, {},
-                               [gone, done](const outcome& started) {
+                               [gone, done](const completion& started) {
                                  if (started || gone.empty())
                                    return done(started);
                                  auto problem = started.error();
@@ -214,7 +214,7 @@ void heal_task(coordinator_pointer self, const std::string& task,
 
 void start_ended(coordinator_pointer self, const std::string& task,
                  const std::vector<std::string>& instances,
-                 const outcome_handler& done) {
+                 const completion_handler& done) {
   take_placement_lock_to_start(self, task, instances, {}, done);
 }
 
@@ -231,7 +231,7 @@ caf::result<task_restarted> restart_task(coordinator_pointer self,
   auto promise = self->make_response_promise<task_restarted>();
   const auto before = all_instances(st, request.task);
   auto finish = [self, request, before, plan,
-                 promise](const outcome& started) mutable {
+                 promise](const completion& started) mutable {
     for (const auto& instance : plan.running)
       end_as_ordered(self, request.task, instance,
                      "it was ended to be started again: "
@@ -244,7 +244,7 @@ caf::result<task_restarted> restart_task(coordinator_pointer self,
           request.task, new_instances(self->state, request, before)});
   };
   end_instances(self, request, plan.running,
-                [self, request, plan, finish](const outcome& ended) mutable {
+                [self, request, plan, finish](const completion& ended) mutable {
                   if (!ended)
                     finish(ended);
                   else

@@ -18,13 +18,14 @@ std::vector<std::string> steps_to_heal(const cell_coordinator_state& st,
 /// Starts these anew, where they fit. All or nothing.
 /// @param done called once: when they run, or cannot.
 void heal_task(coordinator_pointer self, const std::string& task,
-               const outcome_handler& done);
+               const completion_handler& done);
 
 /// Starts these instances of a task, which have ended, where they fit. All or
 /// nothing, as above; what is gone meanwhile is none.
+/// @param done called once: when they run, or cannot.
 void start_ended(coordinator_pointer self, const std::string& task,
                  const std::vector<std::string>& instances,
-                 const outcome_handler& done);
+                 const completion_handler& done);
 
 /// Ends instances of a task and starts them again on their nodes; what had
 /// ended, also with 0, where it fits.

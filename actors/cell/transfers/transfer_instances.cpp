@@ -50,7 +50,7 @@ void reschedule_tasks(coordinator_pointer self, const std::string& id,
     return;
   const auto node = x->row.node;
   const auto tasks = st.deployments.tasks_bound_to(node);
-  move_tasks(self, node, tasks, [=](const outcome& moved) {
+  move_tasks(self, node, tasks, [=](const completion& moved) {
     auto* open = self->state.transfers.find_open(id);
     if (!open)
       return;

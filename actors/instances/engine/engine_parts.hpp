@@ -45,7 +45,8 @@ void on_log_read(engine_runtime_pointer self, const engine_log_read& part);
 // Logs of containers that go: engine_kept_logs.cpp.
 
 /// Puts the end of a container's log into the history, if it is wanted there
-/// and can be read, and then goes on.
+/// and can be read.
+/// @param then called once: when it is there, or cannot be.
 void keep_log(engine_runtime_pointer self, const remove_container& request,
               std::function<void()> then);
 

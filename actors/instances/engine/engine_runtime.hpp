@@ -91,7 +91,7 @@ struct image_plan {
 /// The log of a container that goes, on its way into the history.
 struct engine_log_reading {
   kept_log about;
-  std::function<void()> then; ///< Removes the container.
+  std::function<void()> then; ///< Called once: removes the container.
   engine_stream stream;
 };
 

@@ -71,7 +71,7 @@ TEST_CASE("Unauthenticated peers fill no more places than a bound",
 TEST_CASE("Who waits for a node hears of it once", "[slot_table]") {
   slot_table table;
   int calls = 0;
-  const auto call = [&](const outcome&) { ++calls; };
+  const auto call = [&](const completion&) { ++calls; };
   CHECK(table.next_deadline() == slot_table::time_point::max());
   CHECK(table.await_arrival("arm", call, time_zero));
   CHECK(table.await_arrival("arm", call, time_zero));
@@ -85,7 +85,7 @@ TEST_CASE("Who waits for a node hears of it once", "[slot_table]") {
 
 TEST_CASE("Nobody waits for a node for longer than 25 s", "[slot_table]") {
   slot_table table;
-  const auto call = [](const outcome&) {};
+  const auto call = [](const completion&) {};
   table.await_arrival("arm", call, time_zero);
   table.await_arrival("leg", call, time_zero + 1s);
   CHECK(table.take_overdue_arrivals(time_zero + 24s).empty());
@@ -96,7 +96,7 @@ TEST_CASE("Nobody waits for a node for longer than 25 s", "[slot_table]") {
 
 TEST_CASE("No more wait for a node than a bound", "[slot_table]") {
   slot_table table;
-  const auto call = [](const outcome&) {};
+  const auto call = [](const completion&) {};
   for (size_t i = 0; i < limits::cell::waiting; ++i)
     REQUIRE(table.await_arrival("arm", call, time_zero));
   CHECK_FALSE(table.await_arrival("arm", call, time_zero));

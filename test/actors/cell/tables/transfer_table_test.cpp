@@ -55,7 +55,7 @@ TEST_CASE("A transfer that could not be kept leaves nothing",
   transfer_table table{"lab", 7};
   const auto id = table.propose("arm", "a", "", 1).transfer;
   table.find_proposed(id)->waiting.push_back(
-      [](const cell_transfer&, const outcome&) {});
+      [](const cell_transfer&, const completion&) {});
   CHECK(table.withdraw(id).size() == 1);
   CHECK(table.holder_of("a").empty());
   CHECK(table.size() == 0);
@@ -71,7 +71,7 @@ TEST_CASE_METHOD(open_transfer, "An open transfer is not withdrawn",
 
 TEST_CASE_METHOD(open_transfer, "A transfer ends once", "[transfer_table]") {
   table.find_open(id)->waiting.push_back(
-      [](const cell_transfer&, const outcome&) {});
+      [](const cell_transfer&, const completion&) {});
   const auto ended = table.end(id, transfer_state::returned, "it came back", 5);
   REQUIRE(ended);
   CHECK(ended->row.state == transfer_state::returned);
@@ -98,7 +98,7 @@ TEST_CASE_METHOD(open_transfer, "What is unresolved is open, and answered",
                  "[transfer_table]") {
   switch_at(time_zero);
   auto* x = table.find_open(id);
-  x->waiting.push_back([](const cell_transfer&, const outcome&) {});
+  x->waiting.push_back([](const cell_transfer&, const completion&) {});
   CHECK(table.set_unresolved(*x, "nothing is known", 9).size() == 1);
   CHECK(x->waiting.empty());
   CHECK(table.overdue(time_zero + 1h).empty());
