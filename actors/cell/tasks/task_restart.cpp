@@ -121,7 +121,9 @@ void end_instances(coordinator_pointer self, const task_restart& request,
     stop.force = request.force;
     stop.until = self->clock().now() + limits::task::eviction;
     stop.has_successor = true;
-    stop.done = [finish](stop_outcome, const completion& x) { finish(x); };
+    stop.done = [finish](stop_outcome, const completion& ended) {
+      finish(ended);
+    };
     stop_by_order(self, stop);
   }
   finish({});
