@@ -1,7 +1,6 @@
 #include "actors/edge/dds/discovery_participant.hpp"
 
 #include "actors/edge/dds/announcement.hpp"
-#include "actors/edge/dds/limits.hpp"
 #include "actors/edge/dds/rtps/discovery_transport.hpp"
 
 #include <fastdds/rtps/RTPSDomain.h>

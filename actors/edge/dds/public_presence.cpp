@@ -3,7 +3,6 @@
 #include "actors/edge/dds/discovery_address.hpp"
 #include "actors/edge/dds/discovery_participant.hpp"
 #include "actors/edge/dds/herald.hpp"
-#include "actors/edge/dds/limits.hpp"
 #include "actors/edge/dds/presence_table.hpp"
 
 #include <charconv>

@@ -1,7 +1,6 @@
 #include "actors/edge/engine/engine_client.hpp"
 
 #include "actors/edge/engine/engine_text.hpp"
-#include "actors/edge/engine/limits.hpp"
 
 #include <system_error>
 #include <utility>

@@ -4,7 +4,6 @@
 #include "actors/core/wall_clock.hpp"
 #include "actors/instances/life/instance_environment.hpp"
 #include "actors/instances/life/instance_text.hpp"
-#include "actors/instances/limits.hpp"
 #include "messages/failure.hpp"
 #include "schemas/utf8.hpp"
 

@@ -1,6 +1,5 @@
 #include "actors/placement/questions/task_allocation.hpp"
 
-#include "actors/placement/limits.hpp"
 #include "actors/placement/questions/search_problem.hpp"
 #include "actors/placement/questions/task_eviction.hpp"
 #include "actors/placement/reading/task_reading.hpp"
