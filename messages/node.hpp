@@ -89,7 +89,7 @@ struct node_query {
 };
 
 /// An attempt to come into a cell that has not succeeded yet.
-struct join_problem {
+struct join_failure {
   /// The discovery server that is tried, as "host:port"; empty: any cell that
   /// is visible will do.
   std::string address;
@@ -99,11 +99,11 @@ struct join_problem {
   int64_t tried_unix_ms = 0; ///< When the last one began.
 
   static constexpr auto fields() {
-    return field_list{optional("address", &join_problem::address),
-                      optional("trouble", &join_problem::problem),
-                      optional("hint", &join_problem::hint),
-                      required("attempts", &join_problem::attempts),
-                      required("tried_unix_ms", &join_problem::tried_unix_ms)};
+    return field_list{optional("address", &join_failure::address),
+                      optional("trouble", &join_failure::problem),
+                      optional("hint", &join_failure::hint),
+                      required("attempts", &join_failure::attempts),
+                      required("tried_unix_ms", &join_failure::tried_unix_ms)};
   }
 };
 
@@ -123,7 +123,7 @@ struct node_description {
   std::vector<actor_row> actors;
   int64_t stored_bytes = 0; ///< Written to the database since the start.
   std::vector<skill_problem> refused_skills; ///< The first of them.
-  std::vector<join_problem> joining; ///< At most one; empty: it does not try.
+  std::vector<join_failure> joining; ///< At most one; empty: it does not try.
   /// What a ROS 2 program on this node needs to be in its cell; empty: it is in
   /// none.
   std::map<std::string, std::string> environment;

@@ -34,12 +34,12 @@ public:
   void clear();
 
   /// At most one: none if no attempt has begun.
-  const std::vector<join_problem>& rows() const {
+  const std::vector<join_failure>& rows() const {
     return rows_;
   }
 
 private:
-  std::vector<join_problem> rows_;
+  std::vector<join_failure> rows_;
   std::set<std::string> reported_;
   std::chrono::milliseconds pause_;
   time_point next_; ///< When what was told before is told again.

@@ -191,7 +191,7 @@ membership_state answer(const membership_status& st) {
           st.cell,
           st.address,
           st.wanted,
-          member ? std::vector<join_problem>{} : st.report.rows(),
+          member ? std::vector<join_failure>{} : st.report.rows(),
           program_environment(st)};
 }
 

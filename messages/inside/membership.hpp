@@ -23,7 +23,7 @@ struct membership_state {
   std::string cell;
   std::string coordinator;      ///< Address of the coordinator's HTTP port.
   std::string discovery_server; ///< Of the cell, as "host:port".
-  std::vector<join_problem> joining; ///< At most one; empty: it does not try.
+  std::vector<join_failure> joining; ///< At most one; empty: it does not try.
   /// What a ROS 2 program on this node needs; empty: it is in no cell.
   std::map<std::string, std::string> environment;
 

@@ -55,7 +55,7 @@ TEST_CASE("A history that is read back goes on where it was",
   stored.erase(std::remove_if(stored.begin(), stored.end(),
                               [&](const auto& x) {
                                 return gone.count(history_key(
-                                           x.task, x.some_event.sequence))
+                                           x.task, x.recorded.sequence))
                                        > 0;
                               }),
                stored.end());
@@ -63,7 +63,7 @@ TEST_CASE("A history that is read back goes on where it was",
   history_table after;
   after.restore(stored);
   CHECK(after.find("t") == before.find("t"));
-  CHECK(after.add("t", some_event(300)).record.some_event.sequence == 301);
+  CHECK(after.add("t", some_event(300)).record.recorded.sequence == 301);
 }
 
 TEST_CASE("Histories of the tasks that something happened to last are kept",

@@ -78,7 +78,7 @@ std::string disk_writes(const node_description& node, int64_t now_unix_ms) {
 }
 
 /// "192.168.1.10:11811: nothing listens there (tried 3 times, last 4 s ago)"
-std::string join_line(const join_problem& x, int64_t now_unix_ms) {
+std::string join_line(const join_failure& x, int64_t now_unix_ms) {
   auto text = x.address.empty() ? std::string{"any cell"} : x.address;
   text += ": " + (x.problem.empty() ? "no answer yet" : x.problem);
   text += x.attempts == 1 ? " (tried once"
