@@ -4,6 +4,7 @@
 #include "actors/core/watching.hpp"
 #include "actors/node/event_loudness.hpp"
 #include "messages/codec/json_codec.hpp"
+#include "messages/event_kinds.hpp"
 #include "messages/messages.hpp"
 
 #include <optional>
@@ -33,9 +34,9 @@ log_level level_of(const event& e) {
 /// What is not told of joining is no problem of it; nothing for an event that
 /// says nothing about it.
 std::optional<join_problem> problem_in(const event& e) {
-  if (e.what == "cell_joined")
+  if (e.what == events::cell_joined)
     return join_problem{};
-  if (e.what != "join_failed" && e.what != "join_refused")
+  if (e.what != events::join_failed && e.what != events::join_refused)
     return std::nullopt;
   const auto data = particulars_of(e);
   return join_problem{data.value("discovery_server", ""),

@@ -1,18 +1,21 @@
 #!/usr/bin/env python3
-"""Writes docs/reference.md: every member of a task request and of skill.json.
+"""Writes docs/reference.md, every member of a task request and of skill.json, and
+docs/events.md, every event.
 
-It is read off the schemas, so that it says neither more nor less than what a
-node takes. Usage: tools/generate_reference.py [--check]
---check writes nothing, and fails if the page is not what would be written.
+They are read off the schemas and off messages/event_kinds.hpp, so that they say
+neither more nor less than what a node takes and publishes.
+Usage: tools/generate_reference.py [--check]
+--check writes nothing, and fails if a page is not what would be written.
 """
 
 import json
 import pathlib
+import re
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 SCHEMAS = ROOT / "schemas"
-PAGE = ROOT / "docs" / "reference.md"
+EVENTS = ROOT / "messages" / "event_kinds.hpp"
 
 INTRODUCTION = """\
 # Reference: every member of a task and of skill.json
@@ -21,6 +24,14 @@ Generated from `schemas/` by `tools/generate_reference.py`; corrections belong t
 member that is not in these tables is refused, by its place and with the one that was probably meant: `roscell check FILE`
 for a task, `roscell skill check FOLDER` for a skill. [operations.md](operations.md#tasks-new-task-check-run-restart-stop) and
 [skills.md](skills.md) say how they are used.
+"""
+
+EVENTS_INTRODUCTION = """\
+# Events
+
+Generated from `messages/event_kinds.hpp` by `tools/generate_reference.py`; corrections belong there. `roscell events` prints
+them, `GET /v1/events` streams them, and an embedding program gets them by `on_event`; the names in the last column that stand
+in backticks are members of `data`. Which of them are kept, and how, is in [protocols.md](protocols.md#events).
 """
 
 DOCUMENTS = [
@@ -189,23 +200,41 @@ def anchor(title):
     return kept.replace(" ", "-")
 
 
-def page():
+def reference_page():
     reference = Reference()
     for title, file, words in DOCUMENTS:
         reference.document(title, file, words)
     return INTRODUCTION + "\n" + "\n".join(reference.lines).rstrip() + "\n"
 
 
+def events_page():
+    """The sections of the list are its lines of comment that stand alone."""
+    lines = [EVENTS_INTRODUCTION]
+    entry = r'^// (?P<title>[^\n]*)\.$|event_kind (?P<name>\w+)\{(?P<texts>.*?)\};'
+    for x in re.finditer(entry, EVENTS.read_text().split("namespace events {")[1], re.DOTALL | re.MULTILINE):
+        if x["title"]:
+            lines += [f"## {x['title']}", "", "| event | subject | published by | what has happened |", "|---|---|---|---|"]
+            continue
+        texts = re.split(r'",\s*"', re.sub(r'"\s*\n\s*"', "", x["texts"]).strip()[1:-1])
+        if len(texts) != 4:
+            sys.exit(f"{EVENTS.name}: {x['name']} is not {texts}")
+        lines.append("| " + " | ".join([f"`{texts[0]}`", *map(cell, texts[1:])]) + " |")
+    return re.sub(r"\n(## )", r"\n\n\1", "\n".join(lines)).replace("\n\n\n", "\n\n") + "\n"
+
+
+PAGES = {ROOT / "docs" / "reference.md": reference_page, ROOT / "docs" / "events.md": events_page}
+
+
 def main():
     if sys.argv[1:] not in ([], ["--check"]):
         sys.exit(__doc__)
-    text = page()
-    if not sys.argv[1:]:
-        PAGE.write_text(text)
-        return
-    if not PAGE.is_file() or PAGE.read_text() != text:
-        sys.exit("docs/reference.md is not what the schemas say; "
-                 "tools/generate_reference.py writes it anew")
+    for page, text_of in PAGES.items():
+        text = text_of()
+        if not sys.argv[1:]:
+            page.write_text(text)
+        elif not page.is_file() or page.read_text() != text:
+            sys.exit(f"docs/{page.name} is not what the sources say; "
+                     "tools/generate_reference.py writes it anew")
 
 
 if __name__ == "__main__":

@@ -6,6 +6,7 @@
 #include "actors/cell/transfers/transfer_start.hpp"
 #include "actors/core/answer_limits.hpp"
 #include "actors/core/limits.hpp"
+#include "messages/event_kinds.hpp"
 #include "messages/failure.hpp"
 
 #include <algorithm>
@@ -56,7 +57,7 @@ void order_move(coordinator_pointer self, const cell_move& move,
                 const std::string& target) {
   auto& st = self->state;
   ++st.balancing;
-  st.context.publish_event("cells_rebalanced", target,
+  st.context.publish_event(events::cells_rebalanced, target,
                            {{"members", move.count}});
   const member_surrender request{target, move.count};
   auto done = [self](const members_surrendered& x) {

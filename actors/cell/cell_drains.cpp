@@ -7,6 +7,7 @@
 #include "actors/cell/tasks/task_removals.hpp"
 #include "actors/core/limits.hpp"
 #include "actors/core/wall_clock.hpp"
+#include "messages/event_kinds.hpp"
 #include "messages/failure.hpp"
 
 #include <algorithm>
@@ -72,7 +73,7 @@ void forget_oldest(cell_coordinator_state& st,
     if (is_gone(st, x)) {
       records.push_back({"drains", x.uuid, ""});
       st.context.publish_event(
-          "node_undrained", x.node,
+          events::node_undrained, x.node,
           {{"reason", "it has been gone for long, and others are "
                       "drained now"}});
       return st.drains.forget(x.uuid);
@@ -103,10 +104,10 @@ void on_moved(coordinator_pointer self, const drain_record& drain,
   const auto left = left_on(st, node);
   const auto problem = moved ? std::string{} : moved.error().message;
   if (!moved && known->problem != problem)
-    st.context.publish_event("node_drain_stuck", node,
+    st.context.publish_event(events::node_drain_stuck, node,
                              {{"reason", problem}, {"left", left}});
   if (left.empty())
-    st.context.publish_event("node_drained", node);
+    st.context.publish_event(events::node_drained, node);
   st.drains.end(drain.uuid, problem, left.empty(), self->clock().now());
   set_timer(self);
 }
@@ -166,7 +167,7 @@ caf::result<node_drained> drain_node(coordinator_pointer self,
       [self, record, promise]() mutable {
         auto& state = self->state;
         if (state.drains.add(record, self->clock().now()))
-          state.context.publish_event("node_draining", record.node,
+          state.context.publish_event(events::node_draining, record.node,
                                       {{"left", left_on(state, record.node)}});
         go_on_draining(self);
         promise.deliver(progress_of(state, *state.drains.find(record.uuid)));
@@ -195,7 +196,7 @@ caf::result<node_undrained> undrain_node(coordinator_pointer self,
       [self, drains, node = request.node, promise]() mutable {
         for (const auto& x : drains)
           self->state.drains.forget(x.uuid);
-        self->state.context.publish_event("node_undrained", node);
+        self->state.context.publish_event(events::node_undrained, node);
         promise.deliver(node_undrained{node});
       },
       [promise](const failure& why) mutable {

@@ -16,6 +16,7 @@
 #include "actors/core/watching.hpp"
 #include "actors/edge/session/limits.hpp"
 #include "actors/session/member/member.hpp"
+#include "messages/event_kinds.hpp"
 #include "messages/failure.hpp"
 
 #include <algorithm>
@@ -74,7 +75,7 @@ void publish_shared_address(coordinator_pointer self,
     const auto& other = x.row.identity;
     if (other.uuid != who.uuid && other.address == who.address)
       self->state.context.publish_event(
-          "address_shared", who.name,
+          events::address_shared, who.name,
           {{"address", who.address},
            {"with", other.name},
            {"hint", "if both hosts run, give each an address of its own"}});
@@ -108,7 +109,7 @@ void on_registration_persisted(coordinator_pointer self,
   if (former_name != who.name)
     rename_node(self, former_name, who.name);
   publish(self, {who.uuid});
-  st.context.publish_event("node_joined", who.name,
+  st.context.publish_event(events::node_joined, who.name,
                            {{"uuid", who.uuid},
                             {"epoch", who.epoch},
                             {"address", who.address},
@@ -129,7 +130,7 @@ void admit(coordinator_pointer self, const register_node& request,
   auto& st = self->state;
   const auto& who = request.registration.identity;
   if (auto why = st.registry.refusal(who, now_of(self), gone)) {
-    st.context.publish_event("node_refused", who.name,
+    st.context.publish_event(events::node_refused, who.name,
                              {{"uuid", who.uuid},
                               {"address", who.address},
                               {"reason", why->message},
@@ -167,7 +168,8 @@ void fail_node(coordinator_pointer self, const registry_entry& entry,
   give_up_waits_on(self, who.name);
   abandon_steps_of(self, who.name, who.uuid, self->clock().now() - silence);
   for (const auto& spec : self->state.deployments.bound_to(who.name))
-    publish_task_event(self, "instance_out_of_reach", spec.task, spec.instance,
+    publish_task_event(self, events::instance_out_of_reach, spec.task,
+                       spec.instance,
                        {{"task", spec.task},
                         {"step", spec.step},
                         {"node", who.name},
@@ -210,7 +212,7 @@ void measure_own_node(coordinator_pointer self) {
           },
           [self](const caf::error& why) {
             self->state.context.publish_event(
-                "measurement_failed", self->state.setup.self.name,
+                events::measurement_failed, self->state.setup.self.name,
                 {{"reason", to_failure(why).message}});
           });
 }
@@ -274,7 +276,7 @@ caf::result<node_departed> depart_member(coordinator_pointer self,
   }
   stop_searches_on(st, name);
   st.context.publish_event(
-      "node_left", name,
+      events::node_left, name,
       {{"reason", request.reason}, {"size", st.registry.active_count()}});
   return node_departed{};
 }

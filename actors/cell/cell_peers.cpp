@@ -6,6 +6,7 @@
 #include "actors/core/watching.hpp"
 #include "actors/session/limits.hpp"
 #include "actors/session/peer.hpp"
+#include "messages/event_kinds.hpp"
 #include "messages/failure.hpp"
 
 #include <utility>
@@ -39,7 +40,8 @@ void on_attempt_failed(coordinator_pointer self, const std::string& uuid,
   auto& st = self->state;
   const auto cell = st.peers.attempt_failed(uuid, reason, self->clock().now());
   if (cell)
-    st.context.publish_event("peer_unreachable", *cell, {{"reason", reason}});
+    st.context.publish_event(events::peer_unreachable, *cell,
+                             {{"reason", reason}});
   set_timer(self);
 }
 
@@ -123,7 +125,7 @@ void on_peer_lost(coordinator_pointer self, const peer_lost& event) {
   if (!lost)
     return;
   if (lost->reported)
-    st.context.publish_event("peer_lost", lost->status.place.cell,
+    st.context.publish_event(events::peer_lost, lost->status.place.cell,
                              {{"reason", event.reason}});
   arm_balance(self);
   set_timer(self);
@@ -142,7 +144,7 @@ void on_peer_status_reported(coordinator_pointer self,
   const auto* entry = st.peers.note_status(event.peer, event.status);
   if (!entry)
     return;
-  st.context.publish_event("peer_joined", event.status.place.cell,
+  st.context.publish_event(events::peer_joined, event.status.place.cell,
                            {{"coordinator", event.status.place.coordinator},
                             {"address", event.status.place.address},
                             {"size", event.status.size}});
@@ -159,7 +161,7 @@ void on_peer_changed(coordinator_pointer self, const peer_changed& event) {
   if (!entry)
     return;
   if (before != event.change.size)
-    st.context.publish_event("peer_changed", entry->status.place.cell,
+    st.context.publish_event(events::peer_changed, entry->status.place.cell,
                              {{"size", event.change.size}});
   for (const auto& uuid : event.change.gone)
     st.slots.forget(uuid, entry->status.uuid);

@@ -6,6 +6,7 @@
 #include "actors/cell/state/doubts.hpp"
 #include "actors/cell/state/node_whereabouts.hpp"
 #include "actors/core/wall_clock.hpp"
+#include "messages/event_kinds.hpp"
 #include "messages/failure.hpp"
 
 #include <algorithm>
@@ -23,7 +24,7 @@ void publish_name_conflict(coordinator_pointer self, const node_presence& who) {
   const auto& setup = self->state.setup;
   if (who.cell == setup.cell)
     self->state.context.publish_event(
-        "cell_name_conflict", who.cell,
+        events::cell_name_conflict, who.cell,
         {{"coordinator", who.name},
          {"address", who.address},
          {"discovery_server", who.discovery_server}});
@@ -42,7 +43,7 @@ void on_unassigned_node_seen(coordinator_pointer self,
   auto& st = self->state;
   const auto what = st.unassigned_nodes.see(who, self->clock().now());
   if (what == unassigned_node_table::sighting::appeared)
-    st.context.publish_event("node_appeared", who.name,
+    st.context.publish_event(events::node_appeared, who.name,
                              {{"role", who.role}, {"address", who.address}});
   ask_due_proofs(self);
   set_timer(self);
@@ -108,9 +109,9 @@ void on_presence_gone(coordinator_pointer self, const node_presence& who) {
   auto& st = self->state;
   if (is_coordinator(who)) {
     if (st.peers.vanish(who))
-      st.context.publish_event("peer_vanished", who.cell);
+      st.context.publish_event(events::peer_vanished, who.cell);
   } else if (st.unassigned_nodes.vanish(who, unix_now_ms())) {
-    st.context.publish_event("node_vanished", who.name);
+    st.context.publish_event(events::node_vanished, who.name);
   }
 }
 

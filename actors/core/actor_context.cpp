@@ -14,11 +14,11 @@ constexpr auto replace_bad_bytes = json::error_handler_t::replace;
 
 } // namespace
 
-void actor_context::publish_event(std::string what, std::string subject,
+void actor_context::publish_event(const event_kind& what, std::string subject,
                                   const json& data) const {
   if (events)
     caf::anon_send(events,
-                   record_event{std::move(what), std::move(subject),
+                   record_event{std::string{what.name}, std::move(subject),
                                 data.is_null() ? std::string{}
                                                : data.dump(-1, ' ', false,
                                                            replace_bad_bytes)});

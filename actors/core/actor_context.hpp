@@ -5,6 +5,7 @@
 #include "actors/core/blocking_threads.hpp"
 #include "actors/core/boot_clock.hpp"
 #include "actors/core/metric_table.hpp"
+#include "messages/event_kinds.hpp"
 #include "messages/inside/introspection.hpp"
 
 #include <caf/actor_system.hpp>
@@ -43,7 +44,7 @@ struct actor_context {
                double value) const;
 
   /// Records an event; `data` is an object or null.
-  void publish_event(std::string what, std::string subject,
+  void publish_event(const event_kind& what, std::string subject,
                      const json& data = nullptr) const;
 };
 

@@ -6,6 +6,7 @@
 #include "actors/instances/life/instance_text.hpp"
 #include "actors/instances/life/skill_instance.hpp"
 #include "actors/instances/limits.hpp"
+#include "messages/event_kinds.hpp"
 #include "messages/failure.hpp"
 
 #include <caf/send.hpp>
@@ -103,7 +104,7 @@ namespace {
 void on_instance_died(container_supervisor_pointer self,
                       const std::string& instance, supervised_instance& x) {
   auto& st = self->state;
-  st.config.context.publish_event("skill_instance_died", instance,
+  st.config.context.publish_event(events::skill_instance_died, instance,
                                   {{"deaths", x.deaths + 1}});
   if (++x.deaths <= limits::instance::most_deaths)
     return spawn_actor(self, x, true);
@@ -130,7 +131,7 @@ void on_runtime_died(container_supervisor_pointer self,
   auto& st = self->state;
   if (++st.runtime_deaths > limits::instance::most_deaths)
     return self->quit(reason);
-  st.config.context.publish_event("runtime_died", st.config.node,
+  st.config.context.publish_event(events::runtime_died, st.config.node,
                                   {{"deaths", st.runtime_deaths}});
   start_runtime(self);
   for (auto& [instance, x] : st.instances)
@@ -243,10 +244,10 @@ void end_strays(container_supervisor_pointer self) {
                   remove_container{instance, {}, false, {about}})
         .then(
             [=](const container_removed&) {
-              context.publish_event("stray_ended", instance);
+              context.publish_event(events::stray_ended, instance);
             },
             [=](const caf::error& why) {
-              context.publish_event("stray_removal_failed", instance,
+              context.publish_event(events::stray_removal_failed, instance,
                                     {{"reason", to_failure(why).message}});
             });
   }

@@ -7,6 +7,7 @@
 #include "actors/edge/io/socket_address.hpp"
 #include "actors/membership/limits.hpp"
 #include "actors/membership/program_servers.hpp"
+#include "messages/event_kinds.hpp"
 #include "messages/failure.hpp"
 
 #include <caf/actor_cast.hpp>
@@ -23,7 +24,7 @@ bool speaks_with(const actor_context& context, const announcement& said) {
   if (said.protocol_version.substr(0, 2) == "1.")
     return true;
   if (said.role == "coordinator")
-    context.publish_event("coordinator_ignored", said.node,
+    context.publish_event(events::coordinator_ignored, said.node,
                           {{"protocol_version", said.protocol_version},
                            {"reason", "this node speaks version 1.0"}});
   return false;
@@ -116,7 +117,7 @@ std::vector<std::string> find_peers(discovery_self self) {
     st.pause.reset();
   } else {
     if (st.unresolved != found.problem)
-      st.context.publish_event("edge_trouble", st.config.node,
+      st.context.publish_event(events::edge_problem, st.config.node,
                                {{"message", "--peer: " + found.problem}});
     st.timer.set(self, self->clock().now() + st.pause.next());
   }
@@ -145,7 +146,7 @@ void appear(discovery_self self, std::vector<std::string> peers) {
   };
   auto opened = public_presence::open(options, std::move(events));
   if (auto* why = std::get_if<edge_error>(&opened))
-    return st.context.publish_event("edge_trouble", st.config.node,
+    return st.context.publish_event(events::edge_problem, st.config.node,
                                     {{"message", why->message}});
   st.presence = std::get<std::unique_ptr<public_presence>>(std::move(opened));
 }

@@ -2,6 +2,7 @@
 
 #include "actors/membership/membership_steps.hpp"
 #include "actors/session/limits.hpp"
+#include "messages/event_kinds.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -24,7 +25,7 @@ void set_timer(self_pointer self) {
     st.timer.set(self, when);
 }
 
-void publish_event(self_pointer self, const char* what, json data) {
+void publish_event(self_pointer self, const event_kind& what, json data) {
   const auto& st = self->state;
   st.context.publish_event(what, st.config.identity.name, data);
 }
@@ -38,7 +39,7 @@ void finish_leaving(self_pointer self) {
   st.state = node_state::independent;
   st.switching.reset();
   if (auto cell = std::exchange(st.cell, {}); !cell.empty())
-    publish_event(self, "cell_left", {{"cell", cell}});
+    publish_event(self, events::cell_left, {{"cell", cell}});
   stop_programs(self);
   st.cell_uuid.clear();
   st.coordinator.clear();

@@ -4,6 +4,7 @@
 #include "actors/membership/limits.hpp"
 #include "actors/membership/membership_steps.hpp"
 #include "actors/session/limits.hpp"
+#include "messages/event_kinds.hpp"
 
 #include <utility>
 
@@ -72,7 +73,7 @@ void on_registered(self_pointer self, const node_registered& reply) {
   st.owes_former = false;
   withdraw_presence_now(self);
   store_membership(self);
-  publish_event(self, "cell_joined",
+  publish_event(self, events::cell_joined,
                 {{"cell", st.cell},
                  {"coordinator", st.coordinator},
                  {"incarnation", st.incarnation},
@@ -360,7 +361,7 @@ void attempt_refused(self_pointer self, const std::string& reason,
     json data{{"reason", reason}, {"discovery_server", st.wanted}};
     if (!hint.empty())
       data["hint"] = hint;
-    publish_event(self, "join_refused", std::move(data));
+    publish_event(self, events::join_refused, std::move(data));
   }
   const bool elsewhere = turn_elsewhere(self, true);
   const bool asked = st.phase == phase::asking;

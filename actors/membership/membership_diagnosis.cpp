@@ -3,6 +3,7 @@
 #include "actors/membership/join_text.hpp"
 #include "actors/membership/limits.hpp"
 #include "actors/membership/membership_steps.hpp"
+#include "messages/event_kinds.hpp"
 
 #include <utility>
 
@@ -124,7 +125,7 @@ void complain(self_pointer self, const std::string& problem,
     data["discovery_server"] = row.address;
   if (!hint.empty())
     data["hint"] = hint;
-  publish_event(self, "join_failed", std::move(data));
+  publish_event(self, events::join_failed, std::move(data));
 }
 
 } // namespace roscell::membership_steps

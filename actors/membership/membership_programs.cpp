@@ -2,6 +2,7 @@
 #include "actors/edge/io/socket_address.hpp"
 #include "actors/membership/membership_steps.hpp"
 #include "dds/server_ids.hpp"
+#include "messages/event_kinds.hpp"
 #include "messages/failure.hpp"
 
 #include <utility>
@@ -24,7 +25,7 @@ void on_served(self_pointer self, const discovery_place& place,
 /// Without it programs use the coordinator's server: slower to find each other
 /// when the coordinator is away, but no reason to leave the cell.
 void on_unserved(self_pointer self, const caf::error& why) {
-  publish_event(self, "edge_trouble",
+  publish_event(self, events::edge_problem,
                 {{"message", "this node's own discovery server: "
                                  + to_failure(why).message}});
   publish_environment(self);

@@ -4,6 +4,7 @@
 #include "actors/membership/membership_steps.hpp"
 #include "actors/session/limits.hpp"
 #include "actors/session/session_envelope.hpp"
+#include "messages/event_kinds.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -177,7 +178,7 @@ void on_session_lost(self_pointer self, const std::string& reason) {
     return;
   }
   st.state = node_state::orphaned;
-  publish_event(self, "coordinator_lost",
+  publish_event(self, events::coordinator_lost,
                 {{"cell", st.cell}, {"reason", reason}});
   let_remote_rest(self);
   // One that lasted ends the series of attempts before it.
@@ -197,8 +198,8 @@ void notify(self_pointer self, const instance_changed& event) {
   // The coordinator must hear how it is; the rest it knows.
   shorten(x.instance);
   if (!frames.notify(message_json(x)))
-    publish_event(self, "fact_too_large",
-                  {{"fact", "instance_changed"},
+    publish_event(self, events::event_too_large,
+                  {{"fact", events::instance_changed.name},
                    {"instance", x.instance.spec.instance},
                    {"state", to_word(x.instance.state)}});
 }

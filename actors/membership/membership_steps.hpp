@@ -1,6 +1,7 @@
 #pragma once
 
 #include "actors/membership/membership.hpp"
+#include "messages/event_kinds.hpp"
 
 #include <caf/error.hpp>
 #include <caf/expected.hpp>
@@ -19,7 +20,7 @@ using self_pointer = membership_actor::stateful_pointer<membership_status>;
 void set_timer(self_pointer self);
 
 /// Tells an event about this node, with where it concerns.
-void publish_event(self_pointer self, const char* what, json data);
+void publish_event(self_pointer self, const event_kind& what, json data);
 
 // -- membership_attempt.cpp: from nothing to joined ---------------------------
 

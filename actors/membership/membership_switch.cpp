@@ -1,6 +1,7 @@
 #include "actors/core/answer_limits.hpp"
 #include "actors/membership/membership_steps.hpp"
 #include "actors/session/registration/registration_order.hpp"
+#include "messages/event_kinds.hpp"
 
 #include <algorithm>
 #include <optional>
@@ -76,7 +77,7 @@ void depart(self_pointer self) {
   auto& st = self->state;
   const auto& order = st.switching->order;
   publish_event(
-      self, "switch_accepted",
+      self, events::switch_accepted,
       {{"transfer", order.transfer},
        {"cell", order.target.empty() ? "" : order.target.front().cell},
        {"epoch", st.config.identity.epoch}});
@@ -275,7 +276,7 @@ bool give_up_switch(self_pointer self, const std::string& reason) {
   if (!st.switching)
     return false;
   const auto before = *std::exchange(st.switching, std::nullopt);
-  publish_event(self, "switch_failed",
+  publish_event(self, events::switch_failed,
                 {{"transfer", before.order.transfer},
                  {"cell", before.order.target.front().cell},
                  {"reason", reason}});

@@ -1,6 +1,7 @@
 #include "actors/node/event_batches.hpp"
 
 #include "actors/node/limits.hpp"
+#include "messages/event_kinds.hpp"
 #include "messages/failure.hpp"
 
 #include <algorithm>
@@ -60,7 +61,7 @@ void on_batch_refused(event_log_pointer self, std::vector<event> events,
   const auto why = to_failure(error);
   const json data{{"message", why.message}, {"hint", why.hint}};
   self->send(caf::actor_cast<event_log_actor>(self),
-             record_event{"history_failed", "", data.dump()});
+             record_event{events::history_failed.name, "", data.dump()});
 }
 
 std::vector<event> take_batch(event_log_state& st) {

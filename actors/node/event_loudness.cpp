@@ -1,6 +1,7 @@
 #include "actors/node/event_loudness.hpp"
 
 #include "messages/codec/json_codec.hpp"
+#include "messages/event_kinds.hpp"
 
 #include <string_view>
 
@@ -24,7 +25,7 @@ loudness loudness_of(const event& e) {
   for (const auto* end : {"_lost", "_failed", "_refused", "_ignored"})
     if (ends_with(e.what, end))
       return loudness::warning;
-  if (e.what != "instance_changed")
+  if (e.what != events::instance_changed)
     return loudness::info;
   return is_failure_event(e) ? loudness::warning : loudness::debug;
 }

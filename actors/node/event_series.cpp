@@ -1,6 +1,7 @@
 #include "actors/node/event_series.hpp"
 
 #include "actors/node/limits.hpp"
+#include "messages/event_kinds.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -16,7 +17,7 @@ constexpr size_t many_series = 64;
 
 /// What people ask for is told each time, whoever asks.
 bool is_request(const std::string& what) {
-  return what == "request_received";
+  return what == events::request_received;
 }
 
 } // namespace

@@ -5,6 +5,7 @@
 #include "actors/core/wall_clock.hpp"
 #include "actors/core/watching.hpp"
 #include "actors/node/limits.hpp"
+#include "messages/event_kinds.hpp"
 #include "messages/failure.hpp"
 
 #include <caf/typed_response_promise.hpp>
@@ -154,7 +155,7 @@ bool begin_to_stop(node_pointer self) {
   auto& st = self->state;
   if (std::exchange(st.stopping, true))
     return false;
-  st.parts.context.publish_event("node_stopping", st.parts.identity.name);
+  st.parts.context.publish_event(events::node_stopping, st.parts.identity.name);
   st.parts.edges->sockets.http->stop([] {});
   self->send_exit(st.parts.router, caf::exit_reason::user_shutdown);
   return true;
@@ -202,7 +203,7 @@ node_actor::behavior_type node(node_pointer self, const node_parts& parts) {
       [self](const caf::down_msg& down) { on_child_down(self, down); });
   self->set_exit_handler([self](const caf::exit_msg&) { halt(self); });
   parts.context.publish_event(
-      "node_started", parts.identity.name,
+      events::node_started, parts.identity.name,
       {{"address", parts.identity.address}, {"runtime", parts.config.runtime}});
   return {
       [self](const state_query&) {

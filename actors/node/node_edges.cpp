@@ -7,6 +7,7 @@
 #include "actors/node/start/cell_claim.hpp"
 #include "actors/session/wire_session.hpp"
 #include "dds/server_ids.hpp"
+#include "messages/event_kinds.hpp"
 #include "messages/failure.hpp"
 
 #include <chrono>
@@ -102,12 +103,12 @@ open_edges(const node_config& config, const node_data& data,
            const actor_context& context) {
   auto edges = std::make_shared<node_edges>();
   edges->io = std::make_unique<io_thread>([context](const std::string& text) {
-    context.publish_event("edge_trouble", "", {{"message", text}});
+    context.publish_event(events::edge_problem, "", {{"message", text}});
   });
   edges->numbers = std::make_shared<number_reserve>(
       config.data_dir / "discovery_numbers",
       [context](const std::string& why) {
-        context.publish_event("edge_trouble", "", {{"message", why}});
+        context.publish_event(events::edge_problem, "", {{"message", why}});
       },
       data.is_new ? number_reserve::former_lives::few
                   : number_reserve::former_lives::many);
@@ -148,7 +149,7 @@ void admit_sessions(caf::actor_system& system, const actor_context& context,
   };
   acceptor.on_refused = [context](const std::string& address,
                                   const edge_error& why) {
-    context.publish_event("session_refused", address,
+    context.publish_event(events::session_refused, address,
                           {{"code", why.code}, {"message", why.message}});
   };
   edges.sockets.http->accept_sessions(std::move(acceptor));

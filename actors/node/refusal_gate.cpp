@@ -1,6 +1,7 @@
 #include "actors/node/refusal_gate.hpp"
 
 #include "actors/node/limits.hpp"
+#include "messages/event_kinds.hpp"
 
 #include <string_view>
 
@@ -11,7 +12,7 @@ namespace {
 /// Whether unauthenticated peers can provoke it without end.
 bool is_refusal(std::string_view what) {
   constexpr std::string_view ignored = "_ignored";
-  return what == "session_refused" || what == "request_refused"
+  return what == events::session_refused || what == events::request_refused
          || (what.size() > ignored.size()
              && what.substr(what.size() - ignored.size()) == ignored);
 }
@@ -23,8 +24,8 @@ bool refusal_gate::lets_through(const std::string& what,
   if (!is_refusal(what))
     return true;
   // The subject of others is whoever was refused, of whom there are many.
-  const auto kind =
-      std::pair{what, what == "request_refused" ? subject : std::string{}};
+  const auto kind = std::pair{
+      what, what == events::request_refused ? subject : std::string{}};
   auto i = spans_.find(kind);
   if (i == spans_.end() || (i->second.end <= now && i->second.held == 0))
     i = spans_.insert_or_assign(kind, span{now + limits::event::refusal_window})

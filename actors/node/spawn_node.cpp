@@ -7,6 +7,7 @@
 #include "actors/node/start/config_checks.hpp"
 #include "actors/node/start/granted.hpp"
 #include "actors/node/start/offered_skills.hpp"
+#include "messages/event_kinds.hpp"
 #include "messages/failure.hpp"
 
 #include <caf/actor_system_config.hpp>
@@ -25,10 +26,10 @@ bool knows_our_types(const caf::actor_system& system) {
 /// What an operator should know of the data directory.
 void publish_data_state(const actor_context& context, const node_data& data) {
   if (!data.put_aside.empty())
-    context.publish_event("identity_renewed", data.identity.uuid,
+    context.publish_event(events::identity_renewed, data.identity.uuid,
                           {{"put_aside", data.put_aside.filename().string()}});
   for (const auto& x : data.unread)
-    context.publish_event("record_ignored", x.key,
+    context.publish_event(events::record_ignored, x.key,
                           {{"table", x.table}, {"reason", x.why}});
 }
 
@@ -37,7 +38,7 @@ void publish_label(const actor_context& context, const node_config& config) {
   const auto own = config.labels.find("node");
   if (own != config.labels.end() && own->second != config.name)
     context.publish_event(
-        "name_label_ignored", config.name,
+        events::name_label_ignored, config.name,
         {{"label", "node=" + own->second},
          {"reason", "the node has a label 'node' of its own, so that a step "
                     "with the label node="

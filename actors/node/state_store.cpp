@@ -3,6 +3,7 @@
 #include "actors/core/edge_failure.hpp"
 #include "actors/core/shifted_times.hpp"
 #include "actors/node/limits.hpp"
+#include "messages/event_kinds.hpp"
 #include "messages/failure.hpp"
 
 #include <caf/result.hpp>
@@ -46,7 +47,7 @@ void on_caught_up(state_store_self self) {
   auto& st = self->state;
   if (st.waiting.empty())
     return;
-  st.context.publish_event("store_caught_up", "",
+  st.context.publish_event(events::store_caught_up, "",
                            {{"records", st.waiting.size()}});
   st.written += st.waiting.size();
   st.waiting.clear();
@@ -84,7 +85,7 @@ void keep_waiting(state_store_self self,
   auto& st = self->state;
   if (st.waiting.empty()) {
     st.context.publish_event(
-        "store_failed", "",
+        events::store_failed, "",
         {{"message", why.message},
          {"hint", why.hint},
          {"until_then", "what must not be lost is in memory"}});

@@ -2,6 +2,7 @@
 
 #include "actors/core/watching.hpp"
 #include "actors/requests/limits.hpp"
+#include "messages/event_kinds.hpp"
 
 #include <caf/typed_response_promise.hpp>
 
@@ -41,7 +42,8 @@ process(pipeline_pointer self, const request_runner& run,
       promise.deliver(request_processed{std::get<json>(result).dump()});
       return self->quit();
     }
-    services->context.publish_event("request_refused", self->state.request,
+    services->context.publish_event(events::request_refused,
+                                    self->state.request,
                                     {{"handler", self->state.handler},
                                      {"code", why->code},
                                      {"message", why->message}});

@@ -6,6 +6,7 @@
 #include "actors/core/watching.hpp"
 #include "actors/edge/http/limits.hpp"
 #include "actors/requests/handler_pipeline.hpp"
+#include "messages/event_kinds.hpp"
 #include "schemas/document.hpp"
 #include "schemas/message_catalogue.hpp"
 
@@ -89,7 +90,7 @@ void note_begin(request_router_self self, const route_request& request,
     data["from"] = request.from;
   if (const auto id = document.value("request_id", ""); !id.empty())
     data["request_id"] = id;
-  self->state.services->context.publish_event("request_received",
+  self->state.services->context.publish_event(events::request_received,
                                               subject_of(document), data);
 }
 

@@ -7,6 +7,7 @@
 #include "actors/cell/state/task_story.hpp"
 #include "actors/cell/tasks/placement_locks.hpp"
 #include "actors/core/answer_limits.hpp"
+#include "messages/event_kinds.hpp"
 #include "messages/failure.hpp"
 
 #include <memory>
@@ -34,7 +35,7 @@ void postpone(coordinator_pointer self,
     failures.postpone(x.instance, why.message, self->clock().now());
     if (news)
       publish_task_event(
-          self, "step_stranded", x.task, x.instance,
+          self, events::step_stranded, x.task, x.instance,
           {{"task", x.task}, {"node", x.node}, {"reason", why.message}});
   }
   set_timer(self);

@@ -9,6 +9,7 @@
 #include "actors/cell/tasks/task_changes.hpp"
 #include "actors/cell/tasks/task_removals.hpp"
 #include "actors/core/limits.hpp"
+#include "messages/event_kinds.hpp"
 
 #include <map>
 #include <utility>
@@ -18,8 +19,9 @@ namespace roscell {
 namespace {
 
 void publish_moved(coordinator_pointer self, const moved_step& x) {
-  const auto* event =
-      x.from != x.change.place.node ? "instance_moved" : "instance_restarted";
+  const auto& event = x.from != x.change.place.node
+                          ? events::instance_moved
+                          : events::instance_restarted;
   publish_task_event(self, event, x.task, x.change.spec.instance,
                      {{"task", x.task},
                       {"from", x.from},

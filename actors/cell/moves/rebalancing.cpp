@@ -6,6 +6,7 @@
 #include "actors/cell/state/coordinator_timer.hpp"
 #include "actors/cell/tasks/cell_resources.hpp"
 #include "actors/placement/limits.hpp"
+#include "messages/event_kinds.hpp"
 #include "messages/failure.hpp"
 
 #include <utility>
@@ -66,8 +67,8 @@ void end_moves(coordinator_pointer self) {
   json data{{"moves", done}};
   if (!report.problem.empty())
     data["reason"] = report.problem;
-  self->state.context.publish_event("rebalance_ended", self->state.setup.cell,
-                                    data);
+  self->state.context.publish_event(events::rebalance_ended,
+                                    self->state.setup.cell, data);
 }
 
 void fail_moves(coordinator_pointer self, const std::string& problem) {
@@ -122,7 +123,8 @@ cell_rebalanced take_up(coordinator_pointer self, const cell_rebalance& request,
     return report;
   if (!table.is_running()) {
     table.begin(std::move(report), request.force);
-    self->state.context.publish_event("rebalance_begun", self->state.setup.cell,
+    self->state.context.publish_event(events::rebalance_begun,
+                                      self->state.setup.cell,
                                       {{"moves", table.report().moves.size()},
                                        {"before", table.report().before},
                                        {"after", table.report().after}});

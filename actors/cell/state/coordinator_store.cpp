@@ -2,6 +2,7 @@
 
 #include "actors/cell/limits.hpp"
 #include "actors/cell/state/coordinator_timer.hpp"
+#include "messages/event_kinds.hpp"
 #include "messages/failure.hpp"
 
 #include <chrono>
@@ -43,7 +44,7 @@ void keep_records(coordinator_pointer self, std::vector<store_record> records,
           [self, subject,
            not_persisted = std::move(not_persisted)](const caf::error& err) {
             const auto why = to_failure(err);
-            self->state.context.publish_event("store_failed", subject,
+            self->state.context.publish_event(events::store_failed, subject,
                                               {{"reason", why.message}});
             not_persisted(why);
           });

@@ -3,6 +3,7 @@
 #include "actors/cell/state/coordinator_publish.hpp"
 #include "actors/cell/state/coordinator_timer.hpp"
 #include "actors/cell/state/transfer_end.hpp"
+#include "messages/event_kinds.hpp"
 #include "messages/failure.hpp"
 
 namespace roscell {
@@ -19,7 +20,7 @@ void on_node_elsewhere(coordinator_pointer self, const std::string& uuid,
   if (member)
     self->send(member, close_session{"the node is elsewhere"});
   st.context.publish_event(
-      "node_left", name,
+      events::node_left, name,
       {{"reason",
         cell.empty() ? "it is independent" : "it is in cell '" + cell + "'"},
        {"size", st.registry.active_count()}});
@@ -79,7 +80,7 @@ bool fail_departing_node(coordinator_pointer self, registry_entry& entry,
 
 void publish_node_lost(coordinator_pointer self, const registry_entry& entry) {
   self->state.context.publish_event(
-      "node_lost", entry.row.identity.name,
+      events::node_lost, entry.row.identity.name,
       {{"reason", entry.row.reason},
        {"size", self->state.registry.active_count()}});
 }

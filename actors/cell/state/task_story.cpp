@@ -26,7 +26,7 @@ std::string bounded_text(json data) {
 }
 
 /// Tells it, and takes it up into the history.
-void add_event(coordinator_pointer self, const char* what,
+void add_event(coordinator_pointer self, const event_kind& what,
                const std::string& task, const std::string& subject,
                const json& data) {
   auto& st = self->state;
@@ -49,14 +49,14 @@ void write_events(coordinator_pointer self) {
 
 } // namespace
 
-void publish_task_event(coordinator_pointer self, const char* what,
+void publish_task_event(coordinator_pointer self, const event_kind& what,
                         const std::string& task, const std::string& subject,
                         const json& data) {
   add_event(self, what, task, subject, data);
   write_events(self);
 }
 
-void publish_repeated_event(coordinator_pointer self, const char* what,
+void publish_repeated_event(coordinator_pointer self, const event_kind& what,
                             const std::string& task, const std::string& subject,
                             const json& data) {
   constexpr std::chrono::seconds span{2};

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "actors/cell/state/coordinator_state.hpp"
+#include "messages/event_kinds.hpp"
 
 #include <string>
 
@@ -9,14 +10,14 @@
 namespace roscell {
 
 /// Tells an event about a task, or about what `subject` names of it.
-void publish_task_event(coordinator_pointer self, const char* what,
+void publish_task_event(coordinator_pointer self, const event_kind& what,
                         const std::string& task, const std::string& subject,
                         const json& data = json::object());
 
 /// The same of what may be told again and again. It is written a little later,
 /// together with what comes until then, or with the next event that is not of
 /// that kind.
-void publish_repeated_event(coordinator_pointer self, const char* what,
+void publish_repeated_event(coordinator_pointer self, const event_kind& what,
                             const std::string& task, const std::string& subject,
                             const json& data);
 

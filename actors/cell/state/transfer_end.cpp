@@ -3,6 +3,7 @@
 #include "actors/cell/state/coordinator_publish.hpp"
 #include "actors/cell/state/coordinator_store.hpp"
 #include "actors/cell/state/coordinator_timer.hpp"
+#include "messages/event_kinds.hpp"
 #include "messages/failure.hpp"
 
 namespace roscell {
@@ -26,7 +27,7 @@ void publish_transfer_end(coordinator_pointer self, const transfer_row& row) {
             {"state", row.state}};
   if (!row.reason.empty())
     data["reason"] = row.reason;
-  self->state.context.publish_event("transfer_ended", row.node, data);
+  self->state.context.publish_event(events::transfer_ended, row.node, data);
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 
 #include "actors/cell/state/task_story.hpp"
 #include "actors/core/limits.hpp"
+#include "messages/event_kinds.hpp"
 #include "schemas/utf8.hpp"
 
 #include <algorithm>
@@ -25,7 +26,8 @@ void publish_verdict(coordinator_pointer self, const std::string& instance) {
   json data{{"task", row->spec.task}, {"step", row->spec.step}};
   if (reason)
     data["reason"] = bounded(*reason);
-  st.context.publish_event(reason ? "instance_starved" : "instance_recovered",
+  st.context.publish_event(reason ? events::instance_starved
+                                  : events::instance_recovered,
                            instance, data);
   publish_change(self, *row, row->node);
 }
@@ -88,7 +90,7 @@ void publish_change(coordinator_pointer self, instance_row x,
     data["health_reason"] = x.health_reason;
   if (!x.waits.empty())
     data["waits"] = x.waits;
-  constexpr const char* what = "instance_changed";
+  const auto& what = events::instance_changed;
   const auto& task = x.spec.task;
   // Of a new start its history has the end before, and that it runs.
   if (x.restarts > 0 && x.state < instance_state::running)

@@ -15,6 +15,7 @@
 #include "actors/cell/tasks/task_removals.hpp"
 #include "actors/core/answer_limits.hpp"
 #include "actors/core/wall_clock.hpp"
+#include "messages/event_kinds.hpp"
 #include "messages/failure.hpp"
 
 #include <algorithm>
@@ -163,8 +164,8 @@ void publish_unwanted(coordinator_pointer self, const instance_row& x,
   if (x.since_unix_ms > 0)
     data["for_s"] =
         std::max<int64_t>(0, unix_now_ms() - x.since_unix_ms) / 1000;
-  publish_task_event(self, "instance_unwanted", x.spec.task, x.spec.instance,
-                     data);
+  publish_task_event(self, events::instance_unwanted, x.spec.task,
+                     x.spec.instance, data);
 }
 
 /// The node that speaks: a member speaks for its own only.
@@ -220,7 +221,7 @@ void reconcile_own_node(coordinator_pointer self) {
       .then([self](instance_description& known) { take_up_own(self, known); },
             [self](const caf::error& why) {
               self->state.context.publish_event(
-                  "reconciliation_failed", self->state.setup.self.name,
+                  events::reconciliation_failed, self->state.setup.self.name,
                   {{"reason", to_failure(why).message}});
             });
 }

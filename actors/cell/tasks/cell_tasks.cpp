@@ -12,6 +12,7 @@
 #include "actors/cell/tasks/task_endings.hpp"
 #include "actors/cell/tasks/task_removals.hpp"
 #include "actors/core/wall_clock.hpp"
+#include "messages/event_kinds.hpp"
 #include "messages/failure.hpp"
 
 #include <algorithm>
@@ -95,7 +96,7 @@ void on_accepted(coordinator_pointer self, const std::string& task,
   json data{{"instances", st.deployments.of_task(task).size()}};
   if (const auto run = st.tasks.find(task)->run; run > 1)
     data["run"] = run;
-  publish_task_event(self, "task_accepted", task, task, data);
+  publish_task_event(self, events::task_accepted, task, task, data);
   record_ends(self, task);
   settle_ended(self, task);
   settle_awaited_deployments(self);

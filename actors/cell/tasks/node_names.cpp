@@ -1,6 +1,7 @@
 #include "actors/cell/tasks/node_names.hpp"
 
 #include "actors/cell/tasks/task_changes.hpp"
+#include "messages/event_kinds.hpp"
 
 #include <utility>
 
@@ -12,7 +13,7 @@ void rename_node(coordinator_pointer self, const std::string& from,
   const auto tasks = st.deployments.rename_node(from, to);
   if (const auto* entry = st.registry.find_name(to))
     st.failures.rename_node(entry->row.identity.uuid, to);
-  st.context.publish_event("node_renamed", to,
+  st.context.publish_event(events::node_renamed, to,
                            {{"from", from}, {"tasks", json(tasks)}});
   for (const auto& task : tasks) {
     pending_change change;

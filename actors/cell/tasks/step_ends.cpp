@@ -4,6 +4,7 @@
 #include "actors/cell/tasks/task_changes.hpp"
 #include "actors/cell/tasks/task_endings.hpp"
 #include "actors/core/wall_clock.hpp"
+#include "messages/event_kinds.hpp"
 #include "messages/failure.hpp"
 
 #include <algorithm>
@@ -94,8 +95,9 @@ void settle_ended(coordinator_pointer self, const std::string& task) {
       span > 0)
     data["duration_s"] = static_cast<double>(span) / 1000;
   publish_task_event(self,
-                     entry->state == task_state::finished ? "task_finished"
-                                                          : "task_failed",
+                     entry->state == task_state::finished
+                         ? events::task_finished
+                         : events::task_failed,
                      task, task, data);
   for (const auto& old : st.tasks.superfluous())
     end_settled(self, old);

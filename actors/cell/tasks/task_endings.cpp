@@ -8,6 +8,7 @@
 #include "actors/cell/tasks/placement_locks.hpp"
 #include "actors/cell/tasks/task_changes.hpp"
 #include "actors/cell/tasks/task_removals.hpp"
+#include "messages/event_kinds.hpp"
 #include "messages/failure.hpp"
 
 #include <algorithm>
@@ -55,7 +56,7 @@ void publish_terminated(coordinator_pointer self,
                         const task_terminated& reply) {
   self->state.tasks.remember_terminated(reply);
   publish_task_event(
-      self, "task_terminated", reply.task, reply.task,
+      self, events::task_terminated, reply.task, reply.task,
       {{"instances", reply.instances}, {"pending_nodes", reply.pending_nodes}});
   end_waiting(self, reply, terminated_meanwhile(reply.task));
 }
@@ -130,7 +131,8 @@ caf::error first_failed(const std::string& reason) {
 void publish_rolled_back(coordinator_pointer self, const std::string& task,
                          const std::string& reason, bool begun) {
   if (begun)
-    publish_task_event(self, "task_failed", task, task, {{"reason", reason}});
+    publish_task_event(self, events::task_failed, task, task,
+                       {{"reason", reason}});
   end_waiting(self, {task, {}, {}}, first_failed(reason));
 }
 

@@ -7,6 +7,7 @@
 #include "actors/cell/tasks/task_endings.hpp"
 #include "actors/cell/tasks/task_restart.hpp"
 #include "actors/core/answer_limits.hpp"
+#include "messages/event_kinds.hpp"
 #include "messages/failure.hpp"
 
 #include <functional>
@@ -38,7 +39,7 @@ void record_eviction(coordinator_pointer self, const preempt_instances& request,
 void publish_preempted(coordinator_pointer self,
                        const preempt_instances& request,
                        const preempted_instance& x) {
-  publish_task_event(self, "instance_preempted", x.task, x.instance,
+  publish_task_event(self, events::instance_preempted, x.task, x.instance,
                      {{"task", x.task},
                       {"step", x.step},
                       {"node", x.node},
@@ -85,7 +86,7 @@ void put_off(coordinator_pointer self, const ordered_end& x,
                          self->clock().now()))
     return set_timer(self);
   drop_order(self, x.task, instance);
-  publish_task_event(self, "step_stranded", x.task, instance,
+  publish_task_event(self, events::step_stranded, x.task, instance,
                      {{"task", x.task}, {"reason", why.message}});
 }
 

@@ -5,6 +5,7 @@
 #include "actors/cell/state/task_remains.hpp"
 #include "actors/cell/state/task_story.hpp"
 #include "actors/core/answer_limits.hpp"
+#include "messages/event_kinds.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -53,7 +54,7 @@ void await_safety(coordinator_pointer self, const safety_wait& wait,
     set_timer(self);
     return done();
   }
-  publish_task_event(self, "instance_awaited", wait.task, wait.instance,
+  publish_task_event(self, events::instance_awaited, wait.task, wait.instance,
                      {{"task", wait.task},
                       {"step", wait.step},
                       {"node", wait.node},

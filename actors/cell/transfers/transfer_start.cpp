@@ -7,6 +7,7 @@
 #include "actors/cell/transfers/transfer_instances.hpp"
 #include "actors/cell/transfers/transfer_switch.hpp"
 #include "actors/core/answer_limits.hpp"
+#include "messages/event_kinds.hpp"
 #include "messages/failure.hpp"
 
 #include <utility>
@@ -44,7 +45,7 @@ void drop_absent(coordinator_pointer self, const std::string& id) {
     return call_off_transfer(self, id, came_back(x->row.node));
   const auto name = x->row.node;
   drop_row(self, x->row.uuid);
-  st.context.publish_event("node_left", name,
+  st.context.publish_event(events::node_left, name,
                            {{"reason", "it was released while it was away"},
                             {"size", st.registry.active_count()}});
   end_transfer(self, id, transfer_state::done,
@@ -67,7 +68,7 @@ void begin_departure(coordinator_pointer self, const std::string& id,
   auto& st = self->state;
   st.registry.depart(entry, now_of(self));
   publish(self, {entry.row.identity.uuid});
-  st.context.publish_event("node_departing", order.node,
+  st.context.publish_event(events::node_departing, order.node,
                            {{"transfer", id}, {"to", order.target}});
   reserve_target(self, id, [self, id, order] {
     clear_instances(self, id, order.instances, [self, id, order] {

@@ -5,6 +5,7 @@
 #include "actors/instances/engine/engine_parts.hpp"
 #include "actors/instances/engine/image_packer.hpp"
 #include "actors/instances/life/any_runtime.hpp"
+#include "messages/event_kinds.hpp"
 #include "messages/failure.hpp"
 
 #include <caf/send.hpp>
@@ -100,7 +101,7 @@ void on_built(engine_runtime_pointer self, const std::string& key,
   const auto spent = std::chrono::duration_cast<std::chrono::milliseconds>(
       self->clock().now() - work->began);
   self->state.config.context.publish_event(
-      "image_built", work->image,
+      events::image_built, work->image,
       {{"operation", work->request.operation}, {"ms", spent.count()}});
   conclude(self, key, image_prepared{work->image});
 }
@@ -196,7 +197,7 @@ void report_build_step(engine_runtime_pointer self, image_work& work) {
   auto& st = self->state;
   const auto step = std::exchange(work.step, {});
   work.next_status = self->clock().now() + limits::engine::build_status;
-  st.config.context.publish_event("image_building", work.image,
+  st.config.context.publish_event(events::image_building, work.image,
                                   {{"step", step}});
   notification words;
   words.status = step;

@@ -5,6 +5,7 @@
 #include "actors/instances/engine/engine_containers.hpp"
 #include "actors/instances/engine/engine_parts.hpp"
 #include "actors/instances/life/any_runtime.hpp"
+#include "messages/event_kinds.hpp"
 #include "messages/failure.hpp"
 
 #include <utility>
@@ -64,16 +65,16 @@ void ask_to_become_stop_safe(engine_runtime_pointer self,
   const auto& instance = request.instance;
   if (present_container(self, instance, request.container) == nullptr)
     return;
-  ask_engine(self,
-             to_container("POST", request.container, "/kill?signal=SIGUSR1"),
-             [=](const engine_answered& x) {
-               if (is_good(x))
-                 return;
-               const auto why =
-                   to_failure(engine_failure("it cannot be signalled", x));
-               self->state.config.context.publish_event(
-                   "safety_not_asked", instance, {{"reason", why.message}});
-             });
+  ask_engine(
+      self, to_container("POST", request.container, "/kill?signal=SIGUSR1"),
+      [=](const engine_answered& x) {
+        if (is_good(x))
+          return;
+        const auto why =
+            to_failure(engine_failure("it cannot be signalled", x));
+        self->state.config.context.publish_event(
+            events::safety_not_asked, instance, {{"reason", why.message}});
+      });
 }
 
 json describe(const engine_runtime_state& st) {

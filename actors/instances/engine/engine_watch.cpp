@@ -2,6 +2,7 @@
 #include "actors/edge/http/http_target.hpp"
 #include "actors/instances/engine/engine_containers.hpp"
 #include "actors/instances/engine/engine_parts.hpp"
+#include "messages/event_kinds.hpp"
 #include "messages/failure.hpp"
 
 #include <algorithm>
@@ -24,7 +25,8 @@ void problem(engine_runtime_pointer self, const std::string& why) {
   auto& st = self->state;
   if (std::exchange(st.problem, why) == why)
     return;
-  st.config.context.publish_event(why.empty() ? "engine_found" : "engine_lost",
+  st.config.context.publish_event(why.empty() ? events::engine_found
+                                              : events::engine_lost,
                                   st.config.socket, {{"message", why}});
   self->send(st.listener, runtime_problem_changed{why});
 }

@@ -1,6 +1,7 @@
 #include "actors/instances/life/any_runtime.hpp"
 
 #include "actors/edge/process/fence_file.hpp"
+#include "messages/event_kinds.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -22,7 +23,7 @@ void keep_fence(const actor_context& context, const std::filesystem::path& file,
   const auto why = move_fence(file, request.fence_boot_ms);
   const auto failed_before = std::exchange(fails, why.has_value());
   if (why && !failed_before)
-    context.publish_event("fence_failed", request.instance,
+    context.publish_event(events::fence_failed, request.instance,
                           {{"reason", why->message}, {"hint", why->hint}});
 }
 

@@ -4,6 +4,7 @@
 #include "actors/instances/life/skill_instance_steps.hpp"
 #include "actors/instances/limits.hpp"
 #include "actors/instances/ros2/ros2_program_start.hpp"
+#include "messages/event_kinds.hpp"
 
 #include <csignal>
 #include <utility>
@@ -199,7 +200,7 @@ void resume(skill_instance_pointer self, const std::string& container) {
   switch (st.row.state) {
   case instance_state::running:
     st.ready_since = self->clock().now();
-    record_event(self, "instance_adopted");
+    record_event(self, events::instance_adopted);
     report(self);
     expect_life(self);
     resume_leaving(self);
@@ -210,7 +211,7 @@ void resume(skill_instance_pointer self, const std::string& container) {
   default:
     // Its READY=1 comes again with its next sign of life.
     st.row.state = instance_state::starting;
-    record_event(self, "instance_adopted");
+    record_event(self, events::instance_adopted);
     report(self);
     expect_ready(self);
     return renew(self);

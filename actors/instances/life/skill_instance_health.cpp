@@ -1,6 +1,7 @@
 #include "actors/core/limits.hpp"
 #include "actors/instances/life/skill_instance_steps.hpp"
 #include "actors/instances/ros2/engine_ends.hpp"
+#include "messages/event_kinds.hpp"
 #include "schemas/utf8.hpp"
 
 #include <string>
@@ -26,14 +27,14 @@ health_table health_table_of(const skill_instance_state& st) {
           health_verdict{st.row.health, st.row.health_reason}};
 }
 
-const char* health_event_name(instance_health health) {
+const event_kind& health_event(instance_health health) {
   switch (health) {
   case instance_health::starved:
-    return "instance_starved";
+    return events::instance_starved;
   case instance_health::unhealthy:
-    return "instance_unhealthy";
+    return events::instance_unhealthy;
   default:
-    return "instance_recovered";
+    return events::instance_recovered;
   }
 }
 
@@ -43,8 +44,8 @@ void report_change(skill_instance_pointer self) {
   json data{{"task", spec.task}, {"step", spec.step}};
   if (!st.row.health_reason.empty())
     data["reason"] = st.row.health_reason;
-  st.config.context.publish_event(health_event_name(st.row.health),
-                                  spec.instance, data);
+  st.config.context.publish_event(health_event(st.row.health), spec.instance,
+                                  data);
 }
 
 /// Whether its streams are to be spoken of in another way now.

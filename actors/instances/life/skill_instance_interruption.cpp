@@ -1,6 +1,7 @@
 #include "actors/core/wall_clock.hpp"
 #include "actors/instances/life/restart_delay.hpp"
 #include "actors/instances/life/skill_instance_steps.hpp"
+#include "messages/event_kinds.hpp"
 
 namespace roscell {
 
@@ -54,7 +55,7 @@ void interrupt(skill_instance_pointer self, const std::string& reason) {
     return conclude(self, instance_state::stopped, *st.farewell);
   st.row.interrupted_unix_ms = unix_now_ms();
   st.row.reason = reason;
-  record_event(self, "instance_interrupted");
+  record_event(self, events::instance_interrupted);
   conclude(self, instance_state::failed, reason);
 }
 

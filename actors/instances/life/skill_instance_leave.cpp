@@ -2,6 +2,7 @@
 #include "actors/edge/session/limits.hpp"
 #include "actors/instances/life/restart_delay.hpp"
 #include "actors/instances/life/skill_instance_steps.hpp"
+#include "messages/event_kinds.hpp"
 
 #include <caf/send.hpp>
 
@@ -48,7 +49,7 @@ void wait_for_safety(skill_instance_pointer self) {
       patience.count() > 0 ? st.row.unsafe_since_unix_ms + patience.count() : 0;
   st.row.waits = "waits to be stop-safe";
   st.row.reason = *st.farewell;
-  record_event(self, "instance_awaited");
+  record_event(self, events::instance_awaited);
   note(self);
   report(self);
   ask_it(self);
@@ -144,7 +145,8 @@ bool notify_program(skill_instance_pointer self) {
       || !st.config.write_environment_update(spec.instance, place_of_cell(st)))
     return false;
   st.ordered_at = self->clock().now();
-  st.config.context.publish_event("instance_address_changed", spec.instance,
+  st.config.context.publish_event(events::instance_address_changed,
+                                  spec.instance,
                                   {{"task", spec.task},
                                    {"step", spec.step},
                                    {"from", st.started_at},

@@ -4,6 +4,7 @@
 #include "actors/core/wall_clock.hpp"
 #include "actors/instances/life/instance_environment.hpp"
 #include "actors/instances/life/instance_text.hpp"
+#include "messages/event_kinds.hpp"
 #include "messages/failure.hpp"
 #include "schemas/utf8.hpp"
 
@@ -21,7 +22,7 @@ std::string log_tail_of(const caf::error& error) {
   return details.is_object() ? details.value("log_tail", "") : std::string{};
 }
 
-void record_event(skill_instance_pointer self, const char* event) {
+void record_event(skill_instance_pointer self, const event_kind& event) {
   const auto& st = self->state;
   const auto& row = st.row;
   json data{{"task", row.spec.task},
@@ -52,7 +53,7 @@ void set_state(skill_instance_pointer self, instance_state next,
   st.row.since_unix_ms = unix_now_ms();
   // It may quote a path, which may have any bytes.
   st.row.reason = valid_utf8(reason.substr(0, limits::instance::reason_bytes));
-  record_event(self, "instance_changed");
+  record_event(self, events::instance_changed);
 }
 
 void enter(skill_instance_pointer self, instance_state next,
@@ -90,7 +91,7 @@ void note(skill_instance_pointer self) {
   self->request(st.config.store, limits::instance::disk, record)
       .then([](const record_stored&) {},
             [=](const caf::error& error) {
-              context.publish_event("store_failed", instance,
+              context.publish_event(events::store_failed, instance,
                                     {{"message", valid_utf8(sentence(error))}});
             });
 }

@@ -2,6 +2,7 @@
 
 #include "actors/instances/life/skill_instance.hpp"
 #include "actors/instances/limits.hpp"
+#include "messages/event_kinds.hpp"
 
 #include <caf/send.hpp>
 
@@ -41,7 +42,7 @@ std::string sentence(const caf::error& error);
 std::string log_tail_of(const caf::error& error);
 
 /// Records an event about the instance.
-void record_event(skill_instance_pointer self, const char* event);
+void record_event(skill_instance_pointer self, const event_kind& event);
 
 /// Tells the supervisor how things stand.
 void report(skill_instance_pointer self);

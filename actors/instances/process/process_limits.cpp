@@ -1,5 +1,7 @@
 #include "actors/instances/process/process_limits.hpp"
 
+#include "messages/event_kinds.hpp"
+
 #include <filesystem>
 #include <set>
 #include <system_error>
@@ -10,7 +12,7 @@ void drop_cgroup(const process_runtime_config& config,
                  const std::string& instance, const instance_cgroup& cgroup) {
   if (!cgroup.remove())
     config.context.publish_event(
-        "cgroup_left", instance,
+        events::cgroup_left, instance,
         {{"folder", cgroup.folders().front().string()}});
 }
 
@@ -35,7 +37,7 @@ void clear_cgroups(const process_runtime_config& config) {
        !error && i != end; i.increment(error))
     known.insert(i->path().filename().native());
   for (const auto& x : remove_other_cgroups(config.cgroups, known))
-    config.context.publish_event("cgroup_left", x);
+    config.context.publish_event(events::cgroup_left, x);
 }
 
 } // namespace roscell

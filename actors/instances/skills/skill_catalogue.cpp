@@ -5,6 +5,7 @@
 #include "actors/edge/io/crypto.hpp"
 #include "actors/instances/limits.hpp"
 #include "actors/instances/skills/skill_descriptor_file.hpp"
+#include "messages/event_kinds.hpp"
 #include "schemas/utf8.hpp"
 
 #include <algorithm>
@@ -225,7 +226,7 @@ std::vector<skill_problem> skill_catalogue::published_problems() const {
 
 void skill_catalogue::publish_problems(const actor_context& context) const {
   for (const auto& x : problems_)
-    context.publish_event("skill_refused", x.path,
+    context.publish_event(events::skill_refused, x.path,
                           {{"where", x.where}, {"message", x.message}});
 }
 

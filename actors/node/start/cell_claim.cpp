@@ -8,6 +8,7 @@
 #include "actors/edge/session/session_link.hpp"
 #include "actors/membership/limits.hpp"
 #include "actors/node/limits.hpp"
+#include "messages/event_kinds.hpp"
 #include "messages/failure.hpp"
 
 #include <algorithm>
@@ -158,7 +159,7 @@ caf::error refuse_owner(const std::vector<announcement>& claims,
     // What it was itself, at an address that it has left, is no news.
     if (claims[i].uuid != own)
       context.publish_event(
-          "claim_ignored", claims[i].node,
+          events::claim_ignored, claims[i].node,
           {{"cell", claims[i].cell}, {"address", claims[i].session}});
   }
   return caf::none;

@@ -3,6 +3,7 @@
 #include "actors/placement/limits.hpp"
 #include "actors/requests/handlers/task_pipeline.hpp"
 #include "actors/requests/limits.hpp"
+#include "messages/event_kinds.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -154,7 +155,8 @@ private:
       held_.refused.push_back({x.step, x.node, x.deployment, x.gpu,
                                "refused by the node: " + reason,
                                held_.task.plan.cpu_floor});
-      context_.home().publish_event("allocation_refused", task_.request.task,
+      context_.home().publish_event(events::allocation_refused,
+                                    task_.request.task,
                                     {{"step", x.step},
                                      {"node", x.node},
                                      {"deployment", x.deployment},

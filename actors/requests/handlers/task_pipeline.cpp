@@ -8,6 +8,7 @@
 #include "actors/placement/reading/start_order.hpp"
 #include "actors/placement/reading/task_reading.hpp"
 #include "actors/requests/limits.hpp"
+#include "messages/event_kinds.hpp"
 
 #include <algorithm>
 #include <memory>
@@ -155,7 +156,7 @@ void record_plan(const request_context& context, reserved_task held,
   for (const auto& x : task.plan.allocations)
     intent.nodes.push_back(x.node);
   context.home().publish_event(
-      "allocation_chosen", task.request.task,
+      events::allocation_chosen, task.request.task,
       {{"score", task.plan.score}, {"allocations", task.plan.allocations}});
   context.history().decide(
       {task.request.task, unix_now_ms(), message_json(task.plan).dump(), ""});

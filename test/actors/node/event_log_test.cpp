@@ -11,6 +11,10 @@ namespace roscell::test {
 
 namespace {
 
+event_kind kind_named(std::string_view name) {
+  return {name, "", "", ""};
+}
+
 caf::behavior listener(caf::event_based_actor*, std::vector<event>* seen) {
   return {[=](const event& x) { seen->push_back(x); }};
 }
@@ -29,7 +33,8 @@ struct log_fixture {
 
   void publish_event(const std::string& what,
                      const std::string& subject = "arm") {
-    actor_context{nullptr, log}.publish_event(what, subject, {{"n", 1}});
+    actor_context{nullptr, log}.publish_event(kind_named(what), subject,
+                                              {{"n", 1}});
     time.settle();
   }
 
@@ -134,7 +139,7 @@ TEST_CASE_METHOD(log_fixture,
 
 TEST_CASE_METHOD(log_fixture, "Without a log, events go nowhere",
                  "[event_log]") {
-  actor_context{nullptr, {}}.publish_event("node_joined", "arm");
+  actor_context{nullptr, {}}.publish_event(events::node_joined, "arm");
   CHECK(state().at("last_sequence") == 0);
 }
 
@@ -181,7 +186,7 @@ struct kept_log_fixture {
 
   void publish_event(const std::string& what,
                      const std::string& subject = "arm") {
-    actor_context{nullptr, log}.publish_event(what, subject);
+    actor_context{nullptr, log}.publish_event(kind_named(what), subject);
     time.settle();
   }
 

@@ -1,6 +1,7 @@
 #include "tools/roscell/client/event_text.hpp"
 
 #include "actors/edge/io/time_text.hpp"
+#include "messages/event_kinds.hpp"
 #include "tools/roscell/view/format.hpp"
 
 #include <algorithm>
@@ -152,7 +153,7 @@ std::string event_line(const event& e, size_t width) {
 std::string event_particulars(const event& e) {
   std::vector<std::string> words;
   auto data = particulars(e);
-  if (e.what == "instance_changed")
+  if (e.what == events::instance_changed)
     if (auto change = change_text(data); !change.empty()) {
       words.push_back(std::move(change));
       for (const auto* key : {"step", "state", "node", "task"})
@@ -169,7 +170,7 @@ std::string event_text(const event& e, const char* key) {
 }
 
 bool is_on_the_way(const event& e, node_role asked) {
-  if (e.what != "instance_changed")
+  if (e.what != events::instance_changed)
     return false;
   return event_text(e, "state") == to_string(instance_state::pending)
          || (asked == node_role::coordinator && event_text(e, "node").empty());

@@ -1,3 +1,4 @@
+#include "messages/event_kinds.hpp"
 #include "messages/formation.hpp"
 #include "tools/roscell/client/event_text.hpp"
 #include "tools/roscell/client/node_client.hpp"
@@ -50,19 +51,19 @@ void wait_until_empty(const node_client& node, const std::string& name,
   bool empty = false;
   follow_events(node, since, [&](const event& e) {
     const bool moved =
-        e.what == "instance_moved" && event_text(e, "from") == name;
+        e.what == events::instance_moved && event_text(e, "from") == name;
     const bool awaited =
-        e.what == "instance_awaited" && event_text(e, "node") == name;
+        e.what == events::instance_awaited && event_text(e, "node") == name;
     if (moved)
       print_note(printable(event_text(e, "task") + "/" + event_text(e, "step")
                            + " runs on " + event_text(e, "to")));
     else if (awaited)
       print_note(printable("waits for '" + event_text(e, "task") + "/"
                            + event_text(e, "step") + "' to be stop-safe"));
-    else if (e.what == "node_drain_stuck" && e.subject == name)
+    else if (e.what == events::node_drain_stuck && e.subject == name)
       print_note(printable("it cannot be emptied at present: "
                            + event_text(e, "reason")));
-    empty = e.what == "node_drained" && e.subject == name;
+    empty = e.what == events::node_drained && e.subject == name;
     return !empty;
   });
   if (!empty)

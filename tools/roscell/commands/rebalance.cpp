@@ -1,4 +1,5 @@
 #include "messages/rebalance.hpp"
+#include "messages/event_kinds.hpp"
 #include "tools/roscell/client/event_text.hpp"
 #include "tools/roscell/client/node_client.hpp"
 #include "tools/roscell/commands.hpp"
@@ -30,9 +31,9 @@ struct rebalance_options {
 
 void print_step(const event& e) {
   const auto step = event_text(e, "task") + "/" + event_text(e, "step");
-  if (e.what == "instance_moved")
+  if (e.what == events::instance_moved)
     print_note(printable(step + " runs on " + event_text(e, "to")));
-  else if (e.what == "instance_awaited")
+  else if (e.what == events::instance_awaited)
     print_note(printable("waits for '" + step + "' to be stop-safe"));
 }
 
@@ -41,7 +42,7 @@ int wait_until_moved(const node_client& node, uint64_t since) {
   event last;
   follow_events(node, since, [&](const event& e) {
     print_step(e);
-    if (e.what == "rebalance_ended")
+    if (e.what == events::rebalance_ended)
       last = e;
     return last.what.empty();
   });

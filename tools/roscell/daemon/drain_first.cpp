@@ -2,6 +2,7 @@
 
 #include "actors/core/answer_limits.hpp"
 #include "actors/core/watching.hpp"
+#include "messages/event_kinds.hpp"
 #include "messages/failure.hpp"
 #include "messages/formation.hpp"
 #include "messages/messages.hpp"
@@ -77,7 +78,7 @@ drain(drain_pointer self, const running_node& node,
   self->set_down_handler([self](const caf::down_msg&) { self->quit(); });
   begin(self, node);
   return {[self, actor = node.actor](const event& e) {
-    if (e.what == "instance_changed")
+    if (e.what == events::instance_changed)
       look(self, actor);
   }};
 }

@@ -2,6 +2,7 @@
 
 #include "actors/core/watching.hpp"
 #include "actors/node/event_loudness.hpp"
+#include "messages/event_kinds.hpp"
 #include "messages/messages.hpp"
 #include "tools/roscell/client/event_text.hpp"
 #include "tools/roscell/view/format.hpp"
@@ -52,17 +53,17 @@ void start_journal(caf::actor_system& system, const event_log_actor& events) {
 std::string journal_line(const event& e) {
   const auto text = [&](const char* key) { return event_text(e, key); };
   std::string line;
-  if (e.what == "cell_joined")
+  if (e.what == events::cell_joined)
     line = "joined cell " + quoted(text("cell")) + " of "
            + quoted(text("coordinator"));
-  else if (e.what == "cell_left")
+  else if (e.what == events::cell_left)
     line = "left cell " + quoted(text("cell"));
-  else if (e.what == "coordinator_lost")
+  else if (e.what == events::coordinator_lost)
     line = "lost cell " + quoted(text("cell")) + ": " + text("reason");
-  else if (e.what == "join_refused")
+  else if (e.what == events::join_refused)
     line = "cannot join at " + text("discovery_server") + ": " + text("reason")
            + hint_of(e);
-  else if (e.what == "join_failed")
+  else if (e.what == events::join_failed)
     line = (text("discovery_server").empty()
                 ? "in no cell yet: "
                 : "not joined yet at " + text("discovery_server") + ": ")

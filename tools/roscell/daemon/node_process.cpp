@@ -2,6 +2,7 @@
 
 #include "actors/core/actor_context.hpp"
 #include "actors/edge/site/site_token_file.hpp"
+#include "messages/event_kinds.hpp"
 #include "tools/roscell/client/open_secret.hpp"
 #include "tools/roscell/client/open_skills.hpp"
 #include "tools/roscell/daemon/address/address_tracker.hpp"
@@ -100,11 +101,11 @@ void print_address_change(const running_node& node, const interface_address& at,
   if (former.empty())
     return;
   if (former == at.address)
-    context.publish_event("address_returned", node.name,
+    context.publish_event(events::address_returned, node.name,
                           {{"address", at.address}});
   else
     context.publish_event(
-        "address_changed", node.name,
+        events::address_changed, node.name,
         {{"interface", at.name}, {"from", former}, {"to", at.address}});
 }
 

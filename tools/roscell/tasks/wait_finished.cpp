@@ -9,6 +9,7 @@
 #include "tools/roscell/view/terminal.hpp"
 
 #include "actors/edge/http/http_target.hpp"
+#include "messages/event_kinds.hpp"
 
 #include <algorithm>
 
@@ -87,10 +88,10 @@ int wait_until_ended(const node_client& node, const task_accepted& begun,
       begun.found == task_found::finished || begun.found == task_found::failed;
   if (!has_ended) {
     const auto end = await(node, task, since, [](const std::string& what) {
-      return what == "task_finished" || what == "task_failed"
-             || what == "task_terminated";
+      return what == events::task_finished || what == events::task_failed
+             || what == events::task_terminated;
     });
-    if (end.what == "task_terminated")
+    if (end.what == events::task_terminated)
       throw command_error{exit_refused,
                           "task '" + printable(task) + "' was terminated", ""};
   }
@@ -127,8 +128,9 @@ void wait_until_whole(const node_client& node, const task_accepted& begun,
 
 void wait_until_gone(const node_client& node, const std::string& task,
                      uint64_t since) {
-  await(node, task, since,
-        [](const std::string& what) { return what == "task_terminated"; });
+  await(node, task, since, [](const std::string& what) {
+    return what == events::task_terminated;
+  });
 }
 
 } // namespace roscell::cli

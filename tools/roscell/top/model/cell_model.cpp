@@ -1,5 +1,6 @@
 #include "tools/roscell/top/model/cell_model.hpp"
 
+#include "messages/event_kinds.hpp"
 #include "tools/roscell/client/event_text.hpp"
 #include "tools/roscell/top/model/event_questions.hpp"
 
@@ -121,9 +122,9 @@ void cell_model::set_skills(skill_list skills) {
 }
 
 questions cell_model::add(event e) {
-  if (e.what == "instance_changed")
+  if (e.what == events::instance_changed)
     change_instance(e);
-  else if (e.what == "node_lost")
+  else if (e.what == events::node_lost)
     lose_node(e);
   const auto result = questions_after(e.what);
   auto& events = known_.events;

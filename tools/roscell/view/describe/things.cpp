@@ -1,5 +1,6 @@
 #include "tools/roscell/view/describe/things.hpp"
 
+#include "messages/event_kinds.hpp"
 #include "tools/roscell/client/event_text.hpp"
 #include "tools/roscell/view/describe/parts.hpp"
 #include "tools/roscell/view/format.hpp"
@@ -94,7 +95,7 @@ void describe_program(page& out, const instance_row& row) {
 std::string allocation_text(const known_cell& known, const std::string& task) {
   const auto& all = known.events;
   const auto last = std::find_if(all.rbegin(), all.rend(), [&](const auto& e) {
-    return e.what == "allocation_chosen" && e.subject == task;
+    return e.what == events::allocation_chosen && e.subject == task;
   });
   return last == all.rend() ? "" : event_particulars(*last);
 }

@@ -1,0 +1,301 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace roscell {
+
+/// A kind of event. Events are published with one of the kinds below, and with
+/// nothing else; docs/protocols.md has them as a table, which
+/// tools/generate_reference.py makes from this list.
+struct event_kind {
+  std::string_view name;      ///< As on the wire, in logs and in histories.
+  std::string_view subject;   ///< Whom it concerns; "-": the node itself.
+  std::string_view publisher; ///< Which nodes publish it.
+  std::string_view meaning;   ///< What has happened, and what its data say.
+};
+
+constexpr bool operator==(std::string_view name, const event_kind& kind) {
+  return name == kind.name;
+}
+
+constexpr bool operator!=(std::string_view name, const event_kind& kind) {
+  return name != kind.name;
+}
+
+// Some keep the name on the wire that they have had from the first.
+namespace events {
+
+// Nodes.
+inline constexpr event_kind node_started{"node_started", "node", "every node",
+                                         "It has started."};
+inline constexpr event_kind node_stopping{"node_stopping", "node", "every node",
+                                          "It ends."};
+inline constexpr event_kind runtime_died{
+    "runtime_died", "node", "every node",
+    "The actor that runs its instances has ended by an error, for the time in "
+    "`deaths`."};
+inline constexpr event_kind address_changed{
+    "address_changed", "node", "every node",
+    "Its interface has another address: `interface`, `from` and `to`."};
+inline constexpr event_kind address_returned{
+    "address_returned", "node", "every node",
+    "Its interface has its address again: `address`."};
+inline constexpr event_kind identity_renewed{
+    "identity_renewed", "UUID", "every node",
+    "The node has a new UUID; what it had is `put_aside`."};
+inline constexpr event_kind name_label_ignored{
+    "name_label_ignored", "node", "every node, at its start",
+    "The label `node` that it would give itself is left out, as its operator "
+    "has set one of that name: `label` and `reason`."};
+inline constexpr event_kind history_failed{
+    "history_failed", "-", "every node",
+    "The disk takes no events: `message` and `hint`."};
+inline constexpr event_kind store_failed{
+    "store_failed", "task, instance or none", "every node",
+    "A record cannot be written: `reason`, or `message` and `hint`."};
+inline constexpr event_kind store_caught_up{
+    "store_caught_up", "-", "every node",
+    "All that waited for the data directory is written."};
+inline constexpr event_kind record_ignored{
+    "record_ignored", "key", "every node, at its start",
+    "A record of the data directory cannot be read: `table` and `reason`."};
+inline constexpr event_kind edge_problem{
+    "edge_trouble", "node", "every node",
+    "Something of the host or the network does not work: `message`."};
+inline constexpr event_kind measurement_failed{
+    "measurement_failed", "node", "every node",
+    "The host's resources cannot be measured: `reason`."};
+
+// Requests.
+inline constexpr event_kind request_received{
+    "request_received", "the task or node that it names",
+    "the node that is asked, and the coordinator to which it passes it on",
+    "Somebody asks for a change: `request`, `from` and `request_id`."};
+inline constexpr event_kind request_refused{
+    "request_refused", "type of the message", "the node that is asked",
+    "A request has not been carried out."};
+
+// Membership, as the member sees it.
+inline constexpr event_kind cell_joined{
+    "cell_joined", "the node itself", "member",
+    "The node is a member: `cell`, `coordinator`, its `incarnation`, and "
+    "`epoch`."};
+inline constexpr event_kind cell_left{"cell_left", "the node itself", "member",
+                                      "It is none any more: `cell`."};
+inline constexpr event_kind coordinator_lost{"coordinator_lost",
+                                             "the node itself", "member",
+                                             "Its coordinator is away."};
+inline constexpr event_kind coordinator_ignored{
+    "coordinator_ignored", "the coordinator", "a node that is to join",
+    "It speaks another version: `protocol_version` and `reason`."};
+inline constexpr event_kind join_refused{
+    "join_refused", "the node itself", "a node that is to join",
+    "The coordinator has refused it: `code`, `message` and `hint`."};
+inline constexpr event_kind join_failed{
+    "join_failed", "the node itself", "a node that is to join",
+    "The coordinator was not reached: `reason`, `hint` and `attempts`."};
+inline constexpr event_kind switch_accepted{
+    "switch_accepted", "the node itself", "member",
+    "It goes to another cell, before it goes: `transfer`, `cell` and `epoch`."};
+inline constexpr event_kind switch_failed{
+    "switch_failed", "the node itself", "member",
+    "It goes back to its cell: `reason`."};
+inline constexpr event_kind event_too_large{
+    "fact_too_large", "the node itself", "member",
+    "What it has to say does not fit into a frame of its session, so its "
+    "coordinator has not heard of it: `fact`, `instance` and `state`."};
+
+// Membership, as the coordinator sees it.
+inline constexpr event_kind node_joined{"node_joined", "node", "coordinator",
+                                        "The node is a member."};
+inline constexpr event_kind node_left{"node_left", "node", "coordinator",
+                                      "It is none any more: `reason`."};
+inline constexpr event_kind node_lost{
+    "node_lost", "node", "coordinator",
+    "Its lease has ended, or it was to go elsewhere and is not heard of: "
+    "`reason`."};
+inline constexpr event_kind node_refused{
+    "node_refused", "node", "coordinator",
+    "It cannot be a member, as its name or its UUID is another's, or the cell "
+    "is full: `uuid`, `address`, `reason` and `hint`."};
+inline constexpr event_kind node_renamed{
+    "node_renamed", "node", "coordinator",
+    "It has another name: `from`, and the tasks that have steps there."};
+inline constexpr event_kind node_departing{
+    "node_departing", "node", "the coordinator that gives it away",
+    "A transfer has begun: `transfer` and its target."};
+inline constexpr event_kind transfer_ended{
+    "transfer_ended", "node", "the coordinator that gives it away",
+    "The transfer is `done` or `returned`: `state`."};
+inline constexpr event_kind node_draining{
+    "node_draining", "node", "coordinator",
+    "All that it runs is to move, and nothing new comes."};
+inline constexpr event_kind node_drained{"node_drained", "node", "coordinator",
+                                         "Nothing runs there any more."};
+inline constexpr event_kind node_undrained{
+    "node_undrained", "node", "coordinator", "It gets steps again."};
+inline constexpr event_kind node_drain_stuck{
+    "node_drain_stuck", "node", "coordinator",
+    "Something cannot move; once a `reason`, with what is `left`."};
+inline constexpr event_kind address_shared{
+    "address_shared", "the node that has registered", "coordinator",
+    "Another member has its address: `address`, `with` and `hint`."};
+inline constexpr event_kind node_appeared{"node_appeared", "a node in no cell",
+                                          "coordinator",
+                                          "Its first announcement is seen."};
+inline constexpr event_kind node_vanished{"node_vanished", "a node in no cell",
+                                          "coordinator",
+                                          "It announces itself no more."};
+inline constexpr event_kind session_refused{
+    "session_refused", "address", "coordinator",
+    "Who called has not proved itself: `code` and `message`."};
+inline constexpr event_kind claim_ignored{
+    "claim_ignored", "the node that is announced", "coordinator, at its start",
+    "It claims the cell's name, or this node's UUID, and does not prove it: "
+    "`cell` and `address`."};
+inline constexpr event_kind cell_name_conflict{
+    "cell_name_conflict", "cell", "every coordinator of a cell of that name",
+    "Two cells have one name: the addresses."};
+
+// Other cells.
+inline constexpr event_kind peer_joined{
+    "peer_joined", "the other cell", "coordinator",
+    "The other coordinator has introduced itself: `size`."};
+inline constexpr event_kind peer_changed{
+    "peer_changed", "the other cell", "coordinator",
+    "The other cell has another size: `size`."};
+inline constexpr event_kind peer_lost{"peer_lost", "the other cell",
+                                      "coordinator", "The session has ended."};
+inline constexpr event_kind peer_vanished{
+    "peer_vanished", "the other cell", "coordinator",
+    "The other coordinator announces itself no more."};
+inline constexpr event_kind peer_unreachable{
+    "peer_unreachable", "the other cell",
+    "the coordinator that is to open the session",
+    "No session comes about; once a `reason`."};
+inline constexpr event_kind cells_rebalanced{
+    "cells_rebalanced", "the cell that gets members",
+    "the coordinator that balances cells, the one with the lowest id",
+    "Members go to a smaller cell: `members`, their number."};
+
+// Tasks.
+inline constexpr event_kind allocation_chosen{
+    "allocation_chosen", "task", "coordinator",
+    "Its steps have their nodes: `score` and `allocations`."};
+inline constexpr event_kind allocation_refused{
+    "allocation_refused", "task", "coordinator",
+    "A node cannot run a step there any more: `step`, `node`, `deployment` and "
+    "`reason`."};
+inline constexpr event_kind task_accepted{
+    "task_accepted", "task", "coordinator", "It is stored and begins."};
+inline constexpr event_kind task_finished{
+    "task_finished", "task", "coordinator", "All its steps have ended well."};
+inline constexpr event_kind task_failed{
+    "task_failed", "task", "coordinator",
+    "A step of it has failed: `reason`. A request that was refused before "
+    "anything of it was placed is `request_refused` only."};
+inline constexpr event_kind task_terminated{
+    "task_terminated", "task", "coordinator",
+    "It was ended by a request: `instances`, and `pending_nodes`."};
+inline constexpr event_kind step_stranded{
+    "step_stranded", "instance, the old one", "coordinator",
+    "It is to move, or was preempted, and has no place; once a `reason`."};
+inline constexpr event_kind rebalance_begun{
+    "rebalance_begun", "cell", "coordinator",
+    "Steps move to better nodes: the number of moves and both totals."};
+inline constexpr event_kind rebalance_ended{
+    "rebalance_ended", "cell", "coordinator",
+    "The moves that were made, and the `reason` if not all were."};
+inline constexpr event_kind reconciliation_failed{
+    "reconciliation_failed", "node", "every node",
+    "What runs cannot be compared with what is wanted: `reason`."};
+
+// Instances.
+inline constexpr event_kind instance_changed{
+    "instance_changed", "instance", "its node and the coordinator",
+    "It has another `state`: `task`, `step`, and `reason` if there is one."};
+inline constexpr event_kind instance_moved{
+    "instance_moved", "instance, the new one", "coordinator",
+    "It runs where another one did: both nodes, the step and what it "
+    "replaces."};
+inline constexpr event_kind instance_restarted{
+    "instance_restarted", "instance, the new one", "coordinator",
+    "It replaces one of a lost node: both nodes, the step and the old one."};
+inline constexpr event_kind instance_awaited{
+    "instance_awaited", "instance", "its node and the coordinator",
+    "It is to go and not stop-safe: the deadline."};
+inline constexpr event_kind instance_out_of_reach{
+    "instance_out_of_reach", "instance", "coordinator",
+    "Its node is lost: `reason`, and what follows."};
+inline constexpr event_kind instance_preempted{
+    "instance_preempted", "instance", "coordinator",
+    "It ends for a task of higher priority: `task`, `step`, `node`, "
+    "`priority`, and `by` which task."};
+inline constexpr event_kind instance_unwanted{
+    "instance_unwanted", "instance", "coordinator",
+    "Its node is back and runs it, though its task has gone: its state, and "
+    "for how many seconds it has been in that."};
+inline constexpr event_kind instance_adopted{
+    "instance_adopted", "instance", "its node",
+    "It ran on while the node was away."};
+inline constexpr event_kind instance_interrupted{
+    "instance_interrupted", "instance", "its node",
+    "Its host has ended it: `reason`."};
+inline constexpr event_kind instance_address_changed{
+    "instance_address_changed", "instance", "its node",
+    "A skill of the engine was told where its cell is now: `task`, `step`, "
+    "`from` and `to`."};
+inline constexpr event_kind instance_starved{
+    "instance_starved", "instance",
+    "its node, also where its discovery server does not know the instance; "
+    "the coordinator, where an input gets nothing although its writer sends",
+    "An input brings too little: the value, the stream and the step that "
+    "writes it."};
+inline constexpr event_kind instance_unhealthy{
+    "instance_unhealthy", "instance", "its node",
+    "An output brings too little: the value and the stream."};
+inline constexpr event_kind instance_recovered{
+    "instance_recovered", "instance", "its node, or the coordinator",
+    "Its streams are as they should be again."};
+inline constexpr event_kind skill_instance_died{
+    "skill_instance_died", "instance", "its node",
+    "The actor that supervises it has ended by an error, for the time in "
+    "`deaths`."};
+inline constexpr event_kind skill_refused{
+    "skill_refused", "folder of the skill", "its node",
+    "It cannot be used: what is wrong with it."};
+inline constexpr event_kind fence_failed{
+    "fence_failed", "instance", "its node",
+    "Its fence cannot be moved on; once, until it can be again: `reason` and "
+    "`hint`."};
+inline constexpr event_kind cgroup_left{
+    "cgroup_left", "instance", "its node",
+    "Its cgroup cannot be removed: `folder`."};
+inline constexpr event_kind stray_ended{"stray_ended", "instance",
+                                        "every node, at its start",
+                                        "It ran and nobody knows of it."};
+inline constexpr event_kind stray_removal_failed{
+    "stray_removal_failed", "instance", "every node, at its start",
+    "It runs, nobody knows of it, and it cannot be ended: `reason`."};
+
+// Container engines.
+inline constexpr event_kind engine_lost{
+    "engine_lost", "socket", "a node with a container engine",
+    "The engine does not answer: `message`."};
+inline constexpr event_kind engine_found{"engine_found", "socket",
+                                         "a node with a container engine",
+                                         "The engine answers again."};
+inline constexpr event_kind image_building{
+    "image_building", "image", "a node with a container engine",
+    "A line of the build, once a second at most."};
+inline constexpr event_kind image_built{
+    "image_built", "image", "a node with a container engine",
+    "The image is there: `operation` and `ms`."};
+inline constexpr event_kind safety_not_asked{
+    "safety_not_asked", "instance", "a node with a container engine",
+    "A container cannot be asked to become stop-safe: `reason`."};
+
+} // namespace events
+
+} // namespace roscell
