@@ -1,5 +1,6 @@
 #include "schemas/semantic_checks.hpp"
 
+#include "messages/stream_protocols.hpp"
 #include "schemas/checks/descriptor_checks.hpp"
 #include "schemas/text_excerpt.hpp"
 
@@ -40,7 +41,7 @@ void check_gpu_memory(error_list& errors, const place& node) {
 }
 
 void check_endpoints(error_list& errors, const place& ends) {
-  if (ends.value.is_object() && (ends / "protocol").text() == "file")
+  if (ends.value.is_object() && (ends / "protocol").text() == protocols::file)
     check_absolute(errors, ends / "endpoint", "the endpoint of a file");
   for (const auto& end : ends.items())
     if (end.value.is_object())

@@ -1,5 +1,7 @@
 #include "actors/cell/cell_topics.hpp"
 
+#include "messages/stream_protocols.hpp"
+
 #include <algorithm>
 #include <array>
 #include <map>
@@ -65,8 +67,8 @@ std::vector<io_endpoint> written_topics(ros_graph& graph) {
   std::vector<io_endpoint> result;
   for (auto& x : graph.endpoints())
     if (x.writes)
-      result.push_back(
-          {"ros2", std::move(x.topic), std::move(x.data_type), "", false});
+      result.push_back({std::string{protocols::ros2}, std::move(x.topic),
+                        std::move(x.data_type), "", false});
   return result;
 }
 

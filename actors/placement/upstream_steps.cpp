@@ -1,6 +1,7 @@
 #include "actors/placement/upstream_steps.hpp"
 
 #include "actors/placement/reading/stream_names.hpp"
+#include "messages/stream_protocols.hpp"
 
 #include <algorithm>
 
@@ -10,7 +11,7 @@ namespace {
 
 bool same_stream(const io_endpoint& x, const io_endpoint& y) {
   return x.protocol == y.protocol
-         && (x.protocol == "ros2"
+         && (x.protocol == protocols::ros2
                  ? full_topic(x.endpoint) == full_topic(y.endpoint)
                  : x.endpoint == y.endpoint);
 }

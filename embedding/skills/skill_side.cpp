@@ -1,6 +1,7 @@
 #include "embedding/skills/skill_side.hpp"
 
 #include "actors/core/wall_clock.hpp"
+#include "messages/stream_protocols.hpp"
 #include "roscell/skill/errors.hpp"
 
 #include <stdexcept>
@@ -11,8 +12,6 @@ namespace roscell {
 using embedding::shared_frame;
 
 namespace {
-
-constexpr const char* within_process = "actor";
 
 constexpr std::size_t mib = 1024UL * 1024;
 
@@ -60,7 +59,7 @@ actor_skill_context::impl::~impl() {
 
 void actor_skill_context::impl::open_input(std::size_t port) {
   const auto& config = env_.inputs[port];
-  if (config.protocol == within_process)
+  if (config.protocol == protocols::actor)
     return hub_->subscribe(config.endpoint, inbox_, port);
   auto x = std::make_unique<input_port>(port, config.data_type, *inbox_);
   x->handler =
@@ -73,7 +72,7 @@ void actor_skill_context::impl::open_input(std::size_t port) {
 void actor_skill_context::impl::open() {
   for (const auto& config : env_.outputs) {
     output_port x{config, nullptr};
-    if (config.protocol != within_process) {
+    if (config.protocol != protocols::actor) {
       x.handler =
           parts_.make_output({config, env_.parameters,
                               [this](const std::string& line) { log(line); }});

@@ -1,6 +1,7 @@
 #include "actors/cell/streams/stream_watch.hpp"
 
 #include "messages/stream_counts.hpp"
+#include "messages/stream_protocols.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +26,7 @@ using topic_key = std::pair<std::string, std::string>;
 using topic_writers = std::multimap<topic_key, written_topic>;
 
 bool is_topic(const io_endpoint& x) {
-  return x.protocol == "ros2";
+  return x.protocol == protocols::ros2;
 }
 
 topic_key key_of(const io_endpoint& x) {

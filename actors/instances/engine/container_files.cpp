@@ -1,5 +1,7 @@
 #include "actors/instances/engine/container_files.hpp"
 
+#include "messages/stream_protocols.hpp"
+
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -25,7 +27,7 @@ bool is_device(const std::string& path) {
 }
 
 bool is_path(const io_endpoint& x) {
-  return (x.protocol == "file" || x.protocol == "video")
+  return (x.protocol == protocols::file || x.protocol == protocols::video)
          && x.endpoint.substr(0, 1) == "/";
 }
 

@@ -1,5 +1,7 @@
 #include "actors/instances/life/quiet_notice.hpp"
 
+#include "messages/stream_protocols.hpp"
+
 #include <algorithm>
 
 namespace roscell {
@@ -8,7 +10,7 @@ bool quiet_notice::hear(const instance_row& row, time_point now) {
   constexpr auto enough_s = std::chrono::duration<double>{quiet_for}.count();
   bool result = false;
   for (size_t i = 0; i < row.spec.input.size(); ++i) {
-    if (row.spec.input[i].protocol != "ros2")
+    if (row.spec.input[i].protocol != protocols::ros2)
       continue;
     const auto end = "input:" + std::to_string(i);
     const auto& all = row.metrics.streams;

@@ -1,6 +1,7 @@
 #include "actors/instances/ros2/engine_ends.hpp"
 
 #include "actors/instances/ros2/ros_name.hpp"
+#include "messages/stream_protocols.hpp"
 
 #include <string>
 
@@ -11,7 +12,7 @@ namespace {
 std::vector<std::string> topics_of(const std::vector<io_endpoint>& ends) {
   std::vector<std::string> result;
   for (const auto& x : ends)
-    if (x.protocol == "ros2")
+    if (x.protocol == protocols::ros2)
       result.push_back(x.endpoint);
   return result;
 }

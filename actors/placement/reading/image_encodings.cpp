@@ -1,6 +1,7 @@
 #include "actors/placement/reading/image_encodings.hpp"
 
 #include "actors/placement/reading/stream_names.hpp"
+#include "messages/stream_protocols.hpp"
 #include "schemas/text_excerpt.hpp"
 
 #include <algorithm>
@@ -10,7 +11,8 @@ namespace roscell {
 namespace {
 
 bool carries_images(const io_endpoint& x) {
-  return x.protocol == "ros2" && x.data_type == "sensor_msgs/msg/Image";
+  return x.protocol == protocols::ros2
+         && x.data_type == "sensor_msgs/msg/Image";
 }
 
 /// None: any.

@@ -1,6 +1,7 @@
 #include "actors/placement/reading/short_forms.hpp"
 
 #include "actors/placement/reading/stream_names.hpp"
+#include "messages/stream_protocols.hpp"
 #include "schemas/closest_word.hpp"
 #include "schemas/text_excerpt.hpp"
 
@@ -18,7 +19,7 @@ using word_list = std::vector<std::string>;
 /// What cameras and films give.
 constexpr const char* picture_type = "sensor_msgs/msg/Image";
 
-bool has(const word_list& list, const std::string& word) {
+bool has(const word_list& list, std::string_view word) {
   return std::find(list.begin(), list.end(), word) != list.end();
 }
 
@@ -55,7 +56,7 @@ const skill_descriptor* descriptor_of(const task_step& step,
 word_list types_for(const port_description& port, const std::string& protocol) {
   word_list result;
   for (const auto& type : port.data_types)
-    if (is_message_type(type) == (protocol != "file"))
+    if (is_message_type(type) == (protocol != protocols::file))
       result.push_back(type);
   return result;
 }
@@ -64,10 +65,11 @@ std::string protocol_by_form(const std::string& endpoint,
                              const word_list& known) {
   if (known.size() == 1)
     return known.front();
-  if (looks_like_video(endpoint) && has(known, "video"))
-    return "video";
-  const auto guess = looks_like_file(endpoint) ? "file" : "ros2";
-  return has(known, guess) ? guess : "";
+  if (looks_like_video(endpoint) && has(known, protocols::video))
+    return std::string{protocols::video};
+  const auto guess =
+      looks_like_file(endpoint) ? protocols::file : protocols::ros2;
+  return has(known, guess) ? std::string{guess} : "";
 }
 
 class writer {
@@ -137,7 +139,7 @@ private:
     if (end.protocol.empty())
       return refuse(at, "expected a protocol for " + in_quotes(end.endpoint)
                             + ", one of " + listed(port.protocols));
-    if (end.protocol == "file" && end.endpoint.front() != '/')
+    if (end.protocol == protocols::file && end.endpoint.front() != '/')
       return refuse(at, "expected the endpoint of a file to be an absolute "
                         "path, got "
                             + in_quotes(end.endpoint));
@@ -151,11 +153,11 @@ private:
   std::string guess_type(const io_endpoint& end, const word_list& known) {
     if (known.size() == 1)
       return known.front();
-    if (end.protocol == "file") {
+    if (end.protocol == protocols::file) {
       auto type = type_of_file(end.endpoint);
       return has(known, type) ? type : "";
     }
-    if (end.protocol == "video")
+    if (end.protocol == protocols::video)
       return has(known, picture_type) ? picture_type : "";
     if (auto type = type_written(end); has(known, type))
       return type;
@@ -308,7 +310,7 @@ private:
   }
 
   io_endpoint made_up(size_t from, const std::string& type) {
-    return {"ros2",
+    return {std::string{protocols::ros2},
             "/" + topic_word(task_) + "/" + topic_word(step(from).id) + "/"
                 + type_name(type),
             type, "", false};

@@ -1,6 +1,7 @@
 #include "actors/placement/reading/start_order.hpp"
 
 #include "actors/placement/reading/stream_names.hpp"
+#include "messages/stream_protocols.hpp"
 
 #include <algorithm>
 
@@ -13,7 +14,7 @@ using order = std::vector<std::vector<std::size_t>>;
 bool reads_from(const instance_spec& reader, const instance_spec& writer) {
   for (const auto& in : reader.input)
     for (const auto& out : writer.output)
-      if (in.protocol == "file" && out.protocol == "file"
+      if (in.protocol == protocols::file && out.protocol == protocols::file
           && overlap(in.endpoint, out.endpoint))
         return true;
   return false;

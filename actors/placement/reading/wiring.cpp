@@ -1,6 +1,7 @@
 #include "actors/placement/reading/wiring.hpp"
 
 #include "actors/placement/reading/stream_names.hpp"
+#include "messages/stream_protocols.hpp"
 #include "schemas/closest_word.hpp"
 #include "schemas/text_excerpt.hpp"
 
@@ -22,16 +23,16 @@ struct written_end {
 };
 
 bool is_topic_end(const io_endpoint& x) {
-  return x.protocol == "ros2";
+  return x.protocol == protocols::ros2;
 }
 
 bool is_file_end(const io_endpoint& x) {
-  return x.protocol == "file";
+  return x.protocol == protocols::file;
 }
 
 /// Frames that steps pass on within one process.
 bool is_actor_end(const io_endpoint& x) {
-  return x.protocol == "actor";
+  return x.protocol == protocols::actor;
 }
 
 /// Many nodes publish transforms under one name.

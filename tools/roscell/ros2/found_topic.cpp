@@ -2,6 +2,7 @@
 
 #include "actors/placement/reading/stream_names.hpp"
 #include "messages/node.hpp"
+#include "messages/stream_protocols.hpp"
 #include "roscell/skill/errors.hpp"
 #include "tools/roscell/client/known_cell.hpp"
 #include "tools/roscell/exit_code.hpp"
@@ -22,7 +23,7 @@ constexpr std::chrono::seconds query_limit{10};
 topic_row declared_row(const node_client& node, const std::string& topic) {
   for (const auto& row : instances_in_cell(node))
     for (const auto& end : row.spec.output)
-      if (end.protocol == "ros2" && full_topic(end.endpoint) == topic
+      if (end.protocol == protocols::ros2 && full_topic(end.endpoint) == topic
           && is_live(row.state))
         return {topic, end.data_type, {}, {}, {}};
   return {};
