@@ -31,8 +31,8 @@ void add_event(coordinator_pointer self, const event_kind& what,
                const json& data) {
   auto& st = self->state;
   st.context.publish_event(what, subject, data);
-  auto added = st.history.add(
-      task, {0, unix_now_ms(), what, subject, bounded_text(data)});
+  auto added = st.history.add(task, {0, unix_now_ms(), std::string{what.name},
+                                     subject, bounded_text(data)});
   const auto& recorded = added.record.recorded;
   st.events.push_back({"history", history_key(task, recorded.sequence),
                        json(added.record).dump(), true});
