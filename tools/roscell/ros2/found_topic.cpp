@@ -3,7 +3,7 @@
 #include "actors/placement/reading/stream_names.hpp"
 #include "messages/node.hpp"
 #include "roscell/skill/errors.hpp"
-#include "tools/roscell/client/known_cell.hpp"
+#include "tools/roscell/client/ask_cell.hpp"
 #include "tools/roscell/exit_code.hpp"
 
 #include <CLI/CLI.hpp>

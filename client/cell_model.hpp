@@ -1,13 +1,13 @@
 #pragma once
 
-#include "tools/roscell/client/known_cell.hpp"
+#include "client/known_cell.hpp"
 
 #include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
 
-namespace roscell::cli::top {
+namespace roscell {
 
 /// How it stands with the node that is asked.
 struct connection_state {
@@ -41,7 +41,7 @@ public:
   /// So many events are kept, the newest.
   static constexpr size_t most_events = 1000;
 
-  /// The node answers, and has kept these events.
+  /// The node answers, and has kept these events since it answered before.
   void open(std::vector<event> kept, int64_t now_unix_ms);
 
   /// The node is away. What was known stays.
@@ -84,4 +84,4 @@ private:
   std::map<std::string, instance_row> reported_; ///< With metrics, by id.
 };
 
-} // namespace roscell::cli::top
+} // namespace roscell

@@ -4,7 +4,8 @@
 #include <string>
 #include <vector>
 
-namespace roscell::cli::top {
+/// Lines for people, of which each part looks as what it means.
+namespace roscell::cli {
 
 /// How a part of a line looks, by what it means: a screen without colours shows
 /// it otherwise.
@@ -42,9 +43,16 @@ size_t width_of(const line& x);
 /// It without what is beyond that column.
 line cut(line x, size_t width);
 
-std::string text_of(const line& x);
+/// As it is written to a file or, with colours, to a terminal; without its end.
+std::string text_of(const line& x, bool colours = false);
 
-/// The look of a state word such as "running"; plain for any other text.
+/// The look of a state word ("running", "failed"); plain for any other text.
 look look_of_state(const std::string& word);
 
-} // namespace roscell::cli::top
+/// The escape sequence that a look begins with; empty if it has none.
+std::string colour_of(look how);
+
+/// That of a state word.
+std::string state_colour(const std::string& word);
+
+} // namespace roscell::cli

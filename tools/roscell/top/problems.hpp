@@ -1,6 +1,6 @@
 #pragma once
 
-#include "tools/roscell/client/known_cell.hpp"
+#include "client/known_cell.hpp"
 
 #include <cstdint>
 #include <string>

@@ -1,4 +1,4 @@
-#include "tools/roscell/top/model/problems.hpp"
+#include "tools/roscell/top/problems.hpp"
 
 #include "tools/roscell/view/format.hpp"
 #include "tools/roscell/view/instance_text.hpp"

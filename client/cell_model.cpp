@@ -1,13 +1,14 @@
-#include "tools/roscell/top/model/cell_model.hpp"
+#include "client/cell_model.hpp"
 
-#include "tools/roscell/client/event_text.hpp"
-#include "tools/roscell/top/model/event_questions.hpp"
+#include "client/stale_answers.hpp"
+#include "messages/codec/json_codec.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <utility>
 
-namespace roscell::cli::top {
+namespace roscell {
 
 namespace {
 
@@ -35,14 +36,36 @@ void add_own_resources(const node_description& asked, cell_description& cell) {
       row.resources = asked.resources;
 }
 
+json particulars_in(const event& e) {
+  auto data = json::parse(e.data, nullptr, false);
+  return data.is_object() ? data : json::object();
+}
+
+/// The text at a name; empty where there is none.
+std::string text_in(const json& data, const char* name) {
+  const auto found = data.find(name);
+  return found != data.end() && found->is_string() ? found->get<std::string>()
+                                                   : "";
+}
+
 /// Nothing for a word of a newer version.
 std::optional<instance_state> state_in(const json& data) {
-  const auto word = data.value("state", "");
+  const auto word = text_in(data, "state");
   const auto words = enum_words(instance_state{});
   const auto* found = std::find(words.begin(), words.end(), word);
   if (found == words.end())
     return std::nullopt;
   return static_cast<instance_state>(found - words.begin());
+}
+
+/// What of the answers to ask for again is asked for here.
+questions questions_after(const std::string& what) {
+  questions result;
+  for (const auto& x : stale_after(what)) {
+    result.cell = result.cell || x == "cell" || x == "task" || x == "node";
+    result.skills = result.skills || x == "skills";
+  }
+  return result;
 }
 
 void put_change(const json& data, const event& e, instance_row& row) {
@@ -52,7 +75,7 @@ void put_change(const json& data, const event& e, instance_row& row) {
   if (row.state != *state)
     row.since_unix_ms = e.time_unix_ms;
   row.state = *state;
-  row.reason = data.value("reason", "");
+  row.reason = text_in(data, "reason");
   row.restarts = data.value("restarts", row.restarts);
   row.next_start_unix_ms = data.value("next_start_unix_ms", int64_t{0});
   row.unknown_since_unix_ms = 0;
@@ -67,13 +90,17 @@ void cell_model::for_each_row(const Change& change) {
   for (auto& task : known_.cell.tasks)
     for (auto& row : task.instances)
       change(row);
+  for (auto& node : known_.cell.nodes)
+    for (auto& row : node.instances)
+      change(row);
 }
 
 void cell_model::open(std::vector<event> kept, int64_t now_unix_ms) {
   connection_ = {true, now_unix_ms, ""};
-  if (kept.size() > most_events)
-    kept.erase(kept.begin(), kept.end() - most_events);
-  known_.events = std::move(kept);
+  auto& events = known_.events;
+  std::move(kept.begin(), kept.end(), std::back_inserter(events));
+  if (events.size() > most_events)
+    events.erase(events.begin(), events.end() - most_events);
 }
 
 void cell_model::lose(const std::string& why, int64_t now_unix_ms) {
@@ -134,12 +161,12 @@ questions cell_model::add(event e) {
 }
 
 void cell_model::change_instance(const event& e) {
-  const auto data = json::parse(e.data, nullptr, false);
+  const auto data = particulars_in(e);
   // A coordinator's own node tells of its instances without saying where, and
   // the coordinator then says it again for the cell.
   const bool is_reported_again = known_.asked.role == node_role::coordinator
-                                 && event_text(e, "node").empty();
-  if (!data.is_object() || is_reported_again)
+                                 && text_in(data, "node").empty();
+  if (is_reported_again)
     return;
   for_each_row([&](instance_row& row) {
     if (row.spec.instance == e.subject)
@@ -151,7 +178,7 @@ void cell_model::lose_node(const event& e) {
   for (auto& row : known_.cell.nodes)
     if (row.identity.name == e.subject) {
       row.state = row_state::lost;
-      row.reason = event_text(e, "reason");
+      row.reason = text_in(particulars_in(e), "reason");
       row.since_unix_ms = e.time_unix_ms;
     }
   for_each_row([&](instance_row& row) {
@@ -162,4 +189,4 @@ void cell_model::lose_node(const event& e) {
   });
 }
 
-} // namespace roscell::cli::top
+} // namespace roscell
