@@ -1,9 +1,9 @@
 #include "tools/roscell/shell/session.hpp"
 
+#include "tools/roscell/completion/live_names.hpp"
 #include "tools/roscell/exit_code.hpp"
 #include "tools/roscell/shell/child.hpp"
 #include "tools/roscell/shell/editing/line_editor.hpp"
-#include "tools/roscell/shell/editing/live_names.hpp"
 #include "tools/roscell/shell/json_collector.hpp"
 #include "tools/roscell/shell/split_words.hpp"
 #include "tools/roscell/shell/vocabulary.hpp"

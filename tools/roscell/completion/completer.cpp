@@ -1,6 +1,6 @@
-#include "tools/roscell/shell/editing/completer.hpp"
+#include "tools/roscell/completion/completer.hpp"
 
-#include "tools/roscell/commands/completion.hpp"
+#include "tools/roscell/completion/option_values.hpp"
 #include "tools/roscell/shell/split_words.hpp"
 #include "tools/roscell/shell_word.hpp"
 
@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <optional>
 #include <system_error>
 #include <utility>
@@ -18,21 +19,39 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::vector<std::string> command_names(const CLI::App& app) {
-  std::vector<std::string> result;
-  for (const auto* command :
-       app.get_subcommands([](const auto*) { return true; }))
-    if (!command->get_name().empty())
-      result.push_back(command->get_name());
+/// A word that is offered, and what it means, where that is said.
+struct offer {
+  std::string word;
+  std::string meaning = {};
+};
+
+using offer_list = std::vector<offer>;
+
+std::vector<const CLI::App*> commands_below(const CLI::App& app) {
+  return app.get_subcommands(
+      [](const CLI::App* x) { return !x->get_name().empty(); });
+}
+
+offer_list command_names(const CLI::App& app) {
+  offer_list result;
+  for (const auto* command : commands_below(app))
+    result.push_back({command->get_name(), command->get_description()});
   return result;
 }
 
-std::vector<std::string> option_names(const CLI::App& command) {
-  std::vector<std::string> result;
+offer_list option_names(const CLI::App& command) {
+  offer_list result;
   for (const auto* option : command.get_options())
     if (!option->get_positional())
       for (auto& name : names_of(*option))
-        result.push_back(std::move(name));
+        result.push_back({std::move(name), option->get_description()});
+  return result;
+}
+
+offer_list without_meanings(const std::vector<std::string>& words) {
+  offer_list result;
+  for (const auto& x : words)
+    result.push_back({x});
   return result;
 }
 
@@ -65,35 +84,32 @@ std::vector<std::string> interface_names() {
   return result;
 }
 
-/// The words of a text between blanks.
-std::vector<std::string> blank_separated(const std::string& text) {
-  return split_words(text).words;
-}
-
-/// The words that an action of completion.hpp stands for.
+/// The words that an action of option_values.hpp stands for.
 class offers {
 public:
   offers(const CLI::App& app, const name_lookup& names)
       : app_{app}, names_{names} {}
 
-  std::vector<std::string> of(const std::string& action,
-                              const std::string& begun) const {
+  offer_list of(const std::string& action, const std::string& begun) {
     const auto blank = action.find(' ');
     const auto kind = action.substr(0, blank);
     const auto rest = blank == action.npos ? "" : action.substr(blank + 1);
+    if (kind == "files" || kind == "dirs") {
+      paths = kind;
+      return without_meanings(paths_of(begun, kind == "dirs"));
+    }
     if (kind == "words")
-      return blank_separated(rest);
+      return without_meanings(split_words(rest).words);
     if (kind == "ids")
-      return names_(rest);
-    if (kind == "files" || kind == "dirs")
-      return paths_of(begun, kind == "dirs");
+      return without_meanings(names_(rest));
     if (kind == "interfaces")
-      return interface_names();
+      return without_meanings(interface_names());
     if (kind == "capacity")
-      return {"cpu=", "memory_mib=", "disk_mib="};
-    return kind == "commands" ? command_names(app_)
-                              : std::vector<std::string>{};
+      return {{"cpu="}, {"memory_mib="}, {"disk_mib="}};
+    return kind == "commands" ? command_names(app_) : offer_list{};
   }
+
+  std::string paths; ///< "files" or "dirs" if there are such.
 
 private:
   const CLI::App& app_;
@@ -117,8 +133,7 @@ const CLI::Option* option_of(const CLI::App& command, const std::string& name) {
 }
 
 const CLI::App* command_below(const CLI::App& app, const std::string& name) {
-  for (const auto* command :
-       app.get_subcommands([](const auto*) { return true; }))
+  for (const auto* command : commands_below(app))
     if (command->check_name(name))
       return command;
   return nullptr;
@@ -157,18 +172,17 @@ const CLI::Option* argument_at(const CLI::App& command, size_t number) {
   return result;
 }
 
-std::vector<std::string> offered_at(const typed_place& place,
-                                    const std::string& begun,
-                                    const offers& all) {
+offer_list offered_at(const typed_place& place, const std::string& begun,
+                      offers& all) {
   if (place.option != nullptr)
     return all.of(action_of(*place.option), begun);
   if (!begun.empty() && begun.front() == '-')
     return option_names(*place.command);
-  auto result = place.argument == 0 ? command_names(*place.command)
-                                    : std::vector<std::string>{};
+  auto result =
+      place.argument == 0 ? command_names(*place.command) : offer_list{};
   if (const auto* argument = argument_at(*place.command, place.argument)) {
-    const auto more = all.of(action_of(*argument), begun);
-    result.insert(result.end(), more.begin(), more.end());
+    auto more = all.of(action_of(*argument), begun);
+    std::move(more.begin(), more.end(), std::back_inserter(result));
   }
   return result;
 }
@@ -201,9 +215,13 @@ completions complete(const CLI::App& app, std::string_view line,
   const auto head = take_option(place, begun);
   completions result;
   result.begin = split.last_begin;
-  for (auto& word : offered_at(place, begun, {app, names}))
-    if (word.rfind(begun, 0) == 0)
-      result.words.push_back(head + word);
+  offers all{app, names};
+  for (const auto& x : offered_at(place, begun, all))
+    if (x.word.rfind(begun, 0) == 0) {
+      result.words.push_back(head + x.word);
+      result.meanings[head + x.word] = x.meaning;
+    }
+  result.paths = all.paths;
   std::sort(result.words.begin(), result.words.end());
   result.words.erase(std::unique(result.words.begin(), result.words.end()),
                      result.words.end());
@@ -223,6 +241,11 @@ std::string common_beginning(const std::vector<std::string>& words) {
         std::mismatch(result.begin(), result.end(), word.begin(), word.end());
     result.erase(end.first, result.end());
   }
+  // A part of a character is no text.
+  const auto& whole = words.front();
+  while (!result.empty() && result.size() < whole.size()
+         && (whole[result.size()] & 0xc0) == 0x80)
+    result.pop_back();
   return result;
 }
 

@@ -1,7 +1,6 @@
-#include "tools/roscell/shell/editing/live_names.hpp"
+#include "tools/roscell/completion/live_names.hpp"
 
 #include "tools/roscell/exit_code.hpp"
-#include "tools/roscell/shell/quick_question.hpp"
 
 namespace roscell::cli {
 
@@ -64,11 +63,11 @@ const std::vector<std::string>& live_names::of(const std::string& kind) {
     return entry.names;
   entry.asked = now;
   try {
+    const std::string request = source->body;
     entry.names = names_in(
-        kind, ask_quickly(node_, {source->path, source->body}, names_limit));
-  } catch (const command_error&) {
-    entry.names.clear();
-  } catch (const refused&) {
+        kind, request.empty() ? node_.get(source->path, {names_limit})
+                              : node_.ask(json::parse(request), names_limit));
+  } catch (const std::runtime_error&) {
     entry.names.clear();
   }
   return entry.names;

@@ -1,4 +1,4 @@
-#include "tools/roscell/shell/editing/completer.hpp"
+#include "tools/roscell/completion/completer.hpp"
 
 #include "tools/roscell/shell/vocabulary.hpp"
 
@@ -79,6 +79,13 @@ TEST_CASE("several words have a common beginning", "[shell]") {
   CHECK(common_beginning({"one"}) == "one");
   CHECK(common_beginning({"transfer", "transfers"}) == "transfer");
   CHECK(common_beginning({"a", "b"}).empty());
+}
+
+TEST_CASE("a common beginning has whole characters only", "[shell]") {
+  // Both begin with the same byte of another character.
+  CHECK(common_beginning({"größe", "grüße"}) == "gr");
+  CHECK(common_beginning({"机器", "机场"}) == "机");
+  CHECK(replacement({0, {"größe", "grüße"}, false}) == "gr");
 }
 
 TEST_CASE("what is certain takes the place of a word", "[shell]") {
