@@ -134,7 +134,7 @@ private:
   }
 
   void take_json(const std::string& line) {
-    print_text(request_.add_line(line));
+    request_.add_line(line);
     if (request_.is_open())
       return;
     const auto request = std::exchange(request_, {});
