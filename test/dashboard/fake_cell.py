@@ -5,13 +5,16 @@ events at a given rate, all made up. It serves the page's files as well.
 POST /fake/away makes it fall silent for some seconds, as a node that is restarted.
 """
 
+import functools
 import http.server
 import itertools
 import json
 import mimetypes
+import os
 import pathlib
 import queue
 import random
+import subprocess
 import threading
 import time
 
@@ -21,6 +24,13 @@ POLICY = ("default-src 'none'; script-src 'self'; style-src 'self'; img-src 'sel
 PLAN = {"type": "task_plan", "task": "thought", "optimal": True, "allocations": [], "rejected": [],
         "score": {"total": 0, "balance": 0, "load": 0, "alpha": 1, "gap": 0, "lower_bound": 0}}
 mimetypes.add_type("text/javascript", ".js")
+
+
+@functools.cache
+def described():
+    """What the program tells the page of its own columns and events."""
+    program = pathlib.Path(os.environ["ROSCELL_BUILD"]) / "bin" / "roscell"
+    return subprocess.run([program, "help", "--described"], check=True, capture_output=True).stdout
 
 
 def now():
@@ -162,6 +172,8 @@ class Handler(http.server.BaseHTTPRequestHandler):
         self.close_connection = True
 
     def file(self, name):
+        if name == "described.js":
+            return self.bytes(described(), "text/javascript")
         path = (PAGE / name).resolve()
         if PAGE not in path.parents or not path.is_file():
             return self.send_error(404)

@@ -1,6 +1,7 @@
 #include "tools/roscell/view/describe/describe_view.hpp"
 
 #include "test/words.hpp"
+#include "tools/roscell/client/find_things.hpp"
 #include "tools/roscell/exit_code.hpp"
 #include "tools/roscell/view/describe/parts.hpp"
 

@@ -1,4 +1,4 @@
-#include "tools/roscell/client/find_instances.hpp"
+#include "tools/roscell/client/find_things.hpp"
 
 #include "tools/roscell/exit_code.hpp"
 

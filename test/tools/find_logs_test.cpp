@@ -1,4 +1,4 @@
-#include "tools/roscell/client/find_logs.hpp"
+#include "tools/roscell/client/find_things.hpp"
 
 #include "tools/roscell/exit_code.hpp"
 #include "tools/roscell/view/kept_logs_view.hpp"

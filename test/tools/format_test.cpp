@@ -111,6 +111,23 @@ TEST_CASE("shortened text has exactly the columns asked for", "[tools]") {
   CHECK(display_width(shortened("größe", 4)) == 4);
 }
 
+TEST_CASE("a text takes the columns that a terminal gives it", "[tools]") {
+  CHECK(display_width("größe") == 5);
+  CHECK(display_width("机器人") == 6);
+  CHECK(display_width("🤖 ok") == 5);
+  // An accent that is a character of its own.
+  CHECK(display_width("e\xcc\x81") == 1);
+  CHECK(letters_in("机器人") == 3);
+  CHECK(first_letter("e\xcc\x81x") == "e\xcc\x81");
+}
+
+TEST_CASE("shortened text of wide characters is never too wide", "[tools]") {
+  CHECK(shortened("机器人", 6) == "机器人");
+  CHECK(shortened("机器人", 5) == "机器…");
+  CHECK(shortened("机器人", 4) == "机…");
+  CHECK(shortened("机器人", 1) == "…");
+}
+
 TEST_CASE("sizes are read with binary units", "[tools]") {
   CHECK(parse_bytes("4096") == 4096);
   CHECK(parse_bytes("1B") == 1);

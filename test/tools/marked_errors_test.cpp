@@ -116,3 +116,11 @@ TEST_CASE("where a text cannot be read is marked") {
       cli::marked_errors("f.json", "{\"a\" 1}", reply).rfind("f.json:1:6: ", 0)
       == 0);
 }
+
+TEST_CASE("a mark stands under a wide character as under any other") {
+  const auto marks = marks_for(R"({"type": "cell_query", "机器": 1, "x": 2})");
+  CHECK(marks.find("  |                         ^~~~~~\n")
+        != std::string::npos);
+  CHECK(marks.find("  |                                    ^~~\n")
+        != std::string::npos);
+}

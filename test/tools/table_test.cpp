@@ -2,7 +2,6 @@
 
 #include "test/printed_text.hpp"
 #include "tools/roscell/exit_code.hpp"
-#include "tools/roscell/view/table/choice.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -178,4 +177,63 @@ TEST_CASE("only state words get a colour", "[tools]") {
   CHECK(state_colour("returned") == "\x1b[31m");
   CHECK(state_colour("unresolved") == "\x1b[33m");
   CHECK(state_colour("arm-1").empty());
+}
+
+TEST_CASE("a column that is there only if something stands in it", "[tools]") {
+  table t{{{"A"}, {"WHY", align::left, 1, false, true}}, {{"a", ""}}};
+  CHECK(t.render({}) == "A\na\n");
+  t.rows.push_back({"b", "lost"});
+  CHECK(cells_in(t.render({})) == "A|WHY\na|-\nb|lost\n");
+}
+
+TEST_CASE("a filter is looked for in all cells of a row, in any case",
+          "[tools]") {
+  text_style filtered;
+  filtered.tables.headings = false;
+  filtered.tables.filter = "LOS";
+  CHECK(cells_in(sample().render(filtered)) == "b|0.25|lost\n");
+  filtered.tables.filter = "nothing";
+  CHECK(sample().render(filtered).empty());
+}
+
+namespace {
+
+std::string bar_text(const share& of, size_t width, bool utf8) {
+  line x;
+  x.spans = bar(of, width, utf8);
+  return text_of(x);
+}
+
+} // namespace
+
+TEST_CASE("a bar tells others, instances and what is free by characters",
+          "[tools]") {
+  CHECK(bar_text({2, 1, 4}, 8, false) == "####++..");
+  CHECK(bar_text({2, 1, 4}, 8, true) == "████▒▒··");
+  CHECK(bar_text({0, 0, 4}, 4, false) == "....");
+}
+
+TEST_CASE("a bar shows the least amount, and never more than its width",
+          "[tools]") {
+  CHECK(bar_text({0.001, 0.001, 100}, 5, false) == "#+...");
+  CHECK(bar_text({9, 9, 10}, 5, false) == "+++++");
+  CHECK(bar_text({9, 1, 5}, 5, false) == "####+");
+  CHECK(bar_text({1, 1, 0}, 3, false) == "...");
+  CHECK(bar_text({1, 1, 4}, 0, false).empty());
+}
+
+TEST_CASE("an amount has its bar before it where bars are wanted", "[tools]") {
+  cell used{"3/4"};
+  used.usage = share{2, 1, 4};
+  const table t{{{"NODE"}, {"CPU", align::right}}, {{"arm", used}}};
+  CHECK(cells_in(t.render({})) == "NODE|CPU\narm|3/4\n");
+  text_style drawn;
+  drawn.bars = true;
+  drawn.utf8 = false;
+  CHECK(t.render(drawn) == "NODE             CPU\narm   #####+++..  3/4\n");
+}
+
+TEST_CASE("a wide character takes two columns of a table", "[tools]") {
+  const table t{{{"A"}, {"B"}}, {{"机器人", "x"}, {"robot", "y"}}};
+  CHECK(t.render({}) == "A       B\n机器人  x\nrobot   y\n");
 }

@@ -85,6 +85,12 @@ TEST_CASE("a path or a unix: address is a socket", "[tools]") {
   CHECK(parse_target("/run/node.sock").text() == "unix:/run/node.sock");
 }
 
+TEST_CASE("a path is never taken for the name of a host", "[tools]") {
+  for (const auto* text : {"a/b.sock", "./node.sock", "unix:a/b.sock"})
+    CHECK_THROWS_WITH(parse_target(text),
+                      Catch::Contains("named by its absolute path"));
+}
+
 TEST_CASE("a target that cannot be meant is refused", "[tools]") {
   for (const auto* text : {"", ":80", "host:", "host:0", "host:65536",
                            "host:8o", "unix:", "unix:relative", "[::1",

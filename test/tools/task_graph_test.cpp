@@ -60,9 +60,10 @@ TEST_CASE("the same endpoint of another protocol joins nothing", "[tools]") {
 TEST_CASE("a graph shows steps, nodes, streams and metrics", "[tools]") {
   const auto text = graph_view(sample_graph(), {});
   CHECK(has(text, "│ on arm-1, running "));
-  CHECK(has(text, "│ 10 Hz, 0 dropped, 3.25 ms │"));
+  CHECK(has(text, "│ 10 Hz, 0 dropped, 3.25 ms "));
   CHECK(has(text, "│ in  /data/in "));
-  CHECK(has(text, "│ /image  Image  10 Hz\n"));
+  CHECK(has(text, "┌─│ out /image  Image  10 Hz "));
+  CHECK(has(text, "└▶│ in  /image "));
   CHECK(has(text, "│ out /tf"));
   CHECK(has(text, "\n/image    camera  poses   10 Hz  ros2      "
                   "sensor_msgs/msg/Image\n"));
@@ -81,7 +82,7 @@ TEST_CASE("a graph shows what arrives at each reader", "[tools]") {
   in.rate_hz = 8;
   graph.steps[1].metrics.streams = {in};
   const auto text = graph_view(graph, {});
-  CHECK(has(text, "│ /image  Image  9 Hz\n"));
+  CHECK(has(text, "┌─│ out /image  Image  9 Hz "));
   CHECK(has(text, "AT ITS READER"));
   CHECK(has(text, "  8 Hz, 7 frames, 2 failed\n"));
   const auto document = graph_json(graph);

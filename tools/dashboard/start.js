@@ -5,13 +5,13 @@ const AGAIN_MS = 3000;
 /** Named here so that they come together and not one after the other. */
 const PARTS = {
   cell: 'api event_stream metrics flights follow_events questions samples store',
-  graph: 'graph_layout graph_picture task_graph',
+  graph: 'graph_layout graph_picture',
   json: 'json_box json_places',
   page: 'announcer dom frame frames help marks router shortcuts table theme words',
   planning: 'decision_view drafts drag field keep_place parameter_field plan_page plan_tables plan_view step_form '
     + 'stream_fields task_copy task_document task_form what_if',
   requests: 'catalogue refusal_view request_form requests_page sender',
-  pages: 'event_rows events_page instance_page instance_table instances_page log_follower log_view node_page node_table '
+  pages: 'columns event_rows events_page instance_page instances_page log_follower log_view node_page '
     + 'pages search_field site_page task_page tasks_page topics_page',
 };
 

@@ -1,5 +1,5 @@
+#include "tools/roscell/completion/live_names.hpp"
 #include "tools/roscell/shell/editing/history_file.hpp"
-#include "tools/roscell/shell/editing/live_names.hpp"
 #include "tools/roscell/shell/editing/paste_filter.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,6 +1,7 @@
-#include "tools/roscell/top/model/cell_model.hpp"
+#include "client/cell_model.hpp"
 
-#include "tools/roscell/top/model/problems.hpp"
+#include "client/stale_answers.hpp"
+#include "tools/roscell/top/problems.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -127,6 +128,14 @@ TEST_CASE("only events after which the cell is another one ask for it",
   CHECK(x.add({3, 0, "task_accepted", "t", ""}).cell);
   CHECK(x.add({4, 0, "node_joined", "n", ""}).skills);
   CHECK_FALSE(x.add({5, 0, "task_accepted", "t", ""}).skills);
+}
+
+TEST_CASE("of the events that fit one the first entry counts", "[top]") {
+  using answers = std::vector<std::string>;
+  CHECK(stale_after("node_joined") == answers{"cell", "cells", "skills"});
+  CHECK(stale_after("node_renamed") == answers{"cell"});
+  CHECK(stale_after("task_finished") == answers{"task"});
+  CHECK(stale_after("image_building").empty());
 }
 
 TEST_CASE("what was known stays when the node is away, since when it is",

@@ -10,15 +10,14 @@ namespace {
 /// Two things of each kind, and keys that somebody presses.
 struct bench {
   controls now;
-  std::array<listing, listed_kinds.size()> lists;
+  tables lists;
   size_t page = 10;
   size_t lines = 0;
 
   bench() {
     for (auto& x : lists) {
       x.columns = {{"NAME"}, {"STATE"}};
-      x.items = {{"first", {{"first"}, {"on"}}, {}},
-                 {"second", {{"second"}, {"off"}}, {}}};
+      x.rows = {{"first", "on"}, {"second", "off"}};
     }
   }
 
@@ -65,9 +64,9 @@ TEST_CASE("Tab goes through the lists and back", "[top]") {
 TEST_CASE("s goes through the columns, S turns the order round", "[top]") {
   bench x;
   x.type("s");
-  CHECK(x.now.lists[0].order.column == 1);
+  CHECK(x.now.lists[0].order.column == "STATE");
   x.type("sS");
-  CHECK(x.now.lists[0].order.column == 0);
+  CHECK(x.now.lists[0].order.column == "NAME");
   CHECK(x.now.lists[0].order.backwards);
   CHECK_FALSE(x.now.lists[1].order.backwards);
 }
@@ -108,7 +107,7 @@ TEST_CASE("a selected thing that is gone is the first instead", "[top]") {
   x.now.lists[0].selected = "gone";
   x.press_name(key_name::enter);
   CHECK(x.now.subject.name == "first");
-  x.lists[0].items.clear();
+  x.lists[0].rows.clear();
   x.now = {};
   x.press_name(key_name::down);
   x.press_name(key_name::enter);

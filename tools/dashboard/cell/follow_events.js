@@ -1,37 +1,26 @@
 // What an event changes. Most say all that there is to know, and the row is
-// changed here; the others name the one question that has to be asked again.
+// changed here; of the others the program says which answers they make old
+// (described.js), and these are asked for again.
+import { STALE } from '../described.js';
 
 /** Fields of an instance's row that `instance_changed` tells; absent means none. */
 const TOLD = ['reason', 'exit_code', 'restarts', 'next_start_unix_ms', 'health', 'health_reason', 'waits'];
 
-const QUESTIONS = {
-  node_joined: ['cell', 'cells', 'skills'], node_left: ['cell', 'cells', 'skills'],
-  node_lost: ['cell', 'cells', 'skills'], node_departing: ['cell'], transfer_ended: ['cell', 'cells'],
-  node_draining: ['cell'], node_drained: ['cell'], node_undrained: ['cell'],
-  node_appeared: ['cell'], node_vanished: ['cell'],
-  peer_joined: ['cells'], peer_changed: ['cells'], peer_lost: ['cells'], peer_vanished: ['cells'],
-  peer_unreachable: ['cells'], cell_name_conflict: ['cells'], cells_rebalanced: ['cell', 'cells'],
-  skill_refused: ['skills'], cell_joined: ['cell', 'cells', 'node'], cell_left: ['cell', 'cells', 'node'],
-  coordinator_lost: ['node'],
-};
-
-/** Steps that begin, end or go elsewhere: the task has to be read again. */
-const TASK_FACTS = new Set([
-  'task_accepted', 'task_finished', 'task_failed', 'allocation_chosen', 'instance_moved',
-  'instance_restarted', 'instance_awaited', 'instance_out_of_reach', 'step_stranded',
-]);
-
 export function applyEvent(store, event, ask) {
-  for (const question of QUESTIONS[event.event] ?? [])
-    ask(question);
   if (event.event === 'instance_changed')
-    onInstanceChanged(store, event, ask);
-  else if (event.event === 'node_lost')
+    return onInstanceChanged(store, event, ask);
+  if (event.event === 'node_lost')
     onNodeLost(store, event);
-  else if (event.event === 'task_terminated')
+  if (event.event === 'task_terminated')
     store.endTask(event.subject);
-  else if (TASK_FACTS.has(event.event))
-    onTaskFact(store, event, ask);
+  for (const answer of staleAfter(event.event))
+    answer === 'task' ? onTaskFact(store, event, ask) : ask(answer);
+}
+
+/** The first that fits counts; a name with a * stands for all that begin so. */
+function staleAfter(event) {
+  const fits = ([name]) => (name.endsWith('*') ? event.startsWith(name.slice(0, -1)) : name === event);
+  return STALE.find(fits)?.[1] ?? [];
 }
 
 function onTaskFact(store, event, ask) {

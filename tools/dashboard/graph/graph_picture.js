@@ -4,8 +4,7 @@ import { el, replace, setAttribute, setText, svg } from '../page/dom.js';
 import { shapePath } from '../page/marks.js';
 import { address } from '../page/router.js';
 import { hertz, instanceState, kindOf, milliseconds, nodeState, spoken } from '../page/words.js';
-import { labelHeight, layOut } from './graph_layout.js';
-import { shortName, taskGraph } from './task_graph.js';
+import { BOX, layOut, LINE, shortName } from './graph_layout.js';
 
 /** It shrinks to fit a tablet; what would be smaller than this is scrolled. */
 const LEAST_SCALE = 0.76;
@@ -18,67 +17,51 @@ export class GraphPicture {
   }
 
   update(instances) {
-    const graph = taskGraph(instances);
-    const structure = JSON.stringify([graph.flows, graph.ends, graph.steps.map((x) => [x.id, x.node, x.row.spec.instance])]);
+    const structure = JSON.stringify(instances.map(({ node, spec }) => [node, spec.instance, spec.input, spec.output]));
     if (structure !== this.structure)
-      this.draw(graph);
+      this.draw(layOut([...instances]));
     this.structure = structure;
-    for (const row of instances)
-      this.updateStep(row);
-    for (const arrow of this.layout.arrows)
-      this.updateArrow(arrow);
-    this.layout.bands.forEach((band) => this.updateBand(band));
+    this.known = new Map(instances.map((x) => [x.spec.instance, x]));
+    for (const work of this.updates)
+      work();
   }
 
-  draw(graph) {
-    this.layout = layOut(graph);
-    this.boxes = new Map();
-    this.arrows = new Map();
-    this.bands = new Map();
-    const { width, height, bands, items, arrows } = this.layout;
-    const picture = svg('svg', { viewBox: `0 0 ${width} ${height}`, width, role: 'presentation' },
-      arrowHead(),
-      bands.map((x) => this.makeBand(x, width)),
-      arrows.map((x) => this.makeArrow(x)),
-      items.map((x) => (x.kind === 'step' ? this.makeStep(x) : makeEnd(x))),
-      arrows.filter((x) => x.labelled).map((x) => this.makeLabel(x)));
+  draw({ width, height, columns, boxes, arrows }) {
+    this.updates = [];
+    const picture = svg('svg', { viewBox: `0 0 ${width} ${height}`, width, role: 'presentation' }, arrowHead(),
+      columns.map((x) => this.makeColumn(x, height)), arrows.map((x) => this.makeArrow(x)), boxes.map((x) => this.makeBox(x)));
     picture.style.minWidth = `${width * LEAST_SCALE}px`;
     replace(this.root, picture);
   }
 
-  makeBand(band, width) {
+  makeColumn({ node, x, width }, height) {
     const state = svg('tspan', { class: 'soft' });
-    this.bands.set(band.node, { state });
-    return svg('g', { class: 'band' },
-      svg('rect', { x: 1, y: band.y, width: width - 2, height: band.height, rx: 4 }),
-      svg('text', { x: 14, y: band.y + 19 }, svg('tspan', { class: 'node-name' }, band.node), ' ', state));
+    this.updates.push(() => {
+      const row = this.store.nodes.get(node);
+      const word = row ? nodeState(row) : 'unknown';
+      setText(state, word === 'active' ? '' : `${spoken(word)}${row?.reason ? `: ${row.reason}` : ''}`);
+    });
+    return svg('g', { class: 'band' }, svg('rect', { x, y: 1, width, height: height - 2, rx: 4 }),
+      svg('text', { x: x + 12, y: 21 }, svg('tspan', { class: 'node-name' }, node), ' ', state));
   }
 
-  updateBand(band) {
-    const row = this.store.nodes.get(band.node);
-    const state = row ? nodeState(row) : 'unknown';
-    setText(this.bands.get(band.node).state, state === 'active' ? '' : `${spoken(state)}${row?.reason ? `: ${row.reason}` : ''}`);
+  makeBox({ row, x, y, height, ends }) {
+    const parts = { mark: svg('path', {}), stripe: svg('rect', { x, y, width: 4, height }), state: svg('tspan', {}), metrics: svg('tspan', {}), title: svg('title', {}) };
+    this.updates.push(() => this.updateBox(parts, this.known.get(row.spec.instance)));
+    const { step, operation, model } = row.spec;
+    return svg('a', { class: 'step', href: address('instances', row.spec.instance) }, parts.title,
+      svg('rect', { x, y, width: BOX.width, height, rx: 3 }), parts.stripe,
+      svg('text', { x: x + 14, y: y + LINE, class: 'step-name' }, shortName(step, 28)),
+      svg('text', { x: x + 14, y: y + 2 * LINE, class: 'soft' }, shortName(`${operation} / ${model}`, 34)),
+      svg('g', { transform: `translate(${x + 14} ${y + 2 * LINE + 6})` }, parts.mark,
+        svg('text', { x: 17, y: 10 }, parts.state, parts.metrics)),
+      ends.map((end) => this.makeEnd(end, x)));
   }
 
-  makeStep({ x, y, width, height, step }) {
-    const parts = {
-      mark: svg('path', {}), state: svg('tspan', {}), metrics: svg('tspan', {}), title: svg('title', {}),
-    };
-    parts.box = svg('rect', { x, y, width, height, rx: 3 });
-    parts.stripe = svg('rect', { x, y, width: 4, height });
-    this.boxes.set(step.row.spec.step, parts);
-    return svg('a', { class: 'step', href: address('instances', step.row.spec.instance) }, parts.title, parts.box, parts.stripe,
-      svg('text', { x: x + 14, y: y + 19, class: 'step-name' }, shortName(step.id, 22)),
-      svg('text', { x: x + 14, y: y + 35, class: 'soft' }, shortName(`${step.row.spec.operation} / ${step.row.spec.model}`, 27)),
-      svg('g', { transform: `translate(${x + 14} ${y + 43})` }, parts.mark,
-        svg('text', { x: 17, y: 10 }, parts.state, parts.metrics)));
-  }
-
-  updateStep(row) {
-    const parts = this.boxes.get(row.spec.step);
+  updateBox(parts, row) {
     const state = instanceState(row);
     const kind = kindOf(state);
-    const metrics = this.store.metrics.get(row.spec.instance) ?? {};
+    const metrics = this.metricsOf(row);
     setAttribute(parts.mark, 'd', shapePath(kind));
     setAttribute(parts.mark, 'class', `mark ${kind}`);
     setAttribute(parts.stripe, 'class', `stripe ${kind}`);
@@ -88,59 +71,32 @@ export class GraphPicture {
     setText(parts.title, `${row.spec.step}: ${spoken(state)} on ${row.node}. ${row.reason ?? row.health_reason ?? metrics.remark ?? ''}`);
   }
 
-  makeArrow(arrow) {
-    const line = svg('path', { d: arrow.path, 'marker-end': 'url(#arrow-head)' });
-    this.arrows.set(arrow.key, { line });
+  /** One stream; of one that goes out also how much, and how old it is. */
+  makeEnd({ stream, reads, y, box }, x) {
+    const metrics = svg('tspan', { class: 'metrics' });
+    if (!reads)
+      this.updates.push(() => {
+        const { rate_hz, age_ms } = this.flows(box) ? this.metricsOf(box.row) : {};
+        setText(metrics, [hertz(rate_hz), age_ms === undefined ? '' : `${milliseconds(age_ms)} old`].filter(Boolean).map((words) => ` ${words}`).join(','));
+      });
+    return svg('text', { x: x + 14, y: y + 4, class: 'end' }, svg('title', {}, `${stream.endpoint} (${stream.data_type})`),
+      svg('tspan', { class: 'soft' }, reads ? 'in ' : 'out '), shortName(stream.endpoint, reads ? 27 : 17), metrics);
+  }
+
+  makeArrow({ from, to, path }) {
+    const line = svg('path', { d: path, 'marker-end': 'url(#arrow-head)' });
+    this.updates.push(() => setAttribute(line, 'class', `arrow ${this.flows(from.box) && this.flows(to.box) ? 'flows' : 'still'}`));
     return line;
   }
 
-  makeLabel(arrow) {
-    const height = labelHeight(arrow);
-    const top = arrow.label.y - height / 2;
-    const metrics = svg('text', { x: arrow.label.x, y: top + height - 4, class: 'metrics' });
-    this.arrows.get(arrow.key).metrics = metrics;
-    return svg('g', { class: 'flow' },
-      streamTitle(arrow.streams),
-      svg('rect', { x: arrow.label.x - 76, y: top, width: 152, height: height + 2, rx: 3 }),
-      lines(arrow.streams).map((words, index) => svg('text', { x: arrow.label.x, y: top + 12 + 15 * index }, words)),
-      metrics);
+  metricsOf(row) {
+    return this.store.metrics.get(row.spec.instance) ?? {};
   }
 
-  updateArrow({ key, from, to }) {
-    const parts = this.arrows.get(key);
-    const writer = from.step && this.store.instances.get(from.step.row.spec.instance);
-    const reader = to.step && this.store.instances.get(to.step.row.spec.instance);
-    const flows = [[from, writer], [to, reader]].every(([end, row]) => !end.step || row && instanceState(row) === 'running');
-    setAttribute(parts.line, 'class', `arrow ${flows ? 'flows' : 'still'}`);
-    const metrics = this.store.metrics.get(writer?.spec.instance) ?? {};
-    const words = [hertz(metrics.rate_hz), timeWords(metrics)].filter(Boolean);
-    if (parts.metrics)
-      setText(parts.metrics, flows ? words.join(' · ') || 'no metrics' : 'nothing flows');
+  flows({ row }) {
+    const now = this.known.get(row.spec.instance);
+    return now && instanceState(now) === 'running';
   }
-}
-
-/** How old it is at the output, or if that is not known how long the step takes. */
-function timeWords({ age_ms, latency_ms }) {
-  if (age_ms !== undefined)
-    return `${milliseconds(age_ms)} old`;
-  return latency_ms === undefined ? '' : `takes ${milliseconds(latency_ms)}`;
-}
-
-function streamTitle(streams) {
-  return svg('title', {}, streams.map((x) => `${x.endpoint} (${x.data_type})`).join('\n'));
-}
-
-function lines(streams) {
-  if (streams.length <= 3)
-    return streams.map((x) => shortName(x.endpoint, 23));
-  return [...streams.slice(0, 2).map((x) => shortName(x.endpoint, 23)), `and ${streams.length - 2} more`];
-}
-
-function makeEnd({ x, y, width, height, end }) {
-  return svg('g', { class: 'end' },
-    streamTitle(end.streams),
-    svg('rect', { x, y, width, height, rx: height / 2 > 20 ? 12 : height / 2 }),
-    lines(end.streams).map((words, index) => svg('text', { x: x + width / 2, y: y + 18 + 15 * index }, words)));
 }
 
 function arrowHead() {

@@ -87,6 +87,12 @@ export function keyed(parent, items, keyOf, make, update) {
     focused.focus({ preventScroll: true });
 }
 
+/** Attributes in two columns: `attributes([['Address', element or text], ...])`. */
+export function attributes(rows) {
+  return el('dl', { class: 'attributes' }, rows.filter(([, value]) => value !== null && value !== undefined && value !== '' && value.length !== 0)
+    .map(([name, value]) => el('div', {}, el('dt', {}, name), el('dd', {}, value))));
+}
+
 let ids = 0;
 
 /** An id that no other element of the page has, for labels. */

@@ -58,6 +58,15 @@ export function milliseconds(value) {
   return value >= 10000 ? `${(value / 1000).toFixed(0)} s` : `${number(value, value < 1 ? 1 : 2)} ms`;
 }
 
+export function ofMebibytes(amount) {
+  return amount.capacity >= 10240 ? `${mebibytes(amount.used)} of ${mebibytes(amount.capacity)}`
+    : `${number(amount.used)} of ${number(amount.capacity)} MiB`;
+}
+
+export function labelWords(labels = {}) {
+  return Object.entries(labels).map(([name, value]) => `${name}=${value}`).join('  ');
+}
+
 export function percent(share) {
   return `${Math.round(share * 100)} %`;
 }

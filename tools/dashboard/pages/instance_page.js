@@ -1,10 +1,9 @@
 // One instance: what it is, what it does, how it ended before, and its log.
-import { el, keyed, remade, setText } from '../page/dom.js';
+import { attributes, el, keyed, remade, setText } from '../page/dom.js';
 import { stateMark, updateState } from '../page/marks.js';
 import { address, way } from '../page/router.js';
 import { ago, asList, clock, dateAndTime, hertz, instanceState, mebibytes, milliseconds, number } from '../page/words.js';
 import { LogView } from './log_view.js';
-import { attributes } from './node_table.js';
 
 export class InstancePage {
   constructor(app, where) {

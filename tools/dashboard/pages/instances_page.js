@@ -1,8 +1,10 @@
 // All instances of the cell, with filters.
 import { el, freshId, setText } from '../page/dom.js';
 import { onceAFrame } from '../page/frames.js';
+import { address } from '../page/router.js';
+import { Table } from '../page/table.js';
 import { count, instanceState, kindOf } from '../page/words.js';
-import { InstanceTable } from './instance_table.js';
+import { columnsOf, measured } from './columns.js';
 import { SearchField } from './search_field.js';
 
 const GROUPS = [
@@ -18,7 +20,7 @@ export class InstancesPage {
     this.find = new SearchField('task, step, node, skill …', draw, where.query.get('find'));
     this.group = el('select', { id: group, on: { change: draw } }, GROUPS.map(([kind, words]) => el('option', { value: kind }, words)));
     this.amount = el('span', { class: 'soft', role: 'status' });
-    this.table = new InstanceTable(app);
+    this.table = instanceTable(app);
     this.root = el('div', { class: 'page' }, el('h1', {}, 'Instances'),
       el('p', { class: 'filters' }, this.find.parts,
         el('label', { for: group }, 'State'), this.group, this.amount),
@@ -30,9 +32,17 @@ export class InstancesPage {
     const all = [...this.app.store.instances.values()];
     const shown = all.filter((x) => (!this.group.value || kindOf(instanceState(x)) === this.group.value)
       && this.find.fits(textOf(x)));
-    this.table.update(shown);
+    this.table.update(measured(shown, this.app.store));
     setText(this.amount, shown.length === all.length ? count(all.length, 'instance') : `${shown.length} of ${all.length}`);
   }
+}
+
+/** Of the cell, a node or a task. */
+export function instanceTable(app, without) {
+  return new Table({
+    caption: 'Instances', columns: columnsOf('instances', app, without),
+    keyOf: (x) => x.spec.instance, href: (x) => address('instances', x.spec.instance), empty: 'None.',
+  });
 }
 
 function textOf({ spec, node, state }) {

@@ -1,12 +1,12 @@
 // One node: what is used of it over the last minutes, what it runs, what can be
 // asked of it.
 import { shares } from '../cell/samples.js';
-import { el, keyed, remade, setAttribute, setText } from '../page/dom.js';
+import { attributes, el, keyed, remade, setAttribute, setText } from '../page/dom.js';
 import { meter, sparkline, stateMark, updateMeter, updateSparkline, updateState } from '../page/marks.js';
 import { address, way } from '../page/router.js';
-import { ago, dateAndTime, nodeState, number, percent } from '../page/words.js';
-import { InstanceTable } from './instance_table.js';
-import { attributes, labelWords, ofMebibytes } from './node_table.js';
+import { ago, dateAndTime, labelWords, nodeState, number, ofMebibytes, percent } from '../page/words.js';
+import { instanceTable } from './instances_page.js';
+import { measured } from './columns.js';
 
 export class NodePage {
   constructor(app, where) {
@@ -17,7 +17,7 @@ export class NodePage {
     this.actions = el('p', { class: 'actions' });
     this.charts = el('div', { class: 'charts' });
     this.attributes = el('div', {});
-    this.instances = new InstanceTable(app, { without: 'node' });
+    this.instances = instanceTable(app, 'NODE');
     this.root = el('div', { class: 'page' },
       el('p', { class: 'way' }, el('a', { href: address('site') }, 'Site')),
       el('h1', {}, this.name, ' ', this.state), this.reason, this.actions,
@@ -34,7 +34,7 @@ export class NodePage {
     updateState(this.state, nodeState(row));
     setText(this.reason, row.reason ? `${row.reason} (${ago(row.since_unix_ms)} ago)` : '');
     keyed(this.charts, chartsOf(row.resources), (x) => x.key, makeChart, (card, x) => this.updateChart(card, x));
-    this.instances.update(this.app.store.instancesOn(this.name));
+    this.instances.update(measured(this.app.store.instancesOn(this.name), this.app.store));
     if (kinds.has('nodes') || kinds.has('all') || kinds.has('skills'))
       this.showFacts(row);
   }

@@ -2,8 +2,9 @@
 import { el, keyed, setAttribute, setText } from '../page/dom.js';
 import { stateMark, updateState } from '../page/marks.js';
 import { address, way } from '../page/router.js';
+import { Table } from '../page/table.js';
 import { count, instanceState, kindOf } from '../page/words.js';
-import { NodeTable } from './node_table.js';
+import { columnsOf } from './columns.js';
 import { EventRows, isEcho } from './event_rows.js';
 
 const MOST_PROBLEMS = 12;
@@ -14,7 +15,10 @@ export class SitePage {
     this.app = app;
     this.title = el('h1', {}, 'Site');
     this.cells = el('ul', { class: 'cards' });
-    this.table = new NodeTable(app);
+    this.table = new Table({
+      caption: 'Nodes of the cell', columns: columnsOf('nodes', app), keyOf: (x) => x.identity.name,
+      href: (x) => address('nodes', x.identity.name), empty: 'No node is known yet.',
+    });
     this.free = el('ul', { class: 'cards' });
     this.freeBox = el('section', {}, el('h2', {}, 'Nodes in no cell'), this.free);
     this.problems = el('ul', { class: 'problems' });
@@ -34,7 +38,7 @@ export class SitePage {
   update() {
     const { store } = this.app;
     keyed(this.cells, store.cells, (x) => x.cell, makeCell, (card, x) => updateCell(card, x, store.cell?.cell));
-    this.table.update();
+    this.table.update([...store.nodes.values()]);
     this.freeBox.hidden = store.free.length === 0;
     keyed(this.free, store.free, (x) => x.uuid, makeFree, updateFree);
     const problems = problemsOf(store);

@@ -11,7 +11,8 @@ import { DecisionView } from '../planning/decision_view.js';
 import { keepDraft } from '../planning/drafts.js';
 import { copyOf } from '../planning/task_copy.js';
 import { EventRows } from './event_rows.js';
-import { InstanceTable } from './instance_table.js';
+import { measured } from './columns.js';
+import { instanceTable } from './instances_page.js';
 
 const HISTORY_MS = 1000;
 
@@ -23,7 +24,7 @@ export class TaskPage {
     this.about = el('p', { class: 'soft' });
     this.waits = el('ul', { class: 'waits' });
     this.picture = new GraphPicture(app.store, this.name);
-    this.instances = new InstanceTable(app, { without: 'task' });
+    this.instances = instanceTable(app, 'TASK');
     this.history = new EventRows(200, { dates: true });
     this.dropped = el('p', { class: 'soft' });
     this.root = el('div', { class: 'page' },
@@ -59,7 +60,7 @@ export class TaskPage {
     this.there = Boolean(task);
     const instances = store.instancesOf(this.name);
     this.picture.update(instances);
-    this.instances.update(instances);
+    this.instances.update(measured(instances, store));
     this.showWaits(instances);
     if (kinds.has('events') && this.newEvents().some((x) => this.concerns(x)))
       this.askHistory();

@@ -1,10 +1,11 @@
 // The ROS 2 topics of the cell. No event tells of them, so they are read when the
-// room is opened, when instances change, and when somebody asks.
+// page is opened, when instances change, and when somebody asks.
 import { get } from '../cell/api.js';
 import { button, el, setText } from '../page/dom.js';
 import { throttled } from '../page/frames.js';
 import { Table } from '../page/table.js';
 import { count } from '../page/words.js';
+import { columnsOf } from './columns.js';
 import { SearchField } from './search_field.js';
 
 const AGAIN_MS = 2000;
@@ -15,7 +16,7 @@ export class TopicsPage {
     this.find = new SearchField('topic, type, program …', () => this.draw());
     this.words = el('span', { class: 'soft', role: 'status' });
     this.table = new Table({
-      caption: 'Topics', columns: COLUMNS, keyOf: (x) => `${x.topic} ${x.data_type}`, empty: 'No topic is known.',
+      caption: 'Topics', columns: columnsOf('topics', app), keyOf: (x) => `${x.topic} ${x.data_type}`, empty: 'No topic is known.',
     });
     this.root = el('div', { class: 'page' }, el('h1', {}, 'Topics'),
       el('p', { class: 'filters' }, this.find.parts,
@@ -46,13 +47,3 @@ export class TopicsPage {
     setText(this.words, this.problem || count(rows.length, 'topic'));
   }
 }
-
-const programs = (ends) => ends.map((x) => `${x.program}${x.reliability === 'best_effort' ? ' (best effort)' : ''}`).join(', ');
-
-const COLUMNS = [
-  { title: 'Topic', order: (x) => x.topic, text: (x) => x.topic },
-  { title: 'Type', order: (x) => x.data_type, text: (x) => x.data_type },
-  { title: 'Written by', order: (x) => x.writers.length, text: (x) => programs(x.writers) || 'nobody' },
-  { title: 'Read by', order: (x) => x.readers.length, text: (x) => programs(x.readers) || 'nobody' },
-  { title: 'Ends that do not match', class: 'wrong', text: (x) => (x.mismatches ?? []).join('; ') },
-];

@@ -1,11 +1,11 @@
 // The form of one step, made from its skill's descriptor.
 import { button, el } from '../page/dom.js';
 import { warning } from '../page/marks.js';
+import { labelWords } from '../page/words.js';
 import { choice, field, setOrDrop, textInput } from './field.js';
 import { parameterField } from './parameter_field.js';
 import { streamFields } from './stream_fields.js';
 import { labelsOf } from './task_document.js';
-import { labelWords } from '../pages/node_table.js';
 
 /** `skills` are descriptors; `redo` makes the whole form again. */
 export function stepForm({ step, index, pipeline, skills, onChange, redo }) {

@@ -1,7 +1,6 @@
 #include "tools/roscell/client/node_client.hpp"
 
 #include "messages/failure.hpp"
-#include "tools/roscell/client/event_text.hpp"
 #include "tools/roscell/view/format.hpp"
 
 #include <CLI/CLI.hpp>
@@ -14,9 +13,6 @@
 namespace roscell::cli {
 
 namespace {
-
-/// A node that lives answers a question about itself far sooner.
-constexpr std::chrono::seconds answer_limit{15};
 
 /// A request may take minutes, but a node that has nothing to say meanwhile is
 /// asked whether it lives, which no work of its own keeps it from answering:
@@ -143,8 +139,10 @@ void add_connection_options(CLI::App& command, connection_options& options) {
 node_client::node_client(const connection_options& options)
     : to_{target_of(options)}, http_{endpoint_of(to_, options)} {}
 
-json node_client::get(const std::string& path) const {
-  const auto result = http_.request("GET", path, "", waiting_for(answer_limit));
+json node_client::get(const std::string& path, const patience& how) const {
+  auto waiting = waiting_for(how.limit);
+  waiting.cancel = how.cancel;
+  const auto result = http_.request("GET", path, "", waiting);
   const auto& reply = checked(result);
   auto document = document_of(to_, reply);
   if (reply.status != status_ok)
@@ -170,7 +168,7 @@ json node_client::ask(const json& request,
 
 void node_client::follow(const std::string& path, const line_handler& on_line,
                          const http_cancel* cancel) const {
-  auto how = waiting_for(answer_limit);
+  auto how = waiting_for(patience{}.limit);
   how.cancel = cancel;
   const auto result = http_.follow(path, on_line, how);
   const auto* why = std::get_if<edge_error>(&result);
@@ -208,6 +206,28 @@ std::vector<event> past_events_of(const node_client& node,
       node, "/v1/events?follow=0&past=1&since=" + std::to_string(query.since)
                 + "&since_unix_ms=" + std::to_string(query.since_unix_ms)
                 + "&newest=" + std::to_string(query.newest));
+}
+
+event_follower::line_reader lines_of(const node_client& node) {
+  return [&node](const std::string& path,
+                 const event_follower::line_handler& on_line,
+                 const http_cancel& cancel) {
+    node.follow(path, on_line, &cancel);
+  };
+}
+
+std::string reason_in(const std::exception_ptr& why) {
+  if (!why)
+    return "the node has ended the stream of events";
+  try {
+    std::rethrow_exception(why);
+  } catch (const command_error& e) {
+    return e.what();
+  } catch (const refused& e) {
+    return failure_from(e.reply).message;
+  } catch (const std::exception& e) {
+    return std::string{"the answer is not of this version: "} + e.what();
+  }
 }
 
 void follow_events(const node_client& node, uint64_t since,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "actors/edge/http/client/http_client.hpp"
+#include "client/event_follower.hpp"
 #include "messages/codec/json_codec.hpp"
 #include "messages/event.hpp"
 #include "messages/inside/history.hpp"
@@ -49,8 +50,12 @@ struct connection_options {
 /// Adds --to and --token-file.
 void add_connection_options(CLI::App& command, connection_options& options);
 
-/// Sequence number after which nothing is kept: gives the events from now on.
-inline constexpr uint64_t from_now_on = 9007199254740991;
+/// How long an answer is waited for, and what ends the wait from another
+/// thread. A node that lives answers a question about itself far sooner.
+struct patience {
+  std::chrono::milliseconds limit = std::chrono::seconds{15};
+  const http_cancel* cancel = nullptr;
+};
 
 /// One node, asked over HTTP. Every function throws `refused` for an error
 /// reply and command_error if the node cannot be reached, or has nothing to say
@@ -61,7 +66,7 @@ public:
   explicit node_client(const connection_options& options);
 
   /// The JSON document at `path`.
-  json get(const std::string& path) const;
+  json get(const std::string& path, const patience& how = {}) const;
 
   /// The reply to a request, waited for `limit`. An error reply is returned
   /// like any other.
@@ -72,7 +77,7 @@ public:
   /// reply is thrown.
   json ask(const json& request, std::chrono::milliseconds limit) const;
 
-  using line_handler = std::function<bool(std::string_view line)>;
+  using line_handler = event_follower::line_handler;
 
   /// Gives the lines of a reply that may never end to `on_line`, until that
   /// returns false, the reply ends, or `cancel` is used from another thread.
@@ -100,6 +105,13 @@ std::vector<event> kept_events_of(const node_client& node, uint64_t since = 0);
 /// A part of those that the node has on its disk; an empty one is the end.
 std::vector<event> past_events_of(const node_client& node,
                                   const past_events_query& query);
+
+/// Reads of the node for who follows its events, which must not outlive it.
+event_follower::line_reader lines_of(const node_client& node);
+
+/// What to say of something that a node's answer has led to; null: that it has
+/// ended the stream.
+std::string reason_in(const std::exception_ptr& why);
 
 using event_handler = std::function<bool(const event& e)>;
 

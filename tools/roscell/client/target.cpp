@@ -129,10 +129,12 @@ target parse_target(std::string_view text) {
   constexpr std::string_view scheme = "unix:";
   if (text.substr(0, scheme.size()) == scheme)
     text.remove_prefix(scheme.size());
-  else if (!text.empty() && text.front() != '/')
+  else if (!text.empty() && text.find('/') == text.npos)
     return parse_tcp(text);
   if (text.empty() || text.front() != '/')
-    throw std::invalid_argument{"a socket is named by its absolute path"};
+    throw std::invalid_argument{
+        "a socket is named by its absolute path, not by '" + std::string{text}
+        + "'"};
   target result;
   result.socket = text;
   return result;

@@ -1,5 +1,6 @@
 #include "messages/instance.hpp"
-#include "tools/roscell/client/known_cell.hpp"
+#include "tools/roscell/client/ask_cell.hpp"
+#include "tools/roscell/client/find_things.hpp"
 #include "tools/roscell/client/node_client.hpp"
 #include "tools/roscell/commands.hpp"
 #include "tools/roscell/common_options.hpp"

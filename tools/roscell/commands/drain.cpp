@@ -26,7 +26,7 @@ struct drain_options {
   bool until_empty = false;
 };
 
-using options_ptr = std::shared_ptr<drain_options>;
+using drain_options_ptr = std::shared_ptr<drain_options>;
 
 json ask(const drain_options& options, const node_client& node,
          const json& request) {
@@ -99,7 +99,7 @@ int undrain(const drain_options& options) {
 }
 
 CLI::App* add_command(CLI::App& app, const char* name, const char* description,
-                      const char* footer, const options_ptr& options) {
+                      const char* footer, const drain_options_ptr& options) {
   auto* command = app.add_subcommand(name, description);
   command->footer(footer);
   add_connection_options(*command, options->connection);

@@ -32,7 +32,7 @@ struct form_options {
   }
 };
 
-using options_ptr = std::shared_ptr<form_options>;
+using form_options_ptr = std::shared_ptr<form_options>;
 
 json send(const form_options& options, const json& request) {
   const auto limit = parse_duration(options.timeout);
@@ -104,7 +104,7 @@ void add_node_argument(CLI::App& command, form_options& options) {
 
 CLI::App* add_form_command(CLI::App& app, const char* name,
                            const char* description, const char* footer,
-                           const options_ptr& options) {
+                           const form_options_ptr& options) {
   auto* command = app.add_subcommand(name, description);
   command->footer(footer);
   add_connection_options(*command, options->connection);

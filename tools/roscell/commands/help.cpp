@@ -1,5 +1,6 @@
 #include "tools/roscell/commands.hpp"
 #include "tools/roscell/commands/manual.hpp"
+#include "tools/roscell/dashboard/pages.hpp"
 #include "tools/roscell/exit_code.hpp"
 #include "tools/roscell/usage_error.hpp"
 #include "tools/roscell/view/terminal.hpp"
@@ -61,8 +62,15 @@ void add_help_commands(CLI::App& app, action& chosen) {
   help->add_option("--man-pages", *folder,
                    "Write the manual pages of all commands to this folder")
       ->option_text("DIR");
-  help->callback([&app, &chosen, name, folder] {
-    chosen = [&app, name, folder] {
+  auto described = std::make_shared<bool>(false);
+  help->add_flag("--described", *described,
+                 "Print what the dashboard is told of columns and events");
+  help->callback([&app, &chosen, name, folder, described] {
+    chosen = [&app, name, folder, described] {
+      if (*described) {
+        print(described_script());
+        return static_cast<int>(exit_done);
+      }
       return folder->empty() ? show_help(app, *name)
                              : write_manual(app, *folder);
     };

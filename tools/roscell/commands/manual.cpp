@@ -1,6 +1,6 @@
 #include "tools/roscell/commands/manual.hpp"
 
-#include "tools/roscell/commands/completion.hpp"
+#include "tools/roscell/completion/option_values.hpp"
 #include "tools/roscell/view/format.hpp"
 
 #include <CLI/CLI.hpp>

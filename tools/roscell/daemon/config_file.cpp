@@ -2,7 +2,7 @@
 
 #include "schemas/closest_word.hpp"
 #include "tools/roscell/client/read_file.hpp"
-#include "tools/roscell/commands/completion.hpp"
+#include "tools/roscell/completion/option_values.hpp"
 #include "tools/roscell/exit_code.hpp"
 #include "tools/roscell/view/format.hpp"
 

@@ -1,4 +1,4 @@
-# Writes OUTPUT, the definition of `dashboard_pages()`, from the files of the
+# Writes OUTPUT, the definition of `page_files()`, from the files of the
 # folder PAGES.
 
 cmake_minimum_required(VERSION 3.25)
@@ -33,7 +33,7 @@ file(WRITE ${OUTPUT}
 namespace roscell::cli {
 
 // It is as long as the files are. NOLINTNEXTLINE(readability-function-size)
-const web_pages& dashboard_pages() {
+const web_pages& page_files() {
   static const web_pages table{
 ${rows}  };
   return table;

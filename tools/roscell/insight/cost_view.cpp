@@ -39,7 +39,7 @@ std::string peers_text(const cost_window& x) {
   return joined(words, ", ");
 }
 
-std::vector<std::string> row_of(const std::string& node, const cost_window& x) {
+std::vector<cell> row_of(const std::string& node, const cost_window& x) {
   double sent_bytes = 0;
   double received_bytes = 0;
   for (const auto& peer : x.peers) {

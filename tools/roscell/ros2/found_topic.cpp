@@ -4,7 +4,7 @@
 #include "messages/node.hpp"
 #include "messages/stream_protocols.hpp"
 #include "roscell/skill/errors.hpp"
-#include "tools/roscell/client/known_cell.hpp"
+#include "tools/roscell/client/ask_cell.hpp"
 #include "tools/roscell/exit_code.hpp"
 
 #include <CLI/CLI.hpp>

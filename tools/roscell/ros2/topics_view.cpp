@@ -1,7 +1,7 @@
 #include "tools/roscell/ros2/topics_view.hpp"
 
+#include "tools/roscell/view/columns.hpp"
 #include "tools/roscell/view/format.hpp"
-#include "tools/roscell/view/table.hpp"
 
 #include <algorithm>
 #include <map>
@@ -29,22 +29,40 @@ std::string ends_text(const std::vector<topic_end>& ends) {
 
 } // namespace
 
+const column_list<topic_row>& topic_columns() {
+  using row = const topic_row&;
+  using how = const view_style&;
+  static const column_list<topic_row> result{
+      {{"TOPIC"}, [](row x, how) -> cell { return x.topic; }, "key", "/topic"},
+      {{"TYPE", align::left, 1},
+       [](row x, how) -> cell { return x.data_type; },
+       "text",
+       "/data_type"},
+      {{"WRITERS", align::left, 2},
+       [](row x, how) -> cell { return ends_text(x.writers); },
+       "programs",
+       "/writers"},
+      {{"READERS", align::left, 1},
+       [](row x, how) -> cell { return ends_text(x.readers); },
+       "programs",
+       "/readers"},
+      {{"MISMATCHES", align::left, only_wide, false, true},
+       [](row x, how) -> cell { return joined(x.mismatches, "; "); },
+       "problems",
+       "/mismatches"},
+  };
+  return result;
+}
+
 std::string topics_view(const topic_list& topics, const view_style& style) {
-  table t{{{"TOPIC"},
-           {"TYPE", align::left, 1},
-           {"WRITERS", align::left, 3},
-           {"READERS", align::left, 2}},
-          {}};
   std::string mismatches;
-  for (const auto& x : topics.topics) {
-    t.rows.push_back(
-        {x.topic, x.data_type, ends_text(x.writers), ends_text(x.readers)});
+  for (const auto& x : topics.topics)
     for (const auto& why : x.mismatches)
       mismatches += "\n" + printable(x.topic + ": " + why);
-  }
-  if (t.rows.empty())
+  if (topics.topics.empty())
     return "no topics\n";
-  return t.render(style.text) + (mismatches.empty() ? "" : mismatches + "\n");
+  return table_of(topic_columns(), topics.topics, style).render(style.text)
+         + (mismatches.empty() ? "" : mismatches + "\n");
 }
 
 } // namespace roscell::cli

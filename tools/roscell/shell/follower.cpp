@@ -1,16 +1,13 @@
 #include "tools/roscell/shell/follower.hpp"
 
-#include "messages/failure.hpp"
 #include "messages/node.hpp"
 #include "tools/roscell/client/event_text.hpp"
 #include "tools/roscell/exit_code.hpp"
-#include "tools/roscell/shell/quick_question.hpp"
 #include "tools/roscell/view/format.hpp"
 #include "tools/roscell/view/terminal.hpp"
 
 #include <sys/eventfd.h>
 
-#include <algorithm>
 #include <utility>
 
 namespace roscell::cli {
@@ -19,8 +16,6 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr milliseconds first_pause{250};
-constexpr milliseconds longest_pause{5000};
 constexpr milliseconds node_answer_limit{3000};
 constexpr milliseconds longest_first_wait{1000};
 
@@ -32,25 +27,26 @@ bool changes_status(const event& e) {
   return e.what.rfind("cell_", 0) == 0 || e.what.rfind("coordinator_", 0) == 0;
 }
 
+unique_fd open_news() {
+  unique_fd result{eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)};
+  if (!result)
+    throw command_error{exit_refused, "too many open files"};
+  return result;
+}
+
 } // namespace
 
+// Of a node that was lost and is back what was missed is shown, too.
 follower::follower(const node_client& node)
-    : node_{node}, news_{eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)},
-      pause_{first_pause} {
-  if (!news_)
-    throw command_error{exit_refused, "too many open files"};
-  thread_ = std::thread{[this] { run(); }};
-}
-
-follower::~follower() {
-  {
-    const std::lock_guard guard{mutex_};
-    ends_ = true;
-  }
-  changed_.notify_all();
-  cancel_.cancel();
-  thread_.join();
-}
+    : node_{node}, news_{open_news()},
+      events_{lines_of(node),
+              {[this](const auto& missed) {
+                 ask_for_node();
+                 for (const auto& e : missed)
+                   on_event(e);
+               },
+               [this](const event& e) { on_event(e); },
+               [this](const auto& why) { return report_lost_contact(why); }}} {}
 
 void follower::await_first_answer() {
   std::unique_lock guard{mutex_};
@@ -84,69 +80,18 @@ std::set<std::string> follower::kinds() const {
 }
 
 void follower::refresh_now() {
-  const std::lock_guard guard{mutex_};
-  hurries_ = !status_.is_reachable;
-  changed_.notify_all();
+  if (!status().is_reachable)
+    events_.look_now();
 }
 
-void follower::run() {
-  while (true) {
-    try {
-      follow_once();
-    } catch (const command_error& e) {
-      report_lost_contact(e.what());
-    } catch (const refused& e) {
-      report_lost_contact(failure_from(e.reply).message);
-    } catch (const std::exception& e) {
-      report_lost_contact(std::string{"the answer is not of this version: "}
-                          + e.what());
-    }
-    pause();
-    const std::lock_guard guard{mutex_};
-    if (ends_)
-      return;
-  }
-}
-
-void follower::follow_once() {
-  const auto since = begin_of_events();
-  event_stream events;
-  bool is_open = false;
-  node_.follow(
-      "/v1/events?since=" + std::to_string(since),
-      [&](std::string_view line) {
-        // The first line, a comment, says that nothing is missed from now on.
-        if (!std::exchange(is_open, true))
-          on_open();
-        if (const auto complete = events.add_line(line))
-          on_event(*complete);
-        return true;
-      },
-      &cancel_);
-  throw command_error{exit_unreachable, "it has ended the stream"};
-}
-
-json follower::ask_for_node() {
-  return ask_quickly(node_, {"/v1/node", ""}, node_answer_limit, &cancel_);
-}
-
-/// The number after which events are new. A node that was lost and is the same
-/// tells what was missed; one that was started again has counted from 1.
-uint64_t follower::begin_of_events() {
-  const auto started = ask_for_node().at("started_unix_ms").get<int64_t>();
-  const auto before = std::exchange(started_unix_ms_, started);
-  if (before != 0 && before != started)
-    last_ = 0;
-  return last_;
-}
-
-void follower::on_open() {
-  const auto node = ask_for_node().get<node_description>();
+void follower::ask_for_node() {
+  const auto node =
+      node_.get("/v1/node", {node_answer_limit, &events_.cancel()})
+          .get<node_description>();
   const std::lock_guard guard{mutex_};
   const bool is_back = answered_ && !status_.is_reachable;
   status_ = {node.identity.name, node.cell, true};
   answered_ = true;
-  pause_ = first_pause;
   if (is_back)
     add_line("roscell: " + printable(node.identity.name) + " is back");
   eventfd_write(news_.get(), 1);
@@ -154,9 +99,8 @@ void follower::on_open() {
 }
 
 void follower::on_event(const event& e) {
-  last_ = e.sequence;
   if (changes_status(e))
-    on_open();
+    ask_for_node();
   const std::lock_guard guard{mutex_};
   kinds_.insert(e.what);
   if (!filter_ || !filter_->takes(e))
@@ -166,25 +110,19 @@ void follower::on_event(const event& e) {
 }
 
 /// Said once, and not again while it is looked for.
-void follower::report_lost_contact(const std::string& why) {
+bool follower::report_lost_contact(const std::exception_ptr& why) {
   const std::lock_guard guard{mutex_};
   const bool is_known = answered_ && !status_.is_reachable;
   answered_ = true;
   status_.is_reachable = false;
-  if (ends_ || is_known)
-    return;
+  if (is_known)
+    return true;
   const auto who = status_.node.empty() ? node_.where().text() : status_.node;
-  add_line("roscell: " + printable(who + " is lost: " + why)
+  add_line("roscell: " + printable(who + " is lost: " + reason_in(why))
            + "; it is looked for again");
   eventfd_write(news_.get(), 1);
   changed_.notify_all();
-}
-
-void follower::pause() {
-  std::unique_lock guard{mutex_};
-  changed_.wait_for(guard, pause_, [this] { return ends_ || hurries_; });
-  hurries_ = false;
-  pause_ = std::min(pause_ * 2, longest_pause);
+  return true;
 }
 
 /// With the lock held.

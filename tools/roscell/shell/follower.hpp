@@ -4,14 +4,13 @@
 #include "tools/roscell/client/node_client.hpp"
 #include "tools/roscell/shell/builtins/event_filter.hpp"
 
-#include <chrono>
 #include <condition_variable>
-#include <cstdint>
+#include <cstddef>
+#include <exception>
 #include <mutex>
 #include <optional>
 #include <set>
 #include <string>
-#include <thread>
 #include <vector>
 
 namespace roscell::cli {
@@ -23,15 +22,11 @@ struct node_connection_status {
   bool is_reachable = false;
 };
 
-/// Follows the events of a node on a thread of its own. A node that is lost is
-/// looked for again, with growing pauses.
+/// What a shell shows of the events of a node, which it follows. A node that is
+/// lost is looked for again.
 class follower {
 public:
   explicit follower(const node_client& node);
-  ~follower();
-
-  follower(const follower&) = delete;
-  follower& operator=(const follower&) = delete;
 
   /// Waits until the node has answered or was found to be lost, but not long.
   void await_first_answer();
@@ -56,35 +51,22 @@ public:
   std::set<std::string> kinds() const;
 
 private:
-  void run();
-  void follow_once();
-  uint64_t begin_of_events();
-  json ask_for_node();
-  void on_open();
+  void ask_for_node();
   void on_event(const event& e);
-  void report_lost_contact(const std::string& why);
-  void pause();
+  bool report_lost_contact(const std::exception_ptr& why);
   void add_line(std::string line);
 
   const node_client& node_;
   unique_fd news_;
-  http_cancel cancel_;
-  // Of the thread alone.
-  std::chrono::milliseconds pause_;
-  int64_t started_unix_ms_ = 0; ///< Of the node; 0: it was never seen.
-  uint64_t last_ = from_now_on;
-  // Of all threads.
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   bool answered_ = false; ///< Or found to be lost.
-  bool hurries_ = false;
-  bool ends_ = false;
   node_connection_status status_;
   std::optional<event_filter> filter_;
   std::set<std::string> kinds_;
   std::vector<std::string> lines_;
   size_t left_out_ = 0;
-  std::thread thread_; // Last: it uses all the others.
+  event_follower events_; // Last: it uses all the others.
 };
 
 } // namespace roscell::cli

@@ -1,21 +1,19 @@
 #pragma once
 
-#include <set>
+#include <cstddef>
 #include <string>
 #include <string_view>
 
 namespace roscell::cli {
 
-/// A JSON request that comes line by line, until its braces close. What is
-/// wrong with it is said as soon as it is certain.
+/// A JSON request that comes line by line, until its braces close.
 class json_collector {
 public:
   /// Whether such a request begins with this line.
   static bool begins(std::string_view line);
 
-  /// Takes a line without its end. Returns what is wrong so far and was not
-  /// said before, with marks under the places; empty: nothing.
-  std::string add_line(std::string_view line);
+  /// Takes a line without its end.
+  void add_line(std::string_view line);
 
   /// Whether something has come that has not ended yet.
   bool is_open() const {
@@ -30,23 +28,14 @@ public:
   /// The request in one line, for the history.
   std::string one_line() const;
 
-  /// What is wrong with the whole request; empty: nothing.
+  /// What is wrong with the whole request, with marks under the places; empty:
+  /// nothing.
   std::string errors() const;
 
 private:
-  /// What the last token of the text is, which says how it can be closed.
-  enum class token { opening, comma, colon, name, value };
-
-  void scan(std::string_view line);
-  void scan_mark(char x);
-  std::string closed_text() const;
-  std::string new_errors();
-
   std::string text_;
-  std::string open_; ///< The brackets that are open.
-  token last_ = token::opening;
+  size_t open_ = 0; ///< Brackets that are open.
   bool ended_ = false;
-  std::set<std::string> reported_; ///< The places.
 };
 
 } // namespace roscell::cli

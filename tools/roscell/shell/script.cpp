@@ -44,7 +44,7 @@ public:
 
 private:
   std::optional<int> take_json(const std::string& line) {
-    print_text(request_.add_line(line));
+    request_.add_line(line);
     if (request_.is_open())
       return std::nullopt;
     return send_by_child(connection_, std::exchange(request_, {}));

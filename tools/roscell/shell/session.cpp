@@ -1,9 +1,9 @@
 #include "tools/roscell/shell/session.hpp"
 
+#include "tools/roscell/completion/live_names.hpp"
 #include "tools/roscell/exit_code.hpp"
 #include "tools/roscell/shell/child.hpp"
 #include "tools/roscell/shell/editing/line_editor.hpp"
-#include "tools/roscell/shell/editing/live_names.hpp"
 #include "tools/roscell/shell/json_collector.hpp"
 #include "tools/roscell/shell/split_words.hpp"
 #include "tools/roscell/shell/vocabulary.hpp"
@@ -134,7 +134,7 @@ private:
   }
 
   void take_json(const std::string& line) {
-    print_text(request_.add_line(line));
+    request_.add_line(line);
     if (request_.is_open())
       return;
     const auto request = std::exchange(request_, {});

@@ -52,8 +52,8 @@ void sort_by(const std::string& sort, top::controls& begin) {
   const auto lists = top::all_lists({}, 0);
   bool found = false;
   for (size_t i = 0; i < lists.size(); ++i)
-    if (const auto column = top::column_of(lists.at(i), name)) {
-      begin.lists.at(i).order = {*column, backwards};
+    if (const auto column = column_of(lists.at(i), name)) {
+      begin.lists.at(i).order = {lists.at(i).columns[*column].name, backwards};
       found = true;
     }
   if (!found)

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <utility>
-#include <variant>
 
 namespace roscell::cli::top {
 
@@ -30,9 +29,27 @@ bool is_readable(const pollfd& x) {
 } // namespace
 
 viewer::viewer(const node_client& node, controls begin)
-    : node_{node.endpoint()}, controls_{std::move(begin)},
-      screen_{stdout_style().colour}, events_{node_, mail_}, asker_{node_,
-                                                                    mail_} {}
+    : node_{node}, controls_{std::move(begin)}, screen_{stdout_style().colour},
+      events_{lines_of(node), event_hooks(), 0}, asker_{node_, model_, mail_} {}
+
+/// All that happens is put into the mailbox, and done by who draws.
+event_follower::hooks viewer::event_hooks() {
+  return {[this](const std::vector<event>& kept) {
+            mail_.put([this, kept] {
+              model_.open(kept, view_style_now().now_unix_ms);
+              asker_.ask({true, true, true});
+            });
+          },
+          [this](const event& e) {
+            mail_.put([this, e] { asker_.ask(model_.add(e)); });
+          },
+          [this](const std::exception_ptr& end) {
+            mail_.put([this, why = reason_in(end)] {
+              model_.lose(why, view_style_now().now_unix_ms);
+            });
+            return true;
+          }};
+}
 
 void viewer::run() {
   draw();
@@ -98,44 +115,14 @@ void viewer::read_keys() {
 }
 
 void viewer::read_news() {
-  for (auto& x : mail_.take())
-    std::visit([this](auto& what) { take(std::move(what)); }, x);
+  mail_.work_off();
   changed_ = true;
 }
 
-void viewer::take(events_opened x) {
-  model_.open(std::move(x.kept), view_style_now().now_unix_ms);
-  asker_.ask({true, true, true});
-}
-
-void viewer::take(events_lost x) {
-  model_.lose(x.why, view_style_now().now_unix_ms);
-}
-
-void viewer::take(event x) {
-  asker_.ask(model_.add(std::move(x)));
-}
-
-void viewer::take(cell_answer x) {
-  model_.set_cell(std::move(x.asked), std::move(x.cell));
-}
-
-void viewer::take(metrics_answer x) {
-  model_.set_metrics(x.instances);
-}
-
-void viewer::take(skill_list x) {
-  model_.set_skills(std::move(x));
-}
-
-void viewer::take(question_failed x) {
-  model_.miss(x.why);
-}
-
-void viewer::take(log_line x) {
+void viewer::add_log_line(const std::string& line) {
   if (log_.size() >= most_log_lines)
     log_.erase(log_.begin(), log_.begin() + most_log_lines / 10);
-  auto text = harmless_line(x.text);
+  auto text = harmless_line(line);
   std::replace(text.begin(), text.end(), '\t', ' ');
   log_.push_back(std::move(text));
 }
@@ -150,7 +137,9 @@ void viewer::follow_log() {
   read_news();
   log_.clear();
   if (!wanted.empty())
-    log_reader_ = std::make_unique<log_follower>(node_, wanted, mail_);
+    log_reader_ = std::make_unique<log_follower>(
+        node_, wanted, mail_,
+        [this](const std::string& line) { add_log_line(line); });
 }
 
 void viewer::ask_for_metrics() {

@@ -2,7 +2,6 @@
 
 #include "tools/roscell/client/node_client.hpp"
 #include "tools/roscell/top/follow/asker.hpp"
-#include "tools/roscell/top/follow/event_follower.hpp"
 #include "tools/roscell/top/follow/log_follower.hpp"
 #include "tools/roscell/top/layout/frame.hpp"
 #include "tools/roscell/top/terminal/screen.hpp"
@@ -32,23 +31,15 @@ private:
   void read_signals();
   void read_keys();
   void read_news();
-
-  // What each piece of news means.
-  void take(events_opened x);
-  void take(events_lost x);
-  void take(event x);
-  void take(cell_answer x);
-  void take(metrics_answer x);
-  void take(skill_list x);
-  void take(question_failed x);
-  void take(log_line x);
+  event_follower::hooks event_hooks();
+  void add_log_line(const std::string& text);
 
   void stop();
   void follow_log();
   void ask_for_metrics();
   void draw();
 
-  http_endpoint node_;
+  const node_client& node_;
   terminal_signals signals_; // Before any thread.
   mailbox mail_;
   cell_model model_;

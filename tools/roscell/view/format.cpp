@@ -1,10 +1,13 @@
 #include "tools/roscell/view/format.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <stdexcept>
+#include <utility>
 
 namespace roscell::cli {
 
@@ -103,31 +106,89 @@ std::string format_since(int64_t since_unix_ms, int64_t now_unix_ms) {
 
 namespace {
 
-/// Length in bytes of the UTF-8 character that `text` starts with; 0 if there
-/// is none, or one that a terminal must not get.
-size_t printable_length(std::string_view text) {
+/// A code point, and its bytes in UTF-8; 0 bytes if `text` begins with none.
+struct decoded {
+  uint32_t point = 0;
+  size_t length = 0;
+};
+
+decoded decode_first(std::string_view text) {
   const auto byte = [&](size_t i) {
     return static_cast<unsigned char>(text[i]);
   };
   const auto first = byte(0);
   if (first < 0x80)
-    return first >= 0x20 && first != 0x7f ? 1 : 0;
+    return {first, 1};
   const size_t n = first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2;
   if (first < 0xc2 || first > 0xf4 || text.size() < n)
-    return 0;
+    return {};
   uint32_t point = first & (0xffU >> (n + 1));
   for (size_t i = 1; i < n; ++i) {
     if ((byte(i) & 0xc0) != 0x80)
-      return 0;
+      return {};
     point = point << 6 | (byte(i) & 0x3fU);
   }
   constexpr std::array<uint32_t, 5> smallest{0, 0, 0x80, 0x800, 0x10000};
-  // C1 controls steer terminals as well; bidi overrides reorder the line.
-  const bool bad = point < smallest[n] || point < 0xa0 || point > 0x10ffff
-                   || (point >= 0xd800 && point < 0xe000)
-                   || (point >= 0x2028 && point <= 0x202e)
-                   || (point >= 0x2066 && point <= 0x2069);
-  return bad ? 0 : n;
+  const bool bad = point < smallest[n] || point > 0x10ffff
+                   || (point >= 0xd800 && point < 0xe000);
+  return bad ? decoded{} : decoded{point, n};
+}
+
+/// Whether a terminal may get it. C1 controls steer terminals as well; bidi
+/// overrides reorder the line.
+bool is_printable(uint32_t point) {
+  return point >= 0x20 && (point < 0x7f || point >= 0xa0)
+         && (point < 0x2028 || point > 0x202e)
+         && (point < 0x2066 || point > 0x2069);
+}
+
+using point_range = std::pair<uint32_t, uint32_t>;
+
+/// What stands above or within the character before it.
+constexpr point_range combining[] = {
+    {0x300, 0x36f},   {0x483, 0x489},   {0x591, 0x5bd},   {0x610, 0x61a},
+    {0x64b, 0x65f},   {0x900, 0x902},   {0xe34, 0xe3a},   {0xe47, 0xe4e},
+    {0x1ab0, 0x1aff}, {0x1dc0, 0x1dff}, {0x200b, 0x200f}, {0x20d0, 0x20f0},
+    {0xfe00, 0xfe0f}, {0xfe20, 0xfe2f}, {0xfeff, 0xfeff}, {0xe0100, 0xe01ef}};
+
+/// East Asian characters and emoji (Unicode, "wide" and "fullwidth").
+constexpr point_range wide[] = {
+    {0x1100, 0x115f},   {0x231a, 0x231b},   {0x23e9, 0x23ec},
+    {0x25fd, 0x25fe},   {0x2614, 0x2615},   {0x2648, 0x2653},
+    {0x26a1, 0x26a1},   {0x2705, 0x2705},   {0x274c, 0x274c},
+    {0x2e80, 0x303e},   {0x3041, 0xa4cf},   {0xa960, 0xa97c},
+    {0xac00, 0xd7a3},   {0xf900, 0xfaff},   {0xfe30, 0xfe6f},
+    {0xff00, 0xff60},   {0xffe0, 0xffe6},   {0x1f004, 0x1f004},
+    {0x1f0cf, 0x1f0cf}, {0x1f18e, 0x1f19a}, {0x1f200, 0x1f320},
+    {0x1f32d, 0x1f64f}, {0x1f680, 0x1f6ff}, {0x1f7e0, 0x1f7eb},
+    {0x1f90c, 0x1f9ff}, {0x1fa70, 0x1faff}, {0x20000, 0x3fffd}};
+
+template <size_t N>
+bool is_within(uint32_t point, const point_range (&ranges)[N]) {
+  return std::any_of(std::begin(ranges), std::end(ranges), [&](const auto& x) {
+    return point >= x.first && point <= x.second;
+  });
+}
+
+/// Of what is no UTF-8 each byte is a column, as it is shown.
+size_t columns_of(const decoded& x) {
+  return x.length == 0                   ? 1
+         : is_within(x.point, combining) ? 0
+         : is_within(x.point, wide)      ? 2
+                                         : 1;
+}
+
+/// Bytes of the beginning of `text` that find room in so many columns.
+size_t bytes_within(std::string_view text, size_t width) {
+  size_t end = 0;
+  for (size_t used = 0; end < text.size();) {
+    const auto next = decode_first(text.substr(end));
+    used += columns_of(next);
+    if (used > width)
+      break;
+    end += std::max<size_t>(1, next.length);
+  }
+  return end;
 }
 
 } // namespace
@@ -136,12 +197,13 @@ std::string printable(std::string_view text) {
   std::string result;
   result.reserve(text.size());
   while (!text.empty()) {
-    const auto n = printable_length(text);
-    if (n == 0)
-      result += '?';
-    else
+    const auto next = decode_first(text);
+    const auto n = std::max<size_t>(1, next.length);
+    if (next.length > 0 && is_printable(next.point))
       result += text.substr(0, n);
-    text.remove_prefix(n == 0 ? 1 : n);
+    else
+      result += std::string(n, '?');
+    text.remove_prefix(n);
   }
   return result;
 }
@@ -171,23 +233,38 @@ std::string listed(const std::map<std::string, std::string>& pairs) {
 
 size_t display_width(std::string_view text) {
   size_t width = 0;
-  for (const auto c : text)
-    width += (static_cast<unsigned char>(c) & 0xc0) != 0x80;
+  while (!text.empty()) {
+    const auto next = decode_first(text);
+    width += columns_of(next);
+    text.remove_prefix(std::max<size_t>(1, next.length));
+  }
   return width;
 }
 
+size_t letters_in(std::string_view text) {
+  return static_cast<size_t>(
+      std::count_if(text.begin(), text.end(), [](char x) {
+        return (static_cast<unsigned char>(x) & 0xc0) != 0x80;
+      }));
+}
+
+std::string_view first_letter(std::string_view text) {
+  auto size = std::max<size_t>(1, decode_first(text).length);
+  while (size < text.size()) {
+    const auto next = decode_first(text.substr(size));
+    if (columns_of(next) > 0)
+      break;
+    size += next.length;
+  }
+  return text.substr(0, size);
+}
+
 std::string shortened(std::string_view text, size_t width) {
-  if (display_width(text) <= width)
+  if (bytes_within(text, width) == text.size())
     return std::string{text};
   if (width == 0)
     return {};
-  size_t end = 0;
-  for (size_t columns = 0; end < text.size(); ++end) {
-    const bool starts = (static_cast<unsigned char>(text[end]) & 0xc0) != 0x80;
-    if (starts && ++columns == width)
-      break;
-  }
-  return std::string{text.substr(0, end)} + "…";
+  return std::string{text.substr(0, bytes_within(text, width - 1))} + "…";
 }
 
 namespace {

@@ -55,11 +55,19 @@ std::string listed(const std::set<std::string>& names);
 /// Labels and the like: "host=one,room=lab".
 std::string listed(const std::map<std::string, std::string>& pairs);
 
-/// Columns that `text` takes: its code points.
+/// Columns that `text` takes on a terminal: two for a wide character, as those
+/// of Chinese and most emoji, none for an accent that is put above another.
 size_t display_width(std::string_view text);
 
-/// The first `width` columns of `text`, the last of them an ellipsis when
-/// something is cut off.
+/// Its characters, that is its code points.
+size_t letters_in(std::string_view text);
+
+/// The first character of a text that is not empty, with those that are put
+/// above it.
+std::string_view first_letter(std::string_view text);
+
+/// What of `text` `width` columns have room for, with an ellipsis at the end
+/// when something is cut off.
 std::string shortened(std::string_view text, size_t width);
 
 /// Bytes of "1048576", "64KiB", "1MiB" or "2GiB". Throws

@@ -13,8 +13,7 @@ std::string destination(const std::string& cell) {
   return cell.empty() ? "(independent)" : cell;
 }
 
-std::string moved_view(const std::vector<std::string>& row,
-                       const view_style& style) {
+std::string moved_view(const std::vector<cell>& row, const view_style& style) {
   const table t{{{"NODE"},
                  {"FROM"},
                  {"TO"},

@@ -1,5 +1,4 @@
-#include "tools/roscell/view/views.hpp"
-
+#include "tools/roscell/view/columns.hpp"
 #include "tools/roscell/view/format.hpp"
 #include "tools/roscell/view/instance_text.hpp"
 
@@ -24,40 +23,95 @@ std::string exit_text(int code) {
 
 } // namespace
 
+const column_list<instance_row>& instance_columns() {
+  using row = const instance_row&;
+  using how = const view_style&;
+  static const column_list<instance_row> result{
+      {{"INSTANCE"}, [](row x, how) -> cell { return x.spec.instance; }},
+      {{"TASK", align::left, 6, true},
+       [](row x, how) -> cell { return x.spec.task; },
+       "text",
+       "/spec/task"},
+      {{"STEP", align::left, 5, true},
+       [](row x, how) -> cell { return x.spec.step; },
+       "key",
+       "/spec/step"},
+      {{"NODE"}, [](row x, how) -> cell { return x.node; }, "text", "/node"},
+      {{"STATE"},
+       [](row x, how) -> cell { return state_text(x); },
+       "instance_state"},
+      {{"SINCE", align::right, 2},
+       [](row x, how y) -> cell { return since_text(x, y); },
+       "since",
+       "/since_unix_ms"},
+      {{"FRAMES", align::right, 4},
+       [](row x, how) -> cell { return count_text(x.metrics.frames); },
+       "count",
+       "/figures/frames"},
+      {{"RATE", align::right, 1},
+       [](row x, how) -> cell {
+         return number_with_unit(x.metrics.rate_hz, 1, " Hz");
+       },
+       "hertz",
+       "/figures/rate_hz"},
+      {{"DROPPED", align::right, 3},
+       [](row x, how) -> cell {
+         return {count_text(x.metrics.dropped),
+                 x.metrics.dropped > 0 ? look::busy : look::plain};
+       },
+       "count",
+       "/figures/dropped"},
+      {{"LATENCY", align::right, 2},
+       [](row x, how) -> cell {
+         return number_with_unit(x.metrics.latency_ms, 2, " ms");
+       },
+       "milliseconds",
+       "/figures/latency_ms"},
+      {{"DATA AGE", align::right, 2},
+       [](row x, how) -> cell {
+         return number_with_unit(x.metrics.age_ms, 1, " ms");
+       }},
+      {{"MEMORY", align::right, 3},
+       [](row x, how) -> cell {
+         return {memory_text(x), takes_too_much(x) ? look::busy : look::plain};
+       },
+       "mebibytes",
+       "/figures/use/memory_mib"},
+      {{"CPU", align::right, 4},
+       [](row x, how) -> cell { return cpu_text(x); },
+       "number",
+       "/figures/use/cpu"},
+      {{"RESTARTS", align::right, 3, false, true},
+       [](row x, how) -> cell {
+         return x.restarts > 0 ? cell{std::to_string(x.restarts), look::busy}
+                               : cell{};
+       },
+       "count",
+       "/restarts"},
+      {{"DEPLOYMENT", align::left, 7},
+       [](row x, how) -> cell {
+         return x.spec.model + "/" + x.spec.deployment;
+       },
+       "skill",
+       "/spec/operation"},
+      {{"EXIT", align::right, 3},
+       [](row x, how) -> cell { return exit_text(x.exit_code); }},
+      {{"REMARK", align::left, 4},
+       [](row x, how y) -> cell { return remark(x, y.now_unix_ms); }},
+      {{"PID", align::right, only_wide},
+       [](row x, how) -> cell {
+         return x.metrics.use.pid > 0 ? std::to_string(x.metrics.use.pid) : "";
+       }},
+      {{"STREAMS", align::left, only_wide},
+       [](row x, how) -> cell { return streams_text(x); }},
+  };
+  return result;
+}
+
 std::string instances_view(const instance_description& instances,
                            const view_style& style) {
-  table t{{{"INSTANCE"},
-           {"TASK", align::left, 6, true},
-           {"STEP", align::left, 5, true},
-           {"NODE"},
-           {"STATE"},
-           {"SINCE", align::right, 2},
-           {"FRAMES", align::right, 4},
-           {"RATE", align::right, 1},
-           {"DROPPED", align::right, 3},
-           {"LATENCY", align::right, 2},
-           {"DATA AGE", align::right, 2},
-           {"MEMORY", align::right, 3},
-           {"CPU", align::right, 4},
-           {"DEPLOYMENT", align::left, 7},
-           {"EXIT", align::right, 3},
-           {"REMARK", align::left, 4},
-           {"PID", align::right, only_wide},
-           {"STREAMS", align::left, only_wide}},
-          {}};
-  for (const auto& row : instances.instances) {
-    const auto& x = row.metrics;
-    t.rows.push_back(
-        {row.spec.instance, row.spec.task, row.spec.step, row.node,
-         state_text(row), since_text(row, style), count_text(x.frames),
-         number_with_unit(x.rate_hz, 1, " Hz"), count_text(x.dropped),
-         number_with_unit(x.latency_ms, 2, " ms"),
-         number_with_unit(x.age_ms, 1, " ms"), memory_text(row), cpu_text(row),
-         row.spec.model + "/" + row.spec.deployment, exit_text(row.exit_code),
-         remark(row, style.now_unix_ms),
-         x.use.pid > 0 ? std::to_string(x.use.pid) : "", streams_text(row)});
-  }
-  return or_nothing(t, "instances", style);
+  return or_nothing(table_of(instance_columns(), instances.instances, style),
+                    "instances", style);
 }
 
 std::string instance_view(const instance_description& instances,

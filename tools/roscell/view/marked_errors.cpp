@@ -55,8 +55,15 @@ std::string characters(const std::string& line, size_t first, size_t count) {
 std::string marked_line(const document_place& at) {
   const auto skipped = at.column > shown_before ? at.column - shown_before : 0;
   const auto shown = printable(characters(at.text, skipped, shown_width));
-  const auto before = at.column - 1 - skipped;
-  const auto length = std::min(at.length, shown_width - before);
+  // A character may take two columns, or none.
+  const auto columns_of_part = [&](size_t first, size_t count) {
+    return display_width(printable(characters(at.text, first, count)));
+  };
+  const auto letters = at.column - 1 - skipped;
+  const auto before = columns_of_part(skipped, letters);
+  const auto length = std::max<size_t>(
+      1, columns_of_part(at.column - 1,
+                         std::min(at.length, shown_width - letters)));
   const auto number = std::to_string(at.line);
   return "  " + number + " | " + shown + "\n  "
          + std::string(number.size(), ' ') + " | " + std::string(before, ' ')

@@ -3,7 +3,6 @@
 #include "tools/roscell/view/format.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace roscell::cli {
 
@@ -52,22 +51,14 @@ std::string verdict_view(const task_plan& plan) {
          + score(plan.score.gap);
 }
 
-/// Columns of a bar.
-constexpr int bar_width = 20;
-
-size_t cells_of(double amount, double capacity) {
-  if (capacity <= 0 || amount <= 0)
-    return 0;
-  return static_cast<size_t>(
-      std::lround(std::min(1.0, amount / capacity) * bar_width));
-}
-
 /// What is used already as '#', what the steps add as '+'.
-std::string bar(const resource_use& of) {
-  const auto before = cells_of(of.before, of.capacity);
-  const auto after = std::max(before, cells_of(of.after, of.capacity));
-  return "[" + std::string(before, '#') + std::string(after - before, '+')
-         + std::string(bar_width - after, '.') + "]";
+std::string bar_of(const resource_use& of) {
+  constexpr size_t columns = 20;
+  const auto before = std::min(of.before, of.capacity);
+  const auto added = std::max(0.0, std::min(of.after, of.capacity) - before);
+  line x;
+  x.spans = bar({before, added, of.capacity}, columns, false);
+  return "[" + text_of(x) + "]";
 }
 
 std::string percent(double amount, double capacity) {
@@ -91,7 +82,7 @@ std::string use_view(const std::vector<resource_use>& use,
           {}};
   for (const auto& x : use)
     t.rows.push_back(
-        {x.node, x.resource, bar(x), amount_of(x.before, x.resource),
+        {x.node, x.resource, bar_of(x), amount_of(x.before, x.resource),
          amount_of(x.after, x.resource), amount_of(x.capacity, x.resource),
          percent(x.before, x.capacity), percent(x.after, x.capacity)});
   return t.render(style);

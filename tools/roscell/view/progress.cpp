@@ -10,17 +10,20 @@ namespace roscell::cli {
 namespace {
 
 /// What takes longer than this is told about.
-constexpr std::chrono::seconds patience{1};
+constexpr std::chrono::seconds silent_at_first{1};
 
 } // namespace
 
 progress::progress(const node_client& node, event_line_function words)
-    : words_{std::move(words)}, reader_{[this, &node] { read(node); }} {}
-
-progress::~progress() {
-  cancel_.cancel();
-  reader_.join();
-}
+    : words_{std::move(words)}, events_{lines_of(node),
+                                        {[](auto&&) {},
+                                         [this](const event& e) {
+                                           for (const auto& x : words_(e))
+                                             print_line(x);
+                                         },
+                                         // The request itself meets the same
+                                         // problem and tells of it.
+                                         [](auto&&) { return false; }}} {}
 
 void progress::begin() {
   const std::lock_guard guard{mutex_};
@@ -28,20 +31,6 @@ void progress::begin() {
   for (const auto& line : held_)
     print_note(line);
   held_.clear();
-}
-
-void progress::read(const node_client& node) {
-  const auto print_lines_of = [this](const event& e) {
-    for (const auto& line : words_(e))
-      print_line(line);
-    return true;
-  };
-  try {
-    follow_events(node, from_now_on, print_lines_of, &cancel_);
-  } catch (const std::runtime_error&) {
-    // The request itself meets the same problem and tells of it.
-    return;
-  }
 }
 
 void progress::print_line(const std::string& line) {
@@ -59,7 +48,7 @@ json post_with_progress(const node_client& node, const std::string& body,
   auto reply = std::async(std::launch::async, [&] {
     return node.post("/v1/requests", body, limit);
   });
-  if (reply.wait_for(patience) == std::future_status::timeout) {
+  if (reply.wait_for(silent_at_first) == std::future_status::timeout) {
     print_note("waiting for " + node.where().text() + " ...");
     reporter.begin();
   }

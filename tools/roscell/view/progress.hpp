@@ -6,7 +6,6 @@
 #include <functional>
 #include <mutex>
 #include <string>
-#include <thread>
 #include <vector>
 
 namespace roscell::cli {
@@ -22,23 +21,17 @@ public:
   /// `node` must outlive this. Never fails: without events there is just no
   /// progress to be told.
   progress(const node_client& node, event_line_function words);
-  ~progress();
-
-  progress(const progress&) = delete;
-  progress& operator=(const progress&) = delete;
 
   void begin();
 
 private:
-  void read(const node_client& node);
   void print_line(const std::string& line);
 
   event_line_function words_;
-  http_cancel cancel_;
   std::mutex mutex_;
   bool begun_ = false;
   std::vector<std::string> held_; ///< Lines until `begin`.
-  std::thread reader_;            // Last: it uses all the others.
+  event_follower events_;         // Last: it uses all the others.
 };
 
 /// `node_client::post` of a request. If the reply takes longer than a second,

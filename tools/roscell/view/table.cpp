@@ -1,84 +1,18 @@
 #include "tools/roscell/view/table.hpp"
 
 #include "tools/roscell/view/format.hpp"
-#include "tools/roscell/view/table/choice.hpp"
 #include "tools/roscell/view/table/fit.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <string_view>
-#include <utility>
 
 namespace roscell::cli {
 
 namespace {
 
-constexpr auto bold = "\x1b[1m";
-constexpr auto plain = "\x1b[0m";
-
-using cells = std::vector<std::string>;
-
-/// Cells of a row, cleaned, one for each column.
-cells clean(const cells& row, size_t columns) {
-  cells result;
-  for (size_t i = 0; i < columns; ++i) {
-    const bool empty = i >= row.size() || row[i].empty();
-    result.push_back(empty ? "-" : printable(row[i]));
-  }
-  return result;
-}
-
-/// Puts text into the columns that are left of a line.
-class line_writer {
-public:
-  line_writer(std::string& out, const text_style& style)
-      : out_{out}, style_{style} {}
-
-  void put(std::string_view text, const std::string& colour = {}) {
-    std::string part{text};
-    if (style_.width != 0)
-      part = shortened(part, style_.width - std::min(style_.width, used_));
-    used_ += display_width(part);
-    if (style_.colour && !colour.empty() && !part.empty())
-      part = colour + part + plain;
-    out_ += part;
-  }
-
-  void pad(size_t columns) {
-    put(std::string(columns, ' '));
-  }
-
-private:
-  std::string& out_;
-  const text_style& style_;
-  size_t used_ = 0;
-};
-
-} // namespace
-
-std::string state_colour(const std::string& word) {
-  static constexpr std::string_view good[] = {
-      "running",        "active", "member",   "deployed", "optimal", "joined",
-      "already_member", "done",   "finished", "ok",       "✓"};
-  static constexpr std::string_view bad[] = {
-      "failed",  "lost",   "orphaned",         "degraded",           "returned",
-      "unknown", "silent", "running, starved", "running, unhealthy", "broken",
-      "✗"};
-  static constexpr std::string_view moving[] = {
-      "pending",     "building",    "starting",  "stopping",
-      "joining",     "switching",   "deploying", "reserved",
-      "terminating", "departing",   "expected",  "preparing",
-      "unresolved",  "backing_off", "warning",   "!"};
-  const auto is_in = [&](const auto& list) {
-    return std::find(std::begin(list), std::end(list), word) != std::end(list);
-  };
-  return is_in(good)     ? "\x1b[32m"
-         : is_in(bad)    ? "\x1b[31m"
-         : is_in(moving) ? "\x1b[33m"
-                         : "";
-}
-
-namespace {
+constexpr size_t column_gap = 2;
 
 /// Short of this a word says little.
 constexpr size_t least_width = 8;
@@ -86,55 +20,119 @@ constexpr size_t least_width = 8;
 /// A column in which nothing stands is the first that can be spared.
 constexpr int empty_rank = only_wide;
 
-/// @param heading columns of its name, where that is shown.
-column_request column_request_of(const column& what, size_t i, size_t heading,
-                                 const std::vector<cells>& lines) {
+constexpr size_t cell_bar_width = 10;
+
+/// Above it a resource is nearly used up.
+constexpr double nearly_all = 0.9;
+
+/// A table that has been given its columns.
+struct fitted_table {
+  table shown;
+  std::vector<size_t> widths; ///< 0: left out.
+};
+
+std::string shown_text(const cell& x) {
+  return x.text.empty() ? "-" : printable(x.text);
+}
+
+size_t natural_width(const cell& x, const text_style& style) {
+  return display_width(shown_text(x))
+         + (style.bars && x.usage ? cell_bar_width + 1 : 0);
+}
+
+column_request request_of(const table& t, size_t i, const text_style& style) {
+  const auto& what = t.columns[i];
+  const auto heading = style.tables.headings ? display_width(what.name) : 0;
   column_request result;
   result.natural = heading;
   bool empty = true;
-  for (const auto& line : lines) {
-    result.natural = std::max(result.natural, display_width(line[i]));
-    empty = empty && line[i] == "-";
+  bool whole = what.side == align::right || what.whole;
+  for (const auto& row : t.rows) {
+    result.natural = std::max(result.natural, natural_width(row[i], style));
+    empty = empty && row[i].text.empty();
+    whole = whole || row[i].usage;
   }
   result.rank = what.rank + (empty && what.rank > 0 ? empty_rank : 0);
   // A number that is cut would be another one.
-  result.least = what.side == align::right || what.whole
+  result.least = whole
                      ? result.natural
                      : std::max(heading, std::min(result.natural, least_width));
   return result;
 }
 
-/// One line of a table.
-void put_line(std::string& out, const table& t, const cells& line,
-              const std::vector<size_t>& widths, const text_style& style,
-              bool is_heading) {
-  line_writer writer{out, style};
-  bool first = true;
-  for (size_t i = 0; i < line.size(); ++i) {
-    if (widths[i] == 0)
-      continue;
-    if (!std::exchange(first, false))
-      writer.pad(2);
-    const auto text = shortened(line[i], widths[i]);
-    const auto gap = widths[i] - display_width(text);
-    if (t.columns[i].side == align::right)
-      writer.pad(gap);
-    writer.put(text, is_heading ? bold : state_colour(line[i]));
-    const bool last =
-        std::all_of(widths.begin() + static_cast<long>(i) + 1, widths.end(),
-                    [](size_t w) { return w == 0; });
-    if (t.columns[i].side == align::left && !last)
-      writer.pad(gap);
+fitted_table fit_table(const table& all, const text_style& style) {
+  fitted_table result{chosen(all, style.tables), {}};
+  std::vector<column_request> requests;
+  for (size_t i = 0; i < result.shown.columns.size(); ++i)
+    requests.push_back(request_of(result.shown, i, style));
+  result.widths =
+      fitted(requests, style.width == 0 ? SIZE_MAX / 2 : style.width);
+  return result;
+}
+
+look look_of(const cell& x, const text_style& style) {
+  if (style.bars && x.usage
+      && x.usage->others + x.usage->reserved >= nearly_all * x.usage->capacity)
+    return look::bad;
+  return x.how == look::plain ? look_of_state(x.text) : x.how;
+}
+
+/// Puts a cell into its columns of a line.
+/// @param ends nothing follows in this line.
+void put_cell(line& to, const cell& x, align side, size_t width, bool ends,
+              const text_style& style) {
+  const auto end = width_of(to) + width;
+  if (style.bars && x.usage) {
+    const auto length = std::min(width, cell_bar_width);
+    for (auto& part : bar(*x.usage, length, style.utf8))
+      to.spans.push_back(std::move(part));
+    width -= length;
   }
-  out += '\n';
+  const auto text = shortened(shown_text(x), width);
+  if (side == align::right || x.usage)
+    pad(to, end - display_width(text));
+  put(to, text, look_of(x, style));
+  if (!ends)
+    pad(to, end);
+}
+
+line line_of(const fitted_table& t, const std::vector<cell>& row,
+             const text_style& style) {
+  size_t last = t.widths.size();
+  while (last > 0 && t.widths[last - 1] == 0)
+    --last;
+  line result;
+  for (size_t i = 0; i < last; ++i) {
+    if (t.widths[i] == 0)
+      continue;
+    if (!result.spans.empty())
+      put(result, std::string(column_gap, ' '));
+    put_cell(result, row[i], t.shown.columns[i].side, t.widths[i],
+             i + 1 == last, style);
+  }
+  return style.width == 0 ? result : cut(std::move(result), style.width);
+}
+
+std::vector<line> lines_of_table(const fitted_table& t,
+                                 const text_style& style) {
+  std::vector<line> result;
+  if (style.tables.headings) {
+    std::vector<cell> names;
+    for (const auto& x : t.shown.columns)
+      names.emplace_back(x.name, look::heading);
+    result.push_back(line_of(t, names, style));
+  }
+  for (const auto& row : t.shown.rows)
+    result.push_back(line_of(t, row, style));
+  return result;
 }
 
 /// "3 columns left out: A, B, C; -o wide shows all"
-std::string left_out(const table& t, const std::vector<size_t>& widths) {
+std::string left_out(const fitted_table& t) {
   std::vector<std::string> names;
-  for (size_t i = 0; i < widths.size(); ++i)
-    if (widths[i] == 0)
-      names.push_back(t.columns[i].name);
+  for (size_t i = 0; i < t.widths.size(); ++i)
+    if (t.widths[i] == 0)
+      names.push_back(t.shown.columns[i].name);
   if (names.empty())
     return {};
   return std::to_string(names.size())
@@ -142,38 +140,47 @@ std::string left_out(const table& t, const std::vector<size_t>& widths) {
          + " left out: " + joined(names, ", ") + "; -o wide shows all";
 }
 
-std::vector<size_t> widths_of(const table& t, const std::vector<cells>& lines,
-                              const text_style& style) {
-  std::vector<column_request> requests;
-  for (size_t i = 0; i < t.columns.size(); ++i)
-    requests.push_back(column_request_of(
-        t.columns[i], i,
-        style.tables.headings ? display_width(t.columns[i].name) : 0, lines));
-  return fitted(requests, style.width == 0 ? SIZE_MAX / 2 : style.width);
+std::string repeated(const char* glyph, size_t count) {
+  std::string result;
+  for (size_t i = 0; i < count; ++i)
+    result += glyph;
+  return result;
+}
+
+/// Columns for a part of a bar, at least one for what is there at all.
+size_t columns_for(double amount, double capacity, size_t width, size_t room) {
+  if (!(amount > 0) || !(capacity > 0))
+    return 0;
+  const auto exact =
+      std::min(1.0, amount / capacity) * static_cast<double>(width);
+  const auto columns = static_cast<size_t>(std::lround(exact));
+  return std::min(room, std::max<size_t>(1, columns));
 }
 
 } // namespace
 
+std::vector<span> bar(const share& of, size_t width, bool utf8) {
+  const auto reserved = columns_for(of.reserved, of.capacity, width, width);
+  const auto others =
+      columns_for(of.others, of.capacity, width, width - reserved);
+  return {{repeated(utf8 ? "█" : "#", others), look::others},
+          {repeated(utf8 ? "▒" : "+", reserved), look::reserved},
+          {repeated(utf8 ? "·" : ".", width - others - reserved), look::faint}};
+}
+
+std::vector<line> table::lines(const text_style& style) const {
+  return lines_of_table(fit_table(*this, style), style);
+}
+
 std::string table::render(const text_style& style) const {
-  const auto shown = chosen(*this, style.tables);
   auto limited = style;
   if (style.tables.wide)
     limited.width = 0;
-  std::vector<cells> lines;
-  for (const auto& row : shown.rows)
-    lines.push_back(clean(row, shown.columns.size()));
-  const auto widths = widths_of(shown, lines, limited);
+  const auto t = fit_table(*this, limited);
   std::string out;
-  if (style.tables.headings) {
-    cells heading;
-    for (const auto& c : shown.columns)
-      heading.push_back(c.name);
-    put_line(out, shown, heading, widths, limited, true);
-  }
-  for (const auto& line : lines)
-    put_line(out, shown, line, widths, limited, false);
-  const auto note = left_out(shown, widths);
-  if (!note.empty())
+  for (const auto& x : lines_of_table(t, limited))
+    out += text_of(x, style.colour) + "\n";
+  if (const auto note = left_out(t); !note.empty())
     out += (limited.width == 0 ? note : shortened(note, limited.width)) + "\n";
   return out;
 }

@@ -1,6 +1,11 @@
 #pragma once
 
+#include "tools/roscell/view/line.hpp"
+
+#include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace roscell::cli {
@@ -11,6 +16,7 @@ struct table_options {
   bool headings = true;             ///< The line of headings.
   std::vector<std::string> columns; ///< Only these; empty: the usual ones.
   std::string sort; ///< By this column, from its end if "-" is before it.
+  std::string filter = {}; ///< Only rows in which this stands, in any case.
 };
 
 /// How text is put on the terminal, or into a file.
@@ -18,6 +24,8 @@ struct text_style {
   bool colour = false;  ///< With escape sequences for colours.
   size_t width = 0;     ///< Longer lines are cut; 0: never.
   table_options tables; ///< For those that list something.
+  bool bars = false;    ///< Parts of a resource are drawn, too.
+  bool utf8 = true;     ///< These bars may have more than ASCII.
 };
 
 enum class align { left, right };
@@ -32,24 +40,63 @@ struct column {
   align side = align::left;
   /// The columns of the highest number are shortened and left out first.
   int rank = always_shown;
-  bool whole = false; ///< A part of it says nothing: it is not shortened.
+  bool whole = false;  ///< A part of it says nothing: it is not shortened.
+  bool if_any = false; ///< There only if something stands in it.
 };
 
-/// Rows under a line of headings. Cells hold foreign text as it came; what a
-/// terminal must not get is replaced when the table is rendered.
+/// Of a resource of a node, in its own unit.
+struct share {
+  double others = 0;   ///< Used by programs that are none of ours.
+  double reserved = 0; ///< By instances.
+  double capacity = 0; ///< 0: not known.
+};
+
+/// A bar of that width: what others use, what is reserved, and what is free,
+/// each with a character of its own. What is there at all is seen, as far as
+/// there is room. Without UTF-8 it is "##++....".
+std::vector<span> bar(const share& of, size_t width, bool utf8);
+
+/// What stands in one column of a row: foreign text as it came.
+struct cell {
+  std::string text;
+  look how = look::plain;     ///< Plain: that of the state word that it is.
+  std::optional<share> usage; ///< Of which a bar can be drawn.
+
+  cell() = default;
+  cell(std::string x, look as = look::plain) : text{std::move(x)}, how{as} {}
+  cell(const char* x) : text{x} {}
+};
+
+/// Rows under a line of headings. What a terminal must not get of their cells
+/// is replaced when the table is rendered.
 struct table {
   std::vector<column> columns;
-  std::vector<std::vector<std::string>> rows;
+  std::vector<std::vector<cell>> rows;
 
   /// The table as text, each line ended, columns two blanks apart. An empty
   /// cell is shown as "-". A known state word gets a colour. What does not fit
   /// is left out, and a last line names it. Throws command_error if the style
   /// names a column that there is not.
   std::string render(const text_style& style) const;
+
+  /// The same line by line, the headings first, without the last line.
+  std::vector<line> lines(const text_style& style) const;
 };
 
-/// The colour of a state word ("running", "failed") as an escape sequence;
-/// empty for any other text.
-std::string state_colour(const std::string& word);
+/// The columns that the options choose of a table, and of its rows those that
+/// they do, in their order. Throws command_error for a column that there is
+/// not.
+table chosen(const table& all, const table_options& options);
+
+/// The number of the column that a name means: "discovery-server" is "DISCOVERY
+/// SERVER". Nothing if there is none.
+std::optional<size_t> column_of(const table& all, const std::string& name);
+
+/// The value of a cell that begins with a number: "12", "-1.5", "0.8/3.8 GiB"
+/// (in bytes), "3m05s" (in seconds), "29.9 Hz". Nothing for any other text.
+std::optional<double> cell_value(std::string_view text);
+
+/// Whether `part` stands in the text, in any case.
+bool contains_words(const std::string& text, const std::string& part);
 
 } // namespace roscell::cli

@@ -1,5 +1,4 @@
-#include "tools/roscell/view/views.hpp"
-
+#include "tools/roscell/view/columns.hpp"
 #include "tools/roscell/view/format.hpp"
 #include "tools/roscell/view/instance_text.hpp"
 
@@ -65,77 +64,81 @@ std::string text_of_running(const task_row& task, const view_style& style) {
   return joined(words, "; ");
 }
 
+std::string nodes_of(const task_row& task) {
+  std::set<std::string> nodes;
+  for (const auto& x : task.instances)
+    nodes.insert(x.node);
+  return listed(nodes);
+}
+
 } // namespace
 
+const column_list<task_row>& task_columns() {
+  using row = const task_row&;
+  using how = const view_style&;
+  static const column_list<task_row> result{
+      {{"TASK"}, [](row x, how) -> cell { return x.task; }, "key", "/task"},
+      {{"STATE"},
+       [](row x, how) -> cell { return to_string(x.state); },
+       "state",
+       "/state"},
+      {{"AGE", align::right, 2},
+       [](row x, how y) -> cell {
+         return format_since(x.submitted_unix_ms, y.now_unix_ms);
+       },
+       "since",
+       "/submitted_unix_ms"},
+      {{"RUNNING", align::right},
+       [](row x, how y) -> cell { return running_text(x.instances, y); },
+       "running"},
+      {{"NODES", align::left, 1},
+       [](row x, how) -> cell { return nodes_of(x); },
+       "nodes"},
+      {{"TOOK", align::right, 2, false, true},
+       [](row x, how) -> cell {
+         return x.ended_unix_ms > 0
+                    ? format_since(x.submitted_unix_ms, x.ended_unix_ms)
+                    : "";
+       }},
+      {{"WAITS", align::left, 1, false, true},
+       [](row x, how y) -> cell { return waits_of(x, y); }},
+      {{"REMARK", align::left, 1, false, true},
+       [](row x, how y) -> cell { return text_of_running(x, y); }},
+  };
+  return result;
+}
+
 std::string tasks_view(const task_description& tasks, const view_style& style) {
-  table t{{{"TASK"},
-           {"STATE"},
-           {"AGE", align::right, 2},
-           {"RUNNING", align::right},
-           {"NODES", align::left, 1}},
-          {}};
-  bool any_ended = false;
-  bool any_waits = false;
-  bool any_words = false;
-  for (const auto& row : tasks.tasks) {
-    const auto waits = waits_of(row, style);
-    const auto words = text_of_running(row, style);
-    any_words = any_words || !words.empty();
-    any_ended = any_ended || row.ended_unix_ms > 0;
-    any_waits = any_waits || !waits.empty();
-    std::set<std::string> nodes;
-    for (const auto& i : row.instances)
-      nodes.insert(i.node);
-    t.rows.push_back({row.task, to_string(row.state),
-                      format_since(row.submitted_unix_ms, style.now_unix_ms),
-                      running_text(row.instances, style), listed(nodes),
-                      row.ended_unix_ms > 0 ? format_since(
-                          row.submitted_unix_ms, row.ended_unix_ms)
-                                            : "",
-                      waits, words});
-  }
-  // The cells of a row are cut to the number of columns.
-  if (any_ended || any_waits || any_words)
-    t.columns.push_back({"TOOK", align::right, 2});
-  if (any_waits || any_words)
-    t.columns.push_back({"WAITS", align::left, 1});
-  if (any_words)
-    t.columns.push_back({"REMARK", align::left, 1});
-  return or_nothing(t, "tasks", style);
+  return or_nothing(table_of(task_columns(), tasks.tasks, style), "tasks",
+                    style);
 }
 
 std::string task_view(const task_description& tasks, const view_style& style) {
-  table t{{{"STEP"},
-           {"NODE", align::left, 3},
-           {"STATE"},
-           {"RATE", align::right, 1},
-           {"DROPPED", align::right, 2},
-           {"LATENCY", align::right, 1},
-           {"DATA AGE", align::right}},
-          {}};
-  double oldest_ms = -1;
-  bool any_remark = false;
+  std::vector<instance_row> steps;
   for (const auto& task : tasks.tasks)
-    for (const auto& row : task.instances) {
-      const auto& x = row.metrics;
-      const auto words = step_remark(row, style.now_unix_ms);
-      oldest_ms = std::max(oldest_ms, x.age_ms);
-      any_remark = any_remark || !words.empty();
-      t.rows.push_back({row.spec.step, row.node, state_text(row),
-                        number_with_unit(x.rate_hz, 1, " Hz"),
-                        count_text(x.dropped),
-                        number_with_unit(x.latency_ms, 2, " ms"),
-                        number_with_unit(x.age_ms, 1, " ms"), words});
-    }
-  // The cells of a row are cut to the number of columns.
-  if (any_remark)
-    t.columns.push_back({"REMARK", align::left, 1});
+    steps.insert(steps.end(), task.instances.begin(), task.instances.end());
   auto text = tasks_view(tasks, style);
-  if (!t.rows.empty())
-    text += "\n" + t.render(style.text);
-  if (oldest_ms >= 0)
+  if (steps.empty())
+    return text;
+  auto columns = picked(instance_columns(), {{"STEP"},
+                                             {"NODE", align::left, 3},
+                                             {"STATE"},
+                                             {"RATE", align::right, 1},
+                                             {"DROPPED", align::right, 2},
+                                             {"LATENCY", align::right, 1},
+                                             {"DATA AGE", align::right}});
+  columns.push_back({{"REMARK", align::left, 1, false, true},
+                     [](const instance_row& x, const view_style& y) -> cell {
+                       return step_remark(x, y.now_unix_ms);
+                     }});
+  text += "\n" + table_of(columns, steps, style).render(style.text);
+  const auto oldest = std::max_element(
+      steps.begin(), steps.end(), [](const auto& x, const auto& y) {
+        return x.metrics.age_ms < y.metrics.age_ms;
+      });
+  if (oldest->metrics.age_ms >= 0)
     text += "\nfrom a sensor's stamp to the last output: "
-            + format_number(oldest_ms, 1) + " ms (median)\n";
+            + format_number(oldest->metrics.age_ms, 1) + " ms (median)\n";
   return text;
 }
 

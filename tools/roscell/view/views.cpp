@@ -1,5 +1,4 @@
-#include "tools/roscell/view/views.hpp"
-
+#include "tools/roscell/view/columns.hpp"
 #include "tools/roscell/view/format.hpp"
 #include "tools/roscell/view/instance_text.hpp"
 
@@ -10,15 +9,40 @@ namespace roscell::cli {
 
 namespace {
 
-/// Nothing is shown of what has not been measured yet.
-std::string cores(const amount& a) {
-  if (a.capacity == 0)
-    return "";
-  return format_number(a.used) + "/" + format_number(a.capacity);
+/// What the live instances of a node have reserved, of each resource.
+resource_request reserved_on(const registry_row& row) {
+  resource_request result;
+  for (const auto& x : row.instances) {
+    if (!is_live(x.state))
+      continue;
+    result.cpu += x.spec.resources.cpu;
+    result.memory_mib += x.spec.resources.memory_mib;
+    result.disk_mib += x.spec.resources.disk_mib;
+  }
+  return result;
 }
 
-std::string memory(const amount& a) {
-  return a.capacity == 0 ? "" : format_memory(a.used, a.capacity);
+/// Nothing is shown of what has not been measured yet. A node counts what is
+/// reserved among what is used.
+cell amount_cell(const amount& a, double reserved, bool is_memory) {
+  if (a.capacity <= 0)
+    return {};
+  cell result{is_memory
+                  ? format_memory(a.used, a.capacity)
+                  : format_number(a.used) + "/" + format_number(a.capacity)};
+  result.usage = share{std::max(0.0, a.used - reserved), reserved, a.capacity};
+  return result;
+}
+
+/// That of each GPU; one that shares the node's memory has none of its own.
+std::string gpu_memory(const node_resources& r) {
+  std::vector<std::string> words;
+  for (const auto& gpu : r.gpus)
+    words.push_back(
+        r.unified_memory || gpu.memory_mib.capacity <= 0
+            ? "shared"
+            : format_memory(gpu.memory_mib.used, gpu.memory_mib.capacity));
+  return joined(words, ", ");
 }
 
 /// How many there are, and of how many nobody knows what has become of them.
@@ -60,8 +84,8 @@ std::string variable_of(const cell_row& row, const char* name) {
 }
 
 /// A node that is in no cell has no row, so little is known of it.
-std::vector<std::string> unassigned_row(const unassigned_node& node,
-                                        const view_style& style) {
+registry_row unassigned_row(const unassigned_node& node,
+                            const view_style& style) {
   std::vector<std::string> words;
   if (node.silent_since_unix_ms != 0)
     words.push_back("missed "
@@ -69,19 +93,11 @@ std::vector<std::string> unassigned_row(const unassigned_node& node,
                     + " ago");
   if (!node.cell.empty())
     words.push_back("it was in cell '" + node.cell + "'");
-  const bool silent = node.silent_since_unix_ms != 0;
-  return {node.name,
-          "",
-          silent ? "silent" : to_string(node.state),
-          format_since(node.silent_since_unix_ms, style.now_unix_ms),
-          node.address,
-          "",
-          "",
-          "",
-          "",
-          "",
-          "",
-          joined(words, "; ")};
+  registry_row result;
+  result.identity = {node.name, node.uuid, 0, node.address};
+  result.since_unix_ms = node.silent_since_unix_ms;
+  result.reason = joined(words, "; ");
+  return result;
 }
 
 } // namespace
@@ -97,54 +113,102 @@ std::string cells_view(const cell_list& cells, const view_style& style) {
            {"ADDRESS", align::left, 2, true},
            {"DISCOVERY SERVER", align::left, 4, true},
            {"ROS_DISCOVERY_SERVER", align::left, 3, true},
-           {"ROS_DOMAIN_ID", align::right, 3}},
+           {"ROS_DOMAIN_ID", align::right, 3},
+           {"TROUBLE", align::left, 1, false, true}},
           {}};
-  bool has_problem = false;
-  for (const auto& row : cells.cells) {
-    const auto problem = problem_of_cell(row, cells);
-    has_problem = has_problem || !problem.empty();
+  for (const auto& row : cells.cells)
     // A coordinator counts itself, so nobody has told a size of 0.
-    t.rows.push_back({row.cell, row.coordinator,
-                      row.size == 0 ? "" : std::to_string(row.size),
-                      row.address, row.discovery_server,
-                      variable_of(row, "ROS_DISCOVERY_SERVER"),
-                      variable_of(row, "ROS_DOMAIN_ID"), problem});
-  }
-  // The cells of a row are cut to the number of columns.
-  if (has_problem)
-    t.columns.push_back({"TROUBLE", align::left, 1});
+    t.rows.push_back(
+        {row.cell, row.coordinator,
+         row.size == 0 ? "" : std::to_string(row.size), row.address,
+         row.discovery_server, variable_of(row, "ROS_DISCOVERY_SERVER"),
+         variable_of(row, "ROS_DOMAIN_ID"), problem_of_cell(row, cells)});
   return or_nothing(t, "cells", style);
+}
+
+const column_list<registry_row>& node_columns() {
+  using row = const registry_row&;
+  using how = const view_style&;
+  static const column_list<registry_row> result{
+      {{"NODE"},
+       [](row x, how) -> cell { return x.identity.name; },
+       "key",
+       "/identity/name"},
+      {{"ROLE", align::left, 4, true},
+       [](row x, how) -> cell { return role_text(x.role); }},
+      {{"STATE"}, [](row x, how) -> cell { return state_of(x); }, "node_state"},
+      {{"SINCE", align::right, 3},
+       [](row x, how y) -> cell {
+         return format_since(x.since_unix_ms, y.now_unix_ms);
+       }},
+      {{"ADDRESS", align::left, 5, true},
+       [](row x, how) -> cell { return x.identity.address; }},
+      {{"ARCH", align::left, 7},
+       [](row x, how) -> cell { return x.resources.architecture; }},
+      {{"CPU", align::right, 1},
+       [](row x, how) -> cell {
+         return amount_cell(x.resources.cpu, reserved_on(x).cpu, false);
+       },
+       "usage",
+       "/resources/cpu"},
+      {{"MEMORY", align::right, 1},
+       [](row x, how) -> cell {
+         return amount_cell(x.resources.memory_mib, reserved_on(x).memory_mib,
+                            true);
+       },
+       "usage",
+       "/resources/memory_mib"},
+      {{"DISK", align::right, 6},
+       [](row x, how) -> cell {
+         return amount_cell(x.resources.disk_mib, reserved_on(x).disk_mib,
+                            true);
+       },
+       "usage",
+       "/resources/disk_mib"},
+      {{"GPUS", align::right, 4},
+       [](row x, how) -> cell {
+         return std::to_string(x.resources.gpus.size());
+       }},
+      {{"GPU MEMORY", align::right, 5, false, true},
+       [](row x, how) -> cell { return gpu_memory(x.resources); },
+       "gpus",
+       "/resources/gpus"},
+      {{"INSTANCES", align::right, 3},
+       [](row x, how) -> cell { return known_count(x.instances); },
+       "amount",
+       "/instances"},
+      {{"REASON", align::left, 2},
+       [](row x, how) -> cell { return reason_of(x); }},
+      {{"LABELS", align::left, only_wide},
+       [](row x, how) -> cell { return listed(x.resources.labels); },
+       "labels",
+       "/resources/labels"},
+      {{"DEVICES", align::left, only_wide},
+       [](row x, how) -> cell { return joined(x.resources.devices); }},
+  };
+  return result;
+}
+
+table nodes_table(const cell_description& cell, const view_style& style) {
+  auto result = table_of(node_columns(), cell.nodes, style);
+  const auto put = [&](std::vector<struct cell>& to, const char* name,
+                       const std::string& text) {
+    to.at(*column_of(result, name)) = text;
+  };
+  for (const auto& node : cell.free) {
+    auto rows = table_of(node_columns(), {unassigned_row(node, style)}, style);
+    auto& to = result.rows.emplace_back(std::move(rows.rows.front()));
+    put(to, "STATE",
+        node.silent_since_unix_ms != 0 ? "silent" : to_string(node.state));
+    for (const auto* unknown : {"ROLE", "GPUS", "INSTANCES"})
+      put(to, unknown, "");
+  }
+  return result;
 }
 
 std::string members_view(const cell_description& cell,
                          const view_style& style) {
-  table t{{{"NODE"},
-           {"ROLE", align::left, 4, true},
-           {"STATE"},
-           {"SINCE", align::right, 3},
-           {"ADDRESS", align::left, 5, true},
-           {"ARCH", align::left, 7},
-           {"CPU", align::right, 1},
-           {"MEMORY", align::right, 1},
-           {"DISK", align::right, 6},
-           {"GPUS", align::right, 4},
-           {"INSTANCES", align::right, 3},
-           {"REASON", align::left, 2},
-           {"LABELS", align::left, only_wide},
-           {"DEVICES", align::left, only_wide}},
-          {}};
-  for (const auto& row : cell.nodes) {
-    const auto& r = row.resources;
-    t.rows.push_back({row.identity.name, role_text(row.role), state_of(row),
-                      format_since(row.since_unix_ms, style.now_unix_ms),
-                      row.identity.address, r.architecture, cores(r.cpu),
-                      memory(r.memory_mib), memory(r.disk_mib),
-                      std::to_string(r.gpus.size()), known_count(row.instances),
-                      reason_of(row), listed(r.labels), joined(r.devices)});
-  }
-  for (const auto& node : cell.free)
-    t.rows.push_back(unassigned_row(node, style));
-  return or_nothing(t, "nodes", style);
+  return or_nothing(nodes_table(cell, style), "nodes", style);
 }
 
 } // namespace roscell::cli

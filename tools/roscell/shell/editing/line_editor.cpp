@@ -248,7 +248,7 @@ void line_editor::complete_here() {
     return el_beep(editor_.get());
   if (found.words.size() == 1 || word.size() > begun.size()) {
     clear_line();
-    el_deletestr(editor_.get(), static_cast<int>(display_width(begun)));
+    el_deletestr(editor_.get(), static_cast<int>(letters_in(begun)));
     el_insertstr(editor_.get(), word.c_str());
   } else {
     list(found.words);

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "actors/edge/io/unique_fd.hpp"
-#include "tools/roscell/shell/editing/completer.hpp"
+#include "tools/roscell/completion/completer.hpp"
 #include "tools/roscell/shell/editing/history_file.hpp"
 #include "tools/roscell/shell/editing/paste_filter.hpp"
 

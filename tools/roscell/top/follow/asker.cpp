@@ -11,13 +11,16 @@ using std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds shortest_pause{250};
 
+/// A coordinator waits for its members for less.
+constexpr std::chrono::seconds longest_answer{10};
+
 /// A node spends so small a part of its time on the answers.
 constexpr int part_of_time = 20;
 
 } // namespace
 
-asker::asker(const http_endpoint& node, mailbox& to)
-    : node_{node}, to_{to}, worker_{[this] { run(); }} {}
+asker::asker(const node_client& node, cell_model& model, mailbox& to)
+    : node_{node}, model_{model}, to_{to}, worker_{[this] { run(); }} {}
 
 asker::~asker() {
   {
@@ -25,7 +28,7 @@ asker::~asker() {
     ended_ = true;
   }
   wakes_.notify_one();
-  node_.cancel();
+  cancel_.cancel();
   worker_.join();
 }
 
@@ -50,8 +53,10 @@ void asker::run() {
     const auto begun = steady_clock::now();
     try {
       answer(due);
-    } catch (const std::exception& e) {
-      to_.put(question_failed{reason_in(e)});
+    } catch (const std::exception&) {
+      to_.put([this, why = reason_in(std::current_exception())] {
+        model_.miss(why);
+      });
     }
     const auto ended = steady_clock::now();
     earliest_ = ended
@@ -64,20 +69,25 @@ void asker::answer(const questions& due) {
   if (due.cell)
     ask_for_cell();
   if (due.skills)
-    to_.put(node_.get("/v1/skills").get<skill_list>());
+    to_.put([this, x = get("/v1/skills").get<skill_list>()] {
+      model_.set_skills(x);
+    });
   if (due.metrics)
-    to_.put(metrics_answer{
-        node_.get("/v1/instances").get<instance_description>().instances});
+    to_.put([this, x = get("/v1/instances").get<instance_description>()] {
+      model_.set_metrics(x.instances);
+    });
+}
+
+json asker::get(const std::string& path) const {
+  return node_.get(path, {longest_answer, &cancel_});
 }
 
 void asker::ask_for_cell() {
-  cell_answer result;
-  result.asked = node_.get("/v1/node").get<node_description>();
-  result.cell =
-      result.asked.role == node_role::coordinator
-          ? node_.get("/v1/cell?resources=now").get<cell_description>()
-          : cell_around(result.asked);
-  to_.put(std::move(result));
+  const auto asked = get("/v1/node").get<node_description>();
+  const auto cell = asked.role == node_role::coordinator
+                        ? get("/v1/cell?resources=now").get<cell_description>()
+                        : cell_around(asked);
+  to_.put([this, asked, cell] { model_.set_cell(asked, cell); });
 }
 
 } // namespace roscell::cli::top

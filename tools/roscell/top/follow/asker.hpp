@@ -1,8 +1,8 @@
 #pragma once
 
+#include "client/cell_model.hpp"
+#include "tools/roscell/client/node_client.hpp"
 #include "tools/roscell/top/follow/mailbox.hpp"
-#include "tools/roscell/top/follow/node_link.hpp"
-#include "tools/roscell/top/model/cell_model.hpp"
 
 #include <chrono>
 #include <condition_variable>
@@ -11,12 +11,12 @@
 
 namespace roscell::cli::top {
 
-/// Asks a node, on a thread of its own. What is wanted while it waits is asked
-/// together and once, four times a second at most, and more seldom where the
-/// node takes long to answer.
+/// Asks a node, on a thread of its own, and has the answers put into a model.
+/// What is wanted while it waits is asked together and once, four times a
+/// second at most, and more seldom where the node takes long to answer.
 class asker {
 public:
-  asker(const http_endpoint& node, mailbox& to);
+  asker(const node_client& node, cell_model& model, mailbox& to);
   ~asker();
 
   asker(const asker&) = delete;
@@ -32,8 +32,11 @@ private:
 
   void answer(const questions& due);
   void ask_for_cell();
+  json get(const std::string& path) const;
 
-  node_link node_;
+  const node_client& node_;
+  http_cancel cancel_;
+  cell_model& model_; ///< Changed by what is put into the mailbox only.
   mailbox& to_;
   std::chrono::steady_clock::time_point earliest_;
   std::mutex mutex_;

@@ -6,28 +6,32 @@
 
 namespace roscell::cli::top {
 
-log_follower::log_follower(const http_endpoint& node, std::string instance,
-                           mailbox& to)
-    : node_{node}, instance_{std::move(instance)}, to_{to}, reader_{[this] {
-        run();
-      }} {}
+log_follower::log_follower(const node_client& node, std::string instance,
+                           mailbox& to, line_taker take)
+    : node_{node}, instance_{std::move(instance)}, to_{to},
+      take_{std::move(take)}, reader_{[this] { run(); }} {}
 
 log_follower::~log_follower() {
-  node_.cancel();
+  cancel_.cancel();
   reader_.join();
+}
+
+void log_follower::put(const std::string& line) {
+  to_.put([take = take_, line] { take(line); });
 }
 
 void log_follower::run() {
   const auto path =
       "/v1/instances/" + percent_encode(instance_) + "/logs?tail=500&follow=1";
   try {
-    node_.follow(path, [this](std::string_view x) {
-      to_.put(log_line{std::string{x}});
+    const auto on_line = [this](std::string_view x) {
+      put(std::string{x});
       return true;
-    });
-    to_.put(log_line{"-- the instance has ended --"});
-  } catch (const std::exception& e) {
-    to_.put(log_line{"-- " + reason_in(e) + " --"});
+    };
+    node_.follow(path, on_line, &cancel_);
+    put("-- the instance has ended --");
+  } catch (const std::exception&) {
+    put("-- " + reason_in(std::current_exception()) + " --");
   }
 }
 

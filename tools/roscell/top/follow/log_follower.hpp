@@ -1,8 +1,9 @@
 #pragma once
 
+#include "tools/roscell/client/node_client.hpp"
 #include "tools/roscell/top/follow/mailbox.hpp"
-#include "tools/roscell/top/follow/node_link.hpp"
 
+#include <functional>
 #include <string>
 #include <thread>
 
@@ -12,7 +13,11 @@ namespace roscell::cli::top {
 /// each as it is written. Why it ends is a last line.
 class log_follower {
 public:
-  log_follower(const http_endpoint& node, std::string instance, mailbox& to);
+  /// Called by who works off the mailbox.
+  using line_taker = std::function<void(const std::string& line)>;
+
+  log_follower(const node_client& node, std::string instance, mailbox& to,
+               line_taker take);
   ~log_follower();
 
   log_follower(const log_follower&) = delete;
@@ -24,10 +29,13 @@ public:
 
 private:
   void run();
+  void put(const std::string& line);
 
-  node_link node_;
+  const node_client& node_;
+  http_cancel cancel_;
   std::string instance_;
   mailbox& to_;
+  line_taker take_;
   std::thread reader_; // Last: it uses all the others.
 };
 

@@ -18,17 +18,22 @@ mailbox::~mailbox() {
   close(fd_);
 }
 
-void mailbox::put(news x) {
+void mailbox::put(work x) {
   const std::lock_guard guard{mutex_};
-  news_.push_back(std::move(x));
+  waiting_.push_back(std::move(x));
   eventfd_write(fd_, 1);
 }
 
-std::vector<news> mailbox::take() {
-  const std::lock_guard guard{mutex_};
-  eventfd_t count = 0;
-  eventfd_read(fd_, &count);
-  return std::exchange(news_, {});
+void mailbox::work_off() {
+  std::vector<work> due;
+  {
+    const std::lock_guard guard{mutex_};
+    eventfd_t count = 0;
+    eventfd_read(fd_, &count);
+    due = std::exchange(waiting_, {});
+  }
+  for (const auto& x : due)
+    x();
 }
 
 } // namespace roscell::cli::top

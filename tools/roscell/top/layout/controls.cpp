@@ -6,15 +6,15 @@ namespace roscell::cli::top {
 
 namespace {
 
-const listing& list_of(const controls& now, const surroundings& around) {
+const table& list_of(const controls& now, const surroundings& around) {
   return around.lists.at(now.list);
 }
 
 void select(controls& now, const surroundings& around, size_t index) {
-  const auto& items = list_of(now, around).items;
-  if (!items.empty())
+  const auto& rows = list_of(now, around).rows;
+  if (!rows.empty())
     now.lists.at(now.list).selected =
-        items[std::min(index, items.size() - 1)].id;
+        rows[std::min(index, rows.size() - 1)].front().text;
 }
 
 size_t less(size_t x, size_t y) {
@@ -51,9 +51,9 @@ void open(controls& now, top_page where) {
 
 /// The details or the log of what is selected.
 void open_selected(controls& now, const surroundings& around, top_page where) {
-  const auto& items = list_of(now, around).items;
+  const auto& rows = list_of(now, around).rows;
   const auto kind = listed_kinds.at(now.list);
-  if (items.empty()) {
+  if (rows.empty()) {
     now.note = "nothing is selected";
     return;
   }
@@ -62,14 +62,16 @@ void open_selected(controls& now, const surroundings& around, top_page where) {
     return;
   }
   const auto& selected = now.lists.at(now.list).selected;
-  now.subject = {kind,
-                 items[selected_index(list_of(now, around), selected)].id};
+  now.subject = {
+      kind, rows[selected_index(list_of(now, around), selected)].front().text};
   open(now, where);
 }
 
 void sort_by_next(controls& now, const surroundings& around) {
-  auto& order = now.lists.at(now.list).order;
-  order.column = (order.column + 1) % list_of(now, around).columns.size();
+  const auto& list = list_of(now, around);
+  auto& column = now.lists.at(now.list).order.column;
+  const auto next = column_of(list, column).value_or(0) + 1;
+  column = list.columns[next % list.columns.size()].name;
 }
 
 void type(controls& now, const key& pressed) {
@@ -154,7 +156,7 @@ void press_in_lists(controls& now, const key& pressed,
   else
     select(now, around,
            moved(selected_index(shown, choice.selected), pressed, around.page,
-                 less(shown.items.size(), 1)));
+                 less(shown.rows.size(), 1)));
 }
 
 } // namespace
@@ -167,13 +169,14 @@ const std::string& filter_of(const controls& now) {
   return now.where == top_page::overview ? now.filter : now.text_filter;
 }
 
-size_t selected_index(const listing& shown, const std::string& selected) {
+size_t selected_index(const table& shown, const std::string& selected) {
   const auto found =
-      std::find_if(shown.items.begin(), shown.items.end(),
-                   [&](const item& x) { return x.id == selected; });
-  return found == shown.items.end()
+      std::find_if(shown.rows.begin(), shown.rows.end(), [&](const auto& row) {
+        return row.front().text == selected;
+      });
+  return found == shown.rows.end()
              ? 0
-             : static_cast<size_t>(found - shown.items.begin());
+             : static_cast<size_t>(found - shown.rows.begin());
 }
 
 void press(controls& now, const key& pressed, const surroundings& around) {

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "tools/roscell/client/known_cell.hpp"
-#include "tools/roscell/top/layout/listing.hpp"
+#include "tools/roscell/top/layout/lists.hpp"
 
 #include <array>
 #include <string>
@@ -33,13 +32,9 @@ enum class top_page { overview, details, log, events, help };
 
 /// What somebody has chosen in one of the lists.
 struct list_choice {
-  std::string selected; ///< Id; empty, or gone: the first.
-  item_order order;
+  std::string selected; ///< Its name; empty, or gone: the first.
+  list_order order;
 };
-
-/// The lists, in the order in which they stand on the screen.
-constexpr std::array<thing_kind, 3> listed_kinds{
-    thing_kind::node, thing_kind::task, thing_kind::instance};
 
 struct controls {
   top_page where = top_page::overview;
@@ -61,15 +56,15 @@ const std::string& filter_of(const controls& now);
 
 /// What is there to move in, when a key is pressed.
 struct surroundings {
-  const std::array<listing, listed_kinds.size()>& lists; ///< As shown.
-  size_t page = 1;  ///< Lines of the list, or of the text, that are seen.
-  size_t lines = 0; ///< Of the text.
+  const tables& lists; ///< As shown.
+  size_t page = 1;     ///< Lines of the list, or of the text, that are seen.
+  size_t lines = 0;    ///< Of the text.
 };
 
 /// Does what a key means.
 void press(controls& now, const key& pressed, const surroundings& around);
 
 /// Place of the selected thing; 0 if it is gone.
-size_t selected_index(const listing& shown, const std::string& selected);
+size_t selected_index(const table& shown, const std::string& selected);
 
 } // namespace roscell::cli::top

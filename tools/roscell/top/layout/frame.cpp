@@ -1,10 +1,8 @@
 #include "tools/roscell/top/layout/frame.hpp"
 
 #include "tools/roscell/client/event_text.hpp"
-#include "tools/roscell/top/layout/listing_lines.hpp"
 #include "tools/roscell/top/layout/texts.hpp"
-#include "tools/roscell/top/layout/things.hpp"
-#include "tools/roscell/top/model/problems.hpp"
+#include "tools/roscell/top/problems.hpp"
 #include "tools/roscell/view/format.hpp"
 
 #include <algorithm>
@@ -113,17 +111,15 @@ line key_line(const controls& now) {
 void put_lists(frame& out, const scene& shown, const frame_style& style) {
   std::array<size_t, listed_kinds.size()> wanted{};
   for (size_t i = 0; i < out.lists.size(); ++i)
-    wanted.at(i) = whole_height(out.lists.at(i));
+    wanted.at(i) = 1 + out.lists.at(i).rows.size();
   const auto room = style.height - std::min(style.height, lines_around);
   const auto heights = list_heights(wanted, shown.now.list, room);
   for (size_t i = 0; i < out.lists.size(); ++i) {
     const auto& choice = shown.now.lists.at(i);
-    const auto& items = out.lists.at(i).items;
-    listing_style how{style.width,         heights.at(i),   style.utf8,
-                      i == shown.now.list, choice.selected, choice.order};
-    if (!items.empty())
-      how.selected = items[selected_index(out.lists.at(i), choice.selected)].id;
-    for (auto& x : listing_lines(out.lists.at(i), how))
+    const auto& list = out.lists.at(i);
+    for (auto& x : list_lines(
+             list, {style.width, heights.at(i), style.utf8, i == shown.now.list,
+                    selected_index(list, choice.selected), choice.order}))
       out.lines.push_back(std::move(x));
   }
   out.page = std::max<size_t>(2, heights.at(shown.now.list)) - 1;
@@ -149,12 +145,6 @@ void put_text(frame& out, const scene& shown, const frame_style& style) {
 
 } // namespace
 
-std::array<listing, listed_kinds.size()> all_lists(const known_cell& known,
-                                                   int64_t now_unix_ms) {
-  return {list_nodes(known, now_unix_ms), list_tasks(known, now_unix_ms),
-          list_instances(known, now_unix_ms)};
-}
-
 std::array<size_t, listed_kinds.size()>
 list_heights(const std::array<size_t, listed_kinds.size()>& wanted,
              size_t focus, size_t room) {
@@ -179,8 +169,8 @@ frame make_frame(const scene& shown, const frame_style& style) {
   frame result;
   result.lists = all_lists(shown.known.known(), style.now_unix_ms);
   for (size_t i = 0; i < result.lists.size(); ++i)
-    result.lists.at(i) = chosen(std::move(result.lists.at(i)), shown.now.filter,
-                                shown.now.lists.at(i).order);
+    result.lists.at(i) = ordered(result.lists.at(i), shown.now.filter,
+                                 shown.now.lists.at(i).order);
   result.lines = {first_line(shown, style), problem_line(shown, style)};
   if (shown.now.where == top_page::overview)
     put_lists(result, shown, style);

@@ -1,8 +1,7 @@
 #pragma once
 
+#include "client/cell_model.hpp"
 #include "tools/roscell/top/layout/controls.hpp"
-#include "tools/roscell/top/layout/line.hpp"
-#include "tools/roscell/top/model/cell_model.hpp"
 
 #include <array>
 #include <string>
@@ -28,16 +27,12 @@ struct scene {
 /// The lines of the whole screen, and what keys need to know of them.
 struct frame {
   std::vector<line> lines;
-  std::array<listing, listed_kinds.size()> lists;
+  tables lists;
   size_t page = 1;       ///< Lines of the list, or text, that keys move in.
   size_t text_lines = 0; ///< Of the text that is open.
 };
 
 frame make_frame(const scene& shown, const frame_style& style);
-
-/// The three lists, whole.
-std::array<listing, listed_kinds.size()> all_lists(const known_cell& known,
-                                                   int64_t now_unix_ms);
 
 /// How many lines each list gets: three at least, as long as there are, then
 /// those that keys mean, then the others.

@@ -2,6 +2,7 @@
 
 #include "tools/roscell/exit_code.hpp"
 #include "tools/roscell/top/terminal/keys.hpp"
+#include "tools/roscell/view/format.hpp"
 
 #include <langinfo.h>
 #include <sys/ioctl.h>
@@ -134,12 +135,14 @@ std::string screen::shown_text(const std::string& text) const {
     const bool fits =
         is_ascii
         || (utf8_ && std::mbrtowc(&wide, &text[at], length, &state) == length
-            && wcwidth(wide) == 1);
+            && wcwidth(wide)
+                   == static_cast<int>(display_width({&text[at], length})));
     if (fits)
       result.append(text, at, length);
     else {
       state = {};
-      result += text.compare(at, length, "…") == 0 ? '~' : '?';
+      result += std::string(display_width({&text[at], length}),
+                            text.compare(at, length, "…") == 0 ? '~' : '?');
     }
     at += length;
   }

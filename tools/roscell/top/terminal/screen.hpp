@@ -1,7 +1,6 @@
 #pragma once
 
 #include "tools/roscell/top/layout/controls.hpp"
-#include "tools/roscell/top/layout/line.hpp"
 #include "tools/roscell/top/terminal/crash_guard.hpp"
 
 #include <cstddef>
@@ -50,7 +49,7 @@ private:
   void draw_line(int row, const line& x);
   unsigned long attributes_of(look how) const;
 
-  /// What of a text the terminal can show, each character one column wide.
+  /// What of a text the terminal can show, in as many columns.
   std::string shown_text(const std::string& text) const;
 
   crash_guard guard_;

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "client/known_cell.hpp"
 #include "messages/codec/json_codec.hpp"
-#include "tools/roscell/client/known_cell.hpp"
 #include "tools/roscell/view/views.hpp"
 
 #include <string>

@@ -8,22 +8,40 @@ namespace roscell::cli {
 
 namespace {
 
-constexpr size_t value_column = 16;
 constexpr size_t indent = 2;
 
 } // namespace
 
+void page::put_name(const std::string& name) {
+  const auto begin = name + (name.empty() ? "" : mark_);
+  text_ +=
+      begin
+      + std::string(std::max(column_, begin.size() + 1) - begin.size(), ' ');
+}
+
 void page::detail(const std::string& name, const std::string& value) {
   if (value.empty())
     return;
-  const auto used = name.size() + 1;
   auto shown = printable(value);
-  const auto colour = style_.colour ? state_colour(shown) : "";
-  if (style_.width > value_column && !style_.tables.wide)
-    shown = shortened(shown, style_.width - value_column);
-  text_ += name + ":"
-           + std::string(used < value_column ? value_column - used : 1, ' ')
-           + colour + shown + (colour.empty() ? "" : "\x1b[0m") + "\n";
+  const auto how = look_of_state(shown);
+  if (style_.width > column_ && !style_.tables.wide)
+    shown = shortened(shown, style_.width - column_);
+  line x;
+  cli::put(x, shown, how);
+  put_name(name);
+  text_ += text_of(x, style_.colour) + "\n";
+}
+
+void page::sentence(const std::string& name, const std::string& text) {
+  const auto width = style_.width > 40 ? style_.width - column_ : text.npos;
+  auto rest = printable(text);
+  for (auto key = name; !rest.empty(); key.clear()) {
+    auto end = rest.size() <= width ? rest.size() : rest.rfind(' ', width);
+    end = std::min(end, rest.size());
+    put_name(key);
+    text_ += rest.substr(0, end) + "\n";
+    rest.erase(0, std::min(end + 1, rest.size()));
+  }
 }
 
 size_t page::inner_width(size_t width) {

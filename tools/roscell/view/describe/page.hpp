@@ -9,10 +9,18 @@ namespace roscell::cli {
 /// All that is known of one thing: events, then sections under their headings.
 class page {
 public:
-  explicit page(const text_style& style) : style_{style} {}
+  /// @param mark stands behind a name.
+  /// @param column where values begin.
+  explicit page(const text_style& style, const char* mark = ":",
+                size_t column = 16)
+      : style_{style}, mark_{mark}, column_{column} {}
 
   /// "Name:  value"; left out if the value is empty.
   void detail(const std::string& name, const std::string& value);
+
+  /// The same for a sentence, which is read to its end: it goes on in the next
+  /// line, under its beginning.
+  void sentence(const std::string& name, const std::string& text);
 
   /// A table under a heading; "none" if it has no rows.
   void section(const std::string& heading, const table& rows);
@@ -30,7 +38,11 @@ public:
 private:
   void put(const std::string& heading, const std::string& lines);
 
+  void put_name(const std::string& name);
+
   const text_style& style_;
+  std::string mark_;
+  size_t column_;
   std::string text_;
 };
 

@@ -2,6 +2,7 @@
 
 #include "actors/edge/io/time_text.hpp"
 #include "tools/roscell/client/event_text.hpp"
+#include "tools/roscell/view/columns.hpp"
 #include "tools/roscell/view/format.hpp"
 #include "tools/roscell/view/graph/task_graph.hpp"
 #include "tools/roscell/view/instance_text.hpp"
@@ -12,8 +13,8 @@ namespace roscell::cli {
 
 namespace {
 
-std::vector<std::string> amount_row(const std::string& name, const amount& a,
-                                    bool is_memory) {
+std::vector<cell> amount_row(const std::string& name, const amount& a,
+                             bool is_memory) {
   const auto put = [&](double value) {
     return is_memory ? format_memory(value) : format_number(value);
   };
@@ -54,21 +55,26 @@ table events_table(const std::vector<event>& events, const view_style& style) {
 
 table instances_table(const std::vector<instance_row>& rows,
                       const view_style& style) {
-  table t{{{"INSTANCE"},
-           {"STEP", align::left, 2},
-           {"NODE"},
-           {"STATE"},
-           {"FIGURES", align::left, 1}},
-          {}};
-  for (const auto& row : rows)
-    t.rows.push_back({row.spec.instance, row.spec.step, row.node,
-                      instance_state_text(row, style),
-                      metrics_text(row.metrics)});
-  return t;
+  return table_of(
+      picked(instance_columns(), {{"INSTANCE"},
+                                  {"STEP", align::left, 2},
+                                  {"NODE"},
+                                  {"STATE"},
+                                  {"SINCE", align::right, 1},
+                                  {"RATE", align::right, 1},
+                                  {"DROPPED", align::right, 3},
+                                  {"LATENCY", align::right, 2},
+                                  {"REMARK", align::left, 4, false, true}}),
+      rows, style);
 }
 
 table ports_table(const instance_row& row) {
-  table t{{{"PORT"}, {"ENDPOINT"}, {"PROTOCOL"}, {"TYPE", align::left, 1}}, {}};
+  table t{{{"PORT"},
+           {"ENDPOINT"},
+           {"PROTOCOL"},
+           {"TYPE", align::left, 1},
+           {"FIGURES", align::left, 2, false, true}},
+          {}};
   const auto add = [&](const char* port, const io_endpoint& x,
                        const stream_count* count) {
     t.rows.push_back(
@@ -78,9 +84,6 @@ table ports_table(const instance_row& row) {
     add("in", row.spec.input[i], input_count(row, i));
   for (size_t i = 0; i < row.spec.output.size(); ++i)
     add("out", row.spec.output[i], output_count(row, i));
-  // The cells of a row are cut to the number of columns.
-  if (!row.metrics.streams.empty())
-    t.columns.push_back({"FIGURES", align::left, 2});
   return t;
 }
 

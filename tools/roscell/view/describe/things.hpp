@@ -1,6 +1,6 @@
 #pragma once
 
-#include "tools/roscell/client/known_cell.hpp"
+#include "client/known_cell.hpp"
 #include "tools/roscell/view/describe/page.hpp"
 #include "tools/roscell/view/views.hpp"
 

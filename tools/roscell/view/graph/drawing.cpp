@@ -1,177 +1,169 @@
 #include "tools/roscell/view/graph/drawing.hpp"
 
 #include "tools/roscell/view/format.hpp"
-#include "tools/roscell/view/graph/canvas.hpp"
-#include "tools/roscell/view/graph/group_layout.hpp"
-#include "tools/roscell/view/graph/layers.hpp"
 
 #include <algorithm>
 #include <map>
-#include <utility>
 
 namespace roscell::cli {
 
 namespace {
 
-using text_boxes = std::vector<std::vector<std::string>>;
-
-constexpr size_t group_gap = 4;
-
-/// Draws one group, layer by layer.
-class group_drawing {
-public:
-  group_drawing(const group_layout& what, const text_boxes& boxes)
-      : what_{what}, boxes_{boxes} {
-    for (size_t i = 0; i < what.layers.size(); ++i) {
-      draw_layer(what.layers[i]);
-      if (!what.bands[i].empty())
-        draw_band(what.layers[i], what.layers[i + 1], what.bands[i]);
-    }
-  }
-
-  std::string text() const {
-    return sheet_.str();
-  }
-
-private:
-  void draw_layer(const std::vector<placed_box>& row) {
-    size_t lines = 0;
-    for (const auto& x : row)
-      if (!x.passage)
-        lines = std::max(lines, boxes_[x.box].size());
-    for (const auto& x : row) {
-      if (x.passage) {
-        sheet_.line(x.left, top_, x.left, top_ + lines + 1);
-        continue;
-      }
-      sheet_.frame(x.left, top_, x.left + x.width - 1, top_ + lines + 1);
-      for (size_t i = 0; i < boxes_[x.box].size(); ++i)
-        sheet_.text(x.left + 2, top_ + 1 + i,
-                    shortened(boxes_[x.box][i], x.width - 4));
-    }
-    top_ += lines + 1;
-  }
-
-  /// Where the arrows leave or reach the places of a layer: spread over each
-  /// place, those that leave at even columns and those that come at odd ones,
-  /// so that no two of them run in one column.
-  static std::vector<size_t> ports(const std::vector<placed_box>& row,
-                                   const std::vector<arrow_part>& band,
-                                   size_t arrow_part::*end, size_t parity) {
-    std::map<size_t, size_t> count;
-    std::map<size_t, size_t> used;
-    for (const auto& x : band)
-      ++count[x.*end];
-    std::vector<size_t> result;
-    for (const auto& x : band) {
-      const auto& place = row[x.*end];
-      const auto number = ++used[x.*end];
-      auto column = place.left + place.width * number / (count[x.*end] + 1);
-      if (!place.passage && column % 2 != parity)
-        ++column;
-      result.push_back(column);
-    }
-    return result;
-  }
-
-  void draw_band(const std::vector<placed_box>& upper,
-                 const std::vector<placed_box>& lower,
-                 const std::vector<arrow_part>& band) {
-    auto begin = ports(upper, band, &arrow_part::from, 0);
-    auto end = ports(lower, band, &arrow_part::to, 1);
-    straighten(lower, band, begin, end);
-    const auto labels = band.size() == 1 ? band[0].labels.size() : 0;
-    size_t bends = 0;
-    for (size_t i = 0; i < band.size(); ++i)
-      bends += begin[i] == end[i] ? 0 : 1;
-    const auto bottom = top_ + std::max<size_t>(2, labels + bends + 1);
-    auto track = top_ + labels;
-    for (size_t i = 0; i < band.size(); ++i) {
-      if (begin[i] != end[i])
-        ++track;
-      sheet_.line(begin[i], top_, begin[i], track);
-      sheet_.line(begin[i], track, end[i], track);
-      sheet_.line(end[i], track, end[i], bottom);
-      if (band[i].ends)
-        sheet_.text(end[i], bottom, "▼");
-    }
-    for (size_t i = 0; i < labels; ++i)
-      sheet_.text(begin[0] + 2, top_ + 1 + i,
-                  shortened(band[0].labels[i],
-                            what_.width - std::min(what_.width, begin[0] + 2)));
-    top_ = bottom;
-  }
-
-  /// An arrow whose target is just below goes straight down.
-  static void straighten(const std::vector<placed_box>& lower,
-                         const std::vector<arrow_part>& band,
-                         const std::vector<size_t>& begin,
-                         std::vector<size_t>& end) {
-    for (size_t i = 0; i < band.size(); ++i) {
-      const auto& place = lower[band[i].to];
-      if (begin[i] > place.left && begin[i] + 1 < place.left + place.width)
-        end[i] = begin[i];
-    }
-  }
-
-  const group_layout& what_;
-  const text_boxes& boxes_;
-  canvas sheet_;
-  size_t top_ = 0;
+/// Where something flows at the left of the boxes.
+struct lane {
+  size_t top = 0; ///< The first and the last line that it leads to.
+  size_t bottom = 0;
+  size_t column = 0;
 };
 
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> result;
-  for (size_t at = 0; at < text.size();) {
-    const auto end = text.find('\n', at);
-    result.push_back(text.substr(at, end - at));
-    at = end + 1;
+using lanes_by_key = std::map<std::string, lane>;
+
+/// All lines of a drawing, those of frames without a key.
+std::vector<drawn_line>
+lines_with_frames(const std::vector<std::vector<drawn_line>>& boxes) {
+  std::vector<drawn_line> result;
+  for (const auto& box : boxes) {
+    result.push_back({});
+    result.insert(result.end(), box.begin(), box.end());
+    result.push_back({});
   }
   return result;
 }
 
-/// Groups side by side, each in so many columns.
-std::string beside(const std::vector<std::pair<std::string, size_t>>& groups) {
-  std::vector<std::string> result;
-  size_t left = 0;
-  for (const auto& [text, width] : groups) {
-    const auto lines = lines_of(text);
-    result.resize(std::max(result.size(), lines.size()));
-    for (size_t i = 0; i < lines.size(); ++i) {
-      const auto used = display_width(result[i]);
-      result[i] += std::string(left - std::min(left, used), ' ') + lines[i];
-    }
-    left += width + group_gap;
-  }
-  return joined(result, "\n") + "\n";
+lanes_by_key lanes_of(const std::vector<drawn_line>& lines) {
+  lanes_by_key result;
+  for (size_t i = 0; i < lines.size(); ++i)
+    if (!lines[i].key.empty())
+      result.try_emplace(lines[i].key, lane{i, i, 0}).first->second.bottom = i;
+  for (auto i = result.begin(); i != result.end();)
+    i = i->second.top == i->second.bottom ? result.erase(i) : std::next(i);
+  return result;
 }
+
+/// Gives each lane a column of its own beside others. Returns how many there
+/// are.
+size_t place_lanes(lanes_by_key& lanes) {
+  std::vector<lane*> order;
+  for (auto& [key, x] : lanes)
+    order.push_back(&x);
+  std::sort(order.begin(), order.end(),
+            [](const lane* x, const lane* y) { return x->top < y->top; });
+  std::vector<size_t> free_from; // Of each column, the line.
+  for (auto* x : order) {
+    const auto found =
+        std::find_if(free_from.begin(), free_from.end(),
+                     [&](size_t line) { return line <= x->top; });
+    x->column = static_cast<size_t>(found - free_from.begin());
+    if (found == free_from.end())
+      free_from.push_back(0);
+    free_from[x->column] = x->bottom + 1;
+  }
+  return free_from.size();
+}
+
+/// What stands at the left of a line; one lane passes below another.
+std::string margin_of(const lanes_by_key& lanes, size_t columns, size_t number,
+                      const drawn_line& line) {
+  std::vector<std::string> cells(2 * columns, " ");
+  for (const auto& [key, x] : lanes)
+    if (number >= x.top && number <= x.bottom)
+      cells[2 * x.column] = "│";
+  if (const auto own = lanes.find(line.key); own != lanes.end()) {
+    const auto& x = own->second;
+    cells[2 * x.column] = number == x.top      ? "┌"
+                          : number == x.bottom ? "└"
+                                               : "├";
+    std::replace(cells.begin() + static_cast<long>(2 * x.column), cells.end(),
+                 std::string{" "}, std::string{"─"});
+    if (line.comes_in)
+      cells.back() = "▶";
+  }
+  return joined(cells, "");
+}
+
+std::string horizontal(size_t width) {
+  std::string result;
+  for (size_t i = 0; i < width; ++i)
+    result += "─";
+  return result;
+}
+
+/// The lines of a box in its frame, no longer than `width`.
+std::vector<std::string> framed(const std::vector<drawn_line>& box,
+                                size_t width) {
+  size_t inner = 0;
+  for (const auto& x : box)
+    inner = std::max(inner, display_width(x.text));
+  inner = std::min(inner, width - std::min<size_t>(width, 4));
+  std::vector<std::string> result{"┌" + horizontal(inner + 2) + "┐"};
+  for (const auto& x : box) {
+    const auto text = shortened(x.text, inner);
+    result.push_back("│ " + text + std::string(inner - display_width(text), ' ')
+                     + " │");
+  }
+  result.push_back("└" + horizontal(inner + 2) + "┘");
+  return result;
+}
+
+/// Walks the arcs, and leaves out those that lead back to where it has come
+/// from.
+class arc_walk {
+public:
+  arc_walk(size_t boxes, const std::vector<graph_arc>& arcs)
+      : arcs_{arcs}, state_(boxes, unseen) {
+    for (size_t i = 0; i < boxes; ++i)
+      visit(i);
+  }
+
+  std::vector<graph_arc> forward;
+
+private:
+  enum state { unseen, open, done };
+
+  void visit(size_t box) {
+    if (state_[box] != unseen)
+      return;
+    state_[box] = open;
+    for (const auto& arc : arcs_) {
+      if (arc.first != box || state_[arc.second] == open)
+        continue;
+      forward.push_back(arc);
+      visit(arc.second);
+    }
+    state_[box] = done;
+  }
+
+  const std::vector<graph_arc>& arcs_;
+  std::vector<state> state_;
+};
 
 } // namespace
 
-std::string drawing(const text_boxes& boxes,
-                    const std::vector<drawn_arrow>& arrows, size_t width) {
-  std::vector<graph_arc> arcs;
-  arcs.reserve(arrows.size());
-  for (const auto& x : arrows)
-    arcs.emplace_back(x.from, x.to);
+std::string drawing(const std::vector<std::vector<drawn_line>>& boxes,
+                    size_t width) {
+  const auto lines = lines_with_frames(boxes);
+  auto lanes = lanes_of(lines);
+  const auto columns = place_lanes(lanes);
   std::string result;
-  std::vector<std::pair<std::string, size_t>> row;
-  size_t used = 0;
-  const auto end_row = [&] {
-    result += row.empty() ? "" : (result.empty() ? "" : "\n") + beside(row);
-    row.clear();
-    used = 0;
-  };
-  for (const auto& members : components(boxes.size(), arcs)) {
-    const auto layout = laid_out(members, boxes, arrows, width);
-    if (!layout.fits)
-      return {};
-    if (used + layout.width > width)
-      end_row();
-    row.emplace_back(group_drawing{layout, boxes}.text(), layout.width);
-    used += layout.width + group_gap;
-  }
-  end_row();
+  size_t number = 0;
+  for (const auto& box : boxes)
+    for (const auto& text : framed(box, width - std::min(width, 2 * columns))) {
+      result +=
+          shortened(margin_of(lanes, columns, number, lines[number]) + text,
+                    width)
+          + "\n";
+      ++number;
+    }
+  return result;
+}
+
+std::vector<size_t> layers(size_t boxes, const std::vector<graph_arc>& arcs) {
+  const arc_walk walk{boxes, arcs};
+  std::vector<size_t> result(boxes, 0);
+  // Without circles no path has more arcs than there are boxes.
+  for (size_t round = 0; round < boxes; ++round)
+    for (const auto& [from, to] : walk.forward)
+      result[to] = std::max(result[to], result[from] + 1);
   return result;
 }
 

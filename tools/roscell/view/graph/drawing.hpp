@@ -2,23 +2,29 @@
 
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace roscell::cli {
 
-/// An arrow from one box to another one, with what goes along it.
-struct drawn_arrow {
-  size_t from = 0;
-  size_t to = 0;
-  std::vector<std::string> labels;
+/// A line in a box. What goes out at one line and comes in at others has the
+/// same key there; empty: nothing does.
+struct drawn_line {
+  std::string text;
+  std::string key = {};
+  bool comes_in = false;
 };
 
-/// Boxes with their lines of text, and arrows from top to bottom between them,
-/// no line longer than `width`. Boxes that hang together are drawn together,
-/// those groups beside each other where there is room. Arrows that lead back
-/// are left out, labels where several arrows share the space between two
-/// layers. Empty if so many boxes cannot stand beside each other.
-std::string drawing(const std::vector<std::vector<std::string>>& boxes,
-                    const std::vector<drawn_arrow>& arrows, size_t width);
+/// Boxes with their lines one below the other, and at their left a lane for
+/// each key, from where it goes out to where it comes in; a key that stands in
+/// one line only has none. No line is longer than `width`.
+std::string drawing(const std::vector<std::vector<drawn_line>>& boxes,
+                    size_t width);
+
+using graph_arc = std::pair<size_t, size_t>; ///< From a box to another one.
+
+/// The layer of each box: below all boxes that it has an arc from; where arcs
+/// go round in a circle, below those that come first.
+std::vector<size_t> layers(size_t boxes, const std::vector<graph_arc>& arcs);
 
 } // namespace roscell::cli

@@ -4,7 +4,8 @@
 #include "tools/roscell/view/graph/drawing.hpp"
 #include "tools/roscell/view/instance_text.hpp"
 
-#include <map>
+#include <algorithm>
+#include <numeric>
 #include <utility>
 
 namespace roscell::cli {
@@ -28,37 +29,49 @@ std::string rate_of(const task_graph& graph, const graph_stream& x) {
   return number_with_unit(rate, 1, " Hz");
 }
 
-std::vector<std::string> box_of(const task_graph& graph, size_t i) {
+/// What joins an output with the inputs that read it.
+std::string key_of(const io_endpoint& x) {
+  return x.protocol + " " + x.endpoint;
+}
+
+/// "out /image  Image  10 Hz".
+std::string output_text(const task_graph& graph, size_t step,
+                        const io_endpoint& x) {
+  const auto rate = rate_of(graph, {x, step, std::nullopt});
+  return "out " + x.endpoint + "  " + short_type(x.data_type)
+         + (rate.empty() ? "" : "  " + rate);
+}
+
+std::vector<drawn_line> box_of(const task_graph& graph, size_t i) {
   const auto& step = graph.steps[i];
-  std::vector<std::string> lines{step.spec.step,
-                                 step.spec.operation + " " + step.spec.model,
-                                 "on " + step.node + ", " + state_text(step)};
+  std::vector<drawn_line> lines{{step.spec.step},
+                                {step.spec.operation + " " + step.spec.model},
+                                {"on " + step.node + ", " + state_text(step)}};
   if (auto metrics = metrics_text(step.metrics); !metrics.empty())
-    lines.push_back(std::move(metrics));
-  for (const auto& x : graph.streams)
-    if (x.to == i && !x.from)
-      lines.push_back("in  " + x.what.endpoint);
-    else if (x.from == i && !x.to)
-      lines.push_back("out " + x.what.endpoint);
+    lines.push_back({std::move(metrics)});
+  for (const auto& x : step.spec.input)
+    lines.push_back({"in  " + x.endpoint, key_of(x), true});
+  for (const auto& x : step.spec.output)
+    lines.push_back({output_text(graph, i, x), key_of(x), false});
   for (auto& line : lines)
-    line = printable(line);
+    line.text = printable(line.text);
   return lines;
 }
 
-std::vector<drawn_arrow> arrows_of(const task_graph& graph) {
-  std::map<std::pair<size_t, size_t>, std::vector<std::string>> labels;
-  for (const auto& x : graph.streams) {
-    if (!x.from || !x.to)
-      continue;
-    const auto rate = rate_of(graph, x);
-    labels[{*x.from, *x.to}].push_back(
-        printable(x.what.endpoint + "  " + short_type(x.what.data_type)
-                  + (rate.empty() ? "" : "  " + rate)));
-  }
-  std::vector<drawn_arrow> result;
-  result.reserve(labels.size());
-  for (auto& [ends, texts] : labels)
-    result.push_back({ends.first, ends.second, std::move(texts)});
+/// The boxes of the steps, each below those that it gets something from.
+std::vector<std::vector<drawn_line>> boxes_of(const task_graph& graph) {
+  std::vector<graph_arc> arcs;
+  for (const auto& x : graph.streams)
+    if (x.from && x.to)
+      arcs.emplace_back(*x.from, *x.to);
+  const auto layer = layers(graph.steps.size(), arcs);
+  std::vector<size_t> order(graph.steps.size());
+  std::iota(order.begin(), order.end(), size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](size_t x, size_t y) { return layer[x] < layer[y]; });
+  std::vector<std::vector<drawn_line>> result;
+  for (const auto i : order)
+    result.push_back(box_of(graph, i));
   return result;
 }
 
@@ -72,19 +85,13 @@ std::string streams_view(const task_graph& graph, const view_style& style) {
            {"TO", align::left, 1},
            {"RATE", align::right, 2},
            {"PROTOCOL", align::left, 4},
-           {"TYPE", align::left, 3}},
+           {"TYPE", align::left, 3},
+           {"AT ITS READER", align::left, 2, false, true}},
           {}};
-  bool any_read = false;
-  for (const auto& x : graph.streams) {
-    const auto* read = read_of(graph, x);
-    any_read = any_read || read != nullptr;
+  for (const auto& x : graph.streams)
     t.rows.push_back({x.what.endpoint, end_name(graph, x.from),
                       end_name(graph, x.to), rate_of(graph, x), x.what.protocol,
-                      x.what.data_type, stream_text(read)});
-  }
-  // The cells of a row are cut to the number of columns.
-  if (any_read)
-    t.columns.push_back({"AT ITS READER", align::left, 2});
+                      x.what.data_type, stream_text(read_of(graph, x))});
   return t.rows.empty() ? "" : t.render(style.text);
 }
 
@@ -100,14 +107,7 @@ json end_json(const task_graph& graph, const std::optional<size_t>& x) {
 
 std::string graph_view(const task_graph& graph, const view_style& style) {
   const auto width = style.text.width == 0 ? usual_width : style.text.width;
-  std::vector<std::vector<std::string>> boxes;
-  for (size_t i = 0; i < graph.steps.size(); ++i)
-    boxes.push_back(box_of(graph, i));
-  auto text = drawing(boxes, arrows_of(graph), width);
-  if (text.empty())
-    text = "too many steps stand beside each other to be drawn in "
-           + std::to_string(width) + " columns\n";
-  return text + "\n" + streams_view(graph, style);
+  return drawing(boxes_of(graph), width) + "\n" + streams_view(graph, style);
 }
 
 json graph_json(const task_graph& graph) {

@@ -8,7 +8,7 @@
 
 namespace roscell::cli {
 
-/// A task's steps as boxes, what flows between them as arrows, and below them a
+/// A task's steps as boxes, what flows between them as lanes, and below them a
 /// row for each stream. Where no width is given it is that of an old terminal.
 std::string graph_view(const task_graph& graph, const view_style& style);
 

@@ -1,7 +1,6 @@
-#include "tools/roscell/view/table/choice.hpp"
-
 #include "tools/roscell/exit_code.hpp"
 #include "tools/roscell/view/format.hpp"
+#include "tools/roscell/view/table.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -25,14 +24,19 @@ std::string plain_name(std::string_view name) {
 }
 
 size_t index_of(const table& all, const std::string& name) {
-  for (size_t i = 0; i < all.columns.size(); ++i)
-    if (plain_name(all.columns[i].name) == plain_name(name))
-      return i;
+  if (const auto found = column_of(all, name))
+    return *found;
   std::vector<std::string> names;
   for (const auto& x : all.columns)
     names.push_back(x.name);
   throw command_error{exit_usage, "there is no column '" + name + "'",
                       "the columns are " + joined(names, ", ")};
+}
+
+bool has_any(const table& all, size_t i) {
+  return std::any_of(all.rows.begin(), all.rows.end(), [&](const auto& row) {
+    return i < row.size() && !row[i].text.empty();
+  });
 }
 
 std::vector<size_t> chosen_columns(const table& all,
@@ -42,20 +46,28 @@ std::vector<size_t> chosen_columns(const table& all,
     result.push_back(index_of(all, name));
   if (!result.empty())
     return result;
-  for (size_t i = 0; i < all.columns.size(); ++i)
-    if (options.wide || all.columns[i].rank < only_wide)
+  for (size_t i = 0; i < all.columns.size(); ++i) {
+    const auto& what = all.columns[i];
+    if ((options.wide || what.rank < only_wide)
+        && (!what.if_any || has_any(all, i)))
       result.push_back(i);
+  }
   return result;
 }
 
-std::string cell(const std::vector<std::string>& row, size_t i) {
-  return i < row.size() ? row[i] : std::string{};
+cell cell_at(const std::vector<cell>& row, size_t i) {
+  return i < row.size() ? row[i] : cell{};
+}
+
+/// A time that is not known is said as "-".
+bool is_nothing(const std::string& x) {
+  return x.empty() || x == "-";
 }
 
 /// Numbers before words, and nothing behind both.
 bool is_less(const std::string& x, const std::string& y) {
-  if (x.empty() || y.empty())
-    return !x.empty();
+  if (is_nothing(x) || is_nothing(y))
+    return !is_nothing(x) && is_nothing(y);
   const auto a = cell_value(x);
   const auto b = cell_value(y);
   if (a && b)
@@ -63,14 +75,20 @@ bool is_less(const std::string& x, const std::string& y) {
   return a || b ? a.has_value() : x < y;
 }
 
-void sort_rows(std::vector<std::vector<std::string>>& rows, size_t by,
+void sort_rows(std::vector<std::vector<cell>>& rows, size_t by,
                bool from_the_end) {
   std::stable_sort(rows.begin(), rows.end(), [&](const auto& x, const auto& y) {
-    const auto a = cell(x, by);
-    const auto b = cell(y, by);
+    const auto a = cell_at(x, by).text;
+    const auto b = cell_at(y, by).text;
     // What is not known stays behind, whatever the direction.
-    return from_the_end && !a.empty() && !b.empty() ? is_less(b, a)
-                                                    : is_less(a, b);
+    return from_the_end && !is_nothing(a) && !is_nothing(b) ? is_less(b, a)
+                                                            : is_less(a, b);
+  });
+}
+
+bool shows(const std::vector<cell>& row, const std::string& filter) {
+  return std::any_of(row.begin(), row.end(), [&](const cell& x) {
+    return contains_words(x.text, filter);
   });
 }
 
@@ -123,8 +141,31 @@ std::optional<double> cell_value(std::string_view text) {
              : value * factor_of(std::string_view{copy}.substr(space + 1));
 }
 
+std::optional<size_t> column_of(const table& all, const std::string& name) {
+  for (size_t i = 0; i < all.columns.size(); ++i)
+    if (plain_name(all.columns[i].name) == plain_name(name))
+      return i;
+  return std::nullopt;
+}
+
+bool contains_words(const std::string& text, const std::string& part) {
+  const auto same = [](char x, char y) {
+    return std::tolower(static_cast<unsigned char>(x))
+           == std::tolower(static_cast<unsigned char>(y));
+  };
+  return part.empty()
+         || std::search(text.begin(), text.end(), part.begin(), part.end(),
+                        same)
+                != text.end();
+}
+
 table chosen(const table& all, const table_options& options) {
   auto rows = all.rows;
+  if (!options.filter.empty())
+    rows.erase(std::remove_if(
+                   rows.begin(), rows.end(),
+                   [&](const auto& x) { return !shows(x, options.filter); }),
+               rows.end());
   if (!options.sort.empty()) {
     const bool from_the_end = options.sort.front() == '-';
     sort_rows(rows, index_of(all, options.sort.substr(from_the_end ? 1 : 0)),
@@ -134,6 +175,7 @@ table chosen(const table& all, const table_options& options) {
   const auto order = chosen_columns(all, options);
   for (const auto i : order) {
     result.columns.push_back(all.columns[i]);
+    result.columns.back().if_any = false;
     // What was asked for by name is not left out.
     if (!options.columns.empty())
       result.columns.back().rank = always_shown;
@@ -141,7 +183,7 @@ table chosen(const table& all, const table_options& options) {
   for (const auto& row : rows) {
     auto& to = result.rows.emplace_back();
     for (const auto i : order)
-      to.push_back(cell(row, i));
+      to.push_back(cell_at(row, i));
   }
   return result;
 }
